@@ -1,0 +1,103 @@
+//! Each `[[check]]` of a file: a closed form from paper against the derived quantity, in
+//! arbitrary precision.
+
+use super::sample::{Sample, samples};
+use crate::compile::Compiled;
+use crate::expr::Rational;
+use crate::program::interpret::{Interpreter, Number as _, Point};
+use crate::program::precise::Precise;
+use crate::program::{Output, Program};
+use crate::quantity::Quantity;
+use crate::source::Span;
+
+/// At how many points of the domain a closed form is compared.
+pub const POINTS: usize = 128;
+
+/// How one closed form compares.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// What it is a closed form of.
+    pub quantity: Quantity,
+    /// Where it was published.
+    pub source: Option<String>,
+    /// Where it stands in the file.
+    pub span: Span,
+    /// The first point where it differs, if there is one.
+    pub difference: Option<Difference>,
+}
+
+/// A point where closed form and derived quantity differ by more than the tolerance.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// X.
+    pub coordinates: Vec<f64>,
+    /// t.
+    pub time: f64,
+    /// Which component, row-major.
+    pub component: usize,
+    /// The derived value; not a number where it is undefined.
+    pub derived: f64,
+    /// The closed form's value; not a number where it is undefined.
+    pub expected: f64,
+}
+
+/// Compares every closed form of a field at [`POINTS`] points: each component may differ by 1e-20
+/// of the largest component at that point.
+pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
+    let parameters = compiled.parameters::<Precise>(&Default::default());
+    let program = compiled.checks();
+    let points = samples(compiled, &parameters, POINTS);
+    let checks = compiled.model.checks.iter().enumerate();
+    checks
+        .map(|(index, check)| Comparison {
+            quantity: check.quantity,
+            source: check.source.clone(),
+            span: check.span,
+            difference: first_difference(&program, &parameters, &points, index, check.quantity),
+        })
+        .collect()
+}
+
+fn first_difference(
+    program: &Program,
+    parameters: &[Precise],
+    points: &[Sample<Precise>],
+    check: usize,
+    quantity: Quantity,
+) -> Option<Difference> {
+    let outputs = [Output::Quantity(quantity), Output::Expected(check)];
+    let mut interpreter = Interpreter::new(program, parameters);
+    let plan = interpreter.plan(&outputs);
+    points.iter().find_map(|point| {
+        interpreter.set_time(&point.time);
+        interpreter.set_point(&plan, Point::at(&point.coordinates));
+        let [derived, expected] = outputs.map(|output| interpreter.output(output));
+        let component = differing_component(&derived, &expected)?;
+        Some(Difference {
+            coordinates: point.coordinates.iter().map(Precise::to_f64).collect(),
+            time: point.time.to_f64(),
+            component,
+            derived: derived[component].to_f64(),
+            expected: expected[component].to_f64(),
+        })
+    })
+}
+
+fn differing_component(derived: &[Precise], expected: &[Precise]) -> Option<usize> {
+    let tolerance = Precise::from_rational(&Rational::from_parts(
+        1.into(),
+        dashu_int::UBig::from(10u8).pow(20),
+    ));
+    let mut scale = Precise::from_rational(&Rational::ZERO);
+    for value in expected.iter().chain(derived) {
+        let magnitude = value.clone().magnitude();
+        if !magnitude.at_most(&scale) {
+            scale = magnitude;
+        }
+    }
+    let allowed = scale * tolerance;
+    derived.iter().zip(expected).position(|(derived, expected)| {
+        let difference = (derived.clone() - expected.clone()).magnitude();
+        !difference.at_most(&allowed)
+    })
+}

@@ -1,0 +1,4 @@
+//! What a field file claims, tested against what follows from it.
+
+pub mod closed_form;
+pub mod sample;

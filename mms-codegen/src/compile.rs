@@ -1,0 +1,253 @@
+//! The table of contents: from a text to everything that follows from it.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{self, Diagnostic};
+use crate::expr::resolve::Scope;
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::mechanics::model::Body;
+use crate::mechanics::{Derivation, Model, derive};
+use crate::pass::substitute::substitute;
+use crate::program::interpret::{Interpreter, Number};
+use crate::program::schedule::schedule;
+use crate::program::{Bound, Output, Program};
+use crate::source::{SourceId, Sources};
+use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
+use crate::suggest::did_you_mean;
+use crate::syntax;
+
+/// The materials that come with the crate: stem and text.
+pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
+
+/// Reads the file of a material such as `./mine.toml`, given as the field file writes it.
+pub type Loader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+
+/// A field file, compiled.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The field file.
+    pub field: FieldSpec,
+    /// The file of its material.
+    pub material: MaterialSpec,
+    /// The texts, for messages about them.
+    pub sources: Sources,
+    /// The expressions.
+    pub graph: Graph,
+    /// The field's own formulas.
+    pub model: Model,
+    /// What follows from them.
+    pub derivation: Derivation,
+    /// All of it, scheduled.
+    pub program: Program,
+}
+
+/// Why a field file does not compile.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// The texts.
+    pub sources: Sources,
+    /// Every mistake.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&diagnostic::render(&self.sources, &self.diagnostics))
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Compiles the text of a field file.
+///
+/// `name` is the field's name (its file's stem), `path` what messages show. Every mistake of the
+/// file and of its material is in the failure.
+pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<Compiled, Failure> {
+    let mut sources = Sources::default();
+    let mut diagnostics = Vec::new();
+    match phases(name, path, text, load, &mut sources, &mut diagnostics) {
+        Some(compiled) if diagnostics.is_empty() => Ok(compiled),
+        _ => Err(Failure { sources, diagnostics }),
+    }
+}
+
+/// The exact value of an expression without names, such as `1e6` or `2/3`.
+pub fn constant(text: &str) -> Result<Rational, Failure> {
+    let mut sources = Sources::default();
+    let source = sources.add("value", text);
+    let span = sources.span(source, 0, text.len());
+    let mut diagnostics = Vec::new();
+    let mut graph = Graph::default();
+    let value = syntax::parse(&Formula::plain(text, span), &mut diagnostics)
+        .and_then(|ast| Scope::default().resolve(&mut graph, &ast, &mut diagnostics))
+        .and_then(|value| {
+            let number = graph.as_number(value).cloned();
+            if number.is_none() {
+                let message = "the value is not a rational number";
+                diagnostics.push(Diagnostic::error(span, message).label("give its digits"));
+            }
+            number
+        });
+    value.ok_or(Failure { sources, diagnostics })
+}
+
+fn phases(
+    name: &str,
+    path: &str,
+    text: &str,
+    load: Loader<'_>,
+    sources: &mut Sources,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Compiled> {
+    let mut graph = Graph::default();
+    let source = sources.add(path, text);
+    let field = spec::read_field(sources, source, name, diagnostics)?;
+    let material = read_material(sources, &field, load, diagnostics)?;
+    let model = Model::resolve(&mut graph, &field, &material, diagnostics)?;
+    if !diagnostics.is_empty() {
+        return None;
+    }
+    let derivation = derive(&mut graph, &model);
+    let outputs = outputs(&mut graph, &model, &derivation);
+    let program = schedule(&graph, &outputs);
+    let sources = sources.clone();
+    Some(Compiled { field, material, sources, graph, model, derivation, program })
+}
+
+fn read_material(
+    sources: &mut Sources,
+    field: &FieldSpec,
+    load: Loader<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<MaterialSpec> {
+    let (source, stem) = find_material(sources, field, load, diagnostics)?;
+    spec::read_material(sources, source, &stem, diagnostics)
+}
+
+fn find_material(
+    sources: &mut Sources,
+    field: &FieldSpec,
+    load: Loader<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<(SourceId, String)> {
+    let model = &field.material.model;
+    let shown = &model.value;
+    if let Some((stem, text)) = MATERIALS.iter().find(|(stem, _)| stem == shown) {
+        return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
+    }
+    if shown.ends_with(".toml") {
+        return match load(shown) {
+            Ok(text) => {
+                let file = shown.rsplit('/').next().unwrap_or(shown);
+                let stem = file.trim_end_matches(".toml").to_string();
+                Some((sources.add(shown.clone(), text), stem))
+            }
+            Err(reason) => {
+                let message = format!("cannot read the material file `{shown}`");
+                diagnostics.push(
+                    Diagnostic::error(model.span, message)
+                        .label(reason)
+                        .help("the path is relative to the field file"),
+                );
+                None
+            }
+        };
+    }
+    let stems = MATERIALS.iter().map(|(stem, _)| *stem);
+    let diagnostic = Diagnostic::error(model.span, format!("unknown material `{shown}`"))
+        .label("no such material");
+    diagnostics.push(match did_you_mean(shown, stems.clone()) {
+        Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+        None => {
+            let stems: Vec<_> = stems.collect();
+            diagnostic.help(format!(
+                "shipped materials: {}; one of your own is written \"./mine.toml\"",
+                stems.join(", ")
+            ))
+        }
+    });
+    None
+}
+
+fn outputs(
+    graph: &mut Graph,
+    model: &Model,
+    derivation: &Derivation,
+) -> BTreeMap<Output, Vec<Expr>> {
+    let mut outputs = BTreeMap::new();
+    for (quantity, components) in &derivation.quantities {
+        outputs.insert(Output::Quantity(*quantity), components.clone());
+    }
+    for (response, components) in &derivation.responses {
+        outputs.insert(Output::Response(*response), components.clone());
+    }
+    match &model.domain.body {
+        Body::Box { lower, upper } => {
+            outputs.insert(Output::Bound(Bound::Lower), lower.clone());
+            outputs.insert(Output::Bound(Bound::Upper), upper.clone());
+        }
+        Body::Annulus { inner, outer, theta } => {
+            outputs.insert(Output::Bound(Bound::Inner), vec![*inner]);
+            outputs.insert(Output::Bound(Bound::Outer), vec![*outer]);
+            outputs.insert(Output::Bound(Bound::Theta), theta.to_vec());
+        }
+    }
+    outputs.insert(Output::Bound(Bound::Time), model.domain.time.to_vec());
+    for (index, value) in parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate() {
+        outputs.insert(Output::Parameter(index), vec![value]);
+    }
+    outputs
+}
+
+/// The parameters' values as constants, some of them set by the caller.
+fn parameter_values(
+    graph: &mut Graph,
+    model: &Model,
+    set: &BTreeMap<usize, Rational>,
+) -> Vec<Expr> {
+    let mut known = BTreeMap::new();
+    for (index, parameter) in model.parameters.iter().enumerate() {
+        let value = match set.get(&index) {
+            Some(number) => graph.number(number.clone()),
+            None => substitute(graph, &[parameter.default], &known)[0],
+        };
+        known.insert(Symbol::Parameter(index), value);
+    }
+    known.into_values().collect()
+}
+
+impl Compiled {
+    /// The parameters' values in the order of the file; those that depend on a set one follow it.
+    pub fn parameters<T: Number>(&self, set: &BTreeMap<usize, Rational>) -> Vec<T> {
+        let mut graph = self.graph.clone();
+        let values = parameter_values(&mut graph, &self.model, set);
+        let outputs = values
+            .into_iter()
+            .enumerate()
+            .map(|(index, value)| (Output::Parameter(index), vec![value]))
+            .collect();
+        let program = schedule(&graph, &outputs);
+        let interpreter = Interpreter::<T>::new(&program, &[]);
+        (0..self.model.parameters.len())
+            .flat_map(|index| interpreter.output(Output::Parameter(index)))
+            .collect()
+    }
+
+    /// The path of the material's file, where it is the user's own.
+    pub fn own_material(&self) -> Option<&str> {
+        let model = self.field.material.model.value.as_str();
+        MATERIALS.iter().all(|(stem, _)| *stem != model).then_some(model)
+    }
+
+    /// The quantities that have a closed form, each beside it, as one program.
+    pub fn checks(&self) -> Program {
+        let mut outputs = BTreeMap::new();
+        for (index, check) in self.model.checks.iter().enumerate() {
+            let quantity = check.quantity;
+            outputs.insert(Output::Expected(index), check.equals.clone());
+            outputs
+                .insert(Output::Quantity(quantity), self.derivation.quantities[&quantity].clone());
+        }
+        schedule(&self.graph, &outputs)
+    }
+}

@@ -1,0 +1,228 @@
+//! Messages to a user, and how they look.
+//!
+//! A phase collects every mistake it finds as a [`Diagnostic`] and goes on where that makes sense;
+//! [`render`] prints them all at the end, in the order of their places, each with its own
+//! `path:line:column` and a caret under the exact text.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet, normalize_untrusted_str};
+
+use crate::source::{Sources, Span};
+
+/// More diagnostics than this are counted, not printed: nobody reads them.
+pub const MAX_RENDERED: usize = 100;
+
+/// Names longer than this are cut where a message quotes them.
+const MAX_QUOTED: usize = 40;
+
+/// Whether a compilation may go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The file is wrong: nothing can be generated from it.
+    Error,
+    /// The file is valid, but probably not what was meant.
+    Warning,
+}
+
+/// One message about one place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Whether a compilation may go on.
+    pub severity: Severity,
+    /// What was found to be wrong, in one sentence without a full stop.
+    pub message: String,
+    /// The exact place.
+    pub span: Span,
+    /// A few words beside the caret, often what was expected there.
+    pub label: String,
+    /// What to do about it, one suggestion each.
+    pub help: Vec<String>,
+}
+
+impl Diagnostic {
+    /// An error at a place.
+    pub fn error(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, span, message.into())
+    }
+
+    /// A warning at a place.
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, span, message.into())
+    }
+
+    fn new(severity: Severity, span: Span, message: String) -> Self {
+        Diagnostic { severity, message, span, label: String::new(), help: Vec::new() }
+    }
+
+    /// Sets the words beside the caret.
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Adds a suggestion.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+
+    /// Adds "did you mean ...?" where there is something near.
+    pub fn did_you_mean(self, near: Option<&str>) -> Self {
+        match near {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None => self,
+        }
+    }
+}
+
+/// Whether any of them is an error.
+pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+}
+
+/// A piece of a user's text as messages quote it: in backticks, and cut where it is long.
+pub fn quoted(text: &str) -> String {
+    match text.char_indices().nth(MAX_QUOTED) {
+        Some((end, _)) => format!("`{}...`", &text[..end]),
+        None => format!("`{text}`"),
+    }
+}
+
+/// The diagnostics as plain text, in the order of their places and each once.
+pub fn render(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    render_with(&Renderer::plain(), sources, diagnostics)
+}
+
+/// The same text as [`render`], coloured for a terminal.
+pub fn render_styled(sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    render_with(&Renderer::styled(), sources, diagnostics)
+}
+
+fn render_with(renderer: &Renderer, sources: &Sources, diagnostics: &[Diagnostic]) -> String {
+    let ordered = in_order(diagnostics);
+    let mut rendered: Vec<String> = ordered
+        .iter()
+        .take(MAX_RENDERED)
+        .map(|diagnostic| render_one(renderer, sources, diagnostic))
+        .collect();
+    if ordered.len() > MAX_RENDERED {
+        rendered.push(format!("... and {} more", ordered.len() - MAX_RENDERED));
+    }
+    let mut text = rendered.join("\n\n");
+    if !text.is_empty() {
+        text.push('\n');
+    }
+    text
+}
+
+/// By place, then in the order they were found; a message that two phases found is shown once.
+fn in_order(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
+    let mut ordered: Vec<&Diagnostic> = diagnostics.iter().collect();
+    ordered.sort_by_key(|diagnostic| (diagnostic.span.source, diagnostic.span.start));
+    let mut seen = BTreeSet::new();
+    ordered.retain(|diagnostic| seen.insert((diagnostic.span, diagnostic.message.as_str())));
+    ordered
+}
+
+fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let (line_number, _) = sources.location(diagnostic.span);
+    let (line, caret) = shown_line(sources, diagnostic.span);
+    let mut annotation = AnnotationKind::Primary.span(caret);
+    if !diagnostic.label.is_empty() {
+        annotation = annotation.label(diagnostic.label.as_str());
+    }
+    let snippet = Snippet::source(line)
+        .line_start(line_number)
+        .path(sources.get(diagnostic.span.source).path.as_str())
+        .annotation(annotation);
+    let help =
+        diagnostic.help.iter().map(|help| Level::HELP.message(normalize_untrusted_str(help)));
+    let group = level.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
+    renderer.render(&[group])
+}
+
+/// The line that a span starts on, and the part of the span on it. Only this line is shown, so
+/// that a message about a long array or a long file stays short.
+fn shown_line(sources: &Sources, span: Span) -> (&str, Range<usize>) {
+    let text = sources.get(span.source).text.as_str();
+    let span = sources.span(span.source, span.start, span.end);
+    let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+    let length = text[start..].find('\n').unwrap_or(text.len() - start);
+    let line = text[start..start + length].trim_end_matches('\r');
+    let first = (span.start - start).min(line.len());
+    let last = (span.end - start).clamp(first, line.len());
+    (line, first..last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> (Sources, impl Fn(usize, usize) -> Span + use<>) {
+        let mut sources = Sources::default();
+        let id = sources.add("fields/x.toml", text);
+        let span = move |start, end| Span { source: id, start, end };
+        (sources, span)
+    }
+
+    #[test]
+    fn shows_place_caret_and_help() {
+        let (sources, span) = source("[field]\ntitel = 1\n");
+        let diagnostic = Diagnostic::error(span(8, 13), "unknown key `titel`")
+            .label("not a key of [field]")
+            .did_you_mean(Some("title"));
+        let expected = "\
+error: unknown key `titel`
+ --> fields/x.toml:2:1
+  |
+2 | titel = 1
+  | ^^^^^ not a key of [field]
+  |
+  = help: did you mean `title`?
+";
+        assert_eq!(render(&sources, &[diagnostic]), expected);
+    }
+
+    #[test]
+    fn sorts_and_shows_each_message_once() {
+        let (sources, span) = source("ab");
+        let (a, b) = (Diagnostic::error(span(0, 1), "a"), Diagnostic::error(span(1, 2), "b"));
+        let text = render(&sources, &[b.clone(), a.clone(), b]);
+        assert_eq!(text.matches("error:").count(), 2);
+        assert!(text.find("error: a") < text.find("error: b"), "{text}");
+    }
+
+    #[test]
+    fn any_place_can_be_shown() {
+        for text in ["", "\n", "\r\n", "\u{3bb}", "a\nb"] {
+            let (sources, span) = source(text);
+            for start in 0..5 {
+                for end in start..5 {
+                    let text = render(&sources, &[Diagnostic::error(span(start, end), "m")]);
+                    assert!(text.contains("fields/x.toml:"), "{text}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn counts_what_it_does_not_show() {
+        let (sources, span) = source(&"x".repeat(MAX_RENDERED + 7));
+        let all: Vec<_> =
+            (0..MAX_RENDERED + 7).map(|at| Diagnostic::error(span(at, at + 1), "m")).collect();
+        assert!(render(&sources, &all).ends_with("... and 7 more\n"));
+    }
+
+    #[test]
+    fn terminal_controls_in_a_name_do_not_reach_the_terminal() {
+        let (sources, span) = source("\"\u{1b}[31m\"");
+        let diagnostic = Diagnostic::error(span(0, 3), "bad `\u{1b}`").help("not \u{1b}");
+        assert!(!render(&sources, &[diagnostic]).contains('\u{1b}'));
+    }
+}

@@ -1,0 +1,371 @@
+//! Canonical construction: the only way to make a node.
+//!
+//! Each rule here is sound wherever its left-hand side is defined, and none adds operations.
+
+use std::collections::BTreeMap;
+
+use dashu_int::ops::{BitTest as _, Gcd as _};
+use dashu_int::{IBig, UBig};
+
+use super::{Expr, Function, Graph, Node, Rational, Symbol};
+
+/// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
+const FOLDED_BITS: usize = 1 << 14;
+
+impl Graph {
+    /// An exact number.
+    pub fn number(&mut self, value: impl Into<Rational>) -> Expr {
+        self.intern(Node::Number(value.into()))
+    }
+
+    /// pi.
+    pub fn pi(&mut self) -> Expr {
+        self.intern(Node::Pi)
+    }
+
+    /// A leaf.
+    pub fn symbol(&mut self, symbol: Symbol) -> Expr {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum([(a, Rational::ONE), (b, Rational::ONE)])
+    }
+
+    /// `a - b`.
+    pub fn sub(&mut self, a: Expr, b: Expr) -> Expr {
+        self.sum([(a, Rational::ONE), (b, Rational::NEG_ONE)])
+    }
+
+    /// `factor * a` for an exact number.
+    pub fn scale(&mut self, a: Expr, factor: impl Into<Rational>) -> Expr {
+        self.sum([(a, factor.into())])
+    }
+
+    /// `a * b`.
+    pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
+        self.product([(a, Rational::ONE), (b, Rational::ONE)])
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
+        self.product([(a, Rational::ONE), (b, Rational::NEG_ONE)])
+    }
+
+    /// `base ^ exponent` for an exact exponent.
+    pub fn power(&mut self, base: Expr, exponent: impl Into<Rational>) -> Expr {
+        self.product([(base, exponent.into())])
+    }
+
+    /// The sum of expressions times exact coefficients.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = (Expr, Rational)>) -> Expr {
+        let mut constant = Rational::ZERO;
+        let mut collected = BTreeMap::<Expr, Rational>::new();
+        for (expr, coefficient) in terms {
+            match self.node(expr) {
+                Node::Number(number) => constant += number * &coefficient,
+                Node::Sum(inner_constant, inner) => {
+                    constant += inner_constant * &coefficient;
+                    for (term, inner_coefficient) in inner {
+                        *collected.entry(*term).or_default() += inner_coefficient * &coefficient;
+                    }
+                }
+                _ => *collected.entry(expr).or_default() += coefficient,
+            }
+        }
+        collected.retain(|_, coefficient| !coefficient.is_zero());
+        let terms: Vec<_> = collected.into_iter().collect();
+        match terms.as_slice() {
+            [] => self.number(constant),
+            [(term, one)] if constant.is_zero() && one.is_one() => *term,
+            _ => self.intern(Node::Sum(constant, terms)),
+        }
+    }
+
+    /// The product of expressions to exact exponents.
+    pub fn product(&mut self, factors: impl IntoIterator<Item = (Expr, Rational)>) -> Expr {
+        let mut collector = Collector::default();
+        collector.open.extend(factors);
+        // A lone sum stays as it is written; as a factor among others it is normalised.
+        if let [(expr, exponent)] = collector.open.as_slice()
+            && exponent.is_one()
+        {
+            return *expr;
+        }
+        let (coefficient, factors) = collector.collect(self);
+        let product = match factors.as_slice() {
+            [] => self.number(Rational::ONE),
+            [(base, one)] if one.is_one() => *base,
+            _ => self.intern(Node::Product(factors)),
+        };
+        self.scale(product, coefficient)
+    }
+
+    /// An elementary function, folded where its value is known exactly.
+    pub fn call(&mut self, function: Function, arguments: &[Expr]) -> Expr {
+        let [argument, ..] = *arguments else { unreachable!("every function has an argument") };
+        if let Some(folded) = self.fold_call(function, argument) {
+            return folded;
+        }
+        self.intern(Node::Call(function, arguments.to_vec()))
+    }
+
+    fn fold_call(&mut self, function: Function, argument: Expr) -> Option<Expr> {
+        if function == Function::Sqrt {
+            return Some(self.power(argument, Rational::from_parts(1.into(), 2u8.into())));
+        }
+        if let Some(at_zero) = value_at_zero(function)
+            && self.is_zero(argument)
+        {
+            return Some(self.number(at_zero));
+        }
+        match function {
+            Function::Ln if self.as_number(argument).is_some_and(Rational::is_one) => {
+                Some(self.number(Rational::ZERO))
+            }
+            Function::Ln => {
+                let Node::Sum(constant, terms) = self.node(argument) else { return None };
+                if !constant.is_one() {
+                    return None;
+                }
+                let terms = terms.clone();
+                let rest = self.sum(terms);
+                Some(self.call(Function::Ln1p, &[rest]))
+            }
+            Function::Sin | Function::Cos => self.fold_circular(function, argument),
+            _ => None,
+        }
+    }
+
+    /// sin and cos at multiples of pi/2, and of an argument with a leading minus sign.
+    fn fold_circular(&mut self, function: Function, argument: Expr) -> Option<Expr> {
+        if let Some(turns) = self.quarter_turns(argument) {
+            // sin(n pi/2) runs through 0 1 0 -1, and the cosine is a quarter turn ahead.
+            let phase = if function == Function::Sin { turns } else { (turns + 1) % 4 };
+            return Some(self.number([0, 1, 0, -1][phase as usize]));
+        }
+        if !self.leads_with_minus(argument) {
+            return None;
+        }
+        let positive = self.scale(argument, -1);
+        let value = self.call(function, &[positive]);
+        Some(if function == Function::Sin { self.scale(value, -1) } else { value })
+    }
+
+    fn quarter_turns(&self, angle: Expr) -> Option<u8> {
+        let turns = match self.node(angle) {
+            Node::Pi => Rational::from(2),
+            Node::Sum(constant, terms) if constant.is_zero() => match terms.as_slice() {
+                [(term, factor)] if *self.node(*term) == Node::Pi => factor * Rational::from(2),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let (numerator, denominator) = turns.into_parts();
+        if !denominator.is_one() {
+            return None;
+        }
+        let four = IBig::from(4);
+        let turns: IBig = ((numerator % &four) + &four) % &four;
+        u8::try_from(turns).ok()
+    }
+
+    fn leads_with_minus(&self, expr: Expr) -> bool {
+        let Node::Sum(constant, terms) = self.node(expr) else { return false };
+        let leading = terms.first().map_or(constant, |(_, coefficient)| coefficient);
+        *leading < Rational::ZERO
+    }
+
+    /// The number `c` and the sum `s` with `expr = c s`, such that the coefficients of `s` are
+    /// coprime integers and its first one is positive.
+    pub(crate) fn split_content(&mut self, expr: Expr) -> (Rational, Expr) {
+        let Node::Sum(constant, terms) = self.node(expr) else {
+            return (Rational::ONE, expr);
+        };
+        let mut content = constant.clone();
+        for (_, coefficient) in terms {
+            content = gcd(&content, coefficient);
+        }
+        if self.leads_with_minus(expr) {
+            content = -content;
+        }
+        let primitive = self.scale(expr, Rational::ONE / &content);
+        (content, primitive)
+    }
+}
+
+/// Collects the factors of a product until none of them can be opened further.
+#[derive(Default)]
+struct Collector {
+    open: Vec<(Expr, Rational)>,
+    coefficient: Option<Rational>,
+    factors: BTreeMap<Expr, Rational>,
+}
+
+impl Collector {
+    fn collect(mut self, graph: &mut Graph) -> (Rational, Vec<(Expr, Rational)>) {
+        loop {
+            while let Some((base, exponent)) = self.open.pop() {
+                self.take(graph, base, exponent);
+            }
+            self.factors.retain(|_, exponent| !exponent.is_zero());
+            // Exponents that met may have become integers: x^(1/2) x^(1/2) opens x.
+            let openable: Vec<_> = self
+                .factors
+                .iter()
+                .filter(|(base, exponent)| opens(graph, **base, exponent))
+                .map(|(base, _)| *base)
+                .collect();
+            if openable.is_empty() {
+                break;
+            }
+            for base in openable {
+                if let Some(exponent) = self.factors.remove(&base) {
+                    self.open.push((base, exponent));
+                }
+            }
+        }
+        (self.coefficient.unwrap_or(Rational::ONE), self.factors.into_iter().collect())
+    }
+
+    fn take(&mut self, graph: &mut Graph, base: Expr, exponent: Rational) {
+        if exponent.is_zero() {
+            return;
+        }
+        match graph.node(base).clone() {
+            Node::Number(number) => match number_power(&number, &exponent) {
+                Some(power) => self.multiply(power),
+                None => self.keep(base, exponent),
+            },
+            Node::Product(factors) if exponent.is_int() => {
+                self.open
+                    .extend(factors.into_iter().map(|(base, inner)| (base, inner * &exponent)));
+            }
+            Node::Sum(..) if exponent.is_int() => self.take_sum(graph, base, exponent),
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                // (c x)^e = c^e x^e for c > 0, and (|c| (-x))^e otherwise.
+                let (term, coefficient) = terms[0].clone();
+                if coefficient > Rational::ZERO {
+                    let coefficient = graph.number(coefficient);
+                    self.open.push((coefficient, exponent.clone()));
+                    self.open.push((term, exponent));
+                } else {
+                    self.keep(base, exponent);
+                }
+            }
+            _ => self.keep(base, exponent),
+        }
+    }
+
+    fn take_sum(&mut self, graph: &mut Graph, sum: Expr, exponent: Rational) {
+        let (content, primitive) = graph.split_content(sum);
+        match number_power(&content, &exponent) {
+            Some(power) => {
+                self.multiply(power);
+                if matches!(graph.node(primitive), Node::Product(_)) {
+                    self.open.push((primitive, exponent));
+                } else {
+                    self.keep(primitive, exponent);
+                }
+            }
+            None => self.keep(sum, exponent),
+        }
+    }
+
+    fn keep(&mut self, base: Expr, exponent: Rational) {
+        *self.factors.entry(base).or_default() += exponent;
+    }
+
+    fn multiply(&mut self, number: Rational) {
+        let coefficient = self.coefficient.take().unwrap_or(Rational::ONE);
+        self.coefficient = Some(coefficient * number);
+    }
+}
+
+/// Whether a base under that exponent is not one canonical factor.
+fn opens(graph: &Graph, base: Expr, exponent: &Rational) -> bool {
+    if !exponent.is_int() {
+        return false;
+    }
+    match graph.node(base) {
+        Node::Product(_) => true,
+        Node::Number(number) => number_power(number, exponent).is_some(),
+        Node::Sum(constant, terms) => match terms.as_slice() {
+            [(_, factor)] => constant.is_zero() && number_power(factor, exponent).is_some(),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// The functions whose value at 0 is a rational number.
+fn value_at_zero(function: Function) -> Option<i32> {
+    match function {
+        Function::Sqrt
+        | Function::Cbrt
+        | Function::Ln1p
+        | Function::Sin
+        | Function::Tan
+        | Function::Sinh
+        | Function::Tanh
+        | Function::Asin
+        | Function::Atan => Some(0),
+        Function::Exp | Function::Cos | Function::Cosh => Some(1),
+        Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
+    }
+}
+
+/// The greatest common divisor of two rationals: both are integer multiples of it.
+fn gcd(a: &Rational, b: &Rational) -> Rational {
+    if a.is_zero() {
+        return if *b < Rational::ZERO { -b.clone() } else { b.clone() };
+    }
+    if b.is_zero() {
+        return gcd(b, a);
+    }
+    let numerator = a.numerator().gcd(b.numerator());
+    let denominator = a.denominator() * b.denominator() / a.denominator().gcd(b.denominator());
+    Rational::from_parts(numerator.into(), denominator)
+}
+
+/// `number ^ exponent` where it is rational and not too long.
+fn number_power(number: &Rational, exponent: &Rational) -> Option<Rational> {
+    if number.is_one() {
+        return Some(Rational::ONE);
+    }
+    let root = usize::try_from(exponent.denominator()).ok()?;
+    let power = isize::try_from(exponent.numerator()).ok()?;
+    if number.is_zero() {
+        return (power > 0).then_some(Rational::ZERO);
+    }
+    if root > 1 && *number < Rational::ZERO {
+        return None;
+    }
+    let numerator = exact_root(number.numerator().clone(), root)?;
+    let denominator = exact_root(number.denominator().clone().into(), root)?;
+    let bits = numerator.bit_len().max(denominator.bit_len());
+    let count = power.unsigned_abs();
+    if bits > 1 && count.saturating_mul(bits) > FOLDED_BITS {
+        return None;
+    }
+    let (numerator, denominator) = (numerator.pow(count), denominator.pow(count));
+    Some(if power < 0 {
+        Rational::from_parts_signed(denominator, numerator)
+    } else {
+        Rational::from_parts_signed(numerator, denominator)
+    })
+}
+
+/// The root of an integer, where it is an integer. Only the first root of a negative number is.
+fn exact_root(value: IBig, root: usize) -> Option<IBig> {
+    if root == 1 {
+        return Some(value);
+    }
+    let magnitude = UBig::try_from(value).ok()?;
+    if magnitude.bit_len() > FOLDED_BITS {
+        return None;
+    }
+    let floor = magnitude.nth_root(root);
+    (floor.pow(root) == magnitude).then(|| floor.into())
+}

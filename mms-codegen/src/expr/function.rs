@@ -1,0 +1,45 @@
+//! The elementary functions: a small closed set.
+
+macro_rules! functions {
+    ($($variant:ident $name:literal $arity:literal $doc:literal,)*) => {
+        /// An elementary function of one or two arguments.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Function {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl Function {
+            /// Every function.
+            pub const ALL: &[Function] = &[$(Function::$variant,)*];
+
+            /// Its name, as the scalar trait spells it.
+            pub fn name(self) -> &'static str {
+                match self { $(Function::$variant => $name,)* }
+            }
+
+            /// How many arguments it takes.
+            pub fn arity(self) -> usize {
+                match self { $(Function::$variant => $arity,)* }
+            }
+        }
+    };
+}
+
+functions! {
+    Sqrt "sqrt" 1 "The square root; in a graph it is the power 1/2.",
+    Cbrt "cbrt" 1 "The real cube root, of either sign.",
+    Exp "exp" 1 "The exponential function.",
+    Ln "ln" 1 "The natural logarithm.",
+    Ln1p "ln_1p" 1 "ln(1 + x).",
+    Sin "sin" 1 "The sine.",
+    Cos "cos" 1 "The cosine.",
+    Tan "tan" 1 "The tangent.",
+    Sinh "sinh" 1 "The hyperbolic sine.",
+    Cosh "cosh" 1 "The hyperbolic cosine.",
+    Tanh "tanh" 1 "The hyperbolic tangent.",
+    Asin "asin" 1 "The inverse sine.",
+    Acos "acos" 1 "The inverse cosine.",
+    Atan "atan" 1 "The inverse tangent.",
+    Atan2 "atan2" 2 "The angle of the point (x, y), called as atan2(y, x).",
+    Powf "powf" 2 "A positive base to any power.",
+}

@@ -1,0 +1,138 @@
+//! The expression graph: exact, hash-consed, canonical.
+//!
+//! Every sum and product is n-ary with collected terms, so that equal expressions written in
+//! different order are one node. Nodes are created children first and never change; an [`Expr`]
+//! therefore orders topologically, and every pass is a loop over ids rather than a recursion.
+
+mod build;
+mod function;
+pub mod print;
+pub mod resolve;
+
+use std::collections::{BTreeSet, HashMap};
+
+pub use dashu_ratio::RBig as Rational;
+pub use function::Function;
+
+/// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr(u32);
+
+/// What an expression depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Symbol {
+    /// The parameter of that position in the field file.
+    Parameter(usize),
+    /// The time t.
+    Time,
+    /// The reference coordinate X_J.
+    Coordinate(usize),
+    /// The component N_J of a reference unit normal.
+    Normal(usize),
+    /// The component H_iJ of a displacement gradient that the caller supplies.
+    Gradient(usize, usize),
+    /// A strain invariant less its value at F = I; only inside a material's density.
+    Invariant(usize),
+}
+
+/// An operation and its operands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// An exact rational number.
+    Number(Rational),
+    /// The circle's half circumference over its radius.
+    Pi,
+    /// A leaf.
+    Symbol(Symbol),
+    /// A constant plus terms with non-zero coefficients, in order of their handles. No term is a
+    /// number or a sum.
+    Sum(Rational, Vec<(Expr, Rational)>),
+    /// Bases with non-zero exponents, in order of their handles. No base is a product under an
+    /// integer exponent, and none is a number unless its power is irrational.
+    Product(Vec<(Expr, Rational)>),
+    /// An elementary function.
+    Call(Function, Vec<Expr>),
+}
+
+impl Node {
+    /// The operands.
+    pub fn children(&self) -> impl Iterator<Item = Expr> + '_ {
+        let (weighted, plain): (&[(Expr, Rational)], &[Expr]) = match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => (&[], &[]),
+            Node::Sum(_, terms) => (terms, &[]),
+            Node::Product(factors) => (factors, &[]),
+            Node::Call(_, arguments) => (&[], arguments),
+        };
+        weighted.iter().map(|(child, _)| *child).chain(plain.iter().copied())
+    }
+}
+
+/// An arena of hash-consed nodes.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    /// Only ever looked up, never iterated: hash order cannot be observed.
+    index: HashMap<Node, Expr>,
+}
+
+impl Graph {
+    /// The node behind a handle.
+    pub fn node(&self, expr: Expr) -> &Node {
+        &self.nodes[expr.0 as usize]
+    }
+
+    /// How many nodes were made so far.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing was made yet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The one handle of a node that is canonical already.
+    fn intern(&mut self, node: Node) -> Expr {
+        if let Some(expr) = self.index.get(&node) {
+            return *expr;
+        }
+        let expr = Expr(u32::try_from(self.nodes.len()).expect("the node limit is below u32::MAX"));
+        self.nodes.push(node.clone());
+        self.index.insert(node, expr);
+        expr
+    }
+
+    /// The number, where the expression is one.
+    pub fn as_number(&self, expr: Expr) -> Option<&Rational> {
+        match self.node(expr) {
+            Node::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// Whether the expression is the number 0.
+    pub fn is_zero(&self, expr: Expr) -> bool {
+        self.as_number(expr).is_some_and(Rational::is_zero)
+    }
+
+    /// Everything that `roots` depend on, themselves included, operands before users.
+    pub fn reachable(&self, roots: &[Expr]) -> BTreeSet<Expr> {
+        let mut seen = BTreeSet::new();
+        let mut open = roots.to_vec();
+        while let Some(expr) = open.pop() {
+            if seen.insert(expr) {
+                open.extend(self.node(expr).children());
+            }
+        }
+        seen
+    }
+
+    /// The symbols that `root` depends on.
+    pub fn symbols(&self, root: Expr) -> BTreeSet<Symbol> {
+        let symbol = |expr: Expr| match self.node(expr) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        self.reachable(&[root]).into_iter().filter_map(symbol).collect()
+    }
+}

@@ -1,0 +1,190 @@
+//! Text of an expression, in the language of field files.
+
+use std::collections::BTreeMap;
+
+use super::{Expr, Function, Graph, Node, Rational, Symbol};
+
+/// How tightly a printed text binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+/// The names under which a reader knows leaves and sub-expressions.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// The parameters, in the order of the field file.
+    pub parameters: Vec<String>,
+    /// Sub-expressions with names of their own; a named one is printed as its name.
+    pub expressions: BTreeMap<Expr, String>,
+}
+
+impl Names {
+    /// The name of a leaf.
+    pub fn symbol(&self, symbol: Symbol) -> String {
+        const AXES: [&str; 3] = ["X", "Y", "Z"];
+        match symbol {
+            Symbol::Parameter(index) => match self.parameters.get(index) {
+                Some(name) => name.clone(),
+                None => format!("parameter_{index}"),
+            },
+            Symbol::Time => "t".into(),
+            Symbol::Coordinate(axis) => AXES[axis].into(),
+            Symbol::Normal(axis) => format!("N{}", axis + 1),
+            Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
+            Symbol::Invariant(index) => format!("i{}", index + 1),
+        }
+    }
+}
+
+impl Graph {
+    /// The text of `root`; parsed again it is the same expression. Where `root` itself is named,
+    /// its definition is printed.
+    pub fn print(&self, root: Expr, names: &Names) -> String {
+        let mut printed = BTreeMap::<Expr, (String, Binding)>::new();
+        for expr in self.reachable(&[root]) {
+            let text = match names.expressions.get(&expr) {
+                Some(name) if expr != root => (name.clone(), Binding::Atom),
+                _ => self.print_node(expr, names, &printed),
+            };
+            printed.insert(expr, text);
+        }
+        printed.remove(&root).map(|(text, _)| text).unwrap_or_default()
+    }
+
+    fn print_node(
+        &self,
+        expr: Expr,
+        names: &Names,
+        printed: &BTreeMap<Expr, (String, Binding)>,
+    ) -> (String, Binding) {
+        let at_least = |child: &Expr, least: Binding| {
+            let (text, binding) = &printed[child];
+            if *binding >= least { text.clone() } else { format!("({text})") }
+        };
+        match self.node(expr) {
+            Node::Number(number) => print_number(number),
+            Node::Pi => ("pi".into(), Binding::Atom),
+            Node::Symbol(symbol) => (names.symbol(*symbol), Binding::Atom),
+            Node::Sum(constant, terms) => {
+                let factor = |term: &Expr| at_least(term, Binding::Product);
+                print_sum(constant, terms, factor)
+            }
+            Node::Product(factors) => {
+                let base = |base: &Expr, exponent: &Rational| {
+                    if exponent.is_one() {
+                        at_least(base, Binding::Power)
+                    } else {
+                        format!("{}^{}", at_least(base, Binding::Atom), print_exponent(exponent))
+                    }
+                };
+                print_product(factors, base)
+            }
+            Node::Call(Function::Powf, arguments) => {
+                let (base, exponent) = (&arguments[0], &arguments[1]);
+                let (base, exponent) =
+                    (at_least(base, Binding::Atom), at_least(exponent, Binding::Atom));
+                (format!("{base}^{exponent}"), Binding::Power)
+            }
+            Node::Call(function, arguments) => print_call(*function, arguments, printed),
+        }
+    }
+}
+
+fn print_call(
+    function: Function,
+    arguments: &[Expr],
+    printed: &BTreeMap<Expr, (String, Binding)>,
+) -> (String, Binding) {
+    let arguments: Vec<_> = arguments.iter().map(|child| printed[child].0.as_str()).collect();
+    let arguments = arguments.join(", ");
+    let text = match function {
+        Function::Ln1p => format!("ln(1 + {arguments})"),
+        _ => format!("{}({arguments})", function.name()),
+    };
+    (text, Binding::Atom)
+}
+
+fn print_number(number: &Rational) -> (String, Binding) {
+    let binding = match (*number < Rational::ZERO, number.is_int()) {
+        (true, _) => Binding::Sum,
+        (false, true) => Binding::Atom,
+        (false, false) => Binding::Product,
+    };
+    (number.to_string(), binding)
+}
+
+fn print_exponent(exponent: &Rational) -> String {
+    match print_number(exponent) {
+        (text, Binding::Atom) => text,
+        (text, _) if exponent.is_int() => text,
+        (text, _) => format!("({text})"),
+    }
+}
+
+fn print_sum(
+    constant: &Rational,
+    terms: &[(Expr, Rational)],
+    factor: impl Fn(&Expr) -> String,
+) -> (String, Binding) {
+    let mut parts = Vec::new();
+    if !constant.is_zero() {
+        parts.push((*constant < Rational::ZERO, magnitude(constant).to_string()));
+    }
+    for (term, coefficient) in terms {
+        let (numerator, denominator) = magnitude(coefficient).into_parts();
+        let mut text = factor(term);
+        if !numerator.is_one() {
+            text = format!("{numerator}*{text}");
+        }
+        if !denominator.is_one() {
+            text = format!("{text}/{denominator}");
+        }
+        parts.push((*coefficient < Rational::ZERO, text));
+    }
+    // A sum that can begin with a plus sign does.
+    if let Some(first_positive) = parts.iter().position(|(negative, _)| !negative) {
+        parts[..=first_positive].rotate_right(1);
+    }
+    let mut text = String::new();
+    for (index, (negative, part)) in parts.iter().enumerate() {
+        text.push_str(match (index, negative) {
+            (0, false) => "",
+            (0, true) => "-",
+            (_, false) => " + ",
+            (_, true) => " - ",
+        });
+        text.push_str(part);
+    }
+    let single = parts.len() == 1 && !parts[0].0;
+    (text, if single { Binding::Product } else { Binding::Sum })
+}
+
+fn print_product(
+    factors: &[(Expr, Rational)],
+    power: impl Fn(&Expr, &Rational) -> String,
+) -> (String, Binding) {
+    let list = |negative: bool| -> Vec<String> {
+        factors
+            .iter()
+            .filter(|(_, exponent)| (*exponent < Rational::ZERO) == negative)
+            .map(|(base, exponent)| power(base, &magnitude(exponent)))
+            .collect()
+    };
+    let (above, below) = (list(false), list(true));
+    let numerator = if above.is_empty() { "1".to_string() } else { above.join("*") };
+    let binding =
+        if factors.len() == 1 && below.is_empty() { Binding::Power } else { Binding::Product };
+    match below.as_slice() {
+        [] => (numerator, binding),
+        [single] => (format!("{numerator}/{single}"), binding),
+        several => (format!("{numerator}/({})", several.join("*")), binding),
+    }
+}
+
+fn magnitude(number: &Rational) -> Rational {
+    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
+}

@@ -1,0 +1,336 @@
+//! From a parsed formula and the names in scope to an expression.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::diagnostic::Diagnostic;
+use crate::source::{Span, Spanned};
+use crate::suggest::did_you_mean;
+use crate::syntax::{Ast, Kind, Operator};
+
+/// The functions of the language: those of the graph, and `hypot`, which is a square root.
+const FUNCTIONS: &[(&str, usize)] = &[
+    ("sqrt", 1),
+    ("exp", 1),
+    ("ln", 1),
+    ("sin", 1),
+    ("cos", 1),
+    ("tan", 1),
+    ("sinh", 1),
+    ("cosh", 1),
+    ("tanh", 1),
+    ("asin", 1),
+    ("acos", 1),
+    ("atan", 1),
+    ("atan2", 2),
+    ("hypot", 2),
+    ("cbrt", 1),
+];
+
+/// Functions that people try, and why a field cannot have them.
+const NON_SMOOTH: &[&str] =
+    &["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step", "heaviside"];
+
+/// The names that a formula may use.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    names: BTreeMap<String, Expr>,
+    /// Names whose definitions stand further down, with those definitions.
+    later: BTreeMap<String, Span>,
+    /// Names whose definitions failed: using them is a consequence, not a mistake.
+    failed: BTreeSet<String>,
+    /// Names that exist elsewhere in the language, with the reason why they do not here.
+    unavailable: BTreeMap<String, String>,
+    /// Symbols known to be positive.
+    positive: BTreeSet<Symbol>,
+}
+
+impl Scope {
+    /// Makes a name known from here on; `None` marks a definition that failed.
+    pub fn define(&mut self, name: &str, value: Option<Expr>) {
+        self.later.remove(name);
+        match value {
+            Some(value) => {
+                self.names.insert(name.into(), value);
+            }
+            None => {
+                self.failed.insert(name.into());
+            }
+        }
+    }
+
+    /// Announces a name that is defined further down.
+    pub fn announce(&mut self, name: &Spanned<String>) {
+        self.later.insert(name.value.clone(), name.span);
+    }
+
+    /// Says why a name of the language is not available in this scope.
+    pub fn withhold(&mut self, name: &str, reason: impl Into<String>) {
+        self.unavailable.insert(name.into(), reason.into());
+    }
+
+    /// Records that a symbol is positive.
+    pub fn assume_positive(&mut self, symbol: Symbol) {
+        self.positive.insert(symbol);
+    }
+
+    /// Resolves a formula. Reports every mistake in it, and returns `None` if there was one.
+    pub fn resolve(
+        &self,
+        graph: &mut Graph,
+        ast: &Ast,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Expr> {
+        let mut resolver = Resolver { scope: self, graph, diagnostics };
+        let mut values = Vec::<Option<Expr>>::with_capacity(ast.nodes.len());
+        for node in &ast.nodes {
+            let value = resolver.node(&node.kind, node.span, ast, &values);
+            values.push(value);
+        }
+        values.pop().flatten()
+    }
+}
+
+struct Resolver<'a> {
+    scope: &'a Scope,
+    graph: &'a mut Graph,
+    diagnostics: &'a mut Vec<Diagnostic>,
+}
+
+impl Resolver<'_> {
+    fn node(
+        &mut self,
+        kind: &Kind,
+        span: Span,
+        ast: &Ast,
+        values: &[Option<Expr>],
+    ) -> Option<Expr> {
+        match kind {
+            Kind::Number(number) => Some(self.graph.number(number.clone())),
+            Kind::Name(name) => self.name(name, span),
+            Kind::Negate(operand) => {
+                let operand = values[*operand]?;
+                Some(self.graph.scale(operand, -1))
+            }
+            Kind::Binary(operator, left, right) => {
+                let (a, b) = (values[*left]?, values[*right]?);
+                self.binary(*operator, a, b, ast.nodes[*left].span, ast.nodes[*right].span)
+            }
+            Kind::Call { name, arguments } => {
+                let spans: Vec<_> = arguments.iter().map(|index| ast.nodes[*index].span).collect();
+                let values: Vec<_> = arguments.iter().map(|index| values[*index]).collect();
+                self.call(name, &values, &spans)
+            }
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) -> Option<Expr> {
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Option<Expr> {
+        if let Some(expr) = self.scope.names.get(name) {
+            return Some(*expr);
+        }
+        if self.scope.failed.contains(name) {
+            return None;
+        }
+        if let Some(definition) = self.scope.later.get(name) {
+            return self.report(forward_reference(name, span, *definition));
+        }
+        if let Some(reason) = self.scope.unavailable.get(name) {
+            let diagnostic = Diagnostic::error(span, format!("`{name}` is not available here"));
+            return self.report(diagnostic.label(reason.clone()));
+        }
+        if let Some((_, arity)) = FUNCTIONS.iter().find(|(function, _)| *function == name) {
+            let call = if *arity == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
+            let diagnostic = Diagnostic::error(span, format!("`{name}` is a function"));
+            return self.report(diagnostic.label(format!("expected a call such as `{call}`")));
+        }
+        let diagnostic =
+            Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
+        let candidates = self.scope.names.keys().map(String::as_str);
+        let diagnostic = match did_you_mean(name, candidates) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None => diagnostic.help(format!("names in scope: {}", self.known_names())),
+        };
+        self.report(diagnostic)
+    }
+
+    fn known_names(&self) -> String {
+        let names: Vec<_> = self.scope.names.keys().map(|name| format!("`{name}`")).collect();
+        names.join(", ")
+    }
+
+    fn binary(
+        &mut self,
+        operator: Operator,
+        a: Expr,
+        b: Expr,
+        left: Span,
+        right: Span,
+    ) -> Option<Expr> {
+        match operator {
+            Operator::Add => Some(self.graph.add(a, b)),
+            Operator::Subtract => Some(self.graph.sub(a, b)),
+            Operator::Multiply => Some(self.graph.mul(a, b)),
+            Operator::Divide if self.graph.is_zero(b) => {
+                self.report(Diagnostic::error(right, "division by zero").label("this is exactly 0"))
+            }
+            Operator::Divide => Some(self.graph.div(a, b)),
+            Operator::Power => self.power(a, b, left, right),
+        }
+    }
+
+    fn power(&mut self, base: Expr, exponent: Expr, left: Span, right: Span) -> Option<Expr> {
+        let Some(number) = self.graph.as_number(exponent).cloned() else {
+            if !self.is_positive(base) {
+                return self.report(
+                    Diagnostic::error(left, "a variable exponent needs a positive base")
+                        .label("not proved positive")
+                        .help("write the exponent as a number, or the base as exp(..) of its logarithm"),
+                );
+            }
+            return Some(self.graph.call(Function::Powf, &[base, exponent]));
+        };
+        match self.graph.as_number(base) {
+            Some(zero) if zero.is_zero() && number < Rational::ZERO => {
+                return self.report(
+                    Diagnostic::error(left, "division by zero")
+                        .label("0 to a negative power")
+                        .help(format!("the exponent is {number}")),
+                );
+            }
+            Some(negative) if *negative < Rational::ZERO && !number.is_int() => {
+                return self.report(
+                    Diagnostic::error(left, "a root of a negative number is not real")
+                        .label(format!("this is {negative}"))
+                        .help("cbrt(x) is the real cube root of either sign"),
+                );
+            }
+            _ => {}
+        }
+        let power = self.graph.power(base, number);
+        let unfolded =
+            self.graph.as_number(base).is_some() && self.graph.as_number(power).is_none();
+        if unfolded && self.graph.as_number(exponent).is_some_and(Rational::is_int) {
+            return self.report(
+                Diagnostic::error(right, "the power of a number is too long")
+                    .label("the exact result has thousands of digits"),
+            );
+        }
+        Some(power)
+    }
+
+    fn call(
+        &mut self,
+        name: &Spanned<String>,
+        values: &[Option<Expr>],
+        spans: &[Span],
+    ) -> Option<Expr> {
+        let Some((_, arity)) = FUNCTIONS.iter().find(|(function, _)| *function == name.value)
+        else {
+            let diagnostic = self.unknown_function(name);
+            return self.report(diagnostic);
+        };
+        if values.len() != *arity {
+            let plural = if *arity == 1 { "argument" } else { "arguments" };
+            let message =
+                format!("`{}` takes {arity} {plural}, found {}", name.value, values.len());
+            return self.report(
+                Diagnostic::error(name.span, message).label(format!("expected {arity} {plural}")),
+            );
+        }
+        let arguments: Vec<Expr> = values.iter().copied().collect::<Option<_>>()?;
+        self.outside_domain(&name.value, arguments[0], spans[0])?;
+        if name.value == "hypot" {
+            let (x, y) = (self.graph.power(arguments[0], 2), self.graph.power(arguments[1], 2));
+            let squares = self.graph.add(x, y);
+            return Some(self.graph.call(Function::Sqrt, &[squares]));
+        }
+        let function = Function::ALL.iter().find(|function| function.name() == name.value)?;
+        Some(self.graph.call(*function, &arguments))
+    }
+
+    /// Refuses an argument that is a number outside the function's domain.
+    fn outside_domain(&mut self, function: &str, argument: Expr, span: Span) -> Option<()> {
+        let Some(number) = self.graph.as_number(argument) else { return Some(()) };
+        let outside = match function {
+            "ln" => *number <= Rational::ZERO,
+            "sqrt" => *number < Rational::ZERO,
+            "asin" | "acos" => *number > Rational::ONE || *number < Rational::NEG_ONE,
+            _ => false,
+        };
+        if !outside {
+            return Some(());
+        }
+        let message = format!("`{function}` is not defined at {number}");
+        self.diagnostics.push(Diagnostic::error(span, message).label("outside the domain"));
+        None
+    }
+
+    fn unknown_function(&self, name: &Spanned<String>) -> Diagnostic {
+        let shown = &name.value;
+        if NON_SMOOTH.contains(&shown.as_str()) {
+            return Diagnostic::error(name.span, format!("`{shown}` is not smooth"))
+                .label("a manufactured solution is differentiated up to twice")
+                .help("a smooth field has a body force; choose one of the smooth functions");
+        }
+        if self.scope.names.contains_key(shown) {
+            return Diagnostic::error(name.span, format!("`{shown}` is not a function"))
+                .label("called like a function")
+                .help(format!("a product needs its sign: `{shown}*(...)`"));
+        }
+        let diagnostic = Diagnostic::error(name.span, format!("unknown function `{shown}`"))
+            .label("not a function");
+        let functions = FUNCTIONS.iter().map(|(function, _)| *function);
+        match did_you_mean(shown, functions.clone()) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None => {
+                let functions: Vec<_> = functions.collect();
+                diagnostic.help(format!("the functions are {}", functions.join(", ")))
+            }
+        }
+    }
+
+    /// A sufficient condition for a base to be positive: read off, not proved by bounds.
+    fn is_positive(&self, root: Expr) -> bool {
+        let mut positive = BTreeSet::new();
+        for expr in self.graph.reachable(&[root]) {
+            let holds = match self.graph.node(expr) {
+                Node::Number(number) => *number > Rational::ZERO,
+                Node::Pi | Node::Call(Function::Exp | Function::Cosh, _) => true,
+                Node::Symbol(symbol) => self.scope.positive.contains(symbol),
+                Node::Sum(constant, terms) => {
+                    *constant >= Rational::ZERO
+                        && terms.iter().all(|(term, coefficient)| {
+                            *coefficient > Rational::ZERO && positive.contains(term)
+                        })
+                }
+                Node::Product(factors) => factors.iter().all(|(base, _)| positive.contains(base)),
+                Node::Call(..) => false,
+            };
+            if holds {
+                positive.insert(expr);
+            }
+        }
+        positive.contains(&root)
+    }
+}
+
+fn forward_reference(name: &str, span: Span, definition: Span) -> Diagnostic {
+    // The definition that a formula belongs to is still announced while it is resolved.
+    let own = span.source == definition.source && definition.end <= span.start;
+    let message = if own {
+        format!("`{name}` is defined by itself")
+    } else {
+        format!("`{name}` is used before it is defined")
+    };
+    let help = if own {
+        "a definition may use only the names above it"
+    } else {
+        "definitions are read in order: move this one below"
+    };
+    Diagnostic::error(span, message).label("not defined yet").help(help)
+}

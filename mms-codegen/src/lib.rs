@@ -1,0 +1,23 @@
+//! Compiles a field file into differentiated, staged code. Text in, text out: no file system, no
+//! clock, no environment.
+//!
+//! A displacement field u(X, t) and a strain-energy density W go in; everything that follows from
+//! them (v, a, F, P, Div P, b, ...) comes out as a [`program::Program`], which the interpreter
+//! evaluates and the emitters print. The phases, each a function from the last one's output, are
+//! the body of [`compile`].
+
+pub mod certify;
+pub mod compile;
+pub mod diagnostic;
+pub mod emit;
+pub mod expr;
+pub mod mechanics;
+pub mod pass;
+pub mod program;
+pub mod quantity;
+pub mod source;
+pub mod spec;
+pub mod suggest;
+pub mod syntax;
+
+pub use compile::{Compiled, compile};

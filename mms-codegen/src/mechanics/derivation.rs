@@ -1,0 +1,141 @@
+//! From a resolved field to every quantity.
+
+use std::collections::BTreeMap;
+
+use super::kinematics::{Motion, Strain};
+use super::material::Law;
+use super::model::Model;
+use super::tensor::{Tensor, dot};
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::pass::factor::factor;
+use crate::quantity::Quantity;
+
+/// Functions of a displacement gradient H that the caller supplies: the material of the field as a
+/// solver needs it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Response {
+    /// Reference density rho0(X).
+    Density,
+    /// The fastest wave speed at F = I, m/s.
+    WaveSpeed,
+    /// W(H).
+    StrainEnergy,
+    /// P(H) = dW/dF.
+    FirstPiolaKirchhoff,
+    /// tau(H) = P F^T.
+    KirchhoffStress,
+}
+
+/// All quantities of a field as expressions.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// The components of each quantity, tensors row-major.
+    pub quantities: BTreeMap<Quantity, Vec<Expr>>,
+    /// The components of each response.
+    pub responses: BTreeMap<Response, Vec<Expr>>,
+}
+
+/// Derives every quantity of a field.
+pub fn derive(graph: &mut Graph, model: &Model) -> Derivation {
+    let law = Law::new(graph, model.energy);
+    let motion = Motion::new(graph, &model.displacement);
+    let mut quantities = kinematic_quantities(&motion);
+    quantities.extend(stress_quantities(graph, &law, &motion.strain));
+    let divergence = law.divergence(graph, &motion);
+    quantities.extend(balance_quantities(graph, model.density, &motion, divergence));
+    Derivation {
+        quantities: simplified(graph, quantities),
+        responses: {
+            let responses = responses(graph, &law, model);
+            simplified(graph, responses)
+        },
+    }
+}
+
+fn kinematic_quantities(motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {
+    let strain = &motion.strain;
+    BTreeMap::from([
+        (Quantity::Displacement, motion.displacement.clone()),
+        (Quantity::Velocity, motion.velocity.clone()),
+        (Quantity::Acceleration, motion.acceleration.clone()),
+        (Quantity::DisplacementGradient, strain.gradient.components().to_vec()),
+        (Quantity::DeformationGradient, strain.deformation.components().to_vec()),
+        (Quantity::Jacobian, vec![strain.jacobian]),
+    ])
+}
+
+/// W, P, P^T, sigma = tau/J, tau and P N.
+fn stress_quantities(
+    graph: &mut Graph,
+    law: &Law,
+    strain: &Strain,
+) -> BTreeMap<Quantity, Vec<Expr>> {
+    let energy = law.energy(graph, strain);
+    let first = law.first_piola_kirchhoff(graph, strain);
+    let kirchhoff = law.kirchhoff(graph, strain);
+    let per_volume = graph.power(strain.jacobian, -1);
+    let cauchy = kirchhoff.scale(graph, per_volume);
+    let dimension = first.dimension();
+    let traction = (0..dimension)
+        .map(|row| {
+            let pairs: Vec<_> = (0..dimension)
+                .map(|axis| (first.at(row, axis), graph.symbol(Symbol::Normal(axis))))
+                .collect();
+            dot(graph, pairs)
+        })
+        .collect();
+    BTreeMap::from([
+        (Quantity::StrainEnergy, vec![energy]),
+        (Quantity::FirstPiolaKirchhoff, first.components().to_vec()),
+        (Quantity::NominalStress, first.transpose().components().to_vec()),
+        (Quantity::CauchyStress, cauchy.components().to_vec()),
+        (Quantity::KirchhoffStress, kirchhoff.components().to_vec()),
+        (Quantity::Traction, traction),
+    ])
+}
+
+/// b = a - Div P / rho0 and rho0 b = rho0 a - Div P.
+fn balance_quantities(
+    graph: &mut Graph,
+    density: Expr,
+    motion: &Motion,
+    divergence: Vec<Expr>,
+) -> BTreeMap<Quantity, Vec<Expr>> {
+    let mut body_force = Vec::new();
+    let mut body_force_density = Vec::new();
+    for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
+        let specific = graph.div(*divergence, density);
+        body_force.push(graph.sub(*acceleration, specific));
+        let inertia = graph.mul(density, *acceleration);
+        body_force_density.push(graph.sub(inertia, *divergence));
+    }
+    BTreeMap::from([
+        (Quantity::DivP, divergence),
+        (Quantity::BodyForce, body_force),
+        (Quantity::BodyForceDensity, body_force_density),
+    ])
+}
+
+fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, Vec<Expr>> {
+    let dimension = model.displacement.len();
+    let gradient =
+        Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
+    let strain = Strain::new(graph, gradient);
+    let modulus = law.longitudinal_modulus(graph);
+    let squared_speed = graph.div(modulus, model.density);
+    let speed = graph.power(squared_speed, Rational::from_parts(1.into(), 2u8.into()));
+    BTreeMap::from([
+        (Response::Density, vec![model.density]),
+        (Response::WaveSpeed, vec![speed]),
+        (Response::StrainEnergy, vec![law.energy(graph, &strain)]),
+        (
+            Response::FirstPiolaKirchhoff,
+            law.first_piola_kirchhoff(graph, &strain).components().to_vec(),
+        ),
+        (Response::KirchhoffStress, law.kirchhoff(graph, &strain).components().to_vec()),
+    ])
+}
+
+fn simplified<K: Ord>(graph: &mut Graph, map: BTreeMap<K, Vec<Expr>>) -> BTreeMap<K, Vec<Expr>> {
+    map.into_iter().map(|(key, components)| (key, factor(graph, &components))).collect()
+}

@@ -1,0 +1,352 @@
+//! A field file with its names resolved: expressions instead of text.
+
+use crate::diagnostic::Diagnostic;
+use crate::expr::print::Names;
+use crate::expr::resolve::Scope;
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::quantity::Quantity;
+use crate::source::Span;
+use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec};
+use crate::suggest::did_you_mean;
+use crate::syntax;
+
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// A parameter of a field.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its default value, in terms of the parameters before it.
+    pub default: Expr,
+    /// Its unit, where the file states one.
+    pub unit: Option<String>,
+    /// What it is.
+    pub doc: Option<String>,
+}
+
+/// The reference body.
+#[derive(Clone, Debug)]
+pub enum Body {
+    /// A box with edges along the axes.
+    Box {
+        /// The least coordinates.
+        lower: Vec<Expr>,
+        /// The greatest coordinates.
+        upper: Vec<Expr>,
+    },
+    /// A plane ring, or a sector of it, about the origin.
+    Annulus {
+        /// The inner radius.
+        inner: Expr,
+        /// The outer radius.
+        outer: Expr,
+        /// The first and last angle.
+        theta: [Expr; 2],
+    },
+}
+
+/// The body and the time window that a field's claims are about, in terms of the parameters.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    /// The reference body.
+    pub body: Body,
+    /// The first and last time.
+    pub time: [Expr; 2],
+}
+
+/// A closed form that a quantity must agree with.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// What it is a closed form of.
+    pub quantity: Quantity,
+    /// Its components.
+    pub equals: Vec<Expr>,
+    /// Where it was published.
+    pub source: Option<String>,
+    /// Where it stands in the file.
+    pub span: Span,
+}
+
+/// A field whose formulas are expressions.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The parameters, in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// The names a reader knows: parameters and definitions.
+    pub names: Names,
+    /// u.
+    pub displacement: Vec<Expr>,
+    /// rho0.
+    pub density: Expr,
+    /// W, as a function of the material's invariants.
+    pub energy: Expr,
+    /// The reference body and the time window.
+    pub domain: Domain,
+    /// Closed forms from paper.
+    pub checks: Vec<Check>,
+}
+
+impl Model {
+    /// Resolves all formulas of a field and of its material. Reports every mistake, and returns
+    /// `None` if there was one.
+    pub fn resolve(
+        graph: &mut Graph,
+        field: &FieldSpec,
+        material: &MaterialSpec,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Model> {
+        let mut reader = Reader { graph, diagnostics, scope: Scope::default() };
+        let mut names = Names::default();
+        let parameters = reader.parameters(field, &mut names);
+        reader.coordinates(field.dimension);
+        reader.definitions(&field.lets, &mut names);
+        let displacement = reader.formulas(&field.displacement);
+        let density = reader.formula(&field.material.density);
+        reader.independent_of_time(density, &field.material.density, "density");
+        let energy = reader.energy(field, material);
+        let domain = reader.domain(&field.domain);
+        let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
+        Some(Model {
+            parameters: parameters?,
+            names,
+            displacement: displacement?,
+            density: density?,
+            energy: energy?,
+            domain: domain?,
+            checks: checks.into_iter().collect::<Option<_>>()?,
+        })
+    }
+}
+
+struct Reader<'a> {
+    graph: &'a mut Graph,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    scope: Scope,
+}
+
+impl Reader<'_> {
+    fn formula(&mut self, formula: &Formula) -> Option<Expr> {
+        let ast = syntax::parse(formula, self.diagnostics)?;
+        self.scope.resolve(self.graph, &ast, self.diagnostics)
+    }
+
+    /// Resolves all, so that every one reports its mistakes.
+    fn formulas(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
+        let values: Vec<_> = formulas.iter().map(|formula| self.formula(formula)).collect();
+        values.into_iter().collect()
+    }
+
+    fn parameters(&mut self, field: &FieldSpec, names: &mut Names) -> Option<Vec<Parameter>> {
+        let pi = self.graph.pi();
+        self.scope.define("pi", Some(pi));
+        for name in AXES.iter().chain(&["t"]) {
+            self.scope.withhold(name, "parameters are constants");
+        }
+        for parameter in &field.parameters {
+            self.scope.announce(&parameter.name);
+        }
+        for definition in &field.lets {
+            self.scope.announce(&definition.name);
+        }
+        let mut parameters = Vec::new();
+        for (index, parameter) in field.parameters.iter().enumerate() {
+            let name = &parameter.name.value;
+            let default = self.formula(&parameter.value);
+            for bound in parameter.range.iter().flatten() {
+                self.formula(bound);
+            }
+            let symbol = Symbol::Parameter(index);
+            if default.is_some_and(|value| {
+                self.graph.as_number(value).is_some_and(|number| *number > Rational::ZERO)
+            }) {
+                self.scope.assume_positive(symbol);
+            }
+            let leaf = self.graph.symbol(symbol);
+            self.scope.define(name, default.map(|_| leaf));
+            names.parameters.push(name.clone());
+            parameters.push(default.map(|default| Parameter {
+                name: name.clone(),
+                default,
+                unit: parameter.unit.as_ref().map(|unit| unit.value.clone()),
+                doc: parameter.doc.clone(),
+            }));
+        }
+        parameters.into_iter().collect()
+    }
+
+    fn coordinates(&mut self, dimension: usize) {
+        for (axis, name) in AXES.iter().enumerate() {
+            if axis < dimension {
+                let coordinate = self.graph.symbol(Symbol::Coordinate(axis));
+                self.scope.define(name, Some(coordinate));
+            } else {
+                let plural = if dimension == 1 { "dimension" } else { "dimensions" };
+                self.scope.withhold(name, format!("the field has {dimension} {plural}"));
+            }
+        }
+        let time = self.graph.symbol(Symbol::Time);
+        self.scope.define("t", Some(time));
+    }
+
+    fn definitions(&mut self, definitions: &[LetSpec], names: &mut Names) {
+        for definition in definitions {
+            let value = self.formula(&definition.value);
+            self.scope.define(&definition.name.value, value);
+            // A definition that is only another name for a leaf or a number names nothing new.
+            if let Some(value) =
+                value.filter(|value| self.graph.node(*value).children().next().is_some())
+            {
+                names.expressions.entry(value).or_insert_with(|| definition.name.value.clone());
+            }
+        }
+    }
+
+    fn independent_of_time(&mut self, value: Option<Expr>, formula: &Formula, what: &str) {
+        let Some(value) = value else { return };
+        if self.graph.symbols(value).contains(&Symbol::Time) {
+            self.diagnostics.push(
+                Diagnostic::error(formula.span, format!("{what} depends on time"))
+                    .label("expected parameters and reference coordinates only")
+                    .help("the mass and the elastic law of a material point do not change"),
+            );
+        }
+    }
+
+    /// Arguments of the material in the field's terms, then its density in the arguments' terms.
+    fn energy(&mut self, field: &FieldSpec, material: &MaterialSpec) -> Option<Expr> {
+        let mut inner = Scope::default();
+        let pi = self.graph.pi();
+        inner.define("pi", Some(pi));
+        self.invariants(&mut inner);
+        let known: Vec<&str> =
+            material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
+        let mut complete = true;
+        for (name, formula) in &field.material.arguments {
+            let value = self.formula(formula);
+            self.independent_of_time(
+                value,
+                formula,
+                &format!("material parameter `{}`", name.value),
+            );
+            complete &= value.is_some();
+            if known.contains(&name.value.as_str()) {
+                inner.define(&name.value, value);
+            } else {
+                complete = false;
+                let message = format!(
+                    "`{}` is not a parameter of `{}`",
+                    name.value, field.material.model.value
+                );
+                let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
+                self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
+                    Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+                    None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
+                });
+            }
+        }
+        for parameter in &material.parameters {
+            let name = &parameter.name.value;
+            if field.material.arguments.iter().any(|(given, _)| given.value == *name) {
+                continue;
+            }
+            complete = false;
+            let model = &field.material.model;
+            let what = parameter.doc.as_deref().unwrap_or("no description");
+            let message = format!("material parameter `{name}` of `{}` is missing", model.value);
+            self.diagnostics.push(
+                Diagnostic::error(model.span, message)
+                    .label(format!("needs `{name}`: {what}"))
+                    .help(format!("add `{name} = \"...\"` under [material]")),
+            );
+            inner.define(name, None);
+        }
+        let outer = std::mem::replace(&mut self.scope, inner);
+        for definition in &material.lets {
+            self.scope.announce(&definition.name);
+        }
+        self.definitions(&material.lets, &mut Names::default());
+        let energy = self.formula(&material.strain_energy);
+        self.scope = outer;
+        energy.filter(|_| complete)
+    }
+
+    /// I1, I2, I3 and J in terms of their departures from the undeformed state.
+    fn invariants(&mut self, scope: &mut Scope) {
+        use super::material::{FIRST, SECOND, VOLUME};
+        for (name, symbol, at_identity) in [("I1", FIRST, 3), ("I2", SECOND, 3), ("J", VOLUME, 1)] {
+            let (shift, constant) = (self.graph.symbol(symbol), self.graph.number(at_identity));
+            let invariant = self.graph.add(constant, shift);
+            scope.define(name, Some(invariant));
+            if name == "J" {
+                let square = self.graph.power(invariant, 2);
+                scope.define("I3", Some(square));
+            }
+        }
+        for name in ["I4", "eps_trace", "eps_squared"] {
+            scope.withhold(name, "densities are functions of I1, I2, I3 and J");
+        }
+        for name in AXES.iter().chain(&["t"]) {
+            scope.withhold(name, "a material knows no place and no time; a field's parameters may");
+        }
+    }
+
+    fn domain(&mut self, domain: &spec::DomainSpec) -> Option<Domain> {
+        let body = match &domain.body {
+            spec::Body::Box { lower, upper } => {
+                let (lower, upper) = (self.constants(lower), self.constants(upper));
+                Some(Body::Box { lower: lower?, upper: upper? })
+            }
+            spec::Body::Annulus { inner, outer, theta } => {
+                let radii = (self.constant(inner), self.constant(outer));
+                let theta = match theta {
+                    Some(theta) => theta.each_ref().map(|angle| self.constant(angle)),
+                    None => {
+                        let pi = self.graph.pi();
+                        [Some(self.graph.number(0)), Some(self.graph.scale(pi, 2))]
+                    }
+                };
+                let [first, last] = theta;
+                Some(Body::Annulus { inner: radii.0?, outer: radii.1?, theta: [first?, last?] })
+            }
+        };
+        let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
+        Some(Domain { body: body?, time: [first?, last?] })
+    }
+
+    fn constants(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
+        let values: Vec<_> = formulas.iter().map(|formula| self.constant(formula)).collect();
+        values.into_iter().collect()
+    }
+
+    /// A formula that only parameters may enter.
+    fn constant(&mut self, formula: &Formula) -> Option<Expr> {
+        let value = self.formula(formula)?;
+        let symbols = self.graph.symbols(value);
+        let intruder = symbols.into_iter().find(|symbol| !matches!(symbol, Symbol::Parameter(_)));
+        let Some(intruder) = intruder else { return Some(value) };
+        let name = Names::default().symbol(intruder);
+        self.diagnostics.push(
+            Diagnostic::error(formula.span, "the domain must be fixed")
+                .label(format!("depends on {name}"))
+                .help("use parameters, and definitions that contain no X, Y, Z or t"),
+        );
+        None
+    }
+
+    fn check(&mut self, check: &spec::CheckSpec) -> Option<Check> {
+        let outer = self.scope.clone();
+        for definition in &check.lets {
+            self.scope.announce(&definition.name);
+        }
+        self.definitions(&check.lets, &mut Names::default());
+        let equals = self.formulas(&check.equals);
+        self.scope = outer;
+        Some(Check {
+            quantity: check.quantity.value,
+            equals: equals?,
+            source: check.source.clone(),
+            span: check.quantity.span,
+        })
+    }
+}

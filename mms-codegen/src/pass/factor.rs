@@ -1,0 +1,77 @@
+//! Taking out what every term of a sum has in common: a x + a y = a (x + y).
+//!
+//! The rule never adds an operation. It also brings the terms that are left together, so that
+//! (1 + j) (m/(1 + j) + l/(1 + j)) becomes m + l.
+
+use std::collections::BTreeMap;
+
+use super::substitute::rebuild;
+use crate::expr::{Expr, Graph, Node, Rational};
+
+/// `roots` with common factors taken out of every sum below them.
+pub fn factor(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+    rebuild(graph, roots, |graph, node| {
+        let made = graph.remake(node);
+        factor_sum(graph, made)
+    })
+}
+
+fn factor_sum(graph: &mut Graph, expr: Expr) -> Expr {
+    let mut outer = Vec::new();
+    let mut inner = expr;
+    // Terms that were apart may meet inside and have factors in common again.
+    while let Some((common, rest)) = take_common(graph, inner) {
+        outer.extend(common);
+        inner = rest;
+    }
+    if outer.is_empty() {
+        return expr;
+    }
+    outer.push((inner, Rational::ONE));
+    graph.product(outer)
+}
+
+/// The powers that every term of a sum has, and the sum without them.
+fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Vec<(Expr, Rational)>, Expr)> {
+    let Node::Sum(constant, terms) = graph.node(expr) else { return None };
+    if !constant.is_zero() || terms.len() < 2 {
+        return None;
+    }
+    let terms = terms.clone();
+    let mut common = powers(graph, terms[0].0);
+    for (term, _) in &terms[1..] {
+        let other = powers(graph, *term);
+        common = common
+            .into_iter()
+            .filter_map(|(base, exponent)| {
+                let exponent = shared(&exponent, other.get(&base)?)?;
+                Some((base, exponent))
+            })
+            .collect();
+    }
+    if common.is_empty() {
+        return None;
+    }
+    let divisor: Vec<_> = common.iter().map(|(base, power)| (*base, -power.clone())).collect();
+    let mut rest = Vec::new();
+    for (term, coefficient) in terms {
+        let mut factors = divisor.clone();
+        factors.push((term, Rational::ONE));
+        rest.push((graph.product(factors), coefficient));
+    }
+    let rest = graph.sum(rest);
+    Some((common.into_iter().collect(), rest))
+}
+
+fn powers(graph: &Graph, term: Expr) -> BTreeMap<Expr, Rational> {
+    match graph.node(term) {
+        Node::Product(factors) => factors.iter().cloned().collect(),
+        _ => BTreeMap::from([(term, Rational::ONE)]),
+    }
+}
+
+/// The part of two powers of one base that both have. Powers of opposite sign share nothing.
+fn shared(a: &Rational, b: &Rational) -> Option<Rational> {
+    let same_sign = (*a > Rational::ZERO) == (*b > Rational::ZERO);
+    same_sign.then(|| a.min(b).clone())
+}

@@ -1,0 +1,6 @@
+//! Passes over the graph, one file each. Every pass is a loop over handles in order, operands
+//! first; none recurses.
+
+pub mod differentiate;
+pub mod factor;
+pub mod substitute;

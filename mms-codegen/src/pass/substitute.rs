@@ -1,0 +1,62 @@
+//! Rebuilding expressions with other leaves.
+
+use std::collections::BTreeMap;
+
+use crate::expr::{Expr, Graph, Node, Symbol};
+
+/// `roots` with every symbol that `values` names replaced by its value.
+pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, Expr>) -> Vec<Expr> {
+    rebuild(graph, roots, |graph, node| match node {
+        Node::Symbol(symbol) => match values.get(&symbol) {
+            Some(value) => *value,
+            None => graph.symbol(symbol),
+        },
+        other => graph.remake(other),
+    })
+}
+
+/// Rebuilds `roots` from their leaves up; `make` receives each node with rebuilt operands.
+pub(crate) fn rebuild(
+    graph: &mut Graph,
+    roots: &[Expr],
+    mut make: impl FnMut(&mut Graph, Node) -> Expr,
+) -> Vec<Expr> {
+    let mut rebuilt = BTreeMap::<Expr, Expr>::new();
+    for expr in graph.reachable(roots) {
+        let mut node = graph.node(expr).clone();
+        match &mut node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(_, weighted) | Node::Product(weighted) => {
+                for (child, _) in weighted {
+                    *child = rebuilt[child];
+                }
+            }
+            Node::Call(_, arguments) => {
+                for child in arguments {
+                    *child = rebuilt[child];
+                }
+            }
+        }
+        let made = make(graph, node);
+        rebuilt.insert(expr, made);
+    }
+    roots.iter().map(|root| rebuilt[root]).collect()
+}
+
+impl Graph {
+    /// The canonical expression of a node whose operands are any expressions.
+    pub(crate) fn remake(&mut self, node: Node) -> Expr {
+        match node {
+            Node::Number(number) => self.number(number),
+            Node::Pi => self.pi(),
+            Node::Symbol(symbol) => self.symbol(symbol),
+            Node::Sum(constant, mut terms) => {
+                let one = self.number(1);
+                terms.push((one, constant));
+                self.sum(terms)
+            }
+            Node::Product(factors) => self.product(factors),
+            Node::Call(function, arguments) => self.call(function, &arguments),
+        }
+    }
+}

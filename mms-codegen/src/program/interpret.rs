@@ -1,0 +1,160 @@
+//! The reference interpreter: runs a program in any scalar, stage by stage.
+
+use mms_math::Scalar;
+
+use super::{Op, Output, Program, Stage};
+use crate::expr::{Function, Rational, Symbol};
+
+/// A scalar that takes exact constants.
+pub trait Number: Scalar {
+    /// The value nearest to `number`.
+    ///
+    /// The quotient of two integers that the type holds exactly is rounded once, in every
+    /// precision; other numbers go through `f64`. Emitted code does the same.
+    fn from_rational(number: &Rational) -> Self {
+        match small_ratio(number) {
+            Some((numerator, 1)) => Self::from_f64(f64::from(numerator)),
+            Some((numerator, denominator)) => Self::ratio(numerator, denominator),
+            None => Self::from_f64(number.to_f64().value()),
+        }
+    }
+}
+
+impl Number for f32 {}
+impl Number for f64 {}
+
+/// Numerator and denominator, where both are exact even in `f32`.
+pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
+    const EXACT: i32 = 1 << 24;
+    let numerator = i32::try_from(number.numerator()).ok()?;
+    let denominator = i32::try_from(number.denominator()).ok()?;
+    (numerator.abs() <= EXACT && denominator <= EXACT).then_some((numerator, denominator))
+}
+
+/// What a point supplies, beside the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<'a, T> {
+    /// X, `dimension` components; empty where no output depends on it.
+    pub coordinates: &'a [T],
+    /// N, `dimension` components; empty where no traction is asked for.
+    pub normal: &'a [T],
+    /// H, row-major; empty where no response is asked for.
+    pub gradient: &'a [T],
+}
+
+impl<'a, T> Point<'a, T> {
+    /// A reference position, and nothing else.
+    pub fn at(coordinates: &'a [T]) -> Self {
+        Point { coordinates, normal: &[], gradient: &[] }
+    }
+}
+
+/// A program prepared for one set of parameters.
+#[derive(Clone, Debug)]
+pub struct Interpreter<'a, T> {
+    program: &'a Program,
+    values: Vec<T>,
+}
+
+impl<'a, T: Number> Interpreter<'a, T> {
+    /// Runs the Parameter stage. `parameters` are in the order of the field file.
+    pub fn new(program: &'a Program, parameters: &[T]) -> Self {
+        let values = vec![T::from_f64(0.0); program.instrs.len()];
+        let mut interpreter = Interpreter { program, values };
+        let all = vec![true; program.instrs.len()];
+        interpreter.run(Stage::Parameter, &all, |symbol| match symbol {
+            Symbol::Parameter(index) => parameters[index].clone(),
+            _ => unreachable!("the Parameter stage reads parameters only"),
+        });
+        interpreter
+    }
+
+    /// Runs the Time stage.
+    pub fn set_time(&mut self, time: &T) {
+        let all = vec![true; self.program.instrs.len()];
+        self.run(Stage::Time, &all, |symbol| match symbol {
+            Symbol::Time => time.clone(),
+            _ => unreachable!("the Time stage reads the time only"),
+        });
+    }
+
+    /// The instructions that some outputs need: computed once, and passed to every evaluation.
+    pub fn plan(&self, outputs: &[Output]) -> Vec<bool> {
+        self.program.needed(outputs)
+    }
+
+    /// Runs the Point and PointTime stages of a plan.
+    pub fn set_point(&mut self, plan: &[bool], point: Point<'_, T>) {
+        let dimension = point.coordinates.len();
+        for stage in [Stage::Point, Stage::PointTime] {
+            self.run(stage, plan, |symbol| match symbol {
+                Symbol::Coordinate(axis) => point.coordinates[axis].clone(),
+                Symbol::Normal(axis) => point.normal[axis].clone(),
+                Symbol::Gradient(row, column) => point.gradient[row * dimension + column].clone(),
+                _ => unreachable!("earlier stages have run"),
+            });
+        }
+    }
+
+    /// The components of an output that has been planned and run; a tensor is row-major.
+    pub fn output(&self, output: Output) -> Vec<T> {
+        let values = self.program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
+        values.iter().map(|value| self.values[value.index()].clone()).collect()
+    }
+
+    fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
+        let start = self.program.instrs.partition_point(|instr| instr.stage < stage);
+        for (index, instr) in self.program.instrs.iter().enumerate().skip(start) {
+            if instr.stage != stage {
+                break;
+            }
+            if plan[index] {
+                self.values[index] = self.apply(&instr.op, &input);
+            }
+        }
+    }
+
+    fn apply(&self, op: &Op, input: impl Fn(Symbol) -> T) -> T {
+        let of = |value: &super::Value| self.values[value.index()].clone();
+        match op {
+            Op::Constant(number) => T::from_rational(number),
+            Op::Pi => T::pi(),
+            Op::Input(symbol) => input(*symbol),
+            Op::Add(a, b) => of(a) + of(b),
+            Op::Subtract(a, b) => of(a) - of(b),
+            Op::Multiply(a, b) => of(a) * of(b),
+            Op::Divide(a, b) => of(a) / of(b),
+            Op::Negate(a) => -of(a),
+            Op::Unary(function, a) => unary(*function, of(a)),
+            Op::Binary(function, a, b) => binary(*function, of(a), of(b)),
+        }
+    }
+}
+
+fn unary<T: Scalar>(function: Function, x: T) -> T {
+    match function {
+        Function::Sqrt => x.sqrt(),
+        Function::Cbrt => x.cbrt(),
+        Function::Exp => x.exp(),
+        Function::Ln => x.ln(),
+        Function::Ln1p => x.ln_1p(),
+        Function::Sin => x.sin(),
+        Function::Cos => x.cos(),
+        Function::Tan => x.tan(),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
+    }
+}
+
+fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
+    match function {
+        Function::Atan2 => a.atan2(b),
+        Function::Powf => a.powf(b),
+        _ => unreachable!("a function of one argument"),
+    }
+}

@@ -1,0 +1,253 @@
+//! The staged, value-numbered form that is interpreted and emitted.
+//!
+//! A program is straight-line code over a small closed set of operations. Every value carries its
+//! [`Stage`]; the instructions stand in order of stage, operands first. A program knows no target
+//! language.
+
+pub mod interpret;
+pub mod precise;
+pub mod schedule;
+
+use std::collections::BTreeMap;
+
+use crate::expr::{Function, Rational, Symbol};
+use crate::mechanics::Response;
+use crate::quantity::Quantity;
+
+/// A handle to the result of one instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Value(pub(crate) u32);
+
+impl Value {
+    /// The position of the instruction in its program.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// When a value is known: which of {parameters, t, X} it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Parameters only: once.
+    Parameter,
+    /// Parameters and t: once per time.
+    Time,
+    /// Parameters and X: once per point, and then for all times.
+    Point,
+    /// X and t, or what a caller supplies at a point: every evaluation.
+    PointTime,
+}
+
+impl Stage {
+    /// Every stage, in the order of evaluation.
+    pub const ALL: [Stage; 4] = [Stage::Parameter, Stage::Time, Stage::Point, Stage::PointTime];
+
+    /// The stage of a value that needs values of both.
+    pub fn join(self, other: Stage) -> Stage {
+        match (self, other) {
+            (Stage::Time, Stage::Point) | (Stage::Point, Stage::Time) => Stage::PointTime,
+            _ => self.max(other),
+        }
+    }
+
+    /// The stage of a leaf.
+    pub fn of(symbol: Symbol) -> Stage {
+        match symbol {
+            Symbol::Parameter(_) => Stage::Parameter,
+            Symbol::Time => Stage::Time,
+            Symbol::Coordinate(_) => Stage::Point,
+            Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => Stage::PointTime,
+        }
+    }
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Parameter => "parameter",
+            Stage::Time => "time",
+            Stage::Point => "point",
+            Stage::PointTime => "point_time",
+        }
+    }
+}
+
+/// An operation on values.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// An exact number, rounded by whoever evaluates.
+    Constant(Rational),
+    /// pi.
+    Pi,
+    /// A leaf.
+    Input(Symbol),
+    /// a + b
+    Add(Value, Value),
+    /// a - b
+    Subtract(Value, Value),
+    /// a b
+    Multiply(Value, Value),
+    /// a / b
+    Divide(Value, Value),
+    /// -a
+    Negate(Value),
+    /// f(a)
+    Unary(Function, Value),
+    /// f(a, b)
+    Binary(Function, Value, Value),
+}
+
+impl Op {
+    /// The operands.
+    pub fn operands(&self) -> impl Iterator<Item = Value> {
+        let pair = match *self {
+            Op::Constant(_) | Op::Pi | Op::Input(_) => [None, None],
+            Op::Negate(a) | Op::Unary(_, a) => [Some(a), None],
+            Op::Add(a, b)
+            | Op::Subtract(a, b)
+            | Op::Multiply(a, b)
+            | Op::Divide(a, b)
+            | Op::Binary(_, a, b) => [Some(a), Some(b)],
+        };
+        pair.into_iter().flatten()
+    }
+
+    /// The same operation on other operands.
+    fn map(&self, mut rename: impl FnMut(Value) -> Value) -> Op {
+        match *self {
+            Op::Constant(ref number) => Op::Constant(number.clone()),
+            Op::Pi => Op::Pi,
+            Op::Input(symbol) => Op::Input(symbol),
+            Op::Add(a, b) => Op::Add(rename(a), rename(b)),
+            Op::Subtract(a, b) => Op::Subtract(rename(a), rename(b)),
+            Op::Multiply(a, b) => Op::Multiply(rename(a), rename(b)),
+            Op::Divide(a, b) => Op::Divide(rename(a), rename(b)),
+            Op::Negate(a) => Op::Negate(rename(a)),
+            Op::Unary(function, a) => Op::Unary(function, rename(a)),
+            Op::Binary(function, a, b) => Op::Binary(function, rename(a), rename(b)),
+        }
+    }
+
+    /// Whether the operation computes: constants, loads and a change of sign are free.
+    pub fn is_counted(&self) -> bool {
+        !matches!(self, Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_))
+    }
+}
+
+/// One operation, and when its result is known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Instr {
+    /// The operation.
+    pub op: Op,
+    /// When its result is known.
+    pub stage: Stage,
+}
+
+/// What a program computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Output {
+    /// A quantity of the field at a point and a time.
+    Quantity(Quantity),
+    /// A function of a supplied displacement gradient.
+    Response(Response),
+    /// A part of the domain.
+    Bound(Bound),
+    /// The default value of the parameter of that index.
+    Parameter(usize),
+    /// The closed form of the check of that index.
+    Expected(usize),
+}
+
+/// A part of the declared domain, in terms of the parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Bound {
+    /// The least coordinates of a box.
+    Lower,
+    /// The greatest coordinates of a box.
+    Upper,
+    /// The inner radius of an annulus.
+    Inner,
+    /// The outer radius of an annulus.
+    Outer,
+    /// The first and last angle of an annulus.
+    Theta,
+    /// The first and last time.
+    Time,
+}
+
+/// Straight-line code.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// In order of stage, operands first.
+    pub instrs: Vec<Instr>,
+    /// The components of each output, tensors row-major.
+    pub outputs: BTreeMap<Output, Vec<Value>>,
+}
+
+impl Program {
+    /// The instruction that makes a value.
+    pub fn instr(&self, value: Value) -> &Instr {
+        &self.instrs[value.index()]
+    }
+
+    /// Which instructions `outputs` need, by position.
+    pub fn needed(&self, outputs: &[Output]) -> Vec<bool> {
+        let mut needed = vec![false; self.instrs.len()];
+        for value in outputs.iter().filter_map(|output| self.outputs.get(output)).flatten() {
+            needed[value.index()] = true;
+        }
+        for index in (0..self.instrs.len()).rev() {
+            if needed[index] {
+                for operand in self.instrs[index].op.operands() {
+                    needed[operand.index()] = true;
+                }
+            }
+        }
+        needed
+    }
+
+    /// How many operations `outputs` take, stage by stage: + - * / and each function call count
+    /// one; constants, loads and changes of sign none.
+    pub fn operations(&self, outputs: &[Output]) -> BTreeMap<Stage, usize> {
+        let mut counts: BTreeMap<Stage, usize> = Stage::ALL.map(|stage| (stage, 0)).into();
+        for (instr, needed) in self.instrs.iter().zip(self.needed(outputs)) {
+            if needed && instr.op.is_counted() {
+                *counts.entry(instr.stage).or_default() += 1;
+            }
+        }
+        counts
+    }
+}
+
+impl std::fmt::Display for Program {
+    /// One instruction a line, then the outputs: the form in which programs are reviewed.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut stage = None;
+        for (index, instr) in self.instrs.iter().enumerate() {
+            if stage != Some(instr.stage) {
+                stage = Some(instr.stage);
+                writeln!(f, "{}:", instr.stage.name())?;
+            }
+            write!(f, "  v{index} = ")?;
+            match &instr.op {
+                Op::Constant(number) => writeln!(f, "{number}"),
+                Op::Pi => writeln!(f, "pi"),
+                Op::Input(symbol) => writeln!(f, "{symbol:?}"),
+                Op::Add(a, b) => writeln!(f, "v{} + v{}", a.0, b.0),
+                Op::Subtract(a, b) => writeln!(f, "v{} - v{}", a.0, b.0),
+                Op::Multiply(a, b) => writeln!(f, "v{} * v{}", a.0, b.0),
+                Op::Divide(a, b) => writeln!(f, "v{} / v{}", a.0, b.0),
+                Op::Negate(a) => writeln!(f, "-v{}", a.0),
+                Op::Unary(function, a) => writeln!(f, "{}(v{})", function.name(), a.0),
+                Op::Binary(function, a, b) => {
+                    writeln!(f, "{}(v{}, v{})", function.name(), a.0, b.0)
+                }
+            }?;
+        }
+        writeln!(f, "outputs:")?;
+        for (output, values) in &self.outputs {
+            let values: Vec<_> = values.iter().map(|value| format!("v{}", value.0)).collect();
+            writeln!(f, "  {output:?} = [{}]", values.join(", "))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,97 @@
+//! The glossary of quantities: one identifier, one symbol, one shape each, in every target.
+
+/// How many components a quantity has, for a field of dimension `D`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One component.
+    Scalar,
+    /// `D` components.
+    Vector,
+    /// `D` x `D` components, row-major.
+    Tensor,
+}
+
+impl Shape {
+    /// The number of components in `dimension` dimensions.
+    pub fn components(self, dimension: usize) -> usize {
+        match self {
+            Shape::Scalar => 1,
+            Shape::Vector => dimension,
+            Shape::Tensor => dimension * dimension,
+        }
+    }
+}
+
+macro_rules! quantities {
+    ($($variant:ident $name:literal $symbol:literal $shape:ident $unit:literal $doc:literal,)*) => {
+        /// What follows from a displacement field: the quantities a user can ask for.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Quantity {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl Quantity {
+            /// Every quantity, in the order of derivation.
+            pub const ALL: &[Quantity] = &[$(Quantity::$variant,)*];
+
+            /// The glossary's identifier, used in every target, in JSON and on the command line.
+            pub fn name(self) -> &'static str {
+                match self { $(Quantity::$variant => $name,)* }
+            }
+
+            /// The mathematical symbol.
+            pub fn symbol(self) -> &'static str {
+                match self { $(Quantity::$variant => $symbol,)* }
+            }
+
+            /// Scalar, vector or tensor.
+            pub fn shape(self) -> Shape {
+                match self { $(Quantity::$variant => Shape::$shape,)* }
+            }
+
+            /// The SI unit, where the field's own units are SI.
+            pub fn unit(self) -> &'static str {
+                match self { $(Quantity::$variant => $unit,)* }
+            }
+
+            /// One sentence on what it is.
+            pub fn doc(self) -> &'static str {
+                match self { $(Quantity::$variant => $doc,)* }
+            }
+        }
+    };
+}
+
+quantities! {
+    Displacement "displacement" "u" Vector "m" "Displacement u(X, t).",
+    Velocity "velocity" "v" Vector "m/s" "Velocity v = du/dt at fixed X.",
+    Acceleration "acceleration" "a" Vector "m/s^2" "Acceleration a = d2u/dt2 at fixed X.",
+    DisplacementGradient "displacement_gradient" "H" Tensor "1" "Displacement gradient H_iJ = du_i/dX_J.",
+    DeformationGradient "deformation_gradient" "F" Tensor "1" "Deformation gradient F = I + H.",
+    Jacobian "jacobian" "J" Scalar "1" "Jacobian J = det F.",
+    StrainEnergy "strain_energy" "W" Scalar "Pa" "Strain-energy density W per unit reference volume.",
+    FirstPiolaKirchhoff "first_piola_kirchhoff" "P" Tensor "Pa" "First Piola-Kirchhoff stress P_iJ = dW/dF_iJ.",
+    NominalStress "nominal_stress" "PT" Tensor "Pa" "Nominal stress P^T = J F^-1 sigma.",
+    CauchyStress "cauchy_stress" "sigma" Tensor "Pa" "Cauchy stress sigma = P F^T / J.",
+    KirchhoffStress "kirchhoff_stress" "tau" Tensor "Pa" "Kirchhoff stress tau = P F^T.",
+    DivP "div_p" "div_p" Vector "Pa/m" "Material divergence (Div P)_i = dP_iJ/dX_J.",
+    BodyForce "body_force" "b" Vector "m/s^2" "Body force per unit mass b = a - Div P / rho0.",
+    BodyForceDensity "body_force_density" "rho0_b" Vector "N/m^3" "Body force per unit reference volume rho0 b.",
+    Traction "traction" "T" Vector "Pa" "Traction P N on reference area, for the reference unit normal N.",
+}
+
+impl Quantity {
+    /// Those that a point and a time determine; a traction also needs the normal of a boundary.
+    pub fn pointwise() -> impl Iterator<Item = Quantity> {
+        Self::ALL.iter().copied().filter(|quantity| *quantity != Quantity::Traction)
+    }
+
+    /// The quantity of that identifier, or of one of the accepted aliases `u v a H F J P sigma b W`
+    /// (`div_p` is both).
+    pub fn from_name(name: &str) -> Option<Quantity> {
+        const ALIASED: &[&str] = &["u", "v", "a", "H", "F", "J", "P", "sigma", "b", "W"];
+        Self::ALL.iter().copied().find(|quantity| {
+            quantity.name() == name || (ALIASED.contains(&name) && quantity.symbol() == name)
+        })
+    }
+}

@@ -1,0 +1,115 @@
+//! Texts and places in them.
+
+/// A text with the path that messages show for it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The path as a user should read it, relative to the manifest where there is one.
+    pub path: String,
+    /// The whole text.
+    pub text: String,
+}
+
+/// Which of the [`Sources`] a place is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SourceId(u32);
+
+/// A byte range of one source; always on character boundaries of its text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Span {
+    /// The text.
+    pub source: SourceId,
+    /// The first byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+/// A value and the place where it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spanned<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The texts of one compilation: the field file, and its material file.
+#[derive(Clone, Debug, Default)]
+pub struct Sources(Vec<Source>);
+
+impl Sources {
+    /// Adds a text.
+    pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> SourceId {
+        let id = SourceId(u32::try_from(self.0.len()).unwrap_or(u32::MAX));
+        self.0.push(Source { path: path.into(), text: text.into() });
+        id
+    }
+
+    /// The text of that id.
+    pub fn get(&self, id: SourceId) -> &Source {
+        &self.0[id.0 as usize]
+    }
+
+    /// The bytes `start..end` of a text, moved onto character boundaries inside it: a place that
+    /// is always safe to slice, whoever computed it.
+    pub fn span(&self, source: SourceId, start: usize, end: usize) -> Span {
+        let text = &self.get(source).text;
+        let start = boundary_before(text, start);
+        Span { source, start, end: boundary_before(text, end).max(start) }
+    }
+
+    /// The text that a span covers.
+    pub fn slice(&self, span: Span) -> &str {
+        let span = self.span(span.source, span.start, span.end);
+        &self.get(span.source).text[span.start..span.end]
+    }
+
+    /// Line and column of the first character of a span, both counted from 1, columns in
+    /// characters.
+    pub fn location(&self, span: Span) -> (usize, usize) {
+        let text = &self.get(span.source).text;
+        let before = &text[..boundary_before(text, span.start)];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
+        (line, before[line_start..].chars().count() + 1)
+    }
+
+    /// `path:line:column` of where a span starts.
+    pub fn place(&self, span: Span) -> String {
+        let (line, column) = self.location(span);
+        format!("{}:{line}:{column}", self.get(span.source).path)
+    }
+}
+
+/// The last character boundary at or before an offset.
+fn boundary_before(text: &str, offset: usize) -> usize {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn location_counts_characters_not_bytes() {
+        let mut sources = Sources::default();
+        let id = sources.add("x.toml", "a\r\n\u{3bb}\u{3bc} b\n");
+        let place = |start| sources.location(sources.span(id, start, start));
+        assert_eq!(place(0), (1, 1));
+        assert_eq!(place(3), (2, 1));
+        assert_eq!(place(8), (2, 4));
+        assert_eq!(place(1000), (3, 1));
+    }
+
+    #[test]
+    fn spans_stay_on_character_boundaries() {
+        let mut sources = Sources::default();
+        let id = sources.add("x.toml", "\u{3bb}");
+        assert_eq!(sources.slice(sources.span(id, 1, 1)), "");
+        assert_eq!(sources.slice(sources.span(id, 0, 9)), "\u{3bb}");
+    }
+}

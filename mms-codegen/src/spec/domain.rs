@@ -1,0 +1,322 @@
+//! `[domain]`, `[boundary]` and `[rigid]`: where and when a field lives, what it claims on its
+//! faces, and how the whole of it moves.
+
+use super::formula::Formula;
+use super::table::{Entry, Reader, Table, list};
+use super::value::{plural, unknown_word};
+use crate::diagnostic::Diagnostic;
+use crate::source::{Span, Spanned};
+
+/// The shape of the reference body.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one in a file")]
+pub enum Body {
+    /// A box with edges along the axes.
+    Box {
+        /// The least coordinates, one per dimension.
+        lower: Vec<Formula>,
+        /// The greatest coordinates, one per dimension.
+        upper: Vec<Formula>,
+    },
+    /// The plane region between two circles around the origin, or a sector of it.
+    Annulus {
+        /// The inner radius.
+        inner: Formula,
+        /// The outer radius.
+        outer: Formula,
+        /// The angles between which a sector lies; all around without them.
+        theta: Option<[Formula; 2]>,
+    },
+}
+
+/// The reference body and the time window that all claims are about.
+#[derive(Clone, Debug)]
+pub struct DomainSpec {
+    /// The reference body.
+    pub body: Body,
+    /// The first and the last time.
+    pub time: [Formula; 2],
+}
+
+/// A named part of a body's boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Face {
+    /// The face of a box where the coordinate of that axis is least.
+    Min(usize),
+    /// The face of a box where the coordinate of that axis is greatest.
+    Max(usize),
+    /// The inner circle of an annulus.
+    Inner,
+    /// The outer circle of an annulus.
+    Outer,
+    /// The straight edge of a sector at its first angle.
+    ThetaMin,
+    /// The straight edge of a sector at its last angle.
+    ThetaMax,
+}
+
+impl Face {
+    const ALL: &[Face] = &[
+        Face::Min(0),
+        Face::Max(0),
+        Face::Min(1),
+        Face::Max(1),
+        Face::Min(2),
+        Face::Max(2),
+        Face::Inner,
+        Face::Outer,
+        Face::ThetaMin,
+        Face::ThetaMax,
+    ];
+
+    /// The key of `[boundary]` that names it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Face::Min(0) => "x_min",
+            Face::Max(0) => "x_max",
+            Face::Min(1) => "y_min",
+            Face::Max(1) => "y_max",
+            Face::Min(_) => "z_min",
+            Face::Max(_) => "z_max",
+            Face::Inner => "inner",
+            Face::Outer => "outer",
+            Face::ThetaMin => "theta_min",
+            Face::ThetaMax => "theta_max",
+        }
+    }
+
+    /// The faces of a body, in a fixed order.
+    pub fn of(body: &Body, dimension: usize) -> Vec<Face> {
+        match body {
+            Body::Box { .. } => {
+                (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
+            }
+            Body::Annulus { theta: None, .. } => vec![Face::Inner, Face::Outer],
+            Body::Annulus { theta: Some(_), .. } => {
+                vec![Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax]
+            }
+        }
+    }
+}
+
+/// What a field claims on a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Claim {
+    /// u = 0.
+    Fixed,
+    /// u.N = 0, and no tangential traction.
+    Roller,
+    /// P N = 0.
+    Free,
+    /// The solver is given u.
+    Prescribed,
+    /// The solver is given P N.
+    Traction,
+}
+
+impl Claim {
+    /// Every claim.
+    pub const ALL: &[Claim] =
+        &[Claim::Fixed, Claim::Roller, Claim::Free, Claim::Prescribed, Claim::Traction];
+
+    /// The word for it in a field file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Claim::Fixed => "fixed",
+            Claim::Roller => "roller",
+            Claim::Free => "free",
+            Claim::Prescribed => "prescribed",
+            Claim::Traction => "traction",
+        }
+    }
+}
+
+/// A claim about a face.
+#[derive(Clone, Debug)]
+pub struct BoundarySpec {
+    /// The face.
+    pub face: Spanned<Face>,
+    /// What is claimed there.
+    pub claim: Spanned<Claim>,
+}
+
+/// A prescribed rigid motion on top of the field: x -> Q x + c.
+#[derive(Clone, Debug)]
+pub struct RigidSpec {
+    /// The rotation Q(t).
+    pub rotation: Option<Rotation>,
+    /// The translation c(t), one component per dimension.
+    pub translation: Option<Vec<Formula>>,
+    /// The table.
+    pub span: Span,
+}
+
+/// A rotation around the origin.
+#[derive(Clone, Debug)]
+pub enum Rotation {
+    /// In the plane, by an angle.
+    Plane(Formula),
+    /// In space, around an axis.
+    Space {
+        /// The three components of the axis; its length does not matter.
+        axis: Vec<Formula>,
+        /// The angle.
+        angle: Formula,
+    },
+}
+
+const SHAPES: &[&str] = &["box", "annulus"];
+const DOMAIN: &[&str] = &["shape", "lower", "upper", "inner", "outer", "theta", "time"];
+
+/// A domain without content, in place of one whose absence has been reported.
+pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
+    let corner = vec![Formula::reported(span); dimension];
+    let body = Body::Box { lower: corner.clone(), upper: corner };
+    DomainSpec { body, time: [Formula::reported(span), Formula::reported(span)] }
+}
+
+/// Reads `[domain]`.
+pub(super) fn domain<'a>(
+    entry: &Entry<'a>,
+    dimension: usize,
+    reader: &mut Reader<'a>,
+) -> DomainSpec {
+    let Some(table) = reader.table(entry, "[domain]", DOMAIN) else {
+        return reported(dimension, reader.span(entry.value));
+    };
+    let shape = reader.required(&table, "shape");
+    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", SHAPES));
+    // Without a valid shape the keys tell what was meant.
+    let is_annulus = match &named {
+        Some(shape) => shape.value == "annulus",
+        None => table.get("inner").is_some() || table.get("outer").is_some(),
+    };
+    let body = if is_annulus {
+        if let Some(shape) = named.filter(|_| dimension != 2) {
+            let message = format!("an annulus is 2-dimensional, but the field is {dimension}-D");
+            reader.report(Diagnostic::error(shape.span, message).label("needs `dimension = 2`"));
+        }
+        annulus(&table, reader)
+    } else {
+        cuboid(&table, dimension, reader)
+    };
+    let time = match reader.required(&table, "time") {
+        Some(time) => reader.pair(&time, "expected the first and the last time"),
+        None => [Formula::reported(table.span), Formula::reported(table.span)],
+    };
+    DomainSpec { body, time }
+}
+
+fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Body {
+    for key in ["inner", "outer", "theta"] {
+        reader.refuse(table, key, "a box has `lower` and `upper`");
+    }
+    let reason = one_per_dimension(dimension);
+    Body::Box {
+        lower: reader.required_formulas(table, "lower", dimension, &reason),
+        upper: reader.required_formulas(table, "upper", dimension, &reason),
+    }
+}
+
+fn annulus<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Body {
+    for key in ["lower", "upper"] {
+        reader.refuse(table, key, "an annulus has `inner`, `outer` and, for a sector, `theta`");
+    }
+    Body::Annulus {
+        inner: reader.required_formula(table, "inner"),
+        outer: reader.required_formula(table, "outer"),
+        theta: table
+            .get("theta")
+            .map(|theta| reader.pair(&theta, "expected the first and the last angle")),
+    }
+}
+
+/// Why a vector must have so many components.
+pub(super) fn one_per_dimension(dimension: usize) -> String {
+    format!("a {dimension}-D field has {}", plural(dimension, "component"))
+}
+
+/// Reads `[boundary]`. Without a body, any face of any body will do.
+pub(super) fn boundary<'a>(
+    entry: &Entry<'a>,
+    body: Option<&Body>,
+    dimension: usize,
+    reader: &mut Reader<'a>,
+) -> Vec<BoundarySpec> {
+    let Some(table) = reader.open_table(entry, "[boundary]") else { return Vec::new() };
+    let faces = body.map_or_else(|| Face::ALL.to_vec(), |body| Face::of(body, dimension));
+    let claims: Vec<_> = Claim::ALL.iter().map(|claim| claim.name()).collect();
+    let mut boundary = Vec::new();
+    for entry in &table.entries {
+        let face = face(&entry.key, &faces, reader);
+        let claim = reader.word(entry, "claim", &claims).and_then(|word| {
+            let claim = Claim::ALL.iter().find(|claim| claim.name() == word.value)?;
+            Some(Spanned { value: *claim, span: word.span })
+        });
+        if let (Some(face), Some(claim)) = (face, claim) {
+            boundary.push(BoundarySpec { face, claim });
+        }
+    }
+    boundary
+}
+
+fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Option<Spanned<Face>> {
+    if let Some(face) = faces.iter().find(|face| face.name() == key.value) {
+        return Some(Spanned { value: *face, span: key.span });
+    }
+    let names: Vec<_> = faces.iter().map(|face| face.name()).collect();
+    let exists_elsewhere = Face::ALL.iter().any(|face| face.name() == key.value);
+    reader.report(if exists_elsewhere {
+        Diagnostic::error(key.span, format!("this body has no face `{}`", key.value))
+            .label(format!("its faces are {}", list(&names)))
+    } else {
+        unknown_word(key, "face", &names)
+    });
+    None
+}
+
+/// Reads `[rigid]`.
+pub(super) fn rigid<'a>(
+    entry: &Entry<'a>,
+    dimension: usize,
+    reader: &mut Reader<'a>,
+) -> Option<RigidSpec> {
+    let table = reader.table(entry, "[rigid]", &["rotation", "translation"])?;
+    if table.entries.is_empty() {
+        let message = "a rigid motion needs a `rotation`, a `translation` or both";
+        reader.report(Diagnostic::error(table.span, message).label("this one has neither"));
+    }
+    let rotation = table.get("rotation").and_then(|entry| rotation(&entry, dimension, reader));
+    let translation = table
+        .get("translation")
+        .map(|entry| reader.formulas(&entry, dimension, &one_per_dimension(dimension)));
+    Some(RigidSpec { rotation, translation, span: table.span })
+}
+
+fn rotation<'a>(entry: &Entry<'a>, dimension: usize, reader: &mut Reader<'a>) -> Option<Rotation> {
+    match dimension {
+        1 => {
+            let message = "a 1-dimensional field cannot rotate";
+            reader.report(
+                Diagnostic::error(entry.key.span, message)
+                    .label("needs `dimension = 2` or `dimension = 3`"),
+            );
+            None
+        }
+        2 => Some(Rotation::Plane(reader.formula("rotation", entry.value))),
+        _ => space_rotation(entry, reader),
+    }
+}
+
+fn space_rotation<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Rotation> {
+    if !entry.value.get_ref().is_table() {
+        let instead = r#"write rotation = { axis = ["0", "0", "1"], angle = "..." }"#;
+        let expected = "a table with its `axis` and `angle`";
+        reader.wrong_type_because("rotation", entry.value, expected, Some(instead.into()));
+        return None;
+    }
+    let table = reader.table(entry, "the rotation", &["axis", "angle"])?;
+    let axis = reader.required_formulas(&table, "axis", 3, "expected three components");
+    let angle = reader.required_formula(&table, "angle");
+    Some(Rotation::Space { axis, angle })
+}

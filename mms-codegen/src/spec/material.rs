@@ -1,0 +1,178 @@
+//! Materials: the `[material]` table of a field, and material files.
+
+use super::document::Document;
+use super::formula::Formula;
+use super::names::{Keeper, Names};
+use super::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
+use super::table::{Entry, Reader, Table};
+use crate::diagnostic::{Diagnostic, quoted};
+use crate::source::{SourceId, Sources, Span, Spanned};
+use crate::suggest::did_you_mean;
+
+/// Which material a field uses, and with what in the place of its parameters.
+#[derive(Clone, Debug)]
+pub struct MaterialUse {
+    /// A shipped material's stem, or the path of a material file; empty where it is missing, which
+    /// has been reported.
+    pub model: Spanned<String>,
+    /// The reference density rho0.
+    pub density: Formula,
+    /// A formula for each parameter of the material, in the order of the file.
+    pub arguments: Vec<(Spanned<String>, Formula)>,
+    /// The reference direction of the fibres: three components.
+    pub fibre: Option<Vec<Formula>>,
+    /// The `[material]` header.
+    pub span: Span,
+}
+
+/// A material file.
+#[derive(Clone, Debug)]
+pub struct MaterialSpec {
+    /// The file's stem.
+    pub name: String,
+    /// What it is, in a few words.
+    pub title: String,
+    /// Where it comes from.
+    pub reference: Option<String>,
+    /// The strain-energy density W per unit reference volume.
+    pub strain_energy: Formula,
+    /// Whether W is claimed to stay the same under rotations.
+    pub frame_indifferent: bool,
+    /// The parameters.
+    pub parameters: Vec<MaterialParameter>,
+    /// The definitions, in order.
+    pub lets: Vec<LetSpec>,
+    /// Formulas that have lost their place to a reported mistake.
+    pub stray: Vec<Formula>,
+    /// Whether TOML lost part of the file: an unknown name may be a consequence of that.
+    pub incomplete: bool,
+}
+
+impl MaterialSpec {
+    /// Every formula of the file.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        let lets = self.lets.iter().map(|definition| &definition.value);
+        lets.chain([&self.strain_energy]).chain(&self.stray)
+    }
+}
+
+const OWN_KEYS: &[&str] = &["model", "density", "fibre"];
+
+impl MaterialUse {
+    /// A material without content, in place of one whose absence has been reported.
+    pub(super) fn reported(span: Span) -> Self {
+        MaterialUse {
+            model: Spanned { value: String::new(), span },
+            density: Formula::reported(span),
+            arguments: Vec::new(),
+            fibre: None,
+            span,
+        }
+    }
+}
+
+/// Reads `[material]` of a field.
+pub(super) fn material_use<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> MaterialUse {
+    let Some(table) = reader.open_table(entry, "[material]") else {
+        return MaterialUse::reported(reader.span(entry.value));
+    };
+    let misspelt = misspelt_keys(&table, reader);
+    let mut spec = MaterialUse::reported(table.span);
+    let is_misspelt = |key: &str| misspelt.iter().any(|(_, meant)| *meant == key);
+    if !is_misspelt("model") {
+        spec.model = model(&table, reader).unwrap_or(spec.model);
+    }
+    if !is_misspelt("density") {
+        spec.density = reader.required_formula(&table, "density");
+    }
+    spec.fibre = table
+        .get("fibre")
+        .map(|fibre| reader.formulas(&fibre, 3, "expected a direction in space: three components"));
+    for Entry { key, value } in &table.entries {
+        let is_argument = !OWN_KEYS.contains(&key.value.as_str());
+        if is_argument && !misspelt.iter().any(|(found, _)| *found == key.value) {
+            spec.arguments.push((key.clone(), reader.formula(&key.value, value)));
+        }
+    }
+    spec
+}
+
+fn model<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
+    let model = reader.required_string(table, "model")?;
+    if model.value.is_empty() {
+        let message =
+            "`model` must be a shipped material's name, or a path such as \"./mine.toml\"";
+        reader.report(Diagnostic::error(model.span, message).label("this is empty"));
+    }
+    Some(model)
+}
+
+/// Keys that would be arguments, but for their likeness to a key that is absent.
+fn misspelt_keys(table: &Table<'_>, reader: &mut Reader<'_>) -> Vec<(String, &'static str)> {
+    let absent: Vec<_> = OWN_KEYS.iter().copied().filter(|key| table.get(key).is_none()).collect();
+    let mut misspelt = Vec::new();
+    for Entry { key, .. } in &table.entries {
+        if OWN_KEYS.contains(&key.value.as_str()) || reader.is_incomplete() {
+            continue;
+        }
+        let Some(meant) = did_you_mean(&key.value, absent.iter().copied()) else { continue };
+        reader.report(
+            Diagnostic::error(key.span, format!("unknown key {}", quoted(&key.value)))
+                .label(format!("[material] needs `{meant}`"))
+                .did_you_mean(Some(meant)),
+        );
+        misspelt.push((key.value.clone(), meant));
+    }
+    misspelt
+}
+
+/// Reads a material file. `None` only where the file is too long to be read.
+pub fn read_material(
+    sources: &Sources,
+    id: SourceId,
+    name: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<MaterialSpec> {
+    let document = Document::parse(sources, id, diagnostics)?;
+    let mut reader = Reader::new(sources, id, &document, diagnostics);
+    let root = reader.root("a material file", &document.root, &["material", "parameters", "let"]);
+    let mut names = Names::new(Keeper::Material);
+    let parameters = root
+        .get("parameters")
+        .and_then(|entry| reader.open_table(&entry, "[parameters]"))
+        .map(|table| material_parameters(&table, &mut names, &mut reader));
+    let definitions = root
+        .get("let")
+        .and_then(|entry| reader.open_table(&entry, "[let]"))
+        .map(|table| lets(&table, &mut names, &mut reader));
+    let mut spec = MaterialSpec {
+        name: name.into(),
+        title: String::new(),
+        reference: None,
+        strain_energy: Formula::reported(root.span),
+        frame_indifferent: true,
+        parameters: parameters.unwrap_or_default(),
+        lets: definitions.unwrap_or_default(),
+        stray: Vec::new(),
+        incomplete: document.incomplete,
+    };
+    if let Some(entry) = reader.required_table(&root, "material") {
+        header(&entry, &mut spec, &mut reader);
+    }
+    spec.stray = reader.stray;
+    Some(spec)
+}
+
+fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a>) {
+    let Some(table) = reader.table(entry, "[material]", HEADER) else { return };
+    if let Some(title) = reader.required_string(&table, "title") {
+        spec.title = title.value;
+    }
+    spec.reference = reader.optional_string(&table, "reference");
+    spec.strain_energy = reader.required_formula(&table, "strain_energy");
+    if let Some(entry) = table.get("frame_indifferent") {
+        spec.frame_indifferent = reader.boolean(&entry).unwrap_or(true);
+    }
+}
+
+const HEADER: &[&str] = &["title", "reference", "strain_energy", "frame_indifferent"];

@@ -1,0 +1,35 @@
+//! From TOML to [`FieldSpec`] and [`MaterialSpec`]: what a file says, in form only.
+//!
+//! The promise: every key of format 1 is read, every key that is not in it is refused, every
+//! value has its place, and one run reports every mistake of form in a file, each once. Names are
+//! checked where they are defined; what they mean where they are used is for `expr` to resolve,
+//! and nothing here knows calculus.
+//!
+//! A mistake never hides another: what could not be read is replaced by a formula that stands for
+//! it ([`Formula::reported`]), so that the counts are right and later phases can go on without
+//! reporting consequences.
+
+mod brackets;
+mod check;
+mod document;
+mod domain;
+mod field;
+mod formula;
+mod material;
+pub mod names;
+mod study;
+mod symbols;
+mod table;
+mod value;
+
+pub use check::{CheckSpec, ExtremeSpec};
+pub use document::MAX_FILE;
+pub use domain::{Body, BoundarySpec, Claim, DomainSpec, Face, RigidSpec, Rotation};
+pub use field::{FieldSpec, read_field};
+pub use formula::Formula;
+pub use material::{MaterialSpec, MaterialUse, read_material};
+pub use study::{FILLS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS};
+pub use symbols::{LetSpec, MaterialParameter, ParameterSpec};
+
+#[cfg(test)]
+pub(crate) use formula::formula_in;

@@ -1,0 +1,57 @@
+//! The tree of an expression, flat.
+
+use dashu_ratio::RBig;
+
+use crate::source::{Span, Spanned};
+
+/// An expression in postfix order: every node stands after its operands, the root is last.
+/// Without boxes there is no deep tree to walk or to drop.
+#[derive(Clone, Debug)]
+pub struct Ast {
+    /// The nodes; never empty.
+    pub nodes: Vec<Node>,
+}
+
+/// A part of an expression, and where it stands.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// What it is.
+    pub kind: Kind,
+    /// From its first to its last character, without parentheses around it.
+    pub span: Span,
+}
+
+/// What a node is; operands are indices into [`Ast::nodes`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// An exact number.
+    Number(RBig),
+    /// A name, not yet looked up.
+    Name(String),
+    /// The negative of an operand.
+    Negate(usize),
+    /// An operator between two operands.
+    Binary(Operator, usize, usize),
+    /// A function of its arguments, not yet looked up.
+    Call {
+        /// The function.
+        name: Spanned<String>,
+        /// The arguments, in order.
+        arguments: Vec<usize>,
+    },
+}
+
+/// The operators with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `^`
+    Power,
+}

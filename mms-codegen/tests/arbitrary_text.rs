@@ -1,0 +1,118 @@
+//! No text makes the front end panic, hang or overflow a stack.
+
+use mms_codegen::diagnostic::render;
+use mms_codegen::source::Sources;
+use mms_codegen::spec::{read_field, read_material};
+use mms_codegen::syntax::parse;
+use proptest::prelude::*;
+
+const BAR: &str = include_str!("data/pass/every_key_2d.toml");
+
+/// Reads a text as a field and as a material, parses every formula, and renders what was found.
+fn survive(text: &str) {
+    let mut sources = Sources::default();
+    let id = sources.add("x.toml", text);
+    let mut diagnostics = Vec::new();
+    if let Some(spec) = read_field(&sources, id, "x", &mut diagnostics) {
+        assert_eq!(spec.displacement.len(), spec.dimension);
+        spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
+    }
+    if let Some(spec) = read_material(&sources, id, "x", &mut diagnostics) {
+        spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
+    }
+    for diagnostic in &diagnostics {
+        let span = diagnostic.span;
+        assert!(text.get(span.start..span.end).is_some(), "{diagnostic:?} is no place in {text:?}");
+    }
+    render(&sources, &diagnostics);
+}
+
+/// Pieces of field files, so that random texts reach past the TOML.
+fn fragments() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        Just("[field]\n"),
+        Just("[let]\n"),
+        Just("[displacement]\n"),
+        Just("[material]\n"),
+        Just("[[check]]\n"),
+        Just("[[study]]\n"),
+        Just("[domain]\n"),
+        Just("[boundary]\n"),
+        Just("[parameters]\n"),
+        Just("[rigid]\n"),
+        Just("[[extreme]]\n"),
+        Just("dimension = 2\n"),
+        Just("u = [\"X\", 1]\n"),
+        Just("a = "),
+        Just("b."),
+        Just("\"X^2\"\n"),
+        Just("\"\\u03bb(\"\n"),
+        Just("{ value = 1e-400 }\n"),
+        Just("{ value = "),
+        Just("[1, "),
+        Just("'''\n"),
+        Just("\"\"\""),
+        Just("inf\n"),
+        Just("0x1F\n"),
+        Just("= "),
+        Just("]"),
+        Just("}"),
+        Just("\n"),
+        Just(" "),
+        Just("shape = \"annulus\"\n"),
+        Just("x_min = \"fixed\"\n"),
+        Just("lower = [0]\n"),
+        Just("\u{e9}"),
+        Just("\r"),
+        Just("\0"),
+        Just("let = { F = \"1\" }\n"),
+        Just("\"\\q\"\n"),
+    ];
+    prop::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+    #[test]
+    fn any_text(text in any::<String>()) {
+        survive(&text);
+    }
+
+    #[test]
+    fn any_pieces(text in fragments()) {
+        survive(&text);
+    }
+
+    #[test]
+    fn any_formula(text in "[-+*/^(),.0-9a-zX_ \u{3bb}]{0,60}") {
+        survive(&format!("[field]\ndimension = 1\n[displacement]\nu = [\"{text}\"]\n[material]"));
+    }
+
+    #[test]
+    fn any_cut_of_a_good_file(at in 0..BAR.len(), length in 0_usize..40, with in any::<String>()) {
+        let at = (0..=at).rev().find(|at| BAR.is_char_boundary(*at)).unwrap_or(0);
+        let end = (at + length).min(BAR.len());
+        let end = (end..=BAR.len()).find(|end| BAR.is_char_boundary(*end)).unwrap_or(BAR.len());
+        survive(&format!("{}{with}{}", &BAR[..at], &BAR[end..]));
+    }
+}
+
+#[test]
+fn long_and_deep_texts_are_answered() {
+    let formula = |text: String| format!("[displacement]\nu = [\"{text}\"]\n");
+    for text in [
+        "[".repeat(200_000),
+        "a = ".to_string() + &"[".repeat(200_000),
+        "a.".repeat(200_000),
+        "[a]\n".repeat(20_000),
+        "a = 1\n".repeat(20_000),
+        (0..20_000).map(|index| format!("lenght{index} = 1\n")).collect(),
+        "[let]\n".to_string()
+            + &(0..20_000).map(|at| format!("X{at} = true\n")).collect::<String>(),
+        formula("(".repeat(200_000)),
+        formula("\\\\".repeat(100_000)),
+        formula("1e1000*".repeat(20_000)),
+        "x".repeat(2_000_000),
+    ] {
+        survive(&text);
+    }
+}

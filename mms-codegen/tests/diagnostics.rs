@@ -1,0 +1,91 @@
+//! Every file in `data/fail` is wrong, and says what it is about: the text that a user sees for
+//! `NAME.toml` must be exactly `NAME.expected`. The folder is its own list.
+//!
+//! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test diagnostics` writes
+//! the `.expected` files anew; read the difference before it is committed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mms_codegen::diagnostic::render;
+use mms_codegen::source::Sources;
+use mms_codegen::spec::{read_field, read_material};
+use mms_codegen::syntax::parse;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/fail")
+}
+
+fn cases() -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder()).expect("tests/data/fail");
+    let paths = entries.map(|entry| entry.expect("an entry of tests/data/fail").path());
+    let mut cases: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    cases.sort();
+    cases
+}
+
+/// What a user sees for a text. Files named `material_*` are material files.
+fn rendered(name: &str, text: &str) -> String {
+    let mut sources = Sources::default();
+    let id = sources.add(format!("{name}.toml"), text);
+    let mut diagnostics = Vec::new();
+    if name.starts_with("material_") {
+        if let Some(spec) = read_material(&sources, id, name, &mut diagnostics) {
+            spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
+        }
+    } else if let Some(spec) = read_field(&sources, id, name, &mut diagnostics) {
+        spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
+    }
+    render(&sources, &diagnostics)
+}
+
+#[test]
+fn each_wrong_file_gets_its_message() {
+    let bless = std::env::var_os("MMS_BLESS").is_some();
+    let mut failures = Vec::new();
+    for path in cases() {
+        let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).expect("a readable file");
+        let found = rendered(&name, &text);
+        let expected_path = path.with_extension("expected");
+        if bless {
+            fs::write(&expected_path, &found).expect("a writable file");
+        }
+        let expected = fs::read_to_string(&expected_path).unwrap_or_default();
+        if found.is_empty() {
+            failures.push(format!("{name}.toml: nothing was found wrong with it"));
+        } else if found != expected {
+            failures.push(format!("{name}.toml: expected\n{expected}\nbut found\n{found}"));
+        }
+    }
+    assert!(
+        failures.is_empty(),
+        "{} of tests/data/fail differ; if that is right, run with MMS_BLESS=1\n\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
+}
+
+#[test]
+fn no_expectation_is_orphaned() {
+    for entry in fs::read_dir(folder()).expect("tests/data/fail") {
+        let path = entry.expect("an entry of tests/data/fail").path();
+        let input = path.with_extension("toml");
+        assert!(input.exists(), "{} has no .toml beside it", path.display());
+    }
+}
+
+#[test]
+fn every_message_has_its_own_place() {
+    for path in cases() {
+        let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).expect("a readable file");
+        let found = rendered(&name, &text);
+        let messages = found.lines().filter(|line| line.starts_with("error:")).count();
+        let places =
+            found.lines().filter(|line| line.contains(&format!("--> {name}.toml:"))).count();
+        assert_eq!(messages, places, "{found}");
+    }
+}

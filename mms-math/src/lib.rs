@@ -1,0 +1,75 @@
+//! The scalar trait that generated functions, the interpreter and the solver compute with.
+//!
+//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, dual
+//! numbers or arbitrary precision. The crate has no dependencies and needs no standard library
+//! unless the feature `std` (on by default) supplies the elementary functions of `f32` and `f64`.
+#![no_std]
+
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(feature = "std")]
+mod float;
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number in some precision: the arithmetic and the elementary functions of a field.
+///
+/// `Clone` rather than `Copy`, so that arbitrary-precision numbers qualify. Outside a function's
+/// domain an implementation returns its own not-a-number or infinity; it never panics.
+pub trait Scalar:
+    Clone
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The nearest value to `value`; exact where the type holds a 53-bit significand.
+    fn from_f64(value: f64) -> Self;
+
+    /// `numerator / denominator`, rounded once where both are exact in this type.
+    fn ratio(numerator: i32, denominator: i32) -> Self {
+        Self::from_f64(f64::from(numerator)) / Self::from_f64(f64::from(denominator))
+    }
+
+    /// The circle's half circumference over its radius.
+    fn pi() -> Self;
+
+    /// The square root.
+    fn sqrt(self) -> Self;
+    /// The real cube root, of either sign.
+    fn cbrt(self) -> Self;
+    /// The exponential function.
+    fn exp(self) -> Self;
+    /// exp(self) - 1 without cancellation near 0.
+    fn exp_m1(self) -> Self;
+    /// The natural logarithm.
+    fn ln(self) -> Self;
+    /// ln(1 + self) without cancellation near 0.
+    fn ln_1p(self) -> Self;
+    /// The sine of an angle in radians.
+    fn sin(self) -> Self;
+    /// The cosine of an angle in radians.
+    fn cos(self) -> Self;
+    /// The tangent of an angle in radians.
+    fn tan(self) -> Self;
+    /// The hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// The hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// The hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// The inverse sine, in [-pi/2, pi/2].
+    fn asin(self) -> Self;
+    /// The inverse cosine, in [0, pi].
+    fn acos(self) -> Self;
+    /// The inverse tangent, in (-pi/2, pi/2).
+    fn atan(self) -> Self;
+    /// The angle of the point (`x`, `self`), in (-pi, pi].
+    fn atan2(self, x: Self) -> Self;
+    /// `self` to the power `exponent`, for a positive base.
+    fn powf(self, exponent: Self) -> Self;
+}

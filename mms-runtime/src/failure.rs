@@ -1,0 +1,169 @@
+//! Why a solver cannot start ([`Refusal`]) and why a run stopped ([`Failure`]).
+
+use crate::{Condition, Face};
+
+/// Why a scene is not started. Nothing has run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// A face asks for a condition that the solver does not have.
+    #[error(
+        "face {face} is `{condition}`, which is not supported by this solver; it supports fixed, \
+         roller, free and prescribed: claim `prescribed` there, or leave the face without a claim"
+    )]
+    UnsupportedCondition {
+        /// The face.
+        face: Face,
+        /// What it asks for.
+        condition: Condition,
+    },
+    /// The body is not a box.
+    #[error("a body of shape `annulus` is not supported by this solver; it supports `box`")]
+    UnsupportedBody,
+    /// The field names a face that the body does not have.
+    #[error("the body, a box in {dimension} dimension(s), has no face {face}")]
+    NoSuchFace {
+        /// The face.
+        face: Face,
+        /// The number of dimensions.
+        dimension: usize,
+    },
+    /// A wall does not lie on a plane of grid nodes, so that it has no mirror image on the grid.
+    #[error(
+        "face {face} is `{condition}` but lies between grid nodes: its edge is {cells} cells long; \
+         choose a number of cells that makes it a whole number"
+    )]
+    WallBetweenNodes {
+        /// The face.
+        face: Face,
+        /// What it asks for.
+        condition: Condition,
+        /// Length of the body along the face's normal, in cells.
+        cells: f64,
+    },
+    /// A value that has to be positive and finite is not.
+    #[error("{what} is {value}, and has to be positive and finite")]
+    NotPositive {
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The field gives a value that is not finite inside its own time window.
+    #[error("the field's {quantity} is not finite at time {time:e} and X = {reference_position:?}")]
+    FieldNotFinite {
+        /// The quantity.
+        quantity: &'static str,
+        /// The time.
+        time: f64,
+        /// The reference position.
+        reference_position: Vec<f64>,
+    },
+    /// The scene does not fit in memory.
+    #[error(
+        "the scene has {count:e} {what}, more than the {limit:e} this solver takes; use fewer cells"
+    )]
+    TooLarge {
+        /// `particles`, `grid nodes` or `steps`.
+        what: &'static str,
+        /// How many there would be.
+        count: f64,
+        /// How many are taken.
+        limit: f64,
+    },
+}
+
+/// `value`, if it is positive and finite.
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, Refusal> {
+    let positive = value > 0.0 && value.is_finite();
+    positive.then_some(value).ok_or(Refusal::NotPositive { what, value })
+}
+
+/// `count`, if it is at most `limit`.
+pub(crate) fn at_most(what: &'static str, count: f64, limit: f64) -> Result<f64, Refusal> {
+    let within = count <= limit; // not so if it is not a number
+    within.then_some(count).ok_or(Refusal::TooLarge { what, count, limit })
+}
+
+/// Why a run stopped, where and when.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "stopped in step {step} at time {time:e}{}, X = {reference_position:?}: {cause}; {}",
+    particle.map_or(String::new(), |p| format!(", particle {p}")),
+    cause.advice()
+)]
+pub struct Failure {
+    /// The step that led to the bad state, counted from 1; 0 is the initial state.
+    pub step: usize,
+    /// The time at the end of that step.
+    pub time: f64,
+    /// The particle, unless it happened at a grid node.
+    pub particle: Option<usize>,
+    /// Reference position of the particle or node, `D` components.
+    pub reference_position: Vec<f64>,
+    /// What happened.
+    pub cause: Cause,
+}
+
+/// What stopped a run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Cause {
+    /// J <= 0.
+    #[error("the particle is inverted, J = {jacobian:e}")]
+    Inverted {
+        /// The Jacobian J = det F.
+        jacobian: f64,
+    },
+    /// A value became infinite or not a number.
+    #[error("the {quantity} is not finite")]
+    NotFinite {
+        /// The quantity.
+        quantity: &'static str,
+    },
+    /// A particle, or a part of its domain, left the grid.
+    #[error("the particle is lost: it left the grid, x = {position:?}")]
+    Lost {
+        /// The particle's position.
+        position: Vec<f64>,
+    },
+    /// A particle's domain is too wide for the grid, or has collapsed.
+    #[error(
+        "the half width of the particle's domain is {half_width:e}, outside ]0, {cell_size:e}[ (one cell)"
+    )]
+    HalfWidth {
+        /// The half width.
+        half_width: f64,
+        /// The grid spacing.
+        cell_size: f64,
+    },
+    /// No reference position was found for a node beside a prescribed face.
+    #[error(
+        "the field's motion could not be inverted at the grid node x = {position:?}, beside a prescribed face"
+    )]
+    NoReferencePosition {
+        /// The node's position.
+        position: Vec<f64>,
+    },
+}
+
+impl Cause {
+    /// The likely reason, and what to try.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Cause::Inverted { .. } | Cause::NotFinite { .. } => {
+                "likely an unstable or too coarse run, or forcing and material that do not belong \
+                 together: try a smaller Courant number or more cells"
+            }
+            Cause::Lost { .. } => {
+                "likely an unstable run, for the grid holds the field's own motion with room to \
+                 spare: try a smaller Courant number or more cells"
+            }
+            Cause::HalfWidth { .. } => {
+                "the stretch is large for so few particles: try more particles per cell"
+            }
+            Cause::NoReferencePosition { .. } => {
+                "the field may not continue smoothly beyond its body: claim `fixed`, `roller` or \
+                 `free` on that face if it holds, or use more cells"
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! The manufactured field: an exact motion, the body force that drives it, and its domain.
+
+use std::fmt;
+
+use crate::{Material, Matrix, Real, Vector};
+
+/// An exact solution u(X, t) of the balance of momentum rho0 a = Div P + rho0 b.
+///
+/// Every method works on a batch of reference positions X at one time: `out` has the length of
+/// `reference`, and every entry is written.
+pub trait ManufacturedField<T: Real, const D: usize>: Material<T, D> {
+    /// The reference body, the time window, and the claims made about the body's faces.
+    fn domain(&self) -> Domain<T, D>;
+
+    /// u = x - X.
+    fn displacement(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]);
+
+    /// v = du/dt at fixed X.
+    fn velocity(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]);
+
+    /// a = d2u/dt2 at fixed X.
+    fn acceleration(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]);
+
+    /// b = a - Div P / rho0, per unit mass.
+    fn body_force(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]);
+
+    /// H_iJ = du_i/dX_J.
+    fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]);
+}
+
+/// The reference body, the time window, and the claims about the body's faces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Domain<T, const D: usize> {
+    /// The body in the reference configuration.
+    pub body: Body<T, D>,
+    /// Start and end of the time window.
+    pub time: [T; 2],
+    /// What holds on each face. On a face without an entry the field prescribes the displacement.
+    pub faces: Vec<(Face, Condition)>,
+}
+
+impl<T, const D: usize> Domain<T, D> {
+    /// What holds on `face`: the first claim about it, or else [`Condition::Prescribed`].
+    pub fn condition(&self, face: Face) -> Condition {
+        let claim = self.faces.iter().find(|(claimed, _)| *claimed == face);
+        claim.map_or(Condition::Prescribed, |(_, condition)| *condition)
+    }
+}
+
+/// The shape of a body in the reference configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Body<T, const D: usize> {
+    /// An axis-aligned box.
+    Box {
+        /// The corner with the smallest coordinates.
+        lower: Vector<T, D>,
+        /// The corner with the largest coordinates.
+        upper: Vector<T, D>,
+    },
+    /// A ring or a sector of one, centred at the origin; two dimensions.
+    Annulus {
+        /// Inner radius.
+        inner: T,
+        /// Outer radius.
+        outer: T,
+        /// First and last angle, in radians.
+        theta: [T; 2],
+    },
+}
+
+/// A face of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Face {
+    /// The face of a box at the smallest coordinate of this axis (0, 1, 2).
+    Min(usize),
+    /// The face of a box at the largest coordinate of this axis (0, 1, 2).
+    Max(usize),
+    /// The inner radius of an annulus.
+    Inner,
+    /// The outer radius of an annulus.
+    Outer,
+    /// The first angle of a sector.
+    ThetaMin,
+    /// The last angle of a sector.
+    ThetaMax,
+}
+
+impl fmt::Display for Face {
+    /// The face's name in field files: `x_min`, `z_max`, `inner`, `theta_min`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let axis = |axis: usize| ["x", "y", "z"].get(axis).copied().unwrap_or("?");
+        match *self {
+            Face::Min(a) => write!(f, "{}_min", axis(a)),
+            Face::Max(a) => write!(f, "{}_max", axis(a)),
+            Face::Inner => f.write_str("inner"),
+            Face::Outer => f.write_str("outer"),
+            Face::ThetaMin => f.write_str("theta_min"),
+            Face::ThetaMax => f.write_str("theta_max"),
+        }
+    }
+}
+
+/// What holds on a face, N being its reference normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Condition {
+    /// u = 0.
+    Fixed,
+    /// u.N = 0 and no tangential traction.
+    Roller,
+    /// P N = 0.
+    Free,
+    /// u given by the field.
+    Prescribed,
+    /// P N given by the field.
+    Traction,
+}
+
+impl fmt::Display for Condition {
+    /// The condition's name in field files.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Condition::Fixed => "fixed",
+            Condition::Roller => "roller",
+            Condition::Free => "free",
+            Condition::Prescribed => "prescribed",
+            Condition::Traction => "traction",
+        })
+    }
+}

@@ -1,0 +1,68 @@
+//! The contract that a manufactured field fulfils, and an explicit MPM/GIMP solver that shows its
+//! own observed order of accuracy on any such field.
+//!
+//! * [`ManufacturedField`] and [`Material`] are what generated code implements; they are evaluated
+//!   over slices of particles and are object-safe.
+//! * [`Solver`] advances a body of particles through a background grid. It is written once for one
+//!   to three dimensions and for `f32` and `f64`; shape function and time integrator are types, so
+//!   that one solver is compiled per combination and none per field.
+//! * [`study`] runs a method over levels of refinement, measures the errors against the field, and
+//!   judges the observed orders.
+//!
+//! The crate knows no particular field. To add a shape function or a time integrator, see [`shape`]
+//! and [`integrator`]: each is one file and one word in a list.
+//!
+//! Names follow one glossary: `reference_position` X, `position` x = X + u, `displacement_gradient`
+//! H = du/dX, F = I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any
+//! consistent system works.
+
+mod extension;
+
+pub mod boundary;
+pub mod failure;
+pub mod field;
+pub mod grid;
+pub mod integrator;
+pub mod material;
+pub mod particle;
+pub mod shape;
+pub mod solver;
+pub mod study;
+pub mod tensor;
+pub mod transfer;
+
+pub use mms_math as math;
+pub use nalgebra;
+
+pub use extension::UnknownName;
+pub use failure::{Cause, Failure, Refusal};
+pub use field::{Body, Condition, Domain, Face, ManufacturedField};
+pub use grid::Grid;
+pub use integrator::IntegratorName;
+pub use material::Material;
+pub use shape::ShapeName;
+pub use solver::{Resolution, Solver};
+pub use study::{Errors, Judgement, Level, Method, Verdict, run_level};
+
+/// A vector with `D` components.
+pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;
+
+/// A second-order tensor with `D` x `D` components.
+pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
+
+/// The precision a solver computes in: `f32` or `f64`.
+///
+/// Implemented for every type that has the arithmetic; nothing is left to implement by hand.
+pub trait Real: mms_math::Scalar + nalgebra::RealField + Copy + Send + Sync {
+    /// The nearest value of this precision.
+    fn of(value: f64) -> Self {
+        <Self as mms_math::Scalar>::from_f64(value)
+    }
+
+    /// The same value in double precision.
+    fn to_f64(self) -> f64 {
+        nalgebra::convert_unchecked(self)
+    }
+}
+
+impl<T: mms_math::Scalar + nalgebra::RealField + Copy + Send + Sync> Real for T {}

@@ -1,0 +1,143 @@
+//! What a study's observed orders say about the method.
+
+use std::fmt;
+
+use super::{Level, order::orders};
+
+/// How far an observed order may be from the expected one.
+pub const TOLERANCE: f64 = 0.15;
+
+/// The outcome of a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The finest levels show the expected order.
+    Pass,
+    /// They show a lower one, or a run stopped.
+    Fail,
+    /// They show no settled order, or a higher one.
+    NotAsymptotic,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Pass => "pass",
+            Verdict::Fail => "fail",
+            Verdict::NotAsymptotic => "not asymptotic",
+        })
+    }
+}
+
+/// A study's outcome and the order it rests on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judgement {
+    /// The order of l2 between the two finest levels, if there is one.
+    pub observed_order: Option<f64>,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// Judges the levels of a study, in any sequence, against the expected order; the first that holds:
+///
+/// * `fail`: a run stopped; or l2 or linf is below `expected_order - tolerance` between the two finest levels.
+/// * `not asymptotic`: fewer than two levels; no order (an error of exactly zero, equal cell sizes); l2
+///   above `expected_order + tolerance`; with three levels or more, the order of l2 differs from that of
+///   the pair before by more than `tolerance`.
+/// * `pass`.
+pub fn judge(levels: &[Level], expected_order: f64, tolerance: f64) -> Judgement {
+    let mut sorted: Vec<&Level> = levels.iter().collect();
+    sorted.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
+    // Pairs of neighbouring levels, the finest pair first.
+    let mut pairs = sorted.windows(2).rev().map(|pair| orders(pair[0], pair[1]));
+    let finest = pairs.next().unwrap_or_default();
+    let before = pairs.next();
+
+    let lowest = expected_order - tolerance;
+    let too_low = |order: Option<f64>| order.is_some_and(|order| order < lowest);
+    let stopped = levels.iter().any(|level| level.errors.is_err());
+    let settled = |order: f64| {
+        order <= expected_order + tolerance
+            && before.is_none_or(|pair| {
+                pair.l2.is_some_and(|earlier| (order - earlier).abs() <= tolerance)
+            })
+    };
+    let verdict = if stopped || too_low(finest.l2) || too_low(finest.linf) {
+        Verdict::Fail
+    } else if finest.linf.is_none() || !finest.l2.is_some_and(settled) {
+        Verdict::NotAsymptotic
+    } else {
+        Verdict::Pass
+    };
+    Judgement { observed_order: finest.l2, verdict }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Cause, Errors, Failure};
+
+    /// Levels with 8, 16, ... cells and these errors, the same in all norms.
+    fn levels(errors: &[f64]) -> Vec<Level> {
+        let level = |(k, &e): (usize, &f64)| Level {
+            cells: 8 << k,
+            cell_size: 1.0 / (8 << k) as f64,
+            time_step: 0.1,
+            steps: 10,
+            particles: 16,
+            errors: Ok(Errors { l1: e, l2: e, linf: e }),
+            seconds: 0.0,
+        };
+        errors.iter().enumerate().map(level).collect()
+    }
+
+    fn verdict(errors: &[f64]) -> Verdict {
+        judge(&levels(errors), 2.0, TOLERANCE).verdict
+    }
+
+    #[test]
+    fn each_verdict() {
+        assert_eq!(verdict(&[16.0, 4.0, 1.0]), Verdict::Pass);
+        assert_eq!(verdict(&[4.0, 1.0]), Verdict::Pass);
+        assert_eq!(verdict(&[4.0, 2.0, 1.0]), Verdict::Fail);
+        assert_eq!(verdict(&[1.0, 4.0, 16.0]), Verdict::Fail);
+        assert_eq!(verdict(&[4.0 * 8.0, 4.0, 1.0]), Verdict::NotAsymptotic);
+        assert_eq!(verdict(&[64.0, 8.0, 1.0]), Verdict::NotAsymptotic);
+        assert_eq!(verdict(&[1.0]), Verdict::NotAsymptotic);
+        assert_eq!(verdict(&[]), Verdict::NotAsymptotic);
+    }
+
+    #[test]
+    fn an_exactly_represented_field_proves_nothing() {
+        assert_eq!(verdict(&[0.0, 0.0, 0.0]), Verdict::NotAsymptotic);
+        assert_eq!(verdict(&[4.0, 1.0, 0.0]), Verdict::NotAsymptotic);
+        assert_eq!(judge(&levels(&[0.0, 0.0]), 2.0, TOLERANCE).observed_order, None);
+    }
+
+    #[test]
+    fn the_largest_error_counts_too() {
+        let mut levels = levels(&[16.0, 4.0, 1.0]);
+        levels[2].errors = Ok(Errors { l1: 1.0, l2: 1.0, linf: 2.0 });
+        let judgement = judge(&levels, 2.0, TOLERANCE);
+        assert_eq!(judgement, Judgement { observed_order: Some(2.0), verdict: Verdict::Fail });
+    }
+
+    #[test]
+    fn a_stopped_level_fails_the_study() {
+        let mut levels = levels(&[16.0, 4.0, 1.0]);
+        levels[0].errors = Err(Failure {
+            step: 3,
+            time: 0.1,
+            particle: Some(2),
+            reference_position: vec![0.5],
+            cause: Cause::Inverted { jacobian: -1.0 },
+        });
+        assert_eq!(judge(&levels, 2.0, TOLERANCE).verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn the_sequence_of_levels_does_not_matter() {
+        let mut levels = levels(&[16.0, 4.0, 1.0]);
+        levels.reverse();
+        assert_eq!(judge(&levels, 2.0, TOLERANCE).verdict, Verdict::Pass);
+    }
+}

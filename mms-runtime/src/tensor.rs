@@ -1,0 +1,65 @@
+//! The few tensor operations that the vectors and matrices of `nalgebra` do not offer for plain
+//! `const D`.
+
+use crate::{Matrix, Real, Vector};
+
+/// F = I + H.
+pub fn deformation_gradient<T: Real, const D: usize>(
+    displacement_gradient: &Matrix<T, D>,
+) -> Matrix<T, D> {
+    Matrix::identity() + displacement_gradient
+}
+
+/// J = det(I + H) for D = 1, 2, 3; other dimensions do not compile.
+pub fn jacobian<T: Real, const D: usize>(displacement_gradient: &Matrix<T, D>) -> T {
+    const { assert!(D >= 1 && D <= 3, "one to three dimensions") };
+    let f = deformation_gradient(displacement_gradient);
+    let minor = |i: usize, j: usize| f[(1, i)] * f[(2, j)] - f[(1, j)] * f[(2, i)];
+    match D {
+        1 => f[(0, 0)],
+        2 => f[(0, 0)] * f[(1, 1)] - f[(0, 1)] * f[(1, 0)],
+        _ => f[(0, 0)] * minor(1, 2) - f[(0, 1)] * minor(0, 2) + f[(0, 2)] * minor(0, 1),
+    }
+}
+
+/// F^-1 = (I + H)^-1, or `None` where F is singular or not finite.
+pub fn inverse_deformation_gradient<T: Real, const D: usize>(
+    displacement_gradient: &Matrix<T, D>,
+) -> Option<Matrix<T, D>> {
+    deformation_gradient(displacement_gradient).try_inverse().filter(matrix_is_finite)
+}
+
+/// Whether every component is finite.
+pub fn is_finite<T: Real, const D: usize>(vector: &Vector<T, D>) -> bool {
+    vector.iter().all(|component| component.is_finite())
+}
+
+/// Whether every component is finite.
+pub fn matrix_is_finite<T: Real, const D: usize>(matrix: &Matrix<T, D>) -> bool {
+    matrix.iter().all(|component| component.is_finite())
+}
+
+/// The components in double precision.
+pub(crate) fn components<T: Real, const D: usize>(vector: &Vector<T, D>) -> Vec<f64> {
+    vector.iter().map(|component| component.to_f64()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jacobian_is_the_determinant() {
+        assert_eq!(jacobian(&Matrix::<f64, 1>::new(0.25)), 1.25);
+        assert_eq!(jacobian(&Matrix::<f64, 2>::new(1.0, 2.0, 3.0, 4.0)), 4.0);
+        let h = Matrix::<f64, 3>::new(1.0, 2.0, 0.5, -1.0, 3.0, 4.0, 2.0, 0.0, 1.0);
+        let exact = (Matrix::<f64, 3>::identity() + h).determinant();
+        assert!((jacobian(&h) - exact).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_singular_deformation_has_no_inverse() {
+        assert!(inverse_deformation_gradient(&Matrix::<f64, 1>::new(-1.0)).is_none());
+        assert!(inverse_deformation_gradient(&Matrix::<f64, 1>::new(f64::NAN)).is_none());
+    }
+}

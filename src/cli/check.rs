@@ -1,0 +1,130 @@
+//! `mms check`: every mistake of a file, and every claim it makes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use mms_codegen::Compiled;
+use mms_codegen::certify::closed_form::{Comparison, Difference, POINTS, compare};
+use mms_codegen::compile::Failure;
+use serde_json::{Value, json};
+
+use super::input::read;
+use super::{Outcome, print, print_json};
+
+/// Check field files: mistakes, boundary claims and closed forms.
+#[derive(Args)]
+pub struct Check {
+    /// Field files.
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Check {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let mut worst = Outcome::AsExpected;
+        let mut documents = Vec::new();
+        for file in &self.files {
+            let shown = file.display().to_string();
+            let (outcome, document) = match read(file)? {
+                Ok(compiled) => self.report(&shown, &compiled),
+                Err(failure) => self.report_failure(&shown, &failure),
+            };
+            documents.push(document);
+            worst = match (worst, outcome) {
+                (Outcome::BadInput, _) | (_, Outcome::AsExpected) => worst,
+                _ => outcome,
+            };
+        }
+        if self.json {
+            print_json(&json!({ "files": documents }))?;
+        }
+        Ok(worst)
+    }
+
+    fn report_failure(&self, path: &str, failure: &Failure) -> (Outcome, Value) {
+        if !self.json {
+            anstream::eprintln!("{failure}");
+            print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()));
+        }
+        let document = json!({ "file": path, "diagnostics": failure.to_string() });
+        (Outcome::BadInput, document)
+    }
+
+    fn report(&self, path: &str, compiled: &Compiled) -> (Outcome, Value) {
+        let comparisons = compare(compiled);
+        let refuted = comparisons.iter().any(|comparison| comparison.difference.is_some());
+        if !self.json {
+            print(&text(path, compiled, &comparisons));
+        }
+        let claims: Vec<_> = compiled
+            .field
+            .boundary
+            .iter()
+            .map(|claim| {
+                json!({
+                    "face": claim.face.value.name(),
+                    "claim": claim.claim.value.name(),
+                    "status": "not yet proved",
+                })
+            })
+            .collect();
+        let checks: Vec<_> = comparisons.iter().map(comparison_document).collect();
+        let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
+        (outcome, json!({ "file": path, "claims": claims, "checks": checks }))
+    }
+}
+
+fn comparison_document(comparison: &Comparison) -> Value {
+    let difference = comparison.difference.as_ref().map(|difference| {
+        json!({
+            "at": difference.coordinates,
+            "time": difference.time,
+            "component": difference.component,
+            "derived": difference.derived,
+            "expected": difference.expected,
+        })
+    });
+    json!({
+        "quantity": comparison.quantity.name(),
+        "source": comparison.source,
+        "points": POINTS,
+        "status": if difference.is_some() { "failed" } else { "passed" },
+        "difference": difference,
+    })
+}
+
+fn text(path: &str, compiled: &Compiled, comparisons: &[Comparison]) -> String {
+    let mut lines = vec![format!("{path}: {}", compiled.field.title)];
+    for claim in &compiled.field.boundary {
+        let (face, claim) = (claim.face.value.name(), claim.claim.value.name());
+        lines.push(format!("  claim  {face} is {claim}: not yet proved"));
+    }
+    for comparison in comparisons {
+        let quantity = comparison.quantity.name();
+        let source = comparison.source.as_deref().unwrap_or("no source given");
+        match &comparison.difference {
+            None => lines
+                .push(format!("  check  {quantity} agrees to 1e-20 at {POINTS} points ({source})")),
+            Some(difference) => {
+                lines.push(format!("  check  {quantity} FAILED ({source})"));
+                lines.push(describe(compiled, comparison, difference));
+            }
+        }
+    }
+    lines.join("\n")
+}
+
+fn describe(compiled: &Compiled, comparison: &Comparison, difference: &Difference) -> String {
+    let place = compiled.sources.place(comparison.span);
+    format!(
+        "    {place}: component {} at X = {:?}, t = {:e}: derived {:e}, closed form {:e}",
+        difference.component + 1,
+        difference.coordinates,
+        difference.time,
+        difference.derived,
+        difference.expected
+    )
+}

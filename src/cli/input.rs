@@ -1,0 +1,95 @@
+//! What every command takes: a field, and settings of its parameters.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::{Context as _, anyhow, bail};
+use dashu_ratio::RBig;
+use mms_codegen::suggest::did_you_mean;
+use mms_codegen::{Compiled, compile};
+
+use crate::gallery::{self, Entry};
+
+/// A field that the user named: of the gallery, or of a file.
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// What follows from its text.
+    pub compiled: Arc<Compiled>,
+    /// Its compiled code, where it is of the gallery.
+    pub entry: Option<&'static Entry>,
+}
+
+impl Input {
+    /// The field of a gallery name, or of a path to a TOML file.
+    pub fn find(field: &str) -> anyhow::Result<Input> {
+        if field.ends_with(".toml") {
+            return Self::from_file(Path::new(field));
+        }
+        let Some(entry) = gallery::find(field) else {
+            let names = gallery::FIELDS.iter().map(|entry| entry.name);
+            match did_you_mean(field, names.clone()) {
+                Some(near) => bail!("no field `{field}` in the gallery; did you mean `{near}`?"),
+                None => bail!(
+                    "no field `{field}` in the gallery, which holds {}; a file of your own is given by its path, ending in .toml",
+                    names.collect::<Vec<_>>().join(", ")
+                ),
+            }
+        };
+        let load = |path: &str| Err(format!("`{path}` is not part of the gallery"));
+        let compiled = compile(entry.name, entry.path, entry.text, &load)
+            .map_err(|failure| anyhow!("the gallery's own field does not compile\n{failure}"))?;
+        Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
+    }
+
+    fn from_file(path: &Path) -> anyhow::Result<Input> {
+        let compiled =
+            read(path)?.map_err(|failure| anyhow!("the field file has mistakes\n{failure}"))?;
+        Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
+    }
+
+    /// The parameters that `name=value` settings set, by position.
+    pub fn settings(&self, settings: &[String]) -> anyhow::Result<BTreeMap<usize, RBig>> {
+        let parameters = &self.compiled.model.parameters;
+        let mut set = BTreeMap::new();
+        for setting in settings {
+            let (name, value) = setting
+                .split_once('=')
+                .with_context(|| format!("`--set {setting}`: expected name=value"))?;
+            let name = name.trim();
+            let index = parameters.iter().position(|parameter| parameter.name == name);
+            let index = index.with_context(|| {
+                let names = parameters.iter().map(|parameter| parameter.name.as_str());
+                match did_you_mean(name, names.clone()) {
+                    Some(near) => {
+                        format!("`--set {setting}`: no parameter `{name}`; did you mean `{near}`?")
+                    }
+                    None => format!(
+                        "`--set {setting}`: no parameter `{name}`; the field has {}",
+                        names.collect::<Vec<_>>().join(", ")
+                    ),
+                }
+            })?;
+            let value = mms_codegen::compile::constant(value.trim())
+                .map_err(|failure| anyhow!("`--set {setting}`: not a number\n{failure}"))?;
+            if set.insert(index, value).is_some() {
+                bail!("`--set {setting}`: `{name}` is set twice");
+            }
+        }
+        Ok(set)
+    }
+}
+
+/// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
+pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, mms_codegen::compile::Failure>> {
+    let shown = path.display().to_string();
+    let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let load = |material: &str| {
+        fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
+    };
+    Ok(compile(&name, &shown, &text, &load))
+}

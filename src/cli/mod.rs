@@ -1,0 +1,86 @@
+//! The `mms` command: one file per subcommand.
+
+mod check;
+mod eval;
+mod input;
+mod list;
+mod show;
+mod study;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order
+/// of convergence of an MPM/GIMP solver on them.
+///
+/// Without a subcommand: the convergence study of the 1D bar with contiguous-particle GIMP and
+/// leapfrog, 8 to 128 cells.
+///
+/// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or
+/// bad input; 3 the run itself failed.
+#[derive(Parser)]
+#[command(name = "mms", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    List(list::List),
+    Show(show::Show),
+    Check(check::Check),
+    Eval(eval::Eval),
+    Study(study::Study),
+}
+
+/// How a command ended that did what it was asked to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Everything is as expected.
+    AsExpected,
+    /// A claim, check or order failed.
+    Refuted,
+    /// The input is wrong; the messages have been printed.
+    BadInput,
+    /// A run could not be started or ended early.
+    RunFailed,
+}
+
+/// Runs the command line of this process.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        None => study::main_job(),
+        Some(Command::List(list)) => list.run(),
+        Some(Command::Show(show)) => show.run(),
+        Some(Command::Check(check)) => check.run(),
+        Some(Command::Eval(eval)) => eval.run(),
+        Some(Command::Study(study)) => study.run(),
+    };
+    let outcome = result.unwrap_or_else(|error| {
+        let style = anstyle::AnsiColor::Red.on_default().bold();
+        anstream::eprintln!("{style}error{style:#}: {error:#}");
+        Outcome::BadInput
+    });
+    ExitCode::from(match outcome {
+        Outcome::AsExpected => 0,
+        Outcome::Refuted => 1,
+        Outcome::BadInput => 2,
+        Outcome::RunFailed => 3,
+    })
+}
+
+/// Prints one JSON document.
+fn print_json(document: &impl serde::Serialize) -> anyhow::Result<()> {
+    print(&serde_json::to_string_pretty(document)?);
+    Ok(())
+}
+
+/// Prints a text to stdout. A reader that stopped reading is not an error of ours.
+fn print(text: &str) {
+    use std::io::Write as _;
+    let mut stdout = anstream::stdout().lock();
+    let _ = writeln!(stdout, "{}", text.trim_end());
+}

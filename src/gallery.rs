@@ -1,0 +1,44 @@
+//! The shipped fields, compiled: the folder `fields/` is the list.
+
+use crate::scene::Scene;
+
+/// A compiled field.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The name: the stem of its file.
+    pub name: &'static str,
+    /// The path of its file, relative to the manifest.
+    pub path: &'static str,
+    /// The text of its file.
+    pub text: &'static str,
+    /// The field in single precision, for parameter values in the order of the file.
+    pub single: fn(&[f32]) -> Option<Scene<f32>>,
+    /// The field in double precision, for parameter values in the order of the file.
+    pub double: fn(&[f64]) -> Option<Scene<f64>>,
+}
+
+/// One line of the catalogue.
+macro_rules! entry {
+    ($module:ident, $name:literal, $file:literal) => {
+        Entry {
+            name: $name,
+            path: concat!("fields/", $name, ".toml"),
+            text: include_str!($file),
+            single: |values| {
+                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
+                Some(Scene::from($module::prepare(&parameters).boxed()))
+            },
+            double: |values| {
+                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
+                Some(Scene::from($module::prepare(&parameters).boxed()))
+            },
+        }
+    };
+}
+
+include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
+
+/// The compiled field of that name.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    FIELDS.iter().find(|entry| entry.name == name)
+}

@@ -1,0 +1,12 @@
+//! Manufactured solutions for solid mechanics.
+//!
+//! A manufactured displacement field u(X, t) is one TOML file in `fields/`. Everything that follows
+//! from it and from a strain-energy density W is derived at build time; [`gallery`] holds the
+//! result, one module per file. [`scene`] lets a solver run on any of them, and on files that were
+//! never compiled.
+
+pub mod cli;
+pub mod gallery;
+pub mod interpreted;
+pub mod report;
+pub mod scene;

@@ -1,0 +1,193 @@
+//! A study as a table, a JSON document, a CSV file and a picture.
+
+mod picture;
+
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+
+use anyhow::Context as _;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_runtime::study::{Judgement, Orders, orders};
+use mms_runtime::{Level, Method};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// A finished study.
+pub struct Study {
+    /// The field's name.
+    pub field: String,
+    /// The field's title.
+    pub title: String,
+    /// The method.
+    pub method: Method,
+    /// `f32` or `f64`.
+    pub precision: &'static str,
+    /// The levels, in the sequence asked for.
+    pub levels: Vec<Level>,
+    /// The order that theory says.
+    pub expected_order: f64,
+    /// How far from it is still as expected.
+    pub tolerance: f64,
+    /// The observed order and the verdict.
+    pub judgement: Judgement,
+}
+
+/// One level as a record: a row of the CSV file, and an entry of the JSON document.
+#[derive(Serialize)]
+struct Row {
+    cells: usize,
+    cell_size: f64,
+    time_step: f64,
+    steps: usize,
+    particles: usize,
+    l1: Option<f64>,
+    l2: Option<f64>,
+    linf: Option<f64>,
+    order_l1: Option<f64>,
+    order_l2: Option<f64>,
+    order_linf: Option<f64>,
+    seconds: f64,
+    failure: Option<String>,
+}
+
+impl Study {
+    fn rows(&self) -> Vec<Row> {
+        let before = std::iter::once(None).chain(self.levels.iter().map(Some));
+        let pairs = self.levels.iter().zip(before);
+        pairs
+            .map(|(level, before)| {
+                let observed = before.map_or_else(Orders::default, |before| orders(before, level));
+                let errors = level.errors.as_ref().ok();
+                Row {
+                    cells: level.cells,
+                    cell_size: level.cell_size,
+                    time_step: level.time_step,
+                    steps: level.steps,
+                    particles: level.particles,
+                    l1: errors.map(|errors| errors.l1),
+                    l2: errors.map(|errors| errors.l2),
+                    linf: errors.map(|errors| errors.linf),
+                    order_l1: observed.l1,
+                    order_l2: observed.l2,
+                    order_linf: observed.linf,
+                    seconds: level.seconds,
+                    failure: level.errors.as_ref().err().map(ToString::to_string),
+                }
+            })
+            .collect()
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        json!({
+            "field": self.field,
+            "method": {
+                "shape": self.method.shape.name(),
+                "integrator": self.method.integrator.name(),
+                "precision": self.precision,
+                "particles_per_cell": self.method.particles_per_cell,
+                "courant": self.method.courant,
+            },
+            "levels": self.rows(),
+            "expected_order": self.expected_order,
+            "observed_order": self.judgement.observed_order,
+            "verdict": self.judgement.verdict.to_string(),
+        })
+    }
+
+    /// The method in words.
+    fn method_line(&self) -> String {
+        format!(
+            "{} {}, {}, {} particles per cell and direction, Courant {}",
+            self.method.shape.name(),
+            self.method.integrator.name(),
+            self.precision,
+            self.method.particles_per_cell,
+            self.method.courant
+        )
+    }
+
+    /// The table for a terminal, with the verdict.
+    pub fn table(&self) -> String {
+        let mut table = Table::new();
+        table.load_style(NOTHING).set_header([
+            "cells",
+            "particles",
+            "steps",
+            "l1",
+            "order",
+            "l2",
+            "order",
+            "linf",
+            "order",
+            "time",
+        ]);
+        for row in self.rows() {
+            let error = |error: Option<f64>| error.map_or("stopped".into(), |e| format!("{e:.2e}"));
+            let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{o:.2}"));
+            table.add_row([
+                row.cells.to_string(),
+                row.particles.to_string(),
+                row.steps.to_string(),
+                error(row.l1),
+                order(row.order_l1),
+                error(row.l2),
+                order(row.order_l2),
+                error(row.linf),
+                order(row.order_linf),
+                format!("{:.3} s", row.seconds),
+            ]);
+        }
+        for column in table.column_iter_mut() {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        let observed = match self.judgement.observed_order {
+            Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
+            None => "no observed order".into(),
+        };
+        format!(
+            "{}: {}\n{}\n\n{table}\n\n{}: {observed}, expected {} within {}",
+            self.field,
+            self.title,
+            self.method_line(),
+            self.judgement.verdict,
+            self.expected_order,
+            self.tolerance
+        )
+    }
+
+    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let json = serde_json::to_string_pretty(&self.document())? + "\n";
+        let files = [("svg", picture::draw(self)?), ("csv", self.csv()?), ("json", json)];
+        files
+            .into_iter()
+            .map(|(extension, content)| {
+                let path = folder.join("convergence").with_extension(extension);
+                write_whole(&path, &content)
+                    .with_context(|| format!("cannot write `{}`", path.display()))?;
+                Ok(path.display().to_string())
+            })
+            .collect()
+    }
+
+    fn csv(&self) -> anyhow::Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in self.rows() {
+            writer.serialize(row)?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+}
+
+/// Never leaves half a file under its final name.
+fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
+    let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+    file.write_all(content.as_bytes())?;
+    file.persist(path)?;
+    Ok(())
+}

@@ -1,0 +1,321 @@
+//! Properties that hold for every field. The build script finds the files in `fields/` and calls
+//! `field_tests!` once for each.
+
+mod support;
+
+use mms_codegen::Compiled;
+use mms_codegen::certify::closed_form::compare;
+use mms_codegen::program::Output;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::quantity::Quantity;
+use mms_runtime::math::Scalar as _;
+use mms_runtime::study::{TOLERANCE, judge};
+use mms_runtime::{Method, Verdict, run_level};
+
+use mms::scene::Scene;
+use support::dual::Dual;
+use support::kernel::{Kernel, compiled, kernel, sample};
+
+macro_rules! field_tests {
+    ($name:ident) => {
+        mod $name {
+            crate::kernel!($name);
+
+            #[test]
+            fn displacement_gives_velocity_acceleration_and_gradient_by_dual_numbers() {
+                crate::kinematics_by_dual_numbers::<Field>();
+            }
+
+            #[test]
+            fn energy_gives_stress_by_dual_numbers() {
+                crate::stress_by_dual_numbers::<Field>();
+            }
+
+            #[test]
+            fn stress_measures_agree() {
+                crate::stress_measures::<Field>();
+            }
+
+            #[test]
+            fn momentum_balances_by_finite_differences() {
+                crate::balance_by_finite_differences::<Field>();
+            }
+
+            #[test]
+            fn emitted_code_agrees_with_the_interpreter() {
+                crate::emitted_and_interpreted::<Field>();
+            }
+
+            #[test]
+            fn closed_forms_hold() {
+                crate::closed_forms::<Field>();
+            }
+
+            #[test]
+            fn studies_show_their_order() {
+                crate::studies::<Field>();
+            }
+        }
+    };
+}
+
+include!(concat!(env!("OUT_DIR"), "/field_tests.rs"));
+
+/// Largest magnitude of a quantity's components over points.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |largest, value| {
+        assert!(value.is_finite(), "a value is {value}");
+        value.abs().max(largest)
+    })
+}
+
+/// v, a and H against derivatives of u by hyper-dual numbers. Both sides round some tens of
+/// operations.
+fn kinematics_by_dual_numbers<K: Kernel>() {
+    let points = sample(&compiled(K::NAME), 64);
+    let constants = |point: &[f64]| point.iter().map(|x| Dual::constant(*x)).collect::<Vec<_>>();
+    let displacement = |time, point: &[Dual]| K::quantity(Quantity::Displacement, time, point);
+    let mut pairs = [const { Vec::<(f64, f64)>::new() }; 3];
+    for point in &points {
+        let (time, at) = (point.time, &point.coordinates);
+        let moving = displacement(Dual::variable(time, 1.0, 1.0), &constants(at));
+        let velocity = K::quantity(Quantity::Velocity, time, at);
+        let acceleration = K::quantity(Quantity::Acceleration, time, at);
+        pairs[0].extend(velocity.into_iter().zip(moving.iter().map(|u| u.0.eps1)));
+        pairs[1].extend(acceleration.into_iter().zip(moving.iter().map(|u| u.0.eps1eps2)));
+        let gradient = K::quantity(Quantity::DisplacementGradient, time, at);
+        for axis in 0..K::DIMENSION {
+            let mut shifted = constants(at);
+            shifted[axis] = Dual::variable(at[axis], 1.0, 0.0);
+            let slope = displacement(Dual::constant(time), &shifted);
+            let column = gradient.iter().skip(axis).step_by(K::DIMENSION).copied();
+            pairs[2].extend(column.zip(slope.iter().map(|u| u.0.eps1)));
+        }
+    }
+    for (what, pairs) in ["velocity", "acceleration", "displacement_gradient"].iter().zip(pairs) {
+        let scale = largest(pairs.iter().map(|(_, dual)| *dual));
+        for (symbolic, dual) in pairs {
+            let bound = 256.0 * f64::EPSILON * scale;
+            assert!(
+                (symbolic - dual).abs() <= bound,
+                "{what}: {symbolic:e}, by dual numbers {dual:e}"
+            );
+        }
+    }
+}
+
+/// The displacement gradients of the field at its points.
+fn gradients<K: Kernel>(count: usize) -> Vec<(Vec<f64>, f64, Vec<f64>)> {
+    let points = sample(&compiled(K::NAME), count).into_iter();
+    points
+        .map(|point| {
+            let gradient =
+                K::quantity(Quantity::DisplacementGradient, point.time, &point.coordinates);
+            (point.coordinates, point.time, gradient)
+        })
+        .collect()
+}
+
+/// P_iJ = dW/dF_iJ against the derivative of W by dual numbers; F and H differ by a constant.
+fn stress_by_dual_numbers<K: Kernel>() {
+    let mut pairs = Vec::new();
+    for (point, _, gradient) in gradients::<K>(64) {
+        let constants =
+            |values: &[f64]| values.iter().map(|v| Dual::constant(*v)).collect::<Vec<_>>();
+        let stress = K::material_first_piola_kirchhoff(&point, &gradient);
+        for (component, stress) in stress.into_iter().enumerate() {
+            let mut strained = constants(&gradient);
+            strained[component] = Dual::variable(gradient[component], 1.0, 0.0);
+            let energy = K::material_strain_energy(&constants(&point), &strained);
+            pairs.push((stress, energy.0.eps1));
+        }
+    }
+    // W is a difference of terms of the size of the modulus, which is what rounds.
+    let modulus = modulus::<K>();
+    for (symbolic, dual) in pairs {
+        let bound = 64.0 * f64::EPSILON * modulus;
+        assert!((symbolic - dual).abs() <= bound, "P: {symbolic:e}, by dual numbers {dual:e}");
+    }
+}
+
+/// d2W/dF_11^2 at F = I.
+fn modulus<K: Kernel>() -> f64 {
+    let point = sample(&compiled(K::NAME), 1)[0].coordinates.clone();
+    let constants: Vec<_> = point.iter().map(|x| Dual::constant(*x)).collect();
+    let mut gradient = vec![Dual::constant(0.0); K::DIMENSION * K::DIMENSION];
+    gradient[0] = Dual::variable(0.0, 1.0, 1.0);
+    K::material_strain_energy(&constants, &gradient).0.eps1eps2
+}
+
+/// The field's stresses are those of its material at its gradient, and tau = P F^T,
+/// sigma = tau/J, nominal stress = P^T, traction = P N.
+fn stress_measures<K: Kernel>() {
+    let dimension = K::DIMENSION;
+    let bound = 64.0 * f64::EPSILON * modulus::<K>();
+    let close = |what: &str, a: f64, b: f64| {
+        assert!((a - b).abs() <= bound, "{what}: {a:e} and {b:e}");
+    };
+    for (point, time, gradient) in gradients::<K>(64) {
+        let of = |quantity| K::quantity(quantity, time, &point);
+        let (first, nominal) = (of(Quantity::FirstPiolaKirchhoff), of(Quantity::NominalStress));
+        let (kirchhoff, cauchy) = (of(Quantity::KirchhoffStress), of(Quantity::CauchyStress));
+        let (deformation, jacobian) =
+            (of(Quantity::DeformationGradient), of(Quantity::Jacobian)[0]);
+        let traction = of(Quantity::Traction);
+        let response = K::material_first_piola_kirchhoff(&point, &gradient);
+        let response_kirchhoff = K::material_kirchhoff_stress(&point, &gradient);
+        for k in 0..dimension * dimension {
+            let (row, column) = (k / dimension, k % dimension);
+            let product: f64 = (0..dimension)
+                .map(|axis| first[row * dimension + axis] * deformation[column * dimension + axis])
+                .sum();
+            close("P of the field and of the material", first[k], response[k]);
+            close("tau of the field and of the material", kirchhoff[k], response_kirchhoff[k]);
+            close("tau = P F^T", kirchhoff[k], product);
+            close("sigma = tau/J", cauchy[k] * jacobian, kirchhoff[k]);
+            close("nominal stress = P^T", nominal[column * dimension + row], first[k]);
+        }
+        for row in 0..dimension {
+            close("traction = P N, N along the first axis", traction[row], first[row * dimension]);
+        }
+    }
+}
+
+/// rho0 a - Div P - rho0 b with Div P from central differences of P: the residual must vanish
+/// like the square of the step.
+fn balance_by_finite_differences<K: Kernel>() {
+    let points = sample(&compiled(K::NAME), 32);
+    let coordinates = points.iter().flat_map(|point| &point.coordinates).copied();
+    let size = largest(coordinates);
+    let residual = |step: f64| {
+        let at =
+            points.iter().map(|point| momentum_residual::<K>(&point.coordinates, point.time, step));
+        at.fold([0.0; 2], |[residual, scale], [r, s]| [r.max(residual), s.max(scale)])
+    };
+    let [(coarse, scale), (fine, _)] = [size / 64.0, size / 128.0].map(|step| {
+        let [residual, scale] = residual(step);
+        (residual, scale)
+    });
+    // Where P is at most quadratic in X the differences are exact, and rounding is left.
+    if coarse > 1e-9 * scale {
+        let order = (coarse / fine).log2();
+        assert!(
+            (order - 2.0).abs() < 0.2,
+            "the residual {coarse:e} shrinks to {fine:e}: order {order}"
+        );
+    }
+    assert!(fine < 0.02 * scale, "the residual is {fine:e}, the terms are {scale:e}");
+}
+
+/// The largest component of the residual, and of the terms it is made of.
+fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
+    let dimension = K::DIMENSION;
+    let mut divergence = vec![0.0; dimension];
+    for axis in 0..dimension {
+        let stress = |sign: f64| {
+            let mut shifted = at.to_vec();
+            shifted[axis] += sign * step;
+            K::quantity(Quantity::FirstPiolaKirchhoff, time, &shifted)
+        };
+        let (ahead, behind) = (stress(1.0), stress(-1.0));
+        for (row, divergence) in divergence.iter_mut().enumerate() {
+            let k = row * dimension + axis;
+            *divergence += (ahead[k] - behind[k]) / (2.0 * step);
+        }
+    }
+    let density = K::density(at);
+    let acceleration = K::quantity(Quantity::Acceleration, time, at);
+    let force = K::quantity(Quantity::BodyForce, time, at);
+    let force_density = K::quantity(Quantity::BodyForceDensity, time, at);
+    let rows = (0..dimension).map(|row| {
+        let (inertia, body) = (density * acceleration[row], density * force[row]);
+        let bound = 64.0 * f64::EPSILON * largest([inertia, body, divergence[row]]);
+        assert!(
+            (body - force_density[row]).abs() <= bound,
+            "rho0 b: {body:e}, {:e}",
+            force_density[row]
+        );
+        [(inertia - divergence[row] - body).abs(), largest([inertia, body, divergence[row]])]
+    });
+    rows.fold([0.0; 2], |[residual, scale], [r, s]| [r.max(residual), s.max(scale)])
+}
+
+/// Both run the same program; they may differ only where the compiler contracts or reorders,
+/// which Rust does not.
+fn emitted_and_interpreted<K: Kernel>() {
+    let compiled = compiled(K::NAME);
+    let points = sample(&compiled, 64);
+    for quantity in Quantity::pointwise() {
+        agree_in_double::<K>(&compiled, &points, quantity);
+        agree_in_single::<K>(&compiled, &points, quantity);
+    }
+}
+
+type Points = [mms_codegen::certify::sample::Sample<f64>];
+
+fn agree_in_double<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Quantity) {
+    let parameters = compiled.parameters::<f64>(&Default::default());
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&[Output::Quantity(quantity)]);
+    for point in points {
+        interpreter.set_time(&point.time);
+        interpreter.set_point(&plan, Point::at(&point.coordinates));
+        let interpreted = interpreter.output(Output::Quantity(quantity));
+        let emitted = K::quantity(quantity, point.time, &point.coordinates);
+        assert_eq!(interpreted, emitted, "{} in f64", quantity.name());
+    }
+}
+
+fn agree_in_single<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Quantity) {
+    let parameters = compiled.parameters::<f32>(&Default::default());
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&[Output::Quantity(quantity)]);
+    for point in points {
+        let coordinates: Vec<_> = point.coordinates.iter().map(|x| f32::from_f64(*x)).collect();
+        let time = f32::from_f64(point.time);
+        interpreter.set_time(&time);
+        interpreter.set_point(&plan, Point::at(&coordinates));
+        let interpreted = interpreter.output(Output::Quantity(quantity));
+        let emitted = K::quantity(quantity, time, &coordinates);
+        assert_eq!(interpreted, emitted, "{} in f32", quantity.name());
+    }
+}
+
+/// Every `[[check]]` of the file, in arbitrary precision.
+fn closed_forms<K: Kernel>() {
+    for comparison in compare(&compiled(K::NAME)) {
+        assert!(comparison.difference.is_none(), "{comparison:?}");
+    }
+}
+
+/// Every `[[study]]` of the file whose method the solver has.
+fn studies<K: Kernel>() {
+    let compiled = compiled(K::NAME);
+    for study in &compiled.field.studies {
+        let (Ok(shape), Ok(integrator)) = (study.shape.parse(), study.integrator.parse()) else {
+            continue;
+        };
+        let default = Method::default();
+        let method = Method {
+            shape,
+            integrator,
+            particles_per_cell: study.particles_per_cell.unwrap_or(default.particles_per_cell),
+            courant: study.courant.unwrap_or(default.courant),
+        };
+        let entry = mms::gallery::find(K::NAME).expect("a field of the gallery");
+        let parameters = compiled.parameters::<f64>(&Default::default());
+        let scene = (entry.double)(&parameters).expect("parameters in the order of the file");
+        let level = |cells: &usize| {
+            let quiet = &mut |_, _| {};
+            match &scene {
+                Scene::Line(field) => run_level(field.as_ref(), &method, *cells, quiet),
+                Scene::Plane(field) => run_level(field.as_ref(), &method, *cells, quiet),
+                Scene::Space(field) => run_level(field.as_ref(), &method, *cells, quiet),
+            }
+            .expect("the solver takes the scene")
+        };
+        let levels: Vec<_> = study.cells.iter().map(level).collect();
+        let judgement = judge(&levels, study.order, study.tolerance.unwrap_or(TOLERANCE));
+        assert_eq!(judgement.verdict, Verdict::Pass, "{judgement:?}\n{levels:#?}");
+    }
+}

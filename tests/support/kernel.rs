@@ -1,0 +1,121 @@
+//! Generated modules behind one face, so that a property is written once for all fields.
+
+use mms_codegen::Compiled;
+use mms_codegen::certify::sample::{Sample, samples};
+use mms_codegen::quantity::Quantity;
+use mms_runtime::math::Scalar;
+
+/// The generated functions of one field.
+pub trait Kernel {
+    /// The field's name.
+    const NAME: &'static str;
+    /// The number of dimensions.
+    const DIMENSION: usize;
+
+    /// The components of a quantity, tensors row-major, for the default parameters.
+    fn quantity<T: Scalar + Copy>(quantity: Quantity, time: T, point: &[T]) -> Vec<T>;
+    /// rho0 at a point.
+    fn density<T: Scalar + Copy>(point: &[T]) -> T;
+    /// W of a displacement gradient, row-major.
+    fn material_strain_energy<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> T;
+    /// P of a displacement gradient, row-major both.
+    fn material_first_piola_kirchhoff<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> Vec<T>;
+    /// tau of a displacement gradient, row-major both.
+    fn material_kirchhoff_stress<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> Vec<T>;
+}
+
+/// Implements [`Kernel`] with a module of the gallery.
+macro_rules! kernel {
+    ($module:ident) => {
+        pub struct Field;
+
+        impl crate::support::kernel::Kernel for Field {
+            const NAME: &'static str = stringify!($module);
+            const DIMENSION: usize = mms::gallery::$module::DIMENSION;
+
+            fn quantity<T: mms_runtime::math::Scalar + Copy>(
+                quantity: mms_codegen::quantity::Quantity,
+                time: T,
+                point: &[T],
+            ) -> Vec<T> {
+                use mms_codegen::quantity::Quantity;
+                let field = mms::gallery::$module::prepare(&Default::default());
+                let (at, x) =
+                    (field.at_time(time), point.try_into().expect("DIMENSION components"));
+                match quantity {
+                    Quantity::Displacement => at.displacement(x).to_vec(),
+                    Quantity::Velocity => at.velocity(x).to_vec(),
+                    Quantity::Acceleration => at.acceleration(x).to_vec(),
+                    Quantity::DisplacementGradient => at.displacement_gradient(x).concat(),
+                    Quantity::DeformationGradient => at.deformation_gradient(x).concat(),
+                    Quantity::Jacobian => vec![at.jacobian(x)],
+                    Quantity::StrainEnergy => vec![at.strain_energy(x)],
+                    Quantity::FirstPiolaKirchhoff => at.first_piola_kirchhoff(x).concat(),
+                    Quantity::NominalStress => at.nominal_stress(x).concat(),
+                    Quantity::CauchyStress => at.cauchy_stress(x).concat(),
+                    Quantity::KirchhoffStress => at.kirchhoff_stress(x).concat(),
+                    Quantity::DivP => at.div_p(x).to_vec(),
+                    Quantity::BodyForce => at.body_force(x).to_vec(),
+                    Quantity::BodyForceDensity => at.body_force_density(x).to_vec(),
+                    Quantity::Traction => {
+                        let mut normal = [T::from_f64(0.0); Self::DIMENSION];
+                        normal[0] = T::from_f64(1.0);
+                        at.traction(x, normal).to_vec()
+                    }
+                }
+            }
+
+            fn density<T: mms_runtime::math::Scalar + Copy>(point: &[T]) -> T {
+                let field = mms::gallery::$module::prepare(&Default::default());
+                field.density(point.try_into().expect("DIMENSION components"))
+            }
+
+            fn material_strain_energy<T: mms_runtime::math::Scalar + Copy>(
+                point: &[T],
+                gradient: &[T],
+            ) -> T {
+                let field = mms::gallery::$module::prepare(&Default::default());
+                let x = point.try_into().expect("DIMENSION components");
+                field.material_strain_energy(x, crate::support::kernel::rows(gradient))
+            }
+
+            fn material_first_piola_kirchhoff<T: mms_runtime::math::Scalar + Copy>(
+                point: &[T],
+                gradient: &[T],
+            ) -> Vec<T> {
+                let field = mms::gallery::$module::prepare(&Default::default());
+                let x = point.try_into().expect("DIMENSION components");
+                let rows = crate::support::kernel::rows(gradient);
+                field.material_first_piola_kirchhoff(x, rows).concat()
+            }
+
+            fn material_kirchhoff_stress<T: mms_runtime::math::Scalar + Copy>(
+                point: &[T],
+                gradient: &[T],
+            ) -> Vec<T> {
+                let field = mms::gallery::$module::prepare(&Default::default());
+                let x = point.try_into().expect("DIMENSION components");
+                field.material_kirchhoff_stress(x, crate::support::kernel::rows(gradient)).concat()
+            }
+        }
+    };
+}
+
+pub(crate) use kernel;
+
+/// Row-major components as rows.
+pub fn rows<T: Copy, const D: usize>(components: &[T]) -> [[T; D]; D] {
+    std::array::from_fn(|row| std::array::from_fn(|column| components[row * D + column]))
+}
+
+/// The compiled text of a gallery field.
+pub fn compiled(name: &str) -> Compiled {
+    let entry = mms::gallery::find(name).expect("a field of the gallery");
+    let load = |path: &str| Err(format!("{path}: not in the gallery"));
+    mms_codegen::compile(entry.name, entry.path, entry.text, &load).expect("the gallery compiles")
+}
+
+/// Points and times over a field's domain.
+pub fn sample(compiled: &Compiled, count: usize) -> Vec<Sample<f64>> {
+    samples(compiled, &compiled.parameters::<f64>(&Default::default()), count)
+}
