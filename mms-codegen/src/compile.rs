@@ -6,7 +6,7 @@ use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::mechanics::model::Body;
-use crate::mechanics::{Derivation, Model, derive};
+use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
@@ -102,16 +102,23 @@ fn phases(
     let mut graph = Graph::default();
     let source = sources.add(path, text);
     let field = spec::read_field(sources, source, name, diagnostics)?;
-    let material = read_material(sources, &field, load, diagnostics)?;
-    let model = Model::resolve(&mut graph, &field, &material, diagnostics)?;
-    if !diagnostics.is_empty() {
-        return None;
-    }
-    let derivation = derive(&mut graph, &model);
+    let material = read_material(sources, &field, load, diagnostics);
+    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
+    let material = material.filter(|_| diagnostics.is_empty())?;
+    let derivation = derive(&mut graph, &model)
+        .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
+        .ok()?;
     let outputs = outputs(&mut graph, &model, &derivation);
     let program = schedule(&graph, &outputs);
     let sources = sources.clone();
     Some(Compiled { field, material, sources, graph, model, derivation, program })
+}
+
+fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
+    let span = field.displacement.first().map_or(field.material.span, |formula| formula.span);
+    Diagnostic::error(span, format!("the {what} of this field is too large"))
+        .label(format!("limit: {} nodes and operands", graph.limit()))
+        .help("its derivatives make very many terms: write the displacement in a shorter form")
 }
 
 fn read_material(
@@ -132,6 +139,10 @@ fn find_material(
 ) -> Option<(SourceId, String)> {
     let model = &field.material.model;
     let shown = &model.value;
+    if shown.is_empty() {
+        // The missing model has been reported.
+        return None;
+    }
     if let Some((stem, text)) = MATERIALS.iter().find(|(stem, _)| stem == shown) {
         return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
     }

@@ -1,14 +1,13 @@
 //! `mms show`: the derivation, readable.
 
-use anyhow::bail;
 use clap::Args;
 use mms_codegen::Compiled;
-use mms_codegen::expr::Expr;
+use mms_codegen::emit::text::{Line, definitions, derivation};
 use mms_codegen::program::{Output, Stage};
-use mms_codegen::quantity::{Quantity, Shape};
+use mms_codegen::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::input::Input;
+use super::input::{Input, quantity};
 use super::{Outcome, print, print_json};
 
 /// Show what follows from a field: its derivation, claims and operation counts.
@@ -29,10 +28,7 @@ impl Show {
         let input = Input::find(&self.field)?;
         let mut quantities = Vec::new();
         for name in &self.quantity {
-            match Quantity::from_name(name.trim()) {
-                Some(quantity) => quantities.push(quantity),
-                None => bail!("unknown quantity `{name}`; see `mms eval --help`"),
-            }
+            quantities.push(quantity(name.trim())?);
         }
         if quantities.is_empty() {
             quantities = Quantity::ALL.to_vec();
@@ -47,27 +43,6 @@ impl Show {
     }
 }
 
-/// Lines `symbol = formula` of a quantity, one per component.
-fn formulas(compiled: &Compiled, quantity: Quantity) -> Vec<(String, String)> {
-    let dimension = compiled.field.dimension;
-    let components = &compiled.derivation.quantities[&quantity];
-    let symbol = |index: usize| match quantity.shape() {
-        _ if components.len() == 1 => quantity.symbol().to_string(),
-        Shape::Tensor => {
-            format!("{}_{}{}", quantity.symbol(), index / dimension + 1, index % dimension + 1)
-        }
-        Shape::Scalar | Shape::Vector => format!("{}_{}", quantity.symbol(), index + 1),
-    };
-    let formula = |expr: Expr| compiled.graph.print(expr, &compiled.model.names);
-    components.iter().enumerate().map(|(index, expr)| (symbol(index), formula(*expr))).collect()
-}
-
-fn definitions(compiled: &Compiled) -> Vec<(String, String)> {
-    let names = &compiled.model.names;
-    let print = |expr: &Expr| compiled.graph.print(*expr, names);
-    names.expressions.iter().map(|(expr, name)| (name.clone(), print(expr))).collect()
-}
-
 fn operations(compiled: &Compiled, quantity: Quantity) -> Map<String, Value> {
     let counts = compiled.program.operations(&[Output::Quantity(quantity)]);
     let total: usize = counts.values().sum();
@@ -79,16 +54,17 @@ fn operations(compiled: &Compiled, quantity: Quantity) -> Map<String, Value> {
 
 fn document(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> Value {
     let field = &compiled.field;
-    let quantities: Map<String, Value> = quantities
-        .iter()
-        .map(|quantity| {
-            let formulas: Vec<_> =
-                formulas(compiled, *quantity).into_iter().map(|(_, formula)| formula).collect();
-            let entry =
-                json!({ "formula": formulas, "operations": operations(compiled, *quantity) });
+    let quantities: Map<String, Value> = derivation(compiled)
+        .into_iter()
+        .filter(|(quantity, _)| quantities.contains(quantity))
+        .map(|(quantity, lines)| {
+            let formula: Vec<_> = lines.into_iter().map(|line| line.formula).collect();
+            let entry = json!({ "formula": formula, "operations": operations(compiled, quantity) });
             (quantity.name().to_string(), entry)
         })
         .collect();
+    let definitions: Map<String, Value> =
+        definitions(compiled).into_iter().map(|line| (line.symbol, line.formula.into())).collect();
     let claims: Map<String, Value> = field
         .boundary
         .iter()
@@ -100,7 +76,7 @@ fn document(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> Value {
         "dimension": field.dimension,
         "reference": field.reference,
         "material": field.material.model.value,
-        "definitions": definitions(compiled).into_iter().collect::<std::collections::BTreeMap<_, _>>(),
+        "definitions": definitions,
         "boundary": claims,
         "quantities": quantities,
     })
@@ -121,11 +97,14 @@ fn text(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> String {
     lines.push(format!("  rho0 = {}", field.material.density.text));
     lines.push(String::new());
     lines.push("with".into());
-    let definitions = definitions(compiled);
-    lines.extend(definitions.iter().map(|(name, formula)| format!("  {name} = {formula}")));
-    for quantity in quantities {
+    let print = |line: Line| format!("  {} = {}", line.symbol, line.formula);
+    lines.extend(definitions(compiled).into_iter().map(print));
+    for (quantity, formulas) in derivation(compiled) {
+        if !quantities.contains(&quantity) {
+            continue;
+        }
         lines.push(String::new());
-        let counts = operations(compiled, *quantity);
+        let counts = operations(compiled, quantity);
         let stages: Vec<_> = Stage::ALL
             .iter()
             .filter(|stage| counts[stage.name()] != 0)
@@ -133,8 +112,7 @@ fn text(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> String {
             .collect();
         let stages = if stages.is_empty() { "none".into() } else { stages.join(", ") };
         lines.push(format!("{} (operations: {stages})", quantity.name()));
-        let formulas = formulas(compiled, *quantity);
-        lines.extend(formulas.iter().map(|(symbol, formula)| format!("  {symbol} = {formula}")));
+        lines.extend(formulas.into_iter().map(print));
     }
     if !field.boundary.is_empty() {
         lines.push(String::new());

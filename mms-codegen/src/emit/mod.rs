@@ -2,3 +2,4 @@
 //! differentiate nor reorder.
 
 pub mod rust;
+pub mod text;

@@ -12,6 +12,9 @@ use super::{Expr, Function, Graph, Node, Rational, Symbol};
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
 
+/// The longest number that a node may hold: beyond it the graph is exhausted.
+const MAX_BITS: usize = 1 << 17;
+
 impl Graph {
     /// An exact number.
     pub fn number(&mut self, value: impl Into<Rational>) -> Expr {
@@ -60,6 +63,9 @@ impl Graph {
 
     /// The sum of expressions times exact coefficients.
     pub fn sum(&mut self, terms: impl IntoIterator<Item = (Expr, Rational)>) -> Expr {
+        if self.is_exhausted() {
+            return self.exhaust();
+        }
         let mut constant = Rational::ZERO;
         let mut collected = BTreeMap::<Expr, Rational>::new();
         for (expr, coefficient) in terms {
@@ -76,6 +82,9 @@ impl Graph {
         }
         collected.retain(|_, coefficient| !coefficient.is_zero());
         let terms: Vec<_> = collected.into_iter().collect();
+        if is_long(&constant) || terms.iter().any(|(_, coefficient)| is_long(coefficient)) {
+            return self.exhaust();
+        }
         match terms.as_slice() {
             [] => self.number(constant),
             [(term, one)] if constant.is_zero() && one.is_one() => *term,
@@ -85,6 +94,9 @@ impl Graph {
 
     /// The product of expressions to exact exponents.
     pub fn product(&mut self, factors: impl IntoIterator<Item = (Expr, Rational)>) -> Expr {
+        if self.is_exhausted() {
+            return self.exhaust();
+        }
         let mut collector = Collector::default();
         collector.open.extend(factors);
         // A lone sum stays as it is written; as a factor among others it is normalised.
@@ -299,6 +311,10 @@ fn opens(graph: &Graph, base: Expr, exponent: &Rational) -> bool {
     }
 }
 
+fn is_long(number: &Rational) -> bool {
+    number.numerator().bit_len().max(number.denominator().bit_len()) > MAX_BITS
+}
+
 /// The functions whose value at 0 is a rational number.
 fn value_at_zero(function: Function) -> Option<i32> {
     match function {
@@ -331,8 +347,8 @@ fn gcd(a: &Rational, b: &Rational) -> Rational {
 
 /// `number ^ exponent` where it is rational and not too long.
 fn number_power(number: &Rational, exponent: &Rational) -> Option<Rational> {
-    if number.is_one() {
-        return Some(Rational::ONE);
+    if number.is_one() || exponent.is_one() {
+        return Some(number.clone());
     }
     let root = usize::try_from(exponent.denominator()).ok()?;
     let power = isize::try_from(exponent.numerator()).ok()?;

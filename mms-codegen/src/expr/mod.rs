@@ -67,15 +67,56 @@ impl Node {
     }
 }
 
-/// An arena of hash-consed nodes.
-#[derive(Clone, Debug, Default)]
+/// How large a graph may become: nodes and operands together. The largest known field needs a
+/// hundredth of it.
+pub const DEFAULT_MAX_NODES: usize = 1_000_000;
+
+/// An arena of hash-consed nodes, of bounded size.
+///
+/// Beyond the bound every operation returns 0 at once, and [`Graph::is_exhausted`] tells; what was
+/// computed is then void. So no text makes a compilation long or large.
+#[derive(Clone, Debug)]
 pub struct Graph {
     nodes: Vec<Node>,
     /// Only ever looked up, never iterated: hash order cannot be observed.
     index: HashMap<Node, Expr>,
+    /// Nodes and operands so far.
+    size: usize,
+    limit: usize,
+    exhausted: bool,
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        Self::with_limit(DEFAULT_MAX_NODES)
+    }
 }
 
 impl Graph {
+    /// An empty graph of at most `limit` nodes and operands.
+    pub fn with_limit(limit: usize) -> Self {
+        let (nodes, index) = (Vec::new(), HashMap::new());
+        let mut graph = Graph { nodes, index, size: 0, limit, exhausted: false };
+        graph.intern(Node::Number(Rational::ZERO));
+        graph
+    }
+
+    /// Whether the bound was passed: then nothing in the graph means anything.
+    pub fn is_exhausted(&self) -> bool {
+        self.exhausted
+    }
+
+    /// The bound on nodes and operands.
+    pub fn limit(&self) -> usize {
+        self.limit
+    }
+
+    /// What stands for everything in an exhausted graph.
+    fn exhaust(&mut self) -> Expr {
+        self.exhausted = true;
+        Expr(0)
+    }
+
     /// The node behind a handle.
     pub fn node(&self, expr: Expr) -> &Node {
         &self.nodes[expr.0 as usize]
@@ -96,7 +137,12 @@ impl Graph {
         if let Some(expr) = self.index.get(&node) {
             return *expr;
         }
-        let expr = Expr(u32::try_from(self.nodes.len()).expect("the node limit is below u32::MAX"));
+        self.size += 1 + node.children().count();
+        let id = u32::try_from(self.nodes.len())
+            .ok()
+            .filter(|_| self.nodes.is_empty() || self.size <= self.limit);
+        let Some(id) = id else { return self.exhaust() };
+        let expr = Expr(id);
         self.nodes.push(node.clone());
         self.index.insert(node, expr);
         expr

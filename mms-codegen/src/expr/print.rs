@@ -74,14 +74,17 @@ impl Graph {
                 print_sum(constant, terms, factor)
             }
             Node::Product(factors) => {
+                let (known, factors) = self.named_powers(expr, factors, names);
                 let base = |base: &Expr, exponent: &Rational| {
                     if exponent.is_one() {
                         at_least(base, Binding::Power)
+                    } else if *exponent == Rational::from_parts(1.into(), 2u8.into()) {
+                        format!("sqrt({})", printed[base].0)
                     } else {
                         format!("{}^{}", at_least(base, Binding::Atom), print_exponent(exponent))
                     }
                 };
-                print_product(factors, base)
+                print_product(&known, &factors, base)
             }
             Node::Call(Function::Powf, arguments) => {
                 let (base, exponent) = (&arguments[0], &arguments[1]);
@@ -92,6 +95,44 @@ impl Graph {
             Node::Call(function, arguments) => print_call(*function, arguments, printed),
         }
     }
+}
+
+impl Graph {
+    /// Takes named products out of a product: with A = a*cos(w), the factors a*b*cos(w) are A*b.
+    /// Returns the names with their powers, and the other factors.
+    fn named_powers(
+        &self,
+        product: Expr,
+        factors: &[(Expr, Rational)],
+        names: &Names,
+    ) -> (Vec<(String, Rational)>, Vec<(Expr, Rational)>) {
+        let mut factors: BTreeMap<Expr, Rational> = factors.iter().cloned().collect();
+        let mut known = Vec::new();
+        // Later definitions are made of earlier ones, and say more.
+        for (named, name) in names.expressions.range(..product).rev() {
+            let Node::Product(parts) = self.node(*named) else { continue };
+            let mut count = 0;
+            while parts.iter().all(|(base, part)| holds(factors.get(base), part)) {
+                for (base, part) in parts {
+                    *factors.entry(*base).or_default() -= part;
+                }
+                factors.retain(|_, exponent| !exponent.is_zero());
+                count += 1;
+            }
+            if count > 0 {
+                known.push((name.clone(), Rational::from(count)));
+            }
+        }
+        (known, factors.into_iter().collect())
+    }
+}
+
+/// Whether a power can be split into a part and a power of the same sign, or nothing.
+fn holds(power: Option<&Rational>, part: &Rational) -> bool {
+    power.is_some_and(|power| {
+        let same_sign = (*power > Rational::ZERO) == (*part > Rational::ZERO);
+        same_sign && magnitude(power) >= magnitude(part)
+    })
 }
 
 fn print_call(
@@ -164,20 +205,27 @@ fn print_sum(
 }
 
 fn print_product(
+    known: &[(String, Rational)],
     factors: &[(Expr, Rational)],
     power: impl Fn(&Expr, &Rational) -> String,
 ) -> (String, Binding) {
-    let list = |negative: bool| -> Vec<String> {
+    let list = |negative: bool| {
         factors
             .iter()
-            .filter(|(_, exponent)| (*exponent < Rational::ZERO) == negative)
+            .filter(move |(_, exponent)| (*exponent < Rational::ZERO) == negative)
             .map(|(base, exponent)| power(base, &magnitude(exponent)))
-            .collect()
     };
-    let (above, below) = (list(false), list(true));
+    let known = known.iter().map(|(name, exponent)| match exponent.is_one() {
+        true => name.clone(),
+        false => format!("{name}^{}", print_exponent(exponent)),
+    });
+    let above: Vec<String> = known.chain(list(false)).collect();
+    let below: Vec<String> = list(true).collect();
     let numerator = if above.is_empty() { "1".to_string() } else { above.join("*") };
-    let binding =
-        if factors.len() == 1 && below.is_empty() { Binding::Power } else { Binding::Product };
+    let binding = match (above.as_slice(), below.is_empty()) {
+        ([_], true) => Binding::Power,
+        _ => Binding::Product,
+    };
     match below.as_slice() {
         [] => (numerator, binding),
         [single] => (format!("{numerator}/{single}"), binding),

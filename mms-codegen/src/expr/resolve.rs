@@ -5,27 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{Expr, Function, Graph, Node, Rational, Symbol};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
+use crate::spec::names::FUNCTIONS;
 use crate::suggest::did_you_mean;
 use crate::syntax::{Ast, Kind, Operator};
-
-/// The functions of the language: those of the graph, and `hypot`, which is a square root.
-const FUNCTIONS: &[(&str, usize)] = &[
-    ("sqrt", 1),
-    ("exp", 1),
-    ("ln", 1),
-    ("sin", 1),
-    ("cos", 1),
-    ("tan", 1),
-    ("sinh", 1),
-    ("cosh", 1),
-    ("tanh", 1),
-    ("asin", 1),
-    ("acos", 1),
-    ("atan", 1),
-    ("atan2", 2),
-    ("hypot", 2),
-    ("cbrt", 1),
-];
 
 /// Functions that people try, and why a field cannot have them.
 const NON_SMOOTH: &[&str] =
@@ -43,6 +25,8 @@ pub struct Scope {
     unavailable: BTreeMap<String, String>,
     /// Symbols known to be positive.
     positive: BTreeSet<Symbol>,
+    /// A part of the file could not be read: a name may be defined there.
+    incomplete: bool,
 }
 
 impl Scope {
@@ -69,6 +53,11 @@ impl Scope {
         self.unavailable.insert(name.into(), reason.into());
     }
 
+    /// Records that definitions may be missing, so that an unknown name is not a mistake.
+    pub fn tolerate_unknown_names(&mut self) {
+        self.incomplete = true;
+    }
+
     /// Records that a symbol is positive.
     pub fn assume_positive(&mut self, symbol: Symbol) {
         self.positive.insert(symbol);
@@ -81,13 +70,62 @@ impl Scope {
         ast: &Ast,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Expr> {
+        if graph.is_exhausted() {
+            return None;
+        }
+        let reported = diagnostics.len();
         let mut resolver = Resolver { scope: self, graph, diagnostics };
-        let mut values = Vec::<Option<Expr>>::with_capacity(ast.nodes.len());
+        let mut values = Vec::<Option<Partial>>::with_capacity(ast.nodes.len());
         for node in &ast.nodes {
-            let value = resolver.node(&node.kind, node.span, ast, &values);
+            let value = resolver.node(&node.kind, node.span, ast, &mut values);
             values.push(value);
         }
-        values.pop().flatten()
+        let root = values.pop().flatten().map(|root| root.finish(graph));
+        if graph.is_exhausted() {
+            // What was reported of a void graph means nothing, and so would a second report.
+            diagnostics.truncate(reported);
+            let size = format!("limit: {} nodes and operands", graph.limit());
+            let formula = ast.nodes.last().map(|node| node.span);
+            diagnostics.extend(formula.map(|span| {
+                Diagnostic::error(span, "the formula is too large").label(size).help(
+                    "it makes very many terms or very long numbers: write it in a shorter form",
+                )
+            }));
+            return None;
+        }
+        root
+    }
+}
+
+/// A value under construction. A chain such as a + b - c is collected first and made canonical
+/// once, so that long formulas take linear time.
+enum Partial {
+    Done(Expr),
+    Sum(Vec<(Expr, Rational)>),
+    Product(Vec<(Expr, Rational)>),
+}
+
+impl Partial {
+    fn finish(self, graph: &mut Graph) -> Expr {
+        match self {
+            Partial::Done(expr) => expr,
+            Partial::Sum(terms) => graph.sum(terms),
+            Partial::Product(factors) => graph.product(factors),
+        }
+    }
+
+    fn into_terms(self, graph: &mut Graph) -> Vec<(Expr, Rational)> {
+        match self {
+            Partial::Sum(terms) => terms,
+            other => vec![(other.finish(graph), Rational::ONE)],
+        }
+    }
+
+    fn into_factors(self, graph: &mut Graph) -> Vec<(Expr, Rational)> {
+        match self {
+            Partial::Product(factors) => factors,
+            other => vec![(other.finish(graph), Rational::ONE)],
+        }
     }
 }
 
@@ -98,30 +136,37 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
+    /// Every node is the operand of one other, so that its value can be taken.
     fn node(
         &mut self,
         kind: &Kind,
         span: Span,
         ast: &Ast,
-        values: &[Option<Expr>],
-    ) -> Option<Expr> {
-        match kind {
+        values: &mut [Option<Partial>],
+    ) -> Option<Partial> {
+        let expr = match kind {
             Kind::Number(number) => Some(self.graph.number(number.clone())),
             Kind::Name(name) => self.name(name, span),
             Kind::Negate(operand) => {
-                let operand = values[*operand]?;
+                let operand = values[*operand].take()?.finish(self.graph);
                 Some(self.graph.scale(operand, -1))
             }
             Kind::Binary(operator, left, right) => {
-                let (a, b) = (values[*left]?, values[*right]?);
-                self.binary(*operator, a, b, ast.nodes[*left].span, ast.nodes[*right].span)
+                let (a, b) = (values[*left].take(), values[*right].take());
+                let b = b.map(|b| b.finish(self.graph));
+                let (left, right) = (ast.nodes[*left].span, ast.nodes[*right].span);
+                return self.binary(*operator, a?, b?, left, right);
             }
             Kind::Call { name, arguments } => {
                 let spans: Vec<_> = arguments.iter().map(|index| ast.nodes[*index].span).collect();
-                let values: Vec<_> = arguments.iter().map(|index| values[*index]).collect();
+                let values: Vec<_> = arguments
+                    .iter()
+                    .map(|index| values[*index].take().map(|value| value.finish(self.graph)))
+                    .collect();
                 self.call(name, &values, &spans)
             }
-        }
+        };
+        expr.map(Partial::Done)
     }
 
     fn report(&mut self, diagnostic: Diagnostic) -> Option<Expr> {
@@ -143,10 +188,13 @@ impl Resolver<'_> {
             let diagnostic = Diagnostic::error(span, format!("`{name}` is not available here"));
             return self.report(diagnostic.label(reason.clone()));
         }
-        if let Some((_, arity)) = FUNCTIONS.iter().find(|(function, _)| *function == name) {
-            let call = if *arity == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
+        if let Some(arity) = arity(name) {
+            let call = if arity == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
             let diagnostic = Diagnostic::error(span, format!("`{name}` is a function"));
             return self.report(diagnostic.label(format!("expected a call such as `{call}`")));
+        }
+        if self.scope.incomplete {
+            return None;
         }
         let diagnostic =
             Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
@@ -166,20 +214,33 @@ impl Resolver<'_> {
     fn binary(
         &mut self,
         operator: Operator,
-        a: Expr,
+        a: Partial,
         b: Expr,
         left: Span,
         right: Span,
-    ) -> Option<Expr> {
+    ) -> Option<Partial> {
         match operator {
-            Operator::Add => Some(self.graph.add(a, b)),
-            Operator::Subtract => Some(self.graph.sub(a, b)),
-            Operator::Multiply => Some(self.graph.mul(a, b)),
-            Operator::Divide if self.graph.is_zero(b) => {
-                self.report(Diagnostic::error(right, "division by zero").label("this is exactly 0"))
+            Operator::Add | Operator::Subtract => {
+                let mut terms = a.into_terms(self.graph);
+                let plus = operator == Operator::Add;
+                terms.push((b, if plus { Rational::ONE } else { Rational::NEG_ONE }));
+                Some(Partial::Sum(terms))
             }
-            Operator::Divide => Some(self.graph.div(a, b)),
-            Operator::Power => self.power(a, b, left, right),
+            Operator::Divide if self.graph.is_zero(b) => {
+                let diagnostic = Diagnostic::error(right, "division by zero");
+                self.diagnostics.push(diagnostic.label("this is exactly 0"));
+                None
+            }
+            Operator::Multiply | Operator::Divide => {
+                let mut factors = a.into_factors(self.graph);
+                let times = operator == Operator::Multiply;
+                factors.push((b, if times { Rational::ONE } else { Rational::NEG_ONE }));
+                Some(Partial::Product(factors))
+            }
+            Operator::Power => {
+                let base = a.finish(self.graph);
+                self.power(base, b, left, right).map(Partial::Done)
+            }
         }
     }
 
@@ -229,13 +290,12 @@ impl Resolver<'_> {
         values: &[Option<Expr>],
         spans: &[Span],
     ) -> Option<Expr> {
-        let Some((_, arity)) = FUNCTIONS.iter().find(|(function, _)| *function == name.value)
-        else {
+        let Some(arity) = arity(&name.value) else {
             let diagnostic = self.unknown_function(name);
             return self.report(diagnostic);
         };
-        if values.len() != *arity {
-            let plural = if *arity == 1 { "argument" } else { "arguments" };
+        if values.len() != arity {
+            let plural = if arity == 1 { "argument" } else { "arguments" };
             let message =
                 format!("`{}` takes {arity} {plural}, found {}", name.value, values.len());
             return self.report(
@@ -284,7 +344,7 @@ impl Resolver<'_> {
         }
         let diagnostic = Diagnostic::error(name.span, format!("unknown function `{shown}`"))
             .label("not a function");
-        let functions = FUNCTIONS.iter().map(|(function, _)| *function);
+        let functions = FUNCTIONS.iter().copied();
         match did_you_mean(shown, functions.clone()) {
             Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
             None => {
@@ -317,6 +377,15 @@ impl Resolver<'_> {
         }
         positive.contains(&root)
     }
+}
+
+/// How many arguments a function of the language takes. `hypot` is a square root in the graph.
+fn arity(name: &str) -> Option<usize> {
+    if name == "hypot" {
+        return Some(2);
+    }
+    let function = Function::ALL.iter().find(|function| function.name() == name)?;
+    FUNCTIONS.contains(&name).then(|| function.arity())
 }
 
 fn forward_reference(name: &str, span: Span, definition: Span) -> Diagnostic {

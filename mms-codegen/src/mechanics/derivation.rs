@@ -35,21 +35,33 @@ pub struct Derivation {
     pub responses: BTreeMap<Response, Vec<Expr>>,
 }
 
+/// What was being derived when the graph reached its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLarge(pub &'static str);
+
 /// Derives every quantity of a field.
-pub fn derive(graph: &mut Graph, model: &Model) -> Derivation {
+pub fn derive(graph: &mut Graph, model: &Model) -> Result<Derivation, TooLarge> {
     let law = Law::new(graph, model.energy);
+    within_bound(graph, "stress of the material")?;
     let motion = Motion::new(graph, &model.displacement);
+    within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
     let mut quantities = kinematic_quantities(&motion);
     quantities.extend(stress_quantities(graph, &law, &motion.strain));
+    within_bound(graph, "stress")?;
     let divergence = law.divergence(graph, &motion);
+    within_bound(graph, "divergence of the stress")?;
     quantities.extend(balance_quantities(graph, model.density, &motion, divergence));
-    Derivation {
+    let responses = responses(graph, &law, model);
+    let derivation = Derivation {
         quantities: simplified(graph, quantities),
-        responses: {
-            let responses = responses(graph, &law, model);
-            simplified(graph, responses)
-        },
-    }
+        responses: simplified(graph, responses),
+    };
+    within_bound(graph, "body force")?;
+    Ok(derivation)
+}
+
+fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
+    if graph.is_exhausted() { Err(TooLarge(what)) } else { Ok(()) }
 }
 
 fn kinematic_quantities(motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {

@@ -11,5 +11,5 @@ pub mod material;
 pub mod model;
 pub mod tensor;
 
-pub use derivation::{Derivation, Response, derive};
+pub use derivation::{Derivation, Response, TooLarge, derive};
 pub use model::{Domain, Model};

@@ -5,7 +5,7 @@ use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::quantity::Quantity;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec};
 use crate::suggest::did_you_mean;
 use crate::syntax;
@@ -93,10 +93,13 @@ impl Model {
     pub fn resolve(
         graph: &mut Graph,
         field: &FieldSpec,
-        material: &MaterialSpec,
+        material: Option<&MaterialSpec>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Model> {
         let mut reader = Reader { graph, diagnostics, scope: Scope::default() };
+        if field.incomplete {
+            reader.scope.tolerate_unknown_names();
+        }
         let mut names = Names::default();
         let parameters = reader.parameters(field, &mut names);
         reader.coordinates(field.dimension);
@@ -104,9 +107,11 @@ impl Model {
         let displacement = reader.formulas(&field.displacement);
         let density = reader.formula(&field.material.density);
         reader.independent_of_time(density, &field.material.density, "density");
-        let energy = reader.energy(field, material);
+        let arguments = reader.arguments(field);
+        let energy = material.and_then(|material| reader.energy(field, material, &arguments));
         let domain = reader.domain(&field.domain);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
+        reader.variations(field);
         Some(Model {
             parameters: parameters?,
             names,
@@ -213,36 +218,43 @@ impl Reader<'_> {
         }
     }
 
-    /// Arguments of the material in the field's terms, then its density in the arguments' terms.
-    fn energy(&mut self, field: &FieldSpec, material: &MaterialSpec) -> Option<Expr> {
+    /// The arguments of the material, in the field's terms.
+    fn arguments(&mut self, field: &FieldSpec) -> Vec<Option<Expr>> {
+        let arguments = field.material.arguments.iter();
+        arguments
+            .map(|(name, formula)| {
+                let value = self.formula(formula);
+                let what = format!("material parameter `{}`", name.value);
+                self.independent_of_time(value, formula, &what);
+                value
+            })
+            .collect()
+    }
+
+    /// The density of the material, in terms of the invariants and of the arguments.
+    fn energy(
+        &mut self,
+        field: &FieldSpec,
+        material: &MaterialSpec,
+        arguments: &[Option<Expr>],
+    ) -> Option<Expr> {
         let mut inner = Scope::default();
+        if material.incomplete {
+            inner.tolerate_unknown_names();
+        }
         let pi = self.graph.pi();
         inner.define("pi", Some(pi));
         self.invariants(&mut inner);
         let known: Vec<&str> =
             material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
         let mut complete = true;
-        for (name, formula) in &field.material.arguments {
-            let value = self.formula(formula);
-            self.independent_of_time(
-                value,
-                formula,
-                &format!("material parameter `{}`", name.value),
-            );
+        for ((name, _), value) in field.material.arguments.iter().zip(arguments) {
             complete &= value.is_some();
             if known.contains(&name.value.as_str()) {
-                inner.define(&name.value, value);
-            } else {
+                inner.define(&name.value, *value);
+            } else if !material.incomplete {
                 complete = false;
-                let message = format!(
-                    "`{}` is not a parameter of `{}`",
-                    name.value, field.material.model.value
-                );
-                let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
-                self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
-                    Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-                    None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
-                });
+                self.unknown_argument(field, name, &known);
             }
         }
         for parameter in &material.parameters {
@@ -251,6 +263,10 @@ impl Reader<'_> {
                 continue;
             }
             complete = false;
+            inner.define(name, None);
+            if field.incomplete {
+                continue;
+            }
             let model = &field.material.model;
             let what = parameter.doc.as_deref().unwrap_or("no description");
             let message = format!("material parameter `{name}` of `{}` is missing", model.value);
@@ -259,7 +275,6 @@ impl Reader<'_> {
                     .label(format!("needs `{name}`: {what}"))
                     .help(format!("add `{name} = \"...\"` under [material]")),
             );
-            inner.define(name, None);
         }
         let outer = std::mem::replace(&mut self.scope, inner);
         for definition in &material.lets {
@@ -267,8 +282,21 @@ impl Reader<'_> {
         }
         self.definitions(&material.lets, &mut Names::default());
         let energy = self.formula(&material.strain_energy);
+        for stray in &material.stray {
+            syntax::parse(stray, self.diagnostics);
+        }
         self.scope = outer;
         energy.filter(|_| complete)
+    }
+
+    fn unknown_argument(&mut self, field: &FieldSpec, name: &Spanned<String>, known: &[&str]) {
+        let model = &field.material.model.value;
+        let message = format!("`{}` is not a parameter of `{model}`", name.value);
+        let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
+        self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
+        });
     }
 
     /// I1, I2, I3 and J in terms of their departures from the undeformed state.
@@ -292,26 +320,30 @@ impl Reader<'_> {
     }
 
     fn domain(&mut self, domain: &spec::DomainSpec) -> Option<Domain> {
-        let body = match &domain.body {
+        // Everything is resolved before anything may be missing: each formula reports its mistakes.
+        let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
+        let body = self.body(&domain.body)?;
+        Some(Domain { body, time: [first?, last?] })
+    }
+
+    fn body(&mut self, body: &spec::Body) -> Option<Body> {
+        match body {
             spec::Body::Box { lower, upper } => {
                 let (lower, upper) = (self.constants(lower), self.constants(upper));
                 Some(Body::Box { lower: lower?, upper: upper? })
             }
             spec::Body::Annulus { inner, outer, theta } => {
-                let radii = (self.constant(inner), self.constant(outer));
-                let theta = match theta {
+                let (inner, outer) = (self.constant(inner), self.constant(outer));
+                let [first, last] = match theta {
                     Some(theta) => theta.each_ref().map(|angle| self.constant(angle)),
                     None => {
                         let pi = self.graph.pi();
                         [Some(self.graph.number(0)), Some(self.graph.scale(pi, 2))]
                     }
                 };
-                let [first, last] = theta;
-                Some(Body::Annulus { inner: radii.0?, outer: radii.1?, theta: [first?, last?] })
+                Some(Body::Annulus { inner: inner?, outer: outer?, theta: [first?, last?] })
             }
-        };
-        let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
-        Some(Domain { body: body?, time: [first?, last?] })
+        }
     }
 
     fn constants(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
@@ -332,6 +364,38 @@ impl Reader<'_> {
                 .help("use parameters, and definitions that contain no X, Y, Z or t"),
         );
         None
+    }
+
+    /// Formulas that no quantity depends on: extremes, a rigid motion, and those of keys that were
+    /// refused.
+    fn variations(&mut self, field: &FieldSpec) {
+        for (name, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
+            self.constant(value);
+            let known = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
+            if !field.incomplete && !known.clone().any(|known| known == name.value) {
+                let message = format!("`{}` is not a parameter of this field", name.value);
+                let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
+                self.diagnostics.push(diagnostic.did_you_mean(did_you_mean(&name.value, known)));
+            }
+        }
+        if let Some(rigid) = &field.rigid {
+            let rotation = match &rigid.rotation {
+                Some(spec::Rotation::Plane(angle)) => vec![angle],
+                Some(spec::Rotation::Space { axis, angle }) => axis.iter().chain([angle]).collect(),
+                None => Vec::new(),
+            };
+            for formula in rotation.into_iter().chain(rigid.translation.iter().flatten()) {
+                self.formula(formula);
+            }
+            let message = "rigid motions are read, but not yet composed with the field";
+            let diagnostic = Diagnostic::error(rigid.span, message);
+            self.diagnostics.push(
+                diagnostic.label("would be left out of every quantity").help("remove [rigid]"),
+            );
+        }
+        for stray in &field.stray {
+            syntax::parse(stray, self.diagnostics);
+        }
     }
 
     fn check(&mut self, check: &spec::CheckSpec) -> Option<Check> {
