@@ -11,6 +11,7 @@ use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Output, Program};
+use crate::simplify::simplify;
 use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::did_you_mean;
@@ -108,6 +109,7 @@ fn phases(
     let derivation = derive(&mut graph, &model)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
+    let derivation = simplify(&mut graph, derivation);
     let outputs = outputs(&mut graph, &model, &derivation);
     let program = schedule(&graph, &outputs);
     let sources = sources.clone();
@@ -242,6 +244,16 @@ impl Compiled {
         (0..self.model.parameters.len())
             .flat_map(|index| interpreter.output(Output::Parameter(index)))
             .collect()
+    }
+
+    /// What the output was made by and of: the crate's version and a hash of the input texts.
+    pub fn provenance(&self) -> String {
+        // FNV-1a (Fowler, Noll & Vo): tells inputs apart, and is the same everywhere.
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        for byte in self.sources.texts().flat_map(str::bytes) {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        format!("mms-codegen {} from input {hash:016x}", env!("CARGO_PKG_VERSION"))
     }
 
     /// The path of the material's file, where it is the user's own.

@@ -45,6 +45,11 @@ impl Sources {
         id
     }
 
+    /// Every text, in the order of addition.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|source| source.text.as_str())
+    }
+
     /// The text of that id.
     pub fn get(&self, id: SourceId) -> &Source {
         &self.0[id.0 as usize]

@@ -1,5 +1,6 @@
 //! No text makes the front end panic, hang or overflow a stack.
 
+use mms_codegen::compile;
 use mms_codegen::diagnostic::render;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{read_field, read_material};
@@ -7,6 +8,10 @@ use mms_codegen::syntax::parse;
 use proptest::prelude::*;
 
 const BAR: &str = include_str!("data/pass/every_key_2d.toml");
+
+/// What completes a field of one dimension.
+const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
+                    [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
 
 /// Reads a text as a field and as a material, parses every formula, and renders what was found.
 fn survive(text: &str) {
@@ -25,6 +30,10 @@ fn survive(text: &str) {
         assert!(text.get(span.start..span.end).is_some(), "{diagnostic:?} is no place in {text:?}");
     }
     render(&sources, &diagnostics);
+    let load = |_: &str| Err("no files here".to_string());
+    if let Err(failure) = compile("x", "x.toml", text, &load) {
+        assert!(!failure.to_string().is_empty(), "{text:?} fails without a word");
+    }
 }
 
 /// Pieces of field files, so that random texts reach past the TOML.
@@ -84,7 +93,7 @@ proptest! {
 
     #[test]
     fn any_formula(text in "[-+*/^(),.0-9a-zX_ \u{3bb}]{0,60}") {
-        survive(&format!("[field]\ndimension = 1\n[displacement]\nu = [\"{text}\"]\n[material]"));
+        survive(&format!("[field]\ndimension = 1\n[displacement]\nu = [\"{text}\"]\n{REST}"));
     }
 
     #[test]
@@ -98,6 +107,12 @@ proptest! {
 
 #[test]
 fn long_and_deep_texts_are_answered() {
+    let one_dimensional = |before: &str, middle: &str, after: &str| {
+        format!(
+            "[field]\ntitle = \"x\"\ndimension = 1\n[displacement]\n\
+             u = [\"{before}{middle}{after}\"]\n{REST}"
+        )
+    };
     let formula = |text: String| format!("[displacement]\nu = [\"{text}\"]\n");
     for text in [
         "[".repeat(200_000),
@@ -111,6 +126,11 @@ fn long_and_deep_texts_are_answered() {
         formula("(".repeat(200_000)),
         formula("\\\\".repeat(100_000)),
         formula("1e1000*".repeat(20_000)),
+        one_dimensional(&"sin(".repeat(400), "X", &")".repeat(400)),
+        one_dimensional("", &"X + t*".repeat(15_000), "X"),
+        one_dimensional("", &"sin(X)*cos(t + X)^2*".repeat(4_000), "X"),
+        one_dimensional("", &"(X + 1)^2^".repeat(60), "2"),
+        one_dimensional("X^1000000 + sin(X)^(1/", "1000000", ")"),
         "x".repeat(2_000_000),
     ] {
         survive(&text);

@@ -189,15 +189,26 @@ impl Graph {
         *leading < Rational::ZERO
     }
 
-    /// The number `c` and the sum `s` with `expr = c s`, such that the coefficients of `s` are
-    /// coprime integers and its first one is positive.
+    /// The number `c` and the sum `s` with `expr = c s`, where `s` is the same for all multiples of
+    /// `expr`: the first coefficient of `s` is positive, and as many as possible are 1 or -1. Where
+    /// several multiples do equally well, `s` has coprime integers.
     pub(crate) fn split_content(&mut self, expr: Expr) -> (Rational, Expr) {
         let Node::Sum(constant, terms) = self.node(expr) else {
             return (Rational::ONE, expr);
         };
-        let mut content = constant.clone();
+        let mut divisor = constant.clone();
         for (_, coefficient) in terms {
-            content = gcd(&content, coefficient);
+            divisor = gcd(&divisor, coefficient);
+        }
+        let ones = |content: &Rational| {
+            terms.iter().filter(|(_, coefficient)| magnitude(coefficient) == *content).count()
+        };
+        let mut content = divisor;
+        for (_, coefficient) in terms {
+            let candidate = magnitude(coefficient);
+            if ones(&candidate) > ones(&content) {
+                content = candidate;
+            }
         }
         if self.leads_with_minus(expr) {
             content = -content;
@@ -205,6 +216,10 @@ impl Graph {
         let primitive = self.scale(expr, Rational::ONE / &content);
         (content, primitive)
     }
+}
+
+fn magnitude(number: &Rational) -> Rational {
+    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
 }
 
 /// Collects the factors of a product until none of them can be opened further.
@@ -335,7 +350,7 @@ fn value_at_zero(function: Function) -> Option<i32> {
 /// The greatest common divisor of two rationals: both are integer multiples of it.
 fn gcd(a: &Rational, b: &Rational) -> Rational {
     if a.is_zero() {
-        return if *b < Rational::ZERO { -b.clone() } else { b.clone() };
+        return magnitude(b);
     }
     if b.is_zero() {
         return gcd(b, a);

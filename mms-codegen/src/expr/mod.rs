@@ -67,9 +67,9 @@ impl Node {
     }
 }
 
-/// How large a graph may become: nodes and operands together. The largest known field needs a
-/// hundredth of it.
-pub const DEFAULT_MAX_NODES: usize = 1_000_000;
+/// How large a graph may become: nodes and operands together. A rotating 3-D field needs some
+/// thousands.
+pub const DEFAULT_MAX_NODES: usize = 200_000;
 
 /// An arena of hash-consed nodes, of bounded size.
 ///

@@ -7,7 +7,6 @@ use super::material::Law;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
-use crate::pass::factor::factor;
 use crate::quantity::Quantity;
 
 /// Functions of a displacement gradient H that the caller supplies: the material of the field as a
@@ -52,12 +51,8 @@ pub fn derive(graph: &mut Graph, model: &Model) -> Result<Derivation, TooLarge> 
     within_bound(graph, "divergence of the stress")?;
     quantities.extend(balance_quantities(graph, model.density, &motion, divergence));
     let responses = responses(graph, &law, model);
-    let derivation = Derivation {
-        quantities: simplified(graph, quantities),
-        responses: simplified(graph, responses),
-    };
     within_bound(graph, "body force")?;
-    Ok(derivation)
+    Ok(Derivation { quantities, responses })
 }
 
 fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
@@ -146,8 +141,4 @@ fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, 
         ),
         (Response::KirchhoffStress, law.kirchhoff(graph, &strain).components().to_vec()),
     ])
-}
-
-fn simplified<K: Ord>(graph: &mut Graph, map: BTreeMap<K, Vec<Expr>>) -> BTreeMap<K, Vec<Expr>> {
-    map.into_iter().map(|(key, components)| (key, factor(graph, &components))).collect()
 }

@@ -33,8 +33,10 @@ impl Formula {
     /// `decoded` is what it means.
     pub(super) fn from_string(raw: &str, decoded: &str, span: Span) -> Self {
         let mut scan = Scan::new(raw, span);
-        scan.string();
-        if scan.formula.text != decoded {
+        if is_quoted(raw) {
+            scan.string();
+        }
+        if !is_quoted(raw) || scan.formula.text != decoded {
             // Only a string that TOML itself refused; the caret then covers all of it.
             scan.formula.text = decoded.into();
             let (text, source) = (0..decoded.len(), span.start..span.end);
@@ -157,11 +159,11 @@ impl<'a> Scan<'a> {
         let quote = if self.raw.starts_with('\'') { "'" } else { "\"" };
         let long = self.raw.len() >= 6 && self.raw.starts_with(&quote.repeat(3));
         let width = if long { 3 } else { 1 };
-        self.skip(width.min(self.raw.len()));
+        self.skip(width);
         if long {
             self.skip(newline(self.rest()));
         }
-        let end = self.raw.len().saturating_sub(width);
+        let end = self.raw.len() - width;
         while self.position < end {
             if quote == "\"" && self.rest().starts_with('\\') {
                 self.backslash(end);
@@ -188,6 +190,13 @@ impl<'a> Scan<'a> {
             None => self.copy(1),
         }
     }
+}
+
+/// Whether a text is a string with both its quotes, as all are in valid TOML.
+fn is_quoted(raw: &str) -> bool {
+    ['"', '\'']
+        .iter()
+        .any(|quote| raw.len() >= 2 && raw.starts_with(*quote) && raw.ends_with(*quote))
 }
 
 /// The length of the newline that a text starts with, if it does.

@@ -1,6 +1,6 @@
 //! The adapter: the kernels as the runtime's contract, over batches of points.
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{Emitter, RUNTIME};
@@ -108,9 +108,16 @@ impl Emitter<'_> {
             },
         };
         let faces = self.compiled.field.boundary.iter().map(|boundary| {
+            let index = Literal::usize_unsuffixed;
             let face = match boundary.face.value {
-                Face::Min(axis) => quote!(Min(#axis)),
-                Face::Max(axis) => quote!(Max(#axis)),
+                Face::Min(axis) => {
+                    let axis = index(axis);
+                    quote!(Min(#axis))
+                }
+                Face::Max(axis) => {
+                    let axis = index(axis);
+                    quote!(Max(#axis))
+                }
                 Face::Inner => quote!(Inner),
                 Face::Outer => quote!(Outer),
                 Face::ThetaMin => quote!(ThetaMin),

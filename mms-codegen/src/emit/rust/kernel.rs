@@ -1,6 +1,6 @@
 //! The kernels: plain functions over arrays, generic in the scalar.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{Emitter, Place, identifier, input};
@@ -13,7 +13,7 @@ use crate::quantity::{Quantity, Shape};
 impl Emitter<'_> {
     pub(super) fn parameters(&self) -> TokenStream {
         let parameters = &self.compiled.model.parameters;
-        let (dimension, count) = (self.dimension(), parameters.len());
+        let (dimension, count) = (self.dimension(), Literal::usize_unsuffixed(parameters.len()));
         let names: Vec<_> = parameters.iter().map(|parameter| &parameter.name).collect();
         let fields: Vec<_> = names.iter().map(|name| identifier(name)).collect();
         let docs = parameters.iter().map(|parameter| {
@@ -24,14 +24,17 @@ impl Emitter<'_> {
             }
         });
         let place = Place { field: quote!(), own: &[Stage::Parameter] };
-        let outputs: Vec<_> = (0..count).map(Output::Parameter).collect();
+        let outputs: Vec<_> = (0..parameters.len()).map(Output::Parameter).collect();
         let body = self.body(&outputs, &place);
         let values = outputs.iter().map(|output| self.operand(self.values(*output)[0], &place));
         // A struct without members cannot be generic in their type.
         let generic = self.parameters_generic();
-        let scalar = (count > 0).then(|| quote!(<T: Scalar + Copy>));
-        let (of_type, of_function) =
-            if count > 0 { (Some(quote!(<T>)), None) } else { (None, Some(quote!(<T>))) };
+        let scalar = (!parameters.is_empty()).then(|| quote!(<T: Scalar + Copy>));
+        let (of_type, of_function) = if parameters.is_empty() {
+            (None, Some(quote!(<T>)))
+        } else {
+            (Some(quote!(<T>)), None)
+        };
         quote! {
             /// The number of space dimensions.
             pub const DIMENSION: usize = #dimension;
@@ -71,18 +74,26 @@ impl Emitter<'_> {
         let generic = self.parameters_generic();
         let responses = self.responses();
         let bounds = self.bounds();
+        // A field without any value still has a scalar type.
+        let (marker, marked) = match kept.is_empty() {
+            true => (
+                Some(quote!(marker: ::core::marker::PhantomData<T>,)),
+                Some(quote!(marker: ::core::marker::PhantomData,)),
+            ),
+            false => (None, None),
+        };
         quote! {
             /// The field for one set of parameters: everything that needs neither t nor X.
             #[derive(Clone, Copy, Debug)]
             pub struct Field<T> {
                 #(#names: T,)*
-                marker: ::core::marker::PhantomData<T>,
+                #marker
             }
 
             /// Computes once what only the parameters determine.
             pub fn prepare<T: Scalar + Copy>(parameters: &Parameters #generic) -> Field<T> {
                 #body
-                Field { #(#names,)* marker: ::core::marker::PhantomData }
+                Field { #(#names,)* #marked }
             }
 
             impl<T: Scalar + Copy> Field<T> {
@@ -98,46 +109,32 @@ impl Emitter<'_> {
 
     fn bounds(&self) -> TokenStream {
         let place = Place { field: quote!(self), own: &[] };
-        let function = |bound: Bound, name: &str, doc: &str, length: usize| {
+        let function = |bound: Bound, name: &str, doc: &str| {
             let name = format_ident!("{name}");
             let values = self.values(Output::Bound(bound));
+            let length = Literal::usize_unsuffixed(values.len());
             let values = values.iter().map(|value| self.operand(*value, &place));
             quote! {
                 #[doc = #doc]
                 pub fn #name(&self) -> [T; #length] { [#(#values),*] }
             }
         };
-        let time = function(
-            Bound::Time,
-            "time_window",
-            " The first and last time of the field's claims, s.",
-            2,
-        );
+        let time =
+            function(Bound::Time, "time_window", " The first and last time of the claims, s.");
         let body = match &self.compiled.model.domain.body {
-            Body::Box { .. } => {
-                let dimension = self.dimension();
-                let lower = function(
-                    Bound::Lower,
-                    "lower",
-                    " The body's least reference coordinates, m.",
-                    dimension,
-                );
-                let upper = function(
-                    Bound::Upper,
-                    "upper",
-                    " The body's greatest reference coordinates, m.",
-                    dimension,
-                );
-                quote!(#lower #upper)
-            }
-            Body::Annulus { .. } => {
-                let inner = function(Bound::Inner, "inner", " The body's inner radius, m.", 1);
-                let outer = function(Bound::Outer, "outer", " The body's outer radius, m.", 1);
-                let theta = function(Bound::Theta, "theta", " The body's first and last angle.", 2);
-                quote!(#inner #outer #theta)
-            }
+            Body::Box { .. } => [
+                function(Bound::Lower, "lower", " The body's least reference coordinates, m."),
+                function(Bound::Upper, "upper", " The body's greatest reference coordinates, m."),
+            ]
+            .to_vec(),
+            Body::Annulus { .. } => [
+                function(Bound::Inner, "inner", " The body's inner radius, m."),
+                function(Bound::Outer, "outer", " The body's outer radius, m."),
+                function(Bound::Theta, "theta", " The body's first and last angle."),
+            ]
+            .to_vec(),
         };
-        quote!(#body #time)
+        quote!(#(#body)* #time)
     }
 
     fn responses(&self) -> TokenStream {
@@ -231,7 +228,7 @@ impl Emitter<'_> {
         let output = Output::Quantity(quantity);
         let point = self.point();
         let normal = (quantity == Quantity::Traction).then(|| {
-            let components = (0..self.dimension()).map(|axis| input(Symbol::Normal(axis)));
+            let components = self.axes().map(|axis| input(Symbol::Normal(axis)));
             let dimension = self.dimension();
             quote!(, [#(#components),*]: [T; #dimension])
         });
@@ -247,14 +244,14 @@ impl Emitter<'_> {
 
     fn point(&self) -> TokenStream {
         let dimension = self.dimension();
-        let names = (0..dimension).map(|axis| input(Symbol::Coordinate(axis)));
+        let names = self.axes().map(|axis| input(Symbol::Coordinate(axis)));
         quote!([#(#names),*]: [T; #dimension])
     }
 
     fn gradient(&self) -> TokenStream {
         let dimension = self.dimension();
-        let rows = (0..dimension).map(|row| {
-            let names = (0..dimension).map(|column| input(Symbol::Gradient(row, column)));
+        let rows = self.axes().map(|row| {
+            let names = self.axes().map(|column| input(Symbol::Gradient(row, column)));
             quote!([#(#names),*])
         });
         quote!([#(#rows),*]: [[T; #dimension]; #dimension])
@@ -276,7 +273,7 @@ impl Emitter<'_> {
             Shape::Scalar => quote!(#(#values)*),
             Shape::Vector => quote!([#(#values),*]),
             Shape::Tensor => {
-                let rows = values.chunks(self.dimension()).map(|row| quote!([#(#row),*]));
+                let rows = values.chunks(self.axes().len()).map(|row| quote!([#(#row),*]));
                 quote!([#(#rows),*])
             }
         }

@@ -1,0 +1,201 @@
+//! Stress, its divergence and the body force of fields and materials of every kind, against
+//! central differences of W and of P in 77 digits: a route without symbolic differentiation.
+
+use mms_codegen::certify::sample::samples;
+use mms_codegen::mechanics::Response;
+use mms_codegen::program::Output;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::program::precise::Precise;
+use mms_codegen::quantity::Quantity;
+use mms_codegen::{Compiled, compile};
+use mms_math::Scalar as _;
+
+/// A density that uses every invariant, so that no coefficient of the stress is zero.
+const EVERY_INVARIANT: &str = r#"
+[material]
+title = "every invariant"
+strain_energy = "k1*(I1 - 3)*(1 + (I1 - 3)/5) + k2*(I2 - 3 + (I1 - 3)*ln(J)) - k3*ln(J) + k4*(I3 - 1)^2"
+[parameters]
+k1 = { unit = "Pa" }
+k2 = { unit = "Pa" }
+k3 = { unit = "Pa" }
+k4 = { unit = "Pa" }
+"#;
+
+const NEO_HOOKEAN: &str = "model = \"neo_hookean\"\nlambda = 3\nmu = 2";
+/// A stress-free reference state needs 2 k1 + 4 k2 = k3; k1 and the density are graded.
+const GRADED: &str =
+    "model = \"./every.toml\"\nk1 = \"2 + X/3\"\nk2 = 1\nk3 = \"8 + 2*X/3\"\nk4 = 5";
+
+fn field(dimension: usize, displacement: &str, material: &str, density: &str) -> Compiled {
+    let corner = |value: &str| vec![value; dimension].join(", ");
+    let text = format!(
+        "[field]\ntitle = \"a field\"\ndimension = {dimension}\n[displacement]\nu = {displacement}\n\
+         [material]\n{material}\ndensity = \"{density}\"\n[domain]\nshape = \"box\"\n\
+         lower = [{}]\nupper = [{}]\ntime = [0, 1]\n",
+        corner("0.25"),
+        corner("1"),
+    );
+    let load = |_: &str| Ok(EVERY_INVARIANT.to_string());
+    compile("field", "field.toml", &text, &load).unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+const LINE: &str = "[\"0.2*sin(X + t)*exp(X/2)\"]";
+const PLANE: &str = "[\"0.1*sin(2*X + Y)*cos(t)\", \"0.2*X*Y^2*sin(t + X)\"]";
+const SPACE: &str =
+    "[\"0.1*sin(X*Y + Z)*cos(t)\", \"0.1*X*Z^2*sin(t + Y)\", \"0.1*exp(X - Y)*cos(Z + t)\"]";
+
+fn step() -> Precise {
+    Precise::from_f64(1e-20)
+}
+
+/// A field evaluated in 77 digits.
+struct Evaluator<'a> {
+    compiled: &'a Compiled,
+}
+
+impl Evaluator<'_> {
+    fn quantity(&self, quantity: Quantity, time: &Precise, at: &[Precise]) -> Vec<Precise> {
+        let mut interpreter = Interpreter::new(&self.compiled.program, &[]);
+        interpreter.set_time(time);
+        let output = Output::Quantity(quantity);
+        let plan = interpreter.plan(&[output]);
+        interpreter.set_point(&plan, Point::at(at));
+        interpreter.output(output)
+    }
+
+    fn response(&self, response: Response, at: &[Precise], gradient: &[Precise]) -> Vec<Precise> {
+        let mut interpreter = Interpreter::new(&self.compiled.program, &[]);
+        let output = Output::Response(response);
+        let plan = interpreter.plan(&[output]);
+        interpreter.set_point(&plan, Point { coordinates: at, normal: &[], gradient });
+        interpreter.output(output)
+    }
+}
+
+/// The derivative of `f` by one entry of `at`.
+fn central(at: &[Precise], entry: usize, f: impl Fn(&[Precise]) -> Vec<Precise>) -> Vec<Precise> {
+    let shifted = |step: Precise| {
+        let mut shifted = at.to_vec();
+        shifted[entry] = shifted[entry].clone() + step;
+        f(&shifted)
+    };
+    let (ahead, behind) = (shifted(step()), shifted(-step()));
+    let twice = step() * Precise::from_f64(2.0);
+    let pairs = ahead.into_iter().zip(behind);
+    pairs.map(|(ahead, behind)| (ahead - behind) / twice.clone()).collect()
+}
+
+#[track_caller]
+fn assert_agree(what: &str, a: &Precise, b: &Precise) {
+    // The differences err by step^2 times a third derivative: 40 digits less a few.
+    let difference = (a.clone() - b.clone()).magnitude();
+    let close = difference.at_most(&Precise::from_f64(1e-30));
+    assert!(close, "{what}: {:e} and {:e}", a.to_f64(), b.to_f64());
+}
+
+fn stress_is_the_derivative_of_energy(compiled: &Compiled) {
+    let evaluator = Evaluator { compiled };
+    for point in samples::<Precise>(compiled, &[], 4) {
+        let at = &point.coordinates;
+        let gradient = evaluator.quantity(Quantity::DisplacementGradient, &point.time, at);
+        let stress = evaluator.quantity(Quantity::FirstPiolaKirchhoff, &point.time, at);
+        let response = evaluator.response(Response::FirstPiolaKirchhoff, at, &gradient);
+        for (component, stress) in stress.iter().enumerate() {
+            let energy = |h: &[Precise]| evaluator.response(Response::StrainEnergy, at, h);
+            let slope = central(&gradient, component, energy).remove(0);
+            assert_agree("P = dW/dF", stress, &slope);
+            assert_agree("P of the field and of the material", stress, &response[component]);
+        }
+    }
+}
+
+fn momentum_balances(compiled: &Compiled) {
+    let evaluator = Evaluator { compiled };
+    let dimension = compiled.field.dimension;
+    for point in samples::<Precise>(compiled, &[], 4) {
+        let (time, at) = (&point.time, &point.coordinates);
+        let of = |quantity| evaluator.quantity(quantity, time, at);
+        let (divergence, force) = (of(Quantity::DivP), of(Quantity::BodyForce));
+        let (acceleration, density) =
+            (of(Quantity::Acceleration), evaluator.response(Response::Density, at, &[]).remove(0));
+        let slopes: Vec<_> = (0..dimension)
+            .map(|axis| {
+                central(at, axis, |at| evaluator.quantity(Quantity::FirstPiolaKirchhoff, time, at))
+            })
+            .collect();
+        for row in 0..dimension {
+            let mut differences = Precise::from_f64(0.0);
+            for (axis, slope) in slopes.iter().enumerate() {
+                differences = differences + slope[row * dimension + axis].clone();
+            }
+            assert_agree("Div P", &divergence[row], &differences);
+            let balance = density.clone() * acceleration[row].clone() - differences;
+            assert_agree("rho0 b", &(density.clone() * force[row].clone()), &balance);
+        }
+    }
+}
+
+fn everything_holds(compiled: &Compiled) {
+    stress_is_the_derivative_of_energy(compiled);
+    momentum_balances(compiled);
+}
+
+#[test]
+fn neo_hookean_in_one_dimension() {
+    everything_holds(&field(1, LINE, NEO_HOOKEAN, "1"));
+}
+
+#[test]
+fn neo_hookean_in_two_dimensions() {
+    everything_holds(&field(2, PLANE, NEO_HOOKEAN, "1"));
+}
+
+#[test]
+fn neo_hookean_in_three_dimensions() {
+    everything_holds(&field(3, SPACE, NEO_HOOKEAN, "1"));
+}
+
+#[test]
+fn every_invariant_graded_in_one_dimension() {
+    everything_holds(&field(1, LINE, GRADED, "2 + X^2"));
+}
+
+#[test]
+fn every_invariant_graded_in_two_dimensions() {
+    everything_holds(&field(2, PLANE, GRADED, "2 + X*Y"));
+}
+
+#[test]
+fn every_invariant_graded_in_three_dimensions() {
+    everything_holds(&field(3, SPACE, GRADED, "2 + X*Z"));
+}
+
+/// dP_11/dF_11 at F = I is lambda + 2 mu, and the wave speed its root over rho0.
+#[test]
+fn the_wave_speed_is_that_of_lame() {
+    let compiled = field(3, SPACE, NEO_HOOKEAN, "7");
+    let at = [Precise::from_f64(0.5), Precise::from_f64(0.5), Precise::from_f64(0.5)];
+    let speed = Evaluator { compiled: &compiled }.response(Response::WaveSpeed, &at, &[]).remove(0);
+    assert_agree(
+        "c^2 rho0",
+        &(speed.clone() * speed * Precise::from_f64(7.0)),
+        &Precise::from_f64(7.0),
+    );
+}
+
+/// A material at rest carries no stress.
+#[test]
+fn the_undeformed_state_is_free_of_stress() {
+    for compiled in [field(3, SPACE, NEO_HOOKEAN, "1"), field(2, PLANE, GRADED, "1")] {
+        let dimension = compiled.field.dimension;
+        let at = vec![Precise::from_f64(0.5); dimension];
+        let zero = vec![Precise::from_f64(0.0); dimension * dimension];
+        let evaluator = Evaluator { compiled: &compiled };
+        for response in [Response::FirstPiolaKirchhoff, Response::KirchhoffStress] {
+            for component in evaluator.response(response, &at, &zero) {
+                assert_agree("P(I)", &component, &zero[0]);
+            }
+        }
+    }
+}
