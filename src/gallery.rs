@@ -1,5 +1,8 @@
 //! The shipped fields, compiled: the folder `fields/` is the list.
 
+use mms_codegen::Compiled;
+use mms_codegen::compile::Failure;
+
 use crate::scene::Scene;
 
 /// A compiled field.
@@ -11,6 +14,8 @@ pub struct Entry {
     pub path: &'static str,
     /// The text of its file.
     pub text: &'static str,
+    /// The text of its material's file, where the field brings its own.
+    pub material: Option<&'static str>,
     /// The field in single precision, for parameter values in the order of the file.
     pub single: fn(&[f32]) -> Option<Scene<f32>>,
     /// The field in double precision, for parameter values in the order of the file.
@@ -24,6 +29,7 @@ macro_rules! entry {
             name: $name,
             path: concat!("fields/", $name, ".toml"),
             text: include_str!($file),
+            material: $module::OWN_MATERIAL,
             single: |values| {
                 let parameters = $module::Parameters::from_array(values.try_into().ok()?);
                 Some(Scene::from($module::prepare(&parameters).boxed()))
@@ -37,6 +43,15 @@ macro_rules! entry {
 }
 
 include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
+
+impl Entry {
+    /// Compiles the text again, for what the generated module does not hold.
+    pub fn compile(&self) -> Result<Compiled, Failure> {
+        let missing = || "not part of the gallery".to_string();
+        let load = |_: &str| self.material.map(str::to_string).ok_or_else(missing);
+        mms_codegen::compile(self.name, self.path, self.text, &load)
+    }
+}
 
 /// The compiled field of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -10,3 +10,8 @@ pub mod gallery;
 pub mod interpreted;
 pub mod report;
 pub mod scene;
+
+/// The README's programs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

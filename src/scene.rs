@@ -1,6 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::{ManufacturedField, Real};
+use mms_runtime::{Level, ManufacturedField, Method, Real, Refusal, run_level};
 
 /// A field of one, two or three dimensions in the precision `T`.
 pub enum Scene<T> {
@@ -27,5 +27,32 @@ impl<T: Real> From<Box<dyn ManufacturedField<T, 2>>> for Scene<T> {
 impl<T: Real> From<Box<dyn ManufacturedField<T, 3>>> for Scene<T> {
     fn from(field: Box<dyn ManufacturedField<T, 3>>) -> Self {
         Scene::Space(field)
+    }
+}
+
+impl<T> Scene<T> {
+    /// The levels of a study that names none: cells along the longest edge of the body.
+    pub fn default_cells(&self) -> &'static [usize] {
+        match self {
+            Scene::Line(_) => &[8, 16, 32, 64, 128],
+            Scene::Plane(_) => &[8, 16, 32, 64],
+            Scene::Space(_) => &[4, 8, 16],
+        }
+    }
+}
+
+impl<T: Real> Scene<T> {
+    /// Runs one level of a study; see [`mms_runtime::run_level`].
+    pub fn run_level(
+        &self,
+        method: &Method,
+        cells: usize,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Level, Refusal> {
+        match self {
+            Scene::Line(field) => run_level(field.as_ref(), method, cells, progress),
+            Scene::Plane(field) => run_level(field.as_ref(), method, cells, progress),
+            Scene::Space(field) => run_level(field.as_ref(), method, cells, progress),
+        }
     }
 }

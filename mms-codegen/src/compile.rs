@@ -153,7 +153,8 @@ fn find_material(
             Ok(text) => {
                 let file = shown.rsplit('/').next().unwrap_or(shown);
                 let stem = file.trim_end_matches(".toml").to_string();
-                Some((sources.add(shown.clone(), text), stem))
+                let field_path = &sources.get(model.span.source).path;
+                Some((sources.add(beside(field_path, shown), text), stem))
             }
             Err(reason) => {
                 let message = format!("cannot read the material file `{shown}`");
@@ -180,6 +181,15 @@ fn find_material(
         }
     });
     None
+}
+
+/// The path of a file that is named relative to another one.
+fn beside(path: &str, relative: &str) -> String {
+    let relative = relative.trim_start_matches("./");
+    match path.rsplit_once('/') {
+        Some((folder, _)) if !relative.starts_with('/') => format!("{folder}/{relative}"),
+        _ => relative.to_string(),
+    }
 }
 
 fn outputs(
@@ -256,10 +266,12 @@ impl Compiled {
         format!("mms-codegen {} from input {hash:016x}", env!("CARGO_PKG_VERSION"))
     }
 
-    /// The path of the material's file, where it is the user's own.
-    pub fn own_material(&self) -> Option<&str> {
+    /// Path and text of the material's file, where it is the user's own.
+    pub fn own_material(&self) -> Option<(&str, &str)> {
         let model = self.field.material.model.value.as_str();
-        MATERIALS.iter().all(|(stem, _)| *stem != model).then_some(model)
+        let shipped = MATERIALS.iter().any(|(stem, _)| *stem == model);
+        let text = self.sources.texts().last().filter(|_| !shipped)?;
+        Some((model, text))
     }
 
     /// The quantities that have a closed form, each beside it, as one program.

@@ -4,7 +4,7 @@
 //! A displacement field u(X, t) and a strain-energy density W go in; everything that follows from
 //! them (v, a, F, P, Div P, b, ...) comes out as a [`program::Program`], which the interpreter
 //! evaluates and the emitters print. The phases, each a function from the last one's output, are
-//! the body of [`compile`].
+//! the body of [`compile()`].
 
 pub mod certify;
 pub mod compile;

@@ -40,16 +40,21 @@ fn expand(path: &str) -> Result<proc_macro2::TokenStream, String> {
     let folder = file.parent().unwrap_or(&root);
     let compiled =
         mms_codegen::compile(&name, path, &text, &|material| read(&folder.join(material)))
-            .map_err(|failure| failure.to_string())?;
+            .map_err(|failure| message(&failure.to_string()))?;
     let module = mms_codegen::emit::rust::module(&compiled);
     // Cargo compiles the using crate again when a file that it includes changes.
     let mut sources = vec![file.clone()];
-    sources.extend(compiled.own_material().map(|material| folder.join(material)));
+    sources.extend(compiled.own_material().map(|(material, _)| folder.join(material)));
     let sources = sources.iter().map(|source| source.to_string_lossy().into_owned());
     Ok(quote! {
         #module
         #(const _: &[u8] = include_bytes!(#sources);)*
     })
+}
+
+/// The rendered mistakes as one compile error; the compiler writes the first `error: ` itself.
+fn message(rendered: &str) -> String {
+    rendered.strip_prefix("error: ").unwrap_or(rendered).trim_end().into()
 }
 
 fn read(path: &Path) -> Result<String, String> {

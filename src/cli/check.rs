@@ -28,9 +28,10 @@ impl Check {
         let mut documents = Vec::new();
         for file in &self.files {
             let shown = file.display().to_string();
-            let (outcome, document) = match read(file)? {
-                Ok(compiled) => self.report(&shown, &compiled),
-                Err(failure) => self.report_failure(&shown, &failure),
+            let (outcome, document) = match read(file) {
+                Ok(Ok(compiled)) => self.report(&shown, &compiled),
+                Ok(Err(failure)) => self.report_failure(&shown, &failure),
+                Err(error) => self.report_unreadable(&shown, &error),
             };
             documents.push(document);
             worst = match (worst, outcome) {
@@ -42,6 +43,13 @@ impl Check {
             print_json(&json!({ "files": documents }))?;
         }
         Ok(worst)
+    }
+
+    fn report_unreadable(&self, path: &str, error: &anyhow::Error) -> (Outcome, Value) {
+        if !self.json {
+            anstream::eprintln!("error: {error:#}");
+        }
+        (Outcome::BadInput, json!({ "file": path, "diagnostics": format!("{error:#}") }))
     }
 
     fn report_failure(&self, path: &str, failure: &Failure) -> (Outcome, Value) {

@@ -5,11 +5,10 @@ use clap::Args;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::quantity::Quantity;
-use mms_codegen::suggest::did_you_mean;
 use mms_runtime::Real;
 use serde_json::{Map, Value, json};
 
-use super::input::Input;
+use super::input::{Input, quantity};
 use super::{Outcome, print, print_json};
 
 /// Evaluate quantities of a field at points.
@@ -134,17 +133,7 @@ fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
             quantities.extend(Quantity::pointwise());
             continue;
         }
-        let Some(quantity) = Quantity::from_name(name) else {
-            let known = Quantity::ALL.iter().map(|quantity| quantity.name());
-            match did_you_mean(name, known.clone()) {
-                Some(near) => bail!("unknown quantity `{name}`; did you mean `{near}`?"),
-                None => bail!(
-                    "unknown quantity `{name}`; the quantities are {}, or `all`",
-                    known.collect::<Vec<_>>().join(", ")
-                ),
-            }
-        };
-        quantities.push(quantity);
+        quantities.push(quantity(name)?);
     }
     let mut seen = Vec::new();
     quantities.retain(|quantity| {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, anyhow, bail};
 use dashu_ratio::RBig;
+use mms_codegen::quantity::Quantity;
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, compile};
 
@@ -38,8 +39,8 @@ impl Input {
                 ),
             }
         };
-        let load = |path: &str| Err(format!("`{path}` is not part of the gallery"));
-        let compiled = compile(entry.name, entry.path, entry.text, &load)
+        let compiled = entry
+            .compile()
             .map_err(|failure| anyhow!("the gallery's own field does not compile\n{failure}"))?;
         Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
     }
@@ -80,6 +81,20 @@ impl Input {
         }
         Ok(set)
     }
+}
+
+/// The quantity of that name or alias.
+pub fn quantity(name: &str) -> anyhow::Result<Quantity> {
+    Quantity::from_name(name).with_context(|| {
+        let known = Quantity::ALL.iter().map(|quantity| quantity.name());
+        match did_you_mean(name, known.clone()) {
+            Some(near) => format!("unknown quantity `{name}`; did you mean `{near}`?"),
+            None => format!(
+                "unknown quantity `{name}`; the quantities are {}",
+                known.collect::<Vec<_>>().join(", ")
+            ),
+        }
+    })
 }
 
 /// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.

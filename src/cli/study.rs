@@ -8,12 +8,12 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_codegen::program::interpret::Number;
 use mms_runtime::study::{TOLERANCE, judge};
-use mms_runtime::{IntegratorName, Level, Method, Real, Refusal, ShapeName, Verdict, run_level};
+use mms_runtime::{IntegratorName, Level, Method, Real, ShapeName, Verdict};
 
 use super::eval::Precision;
 use super::input::Input;
 use super::{Outcome, print, print_json};
-use crate::report::Study as Report;
+use crate::report::{Refused, Study as Report};
 use crate::scene::Scene;
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
@@ -90,22 +90,21 @@ impl Study {
                 self.levels(&scene)
             }
         };
-        let levels = match levels {
-            Ok(levels) => levels,
-            Err(refusal) => {
-                anstream::eprintln!(
-                    "error: the study of `{}` cannot be started: {refusal}",
-                    input.name
-                );
-                return Ok(Outcome::RunFailed);
-            }
-        };
+        let started: Vec<_> = levels.iter().flatten().cloned().collect();
+        if started.is_empty() {
+            anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
+            return Ok(Outcome::RunFailed);
+        }
         let (expected_order, tolerance) = self.expectation(&input);
+        let mut judgement = judge(&started, expected_order, tolerance);
+        if started.len() < levels.len() {
+            judgement.verdict = Verdict::Fail;
+        }
         let report = Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
             precision: self.precision.name(),
-            judgement: judge(&levels, expected_order, tolerance),
+            judgement,
             method: self.method(),
             levels,
             expected_order,
@@ -165,25 +164,25 @@ impl Study {
         }
     }
 
-    fn levels<T: Real>(&self, scene: &Scene<T>) -> Result<Vec<Level>, Refusal> {
-        let (default, method) = (default_cells(scene), self.method());
+    fn levels<T: Real>(&self, scene: &Scene<T>) -> Vec<Result<Level, Refused>> {
+        let (default, method) = (scene.default_cells(), self.method());
         let cells = if self.cells.is_empty() { default } else { &self.cells };
         let progress = Progress::new();
         let mut levels = Vec::new();
-        for cells in cells {
-            let mut step = |step: usize, steps: usize| progress.step(*cells, step, steps);
-            let level = match scene {
-                Scene::Line(field) => run_level(field.as_ref(), &method, *cells, &mut step),
-                Scene::Plane(field) => run_level(field.as_ref(), &method, *cells, &mut step),
-                Scene::Space(field) => run_level(field.as_ref(), &method, *cells, &mut step),
-            }?;
-            if let Err(failure) = &level.errors {
-                progress.say(&format!("{cells} cells: {failure}"));
+        for &cells in cells {
+            let mut step = |step: usize, steps: usize| progress.step(cells, step, steps);
+            let level = scene.run_level(&method, cells, &mut step);
+            match &level {
+                Ok(Level { errors: Ok(_), .. }) => {}
+                Ok(Level { errors: Err(failure), .. }) => {
+                    progress.say(&format!("{cells} cells: {failure}"));
+                }
+                Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
             }
-            levels.push(level);
+            levels.push(level.map_err(|reason| Refused { cells, reason }));
         }
         progress.finish();
-        Ok(levels)
+        levels
     }
 
     /// The order to judge against, and how far from it is still as expected.
@@ -195,14 +194,6 @@ impl Study {
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
         (order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))
-    }
-}
-
-fn default_cells<T>(scene: &Scene<T>) -> &'static [usize] {
-    match scene {
-        Scene::Line(_) => &[8, 16, 32, 64, 128],
-        Scene::Plane(_) => &[8, 16, 32, 64],
-        Scene::Space(_) => &[4, 8, 16],
     }
 }
 

@@ -10,7 +10,7 @@ use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_runtime::study::{Judgement, Orders, orders};
-use mms_runtime::{Level, Method};
+use mms_runtime::{Level, Method, Refusal};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ pub struct Study {
     /// `f32` or `f64`.
     pub precision: &'static str,
     /// The levels, in the sequence asked for.
-    pub levels: Vec<Level>,
+    pub levels: Vec<Result<Level, Refused>>,
     /// The order that theory says.
     pub expected_order: f64,
     /// How far from it is still as expected.
@@ -34,47 +34,77 @@ pub struct Study {
     pub judgement: Judgement,
 }
 
+/// A level that was not started.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// Cells along the longest edge of the body.
+    pub cells: usize,
+    /// Why it was not started.
+    pub reason: Refusal,
+}
+
 /// One level as a record: a row of the CSV file, and an entry of the JSON document.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Row {
     cells: usize,
-    cell_size: f64,
-    time_step: f64,
-    steps: usize,
-    particles: usize,
+    cell_size: Option<f64>,
+    time_step: Option<f64>,
+    steps: Option<usize>,
+    particles: Option<usize>,
     l1: Option<f64>,
     l2: Option<f64>,
     linf: Option<f64>,
     order_l1: Option<f64>,
     order_l2: Option<f64>,
     order_linf: Option<f64>,
-    seconds: f64,
+    seconds: Option<f64>,
     failure: Option<String>,
 }
 
+impl Row {
+    fn of(level: &Level, before: Option<&Level>) -> Self {
+        let observed = before.map_or_else(Orders::default, |before| orders(before, level));
+        let errors = level.errors.as_ref().ok();
+        Row {
+            cells: level.cells,
+            cell_size: Some(level.cell_size),
+            time_step: Some(level.time_step),
+            steps: Some(level.steps),
+            particles: Some(level.particles),
+            l1: errors.map(|errors| errors.l1),
+            l2: errors.map(|errors| errors.l2),
+            linf: errors.map(|errors| errors.linf),
+            order_l1: observed.l1,
+            order_l2: observed.l2,
+            order_linf: observed.linf,
+            seconds: Some(level.seconds),
+            failure: level.errors.as_ref().err().map(ToString::to_string),
+        }
+    }
+
+    fn of_refused(refused: &Refused) -> Self {
+        Row {
+            cells: refused.cells,
+            failure: Some(format!("not started: {}", refused.reason)),
+            ..Row::default()
+        }
+    }
+}
+
 impl Study {
+    /// The levels that were started.
+    fn started(&self) -> impl Iterator<Item = &Level> {
+        self.levels.iter().flatten()
+    }
+
     fn rows(&self) -> Vec<Row> {
-        let before = std::iter::once(None).chain(self.levels.iter().map(Some));
+        let before =
+            std::iter::once(None).chain(self.levels.iter().map(|level| level.as_ref().ok()));
         let pairs = self.levels.iter().zip(before);
         pairs
-            .map(|(level, before)| {
-                let observed = before.map_or_else(Orders::default, |before| orders(before, level));
-                let errors = level.errors.as_ref().ok();
-                Row {
-                    cells: level.cells,
-                    cell_size: level.cell_size,
-                    time_step: level.time_step,
-                    steps: level.steps,
-                    particles: level.particles,
-                    l1: errors.map(|errors| errors.l1),
-                    l2: errors.map(|errors| errors.l2),
-                    linf: errors.map(|errors| errors.linf),
-                    order_l1: observed.l1,
-                    order_l2: observed.l2,
-                    order_linf: observed.linf,
-                    seconds: level.seconds,
-                    failure: level.errors.as_ref().err().map(ToString::to_string),
-                }
+            .map(|(level, before)| match level {
+                Ok(level) => Row::of(level, before),
+                Err(refused) => Row::of_refused(refused),
             })
             .collect()
     }
@@ -125,19 +155,21 @@ impl Study {
             "time",
         ]);
         for row in self.rows() {
-            let error = |error: Option<f64>| error.map_or("stopped".into(), |e| format!("{e:.2e}"));
+            let dead = if row.steps.is_some() { "stopped" } else { "not started" };
+            let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
             let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{o:.2}"));
+            let count = |count: Option<usize>| count.map_or("-".into(), |c| c.to_string());
             table.add_row([
                 row.cells.to_string(),
-                row.particles.to_string(),
-                row.steps.to_string(),
+                count(row.particles),
+                count(row.steps),
                 error(row.l1),
                 order(row.order_l1),
                 error(row.l2),
                 order(row.order_l2),
                 error(row.linf),
                 order(row.order_linf),
-                format!("{:.3} s", row.seconds),
+                row.seconds.map_or("-".into(), duration),
             ]);
         }
         for column in table.column_iter_mut() {
@@ -186,8 +218,22 @@ impl Study {
 
 /// Never leaves half a file under its final name.
 fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
-    let mut file = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+    let mut file = builder().tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
     file.write_all(content.as_bytes())?;
     file.persist(path)?;
     Ok(())
+}
+
+/// A temporary file is private by default; these are results, as open as any other file.
+fn builder() -> tempfile::Builder<'static, 'static> {
+    #[cfg_attr(not(unix), allow(unused_mut))]
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
+}
+
+/// Seconds for a person.
+fn duration(seconds: f64) -> String {
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
 }

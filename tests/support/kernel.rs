@@ -111,8 +111,7 @@ pub fn rows<T: Copy, const D: usize>(components: &[T]) -> [[T; D]; D] {
 /// The compiled text of a gallery field.
 pub fn compiled(name: &str) -> Compiled {
     let entry = mms::gallery::find(name).expect("a field of the gallery");
-    let load = |path: &str| Err(format!("{path}: not in the gallery"));
-    mms_codegen::compile(entry.name, entry.path, entry.text, &load).expect("the gallery compiles")
+    entry.compile().expect("the gallery compiles")
 }
 
 /// Points and times over a field's domain.

@@ -13,6 +13,9 @@ enum Binding {
     Atom,
 }
 
+/// Bases with their exponents.
+type Powers<B> = Vec<(B, Rational)>;
+
 /// The names under which a reader knows leaves and sub-expressions.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
@@ -105,7 +108,7 @@ impl Graph {
         product: Expr,
         factors: &[(Expr, Rational)],
         names: &Names,
-    ) -> (Vec<(String, Rational)>, Vec<(Expr, Rational)>) {
+    ) -> (Powers<String>, Powers<Expr>) {
         let mut factors: BTreeMap<Expr, Rational> = factors.iter().cloned().collect();
         let mut known = Vec::new();
         // Later definitions are made of earlier ones, and say more.

@@ -201,6 +201,7 @@ impl Resolver<'_> {
         let candidates = self.scope.names.keys().map(String::as_str);
         let diagnostic = match did_you_mean(name, candidates) {
             Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None if self.scope.names.is_empty() => diagnostic.help("expected a number"),
             None => diagnostic.help(format!("names in scope: {}", self.known_names())),
         };
         self.report(diagnostic)

@@ -410,7 +410,7 @@ impl Reader<'_> {
             quantity: check.quantity.value,
             equals: equals?,
             source: check.source.clone(),
-            span: check.quantity.span,
+            span: check.equals.first().map_or(check.quantity.span, |formula| formula.span),
         })
     }
 }

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place, identifier, input};
+use super::{Emitter, Place, input};
 use crate::expr::Symbol;
 use crate::mechanics::Response;
 use crate::mechanics::model::Body;
@@ -15,7 +15,9 @@ impl Emitter<'_> {
         let parameters = &self.compiled.model.parameters;
         let (dimension, count) = (self.dimension(), Literal::usize_unsuffixed(parameters.len()));
         let names: Vec<_> = parameters.iter().map(|parameter| &parameter.name).collect();
-        let fields: Vec<_> = names.iter().map(|name| identifier(name)).collect();
+        let fields = &self.parameter_names;
+        // A parameter may be called like something that a pattern cannot bind, such as `None`.
+        let locals: Vec<_> = (0..names.len()).map(|index| format_ident!("p{index}")).collect();
         let docs = parameters.iter().map(|parameter| {
             let what = parameter.doc.as_deref().unwrap_or("A parameter of the field");
             match &parameter.unit {
@@ -27,6 +29,10 @@ impl Emitter<'_> {
         let outputs: Vec<_> = (0..parameters.len()).map(Output::Parameter).collect();
         let body = self.body(&outputs, &place);
         let values = outputs.iter().map(|output| self.operand(self.values(*output)[0], &place));
+        let own_material = match self.compiled.own_material() {
+            Some((_, text)) => quote!(::core::option::Option::Some(#text)),
+            None => quote!(::core::option::Option::None),
+        };
         // A struct without members cannot be generic in their type.
         let generic = self.parameters_generic();
         let scalar = (!parameters.is_empty()).then(|| quote!(<T: Scalar + Copy>));
@@ -38,6 +44,9 @@ impl Emitter<'_> {
         quote! {
             /// The number of space dimensions.
             pub const DIMENSION: usize = #dimension;
+
+            /// The text of the material's file, where the field brings its own.
+            pub const OWN_MATERIAL: Option<&str> = #own_material;
 
             /// The names of the parameters, in the order of the field file.
             pub const NAMES: [&str; #count] = [#(#names),*];
@@ -51,8 +60,8 @@ impl Emitter<'_> {
             impl #of_type Parameters #generic {
                 /// From the values in the order of `NAMES`.
                 pub fn from_array #of_function(values: [T; #count]) -> Self {
-                    let [#(#fields),*] = values;
-                    Parameters { #(#fields),* }
+                    let [#(#locals),*] = values;
+                    Parameters { #(#fields: #locals),* }
                 }
             }
 

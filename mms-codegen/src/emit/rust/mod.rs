@@ -65,6 +65,20 @@ fn identifier(name: &str) -> Ident {
     }
 }
 
+/// Distinct names as distinct identifiers: one that had to be changed makes way for the others.
+fn distinct(names: &[&str]) -> Vec<Ident> {
+    names
+        .iter()
+        .map(|name| {
+            let mut own = identifier(name);
+            while own != *name && names.contains(&own.to_string().as_str()) {
+                own = format_ident!("{own}_");
+            }
+            own
+        })
+        .collect()
+}
+
 /// Where the body of a function finds the values that earlier stages left.
 struct Place {
     /// The struct that holds the Parameter stage.
@@ -76,6 +90,8 @@ struct Place {
 struct Emitter<'a> {
     compiled: &'a Compiled,
     program: &'a Program,
+    /// The parameters as members of a struct.
+    parameter_names: Vec<Ident>,
     /// Values of the Parameter and Time stages that later stages or outputs read.
     kept: Vec<bool>,
 }
@@ -97,7 +113,8 @@ impl<'a> Emitter<'a> {
         for (kept, instr) in kept.iter_mut().zip(&program.instrs) {
             *kept &= !matches!(instr.op, Op::Constant(_) | Op::Pi);
         }
-        Emitter { compiled, program, kept }
+        let names = compiled.model.parameters.iter().map(|parameter| parameter.name.as_str());
+        Emitter { compiled, program, parameter_names: distinct(&names.collect::<Vec<_>>()), kept }
     }
 
     fn dimension(&self) -> Literal {
@@ -160,7 +177,7 @@ impl<'a> Emitter<'a> {
             Op::Constant(number) => constant(number),
             Op::Pi => quote!(T::pi()),
             Op::Input(Symbol::Parameter(index)) => {
-                let name = identifier(&self.compiled.model.parameters[*index].name);
+                let name = &self.parameter_names[*index];
                 quote!(parameters.#name)
             }
             Op::Input(symbol) => {

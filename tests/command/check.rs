@@ -1,0 +1,84 @@
+//! `mms check`: mistakes with their places, and closed forms.
+
+use super::mms::{BAR, Folder};
+
+/// A folder with the bar, changed.
+fn changed(from: &str, to: &str) -> Folder {
+    assert!(BAR.contains(from), "the bar has no `{from}`");
+    let folder = Folder::new();
+    folder.write("bar.toml", &BAR.replace(from, to));
+    folder
+}
+
+/// `line:column` of a text in the bar.
+fn place(text: &str) -> String {
+    let start = BAR.find(text).unwrap_or_else(|| panic!("the bar has no `{text}`"));
+    let line = BAR[..start].matches('\n').count() + 1;
+    let column = start - BAR[..start].rfind('\n').map_or(0, |newline| newline + 1) + 1;
+    format!("{line}:{column}")
+}
+
+#[test]
+fn a_right_file_exits_0_and_its_closed_form_is_named() {
+    let run = Folder::with_bar("bar.toml").mms("check bar.toml").exits(0);
+    run.prints("bar.toml: Body force on a 1D bar").prints("body_force");
+    run.prints("slide 'Return to the 1D Bar', with the sign corrected");
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
+fn the_sign_printed_on_the_slides_is_refuted_with_exit_1() {
+    let folder = changed("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)");
+    let run = folder.mms("check bar.toml").exits(1);
+    run.prints("FAILED").prints(&format!("bar.toml:{}", place("\"(X*(2*length - X)*dA2")));
+    let checks = &folder.mms("check bar.toml --json").exits(1).json()["files"][0]["checks"];
+    assert_eq!(checks[0]["status"], "failed");
+    assert!(checks[0]["difference"]["derived"].is_number(), "{checks}");
+}
+
+#[test]
+fn a_mistake_exits_2_at_its_own_line_and_column() {
+    let folder = changed("cos(c*pi*t/length)", "cos(c*pi*t/lenght)");
+    let run = folder.mms("check bar.toml").exits(2);
+    let start = place("length)\"\n\n[displacement]");
+    run.complains(&format!("bar.toml:{start}")).complains("unknown name `lenght`");
+    run.complains("did you mean `length`?");
+}
+
+#[test]
+fn all_mistakes_are_found_in_one_run_and_counted() {
+    let text = BAR
+        .replace("title     =", "titel     =")
+        .replace("cos(c*pi*t/length)", "cos(c*pi*t/lenght, 1)")
+        .replace("lambda  = \"0\"", "lambda  = \"1/0\"")
+        .replace("x_max = \"free\"", "x_max = \"fre\"");
+    let folder = Folder::new();
+    folder.write("bar.toml", &text);
+    let run = folder.mms("check bar.toml").exits(2);
+    let found = run.stderr.lines().filter(|line| line.starts_with("error:")).count();
+    let places = run.stderr.lines().filter(|line| line.contains("--> bar.toml:")).count();
+    assert_eq!(found, places, "each has its own place: {run}");
+    run.complains("`titel`").complains("`lenght`").complains("division by zero");
+    run.complains("`fre`").prints(&format!("bar.toml: {found} mistake(s)"));
+}
+
+#[test]
+fn every_file_is_checked_whatever_the_others_are() {
+    let folder = changed("cos(", "cso(");
+    folder.write("good.toml", BAR);
+    let run = folder.mms("check bar.toml absent.toml good.toml").exits(2);
+    run.complains("did you mean `cos`?").complains("cannot read `absent.toml`");
+    run.prints("good.toml: Body force on a 1D bar");
+    let files = folder.mms("check bar.toml absent.toml good.toml --json").exits(2).json();
+    let names: Vec<_> = (0..3).map(|index| files["files"][index]["file"].clone()).collect();
+    assert_eq!(names, ["bar.toml", "absent.toml", "good.toml"]);
+}
+
+#[test]
+fn a_wrong_file_is_refused_by_every_command_with_the_same_text() {
+    let folder = changed("cos(", "cso(");
+    let expected = folder.mms("check bar.toml").exits(2).stderr;
+    for command in ["show bar.toml", "eval bar.toml --at 1 --time 0", "study bar.toml"] {
+        folder.mms(command).exits(2).complains(expected.trim_end()).prints_nothing();
+    }
+}

@@ -1,0 +1,11 @@
+//! The `mms` command as a user meets it: the built program, run in a folder of its own.
+
+mod check;
+mod eval;
+mod main_job;
+mod material;
+mod mms;
+mod overview;
+mod study;
+mod study_files;
+mod study_methods;

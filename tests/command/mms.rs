@@ -1,0 +1,126 @@
+//! Runs the program, and reads what it printed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// The text of the gallery's bar.
+pub const BAR: &str = include_str!("../../fields/bar_1d.toml");
+
+/// A folder that is removed at the end, and the working directory of the program.
+pub struct Folder(TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Folder(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    /// A folder with a copy of the gallery's bar.
+    pub fn with_bar(name: &str) -> Self {
+        let folder = Folder::new();
+        folder.write(name, BAR);
+        folder
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file, and the folders above it.
+    pub fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("a folder");
+        fs::write(path, text).expect("a written file");
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    /// Runs `mms` with these arguments, separated by blanks.
+    pub fn mms(&self, arguments: &str) -> Run {
+        self.run(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    /// Runs `mms` with these arguments.
+    pub fn run(&self, arguments: &[&str]) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_mms"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .output()
+            .expect("the program starts");
+        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        Run {
+            command: format!("mms {}", arguments.join(" ")),
+            code: output.status.code().expect("the program ends by itself"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+/// One run of the program.
+pub struct Run {
+    command: String,
+    code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl std::fmt::Display for Run {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Run { command, code, stdout, stderr } = self;
+        write!(f, "`{command}` exits {code}; on stdout\n{stdout}\nand on stderr\n{stderr}")
+    }
+}
+
+impl Run {
+    /// Asserts the exit code.
+    pub fn exits(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "{self}");
+        self
+    }
+
+    /// The JSON document on stdout.
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self}"))
+    }
+
+    /// Asserts that stderr holds a text.
+    pub fn complains(&self, text: &str) -> &Self {
+        assert!(self.stderr.contains(text), "`{text}` is missing: {self}");
+        self
+    }
+
+    /// Asserts that stdout holds a text.
+    pub fn prints(&self, text: &str) -> &Self {
+        assert!(self.stdout.contains(text), "`{text}` is missing: {self}");
+        self
+    }
+
+    /// Asserts that nothing was printed as a result.
+    pub fn prints_nothing(&self) -> &Self {
+        assert_eq!(self.stdout, "", "{self}");
+        self
+    }
+}
+
+/// The keys of a JSON object, in their order.
+pub fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+/// The numbers of a JSON array.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    let items = value.as_array().unwrap_or_else(|| panic!("not an array: {value}"));
+    items.iter().map(|item| item.as_f64().expect("a number")).collect()
+}
+
+/// Asserts that two numbers agree within a relative difference.
+pub fn assert_close(found: f64, expected: f64, relative: f64) {
+    let difference = (found - expected).abs();
+    assert!(difference <= relative * expected.abs(), "{found:e} is not {expected:e}");
+}

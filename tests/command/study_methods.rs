@@ -1,0 +1,126 @@
+//! `mms study`: what each method shows on the bar.
+
+use mms_codegen::spec::PRECISIONS;
+use serde_json::{Value, json};
+
+use super::mms::{Folder, assert_close};
+
+/// The document of a study of the gallery's bar that ends with this exit code.
+fn document(arguments: &str, code: i32) -> Value {
+    Folder::new().mms(&format!("study bar_1d --json {arguments}")).exits(code).json()
+}
+
+/// The members of the levels under one key.
+fn column(document: &Value, key: &str) -> Vec<Value> {
+    let levels = document["levels"].as_array().expect("levels");
+    levels.iter().map(|level| level[key].clone()).collect()
+}
+
+fn numbers(document: &Value, key: &str) -> Vec<f64> {
+    column(document, key).iter().map(|value| value.as_f64().expect("a number")).collect()
+}
+
+#[test]
+fn options_choose_the_method_and_the_levels() {
+    let options = "--shape ugimp --integrator usl --cells 4,10 --particles-per-cell 3 \
+                   --courant 0.2 --precision f32";
+    let document = document(options, 1);
+    let method = json!({
+        "shape": "ugimp",
+        "integrator": "usl",
+        "precision": "f32",
+        "particles_per_cell": 3,
+        "courant": 0.2,
+    });
+    assert_eq!(document["method"], method);
+    assert_eq!(column(&document, "cells"), [4, 10]);
+    assert_eq!(column(&document, "particles"), [12, 30]);
+    // Two lengths at the wave speed c, and steps of 0.2 h/c.
+    assert_eq!(column(&document, "steps"), [40, 100]);
+    for (level, cells) in [4.0, 10.0].into_iter().enumerate() {
+        let single = f64::from(f32::EPSILON);
+        assert_close(numbers(&document, "cell_size")[level], 1.0 / cells, single);
+        assert_close(numbers(&document, "time_step")[level], 0.2 / cells / 1e3_f64.sqrt(), single);
+    }
+}
+
+#[test]
+fn the_defaults_are_contiguous_particles_and_leapfrog() {
+    let given = "--shape cpgimp --integrator leapfrog --particles-per-cell 2 --courant 0.4 \
+                 --precision f64";
+    let [spelt, left_out] = [given, ""].map(|options| {
+        let document = document(&format!("--cells 8,16 {options}"), 0);
+        (document["method"].clone(), column(&document, "linf"))
+    });
+    assert_eq!(spelt, left_out);
+}
+
+#[test]
+fn single_precision_computes_in_single_precision() {
+    let errors = PRECISIONS
+        .iter()
+        .map(|precision| {
+            numbers(&document(&format!("--cells 8,16 --precision {precision}"), 0), "l2")
+        })
+        .collect::<Vec<_>>();
+    for (single, double) in errors[0].iter().zip(&errors[1]) {
+        assert_close(*single, *double, 1e-3);
+        assert_ne!(single, double);
+    }
+    assert_eq!(PRECISIONS, ["f32", "f64"]);
+}
+
+#[test]
+fn integrators_without_the_half_step_are_first_order_and_fail() {
+    for integrator in ["usl", "usf", "musl"] {
+        let document = document(&format!("--cells 8,16,32 --integrator {integrator}"), 1);
+        assert_eq!(document["verdict"], "fail", "{integrator}");
+        assert_eq!(document["expected_order"], 2.0, "{integrator}");
+        let order = document["observed_order"].as_f64().expect("an order");
+        assert!((order - 1.0).abs() < 0.15, "{integrator}: {order}");
+    }
+}
+
+#[test]
+fn shapes_that_do_not_follow_the_deformation_lose_their_order_and_fail() {
+    for shape in ["linear", "ugimp"] {
+        let document = document(&format!("--cells 8,16,32 --shape {shape}"), 1);
+        assert_eq!(document["verdict"], "fail", "{shape}");
+        let order = document["observed_order"].as_f64().expect("an order");
+        assert!(order < 0.0, "{shape}: {order}");
+    }
+}
+
+/// The bar is self-similar in time: the wave speed changes the time, not the motion.
+#[test]
+fn steps_and_errors_do_not_depend_on_the_modulus() {
+    let [soft, usual, stiff] = ["1", "1e6", "1e12"]
+        .map(|young| document(&format!("--cells 8,16,32 --set young={young}"), 0));
+    for other in [soft, stiff] {
+        assert_eq!(column(&other, "steps"), column(&usual, "steps"));
+        for norm in ["l1", "l2", "linf"] {
+            for (found, expected) in numbers(&other, norm).iter().zip(numbers(&usual, norm)) {
+                assert_close(*found, expected, 1e-11);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_outside_the_gallery_gives_the_same_study() {
+    let folder = Folder::with_bar("copy.toml");
+    for options in ["", "--precision f32 --set length=2", "--shape linear --integrator usf"] {
+        let [named, copied] = ["bar_1d", "copy.toml"].map(|field| {
+            let mut document =
+                folder.mms(&format!("study {field} --cells 4,8 {options} --json")).json();
+            for level in document["levels"].as_array_mut().expect("levels") {
+                level["seconds"].take();
+            }
+            document
+        });
+        assert_eq!([&named["field"], &copied["field"]], ["bar_1d", "copy"]);
+        for key in ["method", "levels", "expected_order", "observed_order", "verdict"] {
+            assert_eq!(copied[key], named[key], "{options}: {key}");
+        }
+    }
+}

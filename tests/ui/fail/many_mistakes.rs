@@ -1,0 +1,3 @@
+mms_macros::field!("tests/ui/fail/many_mistakes.toml");
+
+fn main() {}

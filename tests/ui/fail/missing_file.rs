@@ -1,0 +1,3 @@
+mms_macros::field!("tests/ui/fail/absent.toml");
+
+fn main() {}

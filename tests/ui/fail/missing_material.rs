@@ -1,0 +1,3 @@
+mms_macros::field!("tests/ui/fail/missing_material.toml");
+
+fn main() {}

@@ -1,0 +1,3 @@
+mms_macros::field!(bar_1d);
+
+fn main() {}

@@ -1,0 +1,3 @@
+mms_macros::field!("tests/ui/fail/unknown_name.toml");
+
+fn main() {}

@@ -1,0 +1,3 @@
+mms_macros::field!("tests/ui/fail/wrong_material.toml");
+
+fn main() {}
