@@ -10,7 +10,7 @@ use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
-use crate::program::{Bound, Output, Program};
+use crate::program::{Bound, Op, Output, Program};
 use crate::simplify::simplify;
 use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
@@ -49,6 +49,13 @@ pub struct Failure {
     pub sources: Sources,
     /// Every mistake.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Failure {
+    /// The text of every mistake, coloured for a terminal.
+    pub fn styled(&self) -> String {
+        diagnostic::render_styled(&self.sources, &self.diagnostics)
+    }
 }
 
 impl std::fmt::Display for Failure {
@@ -111,9 +118,29 @@ fn phases(
         .ok()?;
     let derivation = simplify(&mut graph, derivation);
     let outputs = outputs(&mut graph, &model, &derivation);
+    if graph.is_exhausted() {
+        diagnostics.push(too_large(&field, &graph, "simplified form"));
+        return None;
+    }
     let program = schedule(&graph, &outputs);
+    diagnostics.extend(unrepresentable(&field, &program));
     let sources = sources.clone();
     Some(Compiled { field, material, sources, graph, model, derivation, program })
+}
+
+/// A constant that no double precision number is near to, if the program has one.
+fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
+    let infinite = |op: &Op| match op {
+        Op::Constant(number) => number.to_f64().value().is_infinite(),
+        _ => false,
+    };
+    program.instrs.iter().find(|instr| infinite(&instr.op))?;
+    let span = field.displacement.first().map_or(field.material.span, |formula| formula.span);
+    Some(
+        Diagnostic::error(span, "a constant of this field is beyond the range of double precision")
+            .label("here, or in what it uses")
+            .help("numbers up to 1.797e308 can be computed with: choose other units"),
+    )
 }
 
 fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
@@ -243,6 +270,7 @@ impl Compiled {
     /// The parameters' values in the order of the file; those that depend on a set one follow it.
     pub fn parameters<T: Number>(&self, set: &BTreeMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
+        graph.make_room();
         let values = parameter_values(&mut graph, &self.model, set);
         let outputs = values
             .into_iter()

@@ -17,20 +17,9 @@ pub const MAX_RENDERED: usize = 100;
 /// Names longer than this are cut where a message quotes them.
 const MAX_QUOTED: usize = 40;
 
-/// Whether a compilation may go on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Severity {
-    /// The file is wrong: nothing can be generated from it.
-    Error,
-    /// The file is valid, but probably not what was meant.
-    Warning,
-}
-
 /// One message about one place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Whether a compilation may go on.
-    pub severity: Severity,
     /// What was found to be wrong, in one sentence without a full stop.
     pub message: String,
     /// The exact place.
@@ -44,16 +33,8 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error at a place.
     pub fn error(span: Span, message: impl Into<String>) -> Self {
-        Self::new(Severity::Error, span, message.into())
-    }
-
-    /// A warning at a place.
-    pub fn warning(span: Span, message: impl Into<String>) -> Self {
-        Self::new(Severity::Warning, span, message.into())
-    }
-
-    fn new(severity: Severity, span: Span, message: String) -> Self {
-        Diagnostic { severity, message, span, label: String::new(), help: Vec::new() }
+        let (message, label, help) = (message.into(), String::new(), Vec::new());
+        Diagnostic { message, span, label, help }
     }
 
     /// Sets the words beside the caret.
@@ -75,11 +56,6 @@ impl Diagnostic {
             None => self,
         }
     }
-}
-
-/// Whether any of them is an error.
-pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
-    diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
 }
 
 /// A piece of a user's text as messages quote it: in backticks, and cut where it is long.
@@ -127,10 +103,6 @@ fn in_order(diagnostics: &[Diagnostic]) -> Vec<&Diagnostic> {
 }
 
 fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -> String {
-    let level = match diagnostic.severity {
-        Severity::Error => Level::ERROR,
-        Severity::Warning => Level::WARNING,
-    };
     let (line_number, _) = sources.location(diagnostic.span);
     let (line, caret) = shown_line(sources, diagnostic.span);
     let mut annotation = AnnotationKind::Primary.span(caret);
@@ -143,7 +115,8 @@ fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -
         .annotation(annotation);
     let help =
         diagnostic.help.iter().map(|help| Level::HELP.message(normalize_untrusted_str(help)));
-    let group = level.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
+    let group =
+        Level::ERROR.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
     renderer.render(&[group])
 }
 

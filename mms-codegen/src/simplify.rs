@@ -27,6 +27,9 @@ fn simplify_each<K: Ord>(
 /// The components with common factors taken out, or as they are where that costs no more.
 pub fn cheaper(graph: &mut Graph, plain: Vec<Expr>) -> Vec<Expr> {
     let factored = factor(graph, &plain);
+    if graph.is_exhausted() {
+        return plain;
+    }
     if cost(graph, &factored) <= cost(graph, &plain) { factored } else { plain }
 }
 

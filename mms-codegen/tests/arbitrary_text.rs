@@ -129,6 +129,11 @@ fn long_and_deep_texts_are_answered() {
         one_dimensional(&"sin(".repeat(400), "X", &")".repeat(400)),
         one_dimensional("", &"X + t*".repeat(15_000), "X"),
         one_dimensional("", &"sin(X)*cos(t + X)^2*".repeat(4_000), "X"),
+        one_dimensional(
+            "X*(",
+            &(1..2_000).map(|k| format!("sin({k}*X)/{k} + ")).collect::<String>(),
+            "1)",
+        ),
         one_dimensional("", &"(X + 1)^2^".repeat(60), "2"),
         one_dimensional("X^1000000 + sin(X)^(1/", "1000000", ")"),
         "x".repeat(2_000_000),

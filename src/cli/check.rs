@@ -29,8 +29,8 @@ impl Check {
         for file in &self.files {
             let shown = file.display().to_string();
             let (outcome, document) = match read(file) {
-                Ok(Ok(compiled)) => self.report(&shown, &compiled),
-                Ok(Err(failure)) => self.report_failure(&shown, &failure),
+                Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
+                Ok(Err(failure)) => self.report_failure(&shown, &failure)?,
                 Err(error) => self.report_unreadable(&shown, &error),
             };
             documents.push(document);
@@ -52,20 +52,20 @@ impl Check {
         (Outcome::BadInput, json!({ "file": path, "diagnostics": format!("{error:#}") }))
     }
 
-    fn report_failure(&self, path: &str, failure: &Failure) -> (Outcome, Value) {
+    fn report_failure(&self, path: &str, failure: &Failure) -> anyhow::Result<(Outcome, Value)> {
         if !self.json {
-            anstream::eprintln!("{failure}");
-            print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()));
+            anstream::eprintln!("{}", failure.styled());
+            print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
         }
         let document = json!({ "file": path, "diagnostics": failure.to_string() });
-        (Outcome::BadInput, document)
+        Ok((Outcome::BadInput, document))
     }
 
-    fn report(&self, path: &str, compiled: &Compiled) -> (Outcome, Value) {
+    fn report(&self, path: &str, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
         let refuted = comparisons.iter().any(|comparison| comparison.difference.is_some());
         if !self.json {
-            print(&text(path, compiled, &comparisons));
+            print(&text(path, compiled, &comparisons))?;
         }
         let claims: Vec<_> = compiled
             .field
@@ -81,7 +81,7 @@ impl Check {
             .collect();
         let checks: Vec<_> = comparisons.iter().map(comparison_document).collect();
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
-        (outcome, json!({ "file": path, "claims": claims, "checks": checks }))
+        Ok((outcome, json!({ "file": path, "claims": claims, "checks": checks })))
     }
 }
 

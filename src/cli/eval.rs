@@ -8,7 +8,7 @@ use mms_codegen::quantity::Quantity;
 use mms_runtime::Real;
 use serde_json::{Map, Value, json};
 
-use super::input::{Input, quantity};
+use super::input::{Input, quantities};
 use super::{Outcome, print, print_json};
 
 /// Evaluate quantities of a field at points.
@@ -87,6 +87,10 @@ impl Eval {
             }
             None => Vec::new(),
         };
+        let squared: f64 = normal.iter().map(|component| component.to_f64().powi(2)).sum();
+        if !normal.is_empty() && (squared - 1.0).abs() > 1e-6 {
+            bail!("`--normal`: expected a unit vector, found one of length {}", squared.sqrt());
+        }
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         if !self.time.is_finite() {
             bail!("`--time {}`: expected a finite number", self.time);
@@ -120,28 +124,10 @@ impl Eval {
         if self.json {
             print_json(&json!({ "field": input.name, "time": self.time, "points": results }))?;
         } else {
-            print(&text(&results));
+            print(&text(&results))?;
         }
         Ok(Outcome::AsExpected)
     }
-}
-
-fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
-    let mut quantities = Vec::new();
-    for name in names.iter().map(|name| name.trim()) {
-        if name == "all" {
-            quantities.extend(Quantity::pointwise());
-            continue;
-        }
-        quantities.push(quantity(name)?);
-    }
-    let mut seen = Vec::new();
-    quantities.retain(|quantity| {
-        let new = !seen.contains(quantity);
-        seen.push(*quantity);
-        new
-    });
-    Ok(quantities)
 }
 
 fn coordinates<T: Real>(option: &str, text: &str, dimension: usize) -> anyhow::Result<Vec<T>> {

@@ -83,8 +83,27 @@ impl Input {
     }
 }
 
+/// The quantities of some names or aliases, each once; `all` stands for those of a point and a time.
+pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    let mut quantities = Vec::new();
+    for name in names.iter().map(|name| name.trim()) {
+        if name == "all" {
+            quantities.extend(Quantity::pointwise());
+            continue;
+        }
+        quantities.push(quantity(name)?);
+    }
+    let mut seen = Vec::new();
+    quantities.retain(|quantity| {
+        let new = !seen.contains(quantity);
+        seen.push(*quantity);
+        new
+    });
+    Ok(quantities)
+}
+
 /// The quantity of that name or alias.
-pub fn quantity(name: &str) -> anyhow::Result<Quantity> {
+fn quantity(name: &str) -> anyhow::Result<Quantity> {
     Quantity::from_name(name).with_context(|| {
         let known = Quantity::ALL.iter().map(|quantity| quantity.name());
         match did_you_mean(name, known.clone()) {

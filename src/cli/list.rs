@@ -60,7 +60,7 @@ impl List {
             materials.join(", "),
             ShapeName::NAMES.join(", "),
             IntegratorName::NAMES.join(", ")
-        ));
+        ))?;
         Ok(Outcome::AsExpected)
     }
 }

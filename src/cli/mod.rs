@@ -74,13 +74,17 @@ pub fn run() -> ExitCode {
 
 /// Prints one JSON document.
 fn print_json(document: &impl serde::Serialize) -> anyhow::Result<()> {
-    print(&serde_json::to_string_pretty(document)?);
-    Ok(())
+    print(&serde_json::to_string_pretty(document)?)
 }
 
 /// Prints a text to stdout. A reader that stopped reading is not an error of ours.
-fn print(text: &str) {
-    use std::io::Write as _;
+fn print(text: &str) -> anyhow::Result<()> {
+    use std::io::{ErrorKind, Write as _};
     let mut stdout = anstream::stdout().lock();
-    let _ = writeln!(stdout, "{}", text.trim_end());
+    match writeln!(stdout, "{}", text.trim_end()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(anyhow::Error::new(error).context("cannot write to stdout"))
+        }
+        _ => Ok(()),
+    }
 }

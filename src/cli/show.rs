@@ -7,7 +7,7 @@ use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::input::{Input, quantity};
+use super::input::{Input, quantities};
 use super::{Outcome, print, print_json};
 
 /// Show what follows from a field: its derivation, claims and operation counts.
@@ -26,18 +26,15 @@ pub struct Show {
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field)?;
-        let mut quantities = Vec::new();
-        for name in &self.quantity {
-            quantities.push(quantity(name.trim())?);
-        }
-        if quantities.is_empty() {
-            quantities = Quantity::ALL.to_vec();
-        }
+        let quantities = match self.quantity.as_slice() {
+            [] => Quantity::ALL.to_vec(),
+            named => quantities(named)?,
+        };
         let compiled = &input.compiled;
         if self.json {
             print_json(&document(&input.name, compiled, &quantities))?;
         } else {
-            print(&text(&input.name, compiled, &quantities));
+            print(&text(&input.name, compiled, &quantities))?;
         }
         Ok(Outcome::AsExpected)
     }

@@ -59,27 +59,20 @@ pub struct Study {
 
 /// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
 pub fn main_job() -> anyhow::Result<Outcome> {
-    let method = Method::default();
-    let study = Study {
-        field: "bar_1d".into(),
-        shape: method.shape,
-        integrator: method.integrator,
-        cells: vec![8, 16, 32, 64, 128],
-        particles_per_cell: method.particles_per_cell,
-        courant: method.courant,
-        precision: Precision::F64,
-        expected_order: None,
-        set: Vec::new(),
-        output: None,
-        json: false,
-    };
-    study.run()
+    /// A study on its own, with the defaults of its options.
+    #[derive(clap::Parser)]
+    struct MainJob {
+        #[command(flatten)]
+        study: Study,
+    }
+    <MainJob as clap::Parser>::parse_from(["mms", "bar_1d"]).study.run()
 }
 
 impl Study {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.validate()?;
         let input = Input::find(&self.field)?;
+        let folder = self.folder(&input.name)?;
         let levels = match self.precision {
             Precision::F32 => {
                 let scene = self.scene(&input, |entry| entry.single)?;
@@ -110,19 +103,30 @@ impl Study {
             expected_order,
             tolerance,
         };
-        let folder =
-            self.output.clone().unwrap_or_else(|| PathBuf::from("target/mms").join(&input.name));
-        let written = report.write(&folder)?;
         if self.json {
             print_json(&report.document())?;
         } else {
-            print(&report.table());
-            print(&format!("\nwrote {}", written.join(", ")));
+            print(&report.table())?;
+        }
+        let written = report.write(&folder)?;
+        if !self.json {
+            print(&format!("\nwrote {}", written.join(", ")))?;
         }
         Ok(match report.judgement.verdict {
             Verdict::Pass => Outcome::AsExpected,
             Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
         })
+    }
+
+    /// Where to write. What can be seen to be wrong with it is said before any work is done.
+    fn folder(&self, name: &str) -> anyhow::Result<PathBuf> {
+        let own = name.trim_start_matches('.');
+        let own = if own.is_empty() { "field" } else { own };
+        let folder = self.output.clone().unwrap_or_else(|| PathBuf::from("target/mms").join(own));
+        if folder.exists() && !folder.is_dir() {
+            bail!("`--output {}`: not a folder", folder.display());
+        }
+        Ok(folder)
     }
 
     fn validate(&self) -> anyhow::Result<()> {
@@ -134,6 +138,11 @@ impl Study {
         }
         if self.cells.contains(&0) {
             bail!("`--cells`: a level needs at least 1 cell");
+        }
+        if let Some(twice) =
+            self.cells.iter().enumerate().find(|(at, n)| self.cells[..*at].contains(n))
+        {
+            bail!("`--cells`: {} is given twice", twice.1);
         }
         if self.expected_order.is_some_and(|order| !order.is_finite()) {
             bail!("`--expected-order`: expected a finite number");
@@ -166,10 +175,12 @@ impl Study {
 
     fn levels<T: Real>(&self, scene: &Scene<T>) -> Vec<Result<Level, Refused>> {
         let (default, method) = (scene.default_cells(), self.method());
-        let cells = if self.cells.is_empty() { default } else { &self.cells };
+        let mut cells = if self.cells.is_empty() { default.to_vec() } else { self.cells.clone() };
+        // Orders are those between neighbours, from coarse to fine.
+        cells.sort_unstable();
         let progress = Progress::new();
         let mut levels = Vec::new();
-        for &cells in cells {
+        for cells in cells {
             let mut step = |step: usize, steps: usize| progress.step(cells, step, steps);
             let level = scene.run_level(&method, cells, &mut step);
             match &level {

@@ -2,7 +2,6 @@
 
 mod picture;
 
-use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
@@ -24,7 +23,7 @@ pub struct Study {
     pub method: Method,
     /// `f32` or `f64`.
     pub precision: &'static str,
-    /// The levels, in the sequence asked for.
+    /// The levels, from coarse to fine.
     pub levels: Vec<Result<Level, Refused>>,
     /// The order that theory says.
     pub expected_order: f64,
@@ -192,7 +191,7 @@ impl Study {
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        fs::create_dir_all(folder)
+        std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
         let json = serde_json::to_string_pretty(&self.document())? + "\n";
         let files = [("svg", picture::draw(self)?), ("csv", self.csv()?), ("json", json)];

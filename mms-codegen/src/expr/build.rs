@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use dashu_int::ops::{BitTest as _, Gcd as _};
 use dashu_int::{IBig, UBig};
 
-use super::{Expr, Function, Graph, Node, Rational, Symbol};
+use super::{Expr, Function, Graph, Node, Rational, Symbol, magnitude};
 
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
@@ -106,6 +106,10 @@ impl Graph {
             return *expr;
         }
         let (coefficient, factors) = collector.collect(self);
+        if let Some(division) = factors.iter().find(|(base, _)| self.is_zero(*base)) {
+            // A division by zero stays one, whatever it is multiplied by.
+            return self.intern(Node::Product(vec![division.clone()]));
+        }
         let product = match factors.as_slice() {
             [] => self.number(Rational::ONE),
             [(base, one)] if one.is_one() => *base,
@@ -200,9 +204,11 @@ impl Graph {
         for (_, coefficient) in terms {
             divisor = gcd(&divisor, coefficient);
         }
-        let ones = |content: &Rational| {
-            terms.iter().filter(|(_, coefficient)| magnitude(coefficient) == *content).count()
-        };
+        let mut counts = BTreeMap::<Rational, usize>::new();
+        for (_, coefficient) in terms {
+            *counts.entry(magnitude(coefficient)).or_default() += 1;
+        }
+        let ones = |content: &Rational| counts.get(content).copied().unwrap_or(0);
         let mut content = divisor;
         for (_, coefficient) in terms {
             let candidate = magnitude(coefficient);
@@ -216,10 +222,6 @@ impl Graph {
         let primitive = self.scale(expr, Rational::ONE / &content);
         (content, primitive)
     }
-}
-
-fn magnitude(number: &Rational) -> Rational {
-    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
 }
 
 /// Collects the factors of a product until none of them can be opened further.
@@ -333,8 +335,7 @@ fn is_long(number: &Rational) -> bool {
 /// The functions whose value at 0 is a rational number.
 fn value_at_zero(function: Function) -> Option<i32> {
     match function {
-        Function::Sqrt
-        | Function::Cbrt
+        Function::Cbrt
         | Function::Ln1p
         | Function::Sin
         | Function::Tan
@@ -343,7 +344,7 @@ fn value_at_zero(function: Function) -> Option<i32> {
         | Function::Asin
         | Function::Atan => Some(0),
         Function::Exp | Function::Cos | Function::Cosh => Some(1),
-        Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
+        Function::Sqrt | Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
     }
 }
 

@@ -54,6 +54,11 @@ pub enum Node {
     Call(Function, Vec<Expr>),
 }
 
+/// |number|.
+pub(crate) fn magnitude(number: &Rational) -> Rational {
+    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
+}
+
 impl Node {
     /// The operands.
     pub fn children(&self) -> impl Iterator<Item = Expr> + '_ {
@@ -109,6 +114,11 @@ impl Graph {
     /// The bound on nodes and operands.
     pub fn limit(&self) -> usize {
         self.limit
+    }
+
+    /// Doubles the bound above what is used: for a few more nodes in a graph that was within it.
+    pub(crate) fn make_room(&mut self) {
+        self.limit += self.size + DEFAULT_MAX_NODES;
     }
 
     /// What stands for everything in an exhausted graph.

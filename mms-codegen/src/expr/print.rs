@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Expr, Function, Graph, Node, Rational, Symbol};
+use super::{Expr, Function, Graph, Node, Rational, Symbol, magnitude};
 
 /// How tightly a printed text binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -234,8 +234,4 @@ fn print_product(
         [single] => (format!("{numerator}/{single}"), binding),
         several => (format!("{numerator}/({})", several.join("*")), binding),
     }
-}
-
-fn magnitude(number: &Rational) -> Rational {
-    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
 }

@@ -107,6 +107,7 @@ impl Model {
         let displacement = reader.formulas(&field.displacement);
         let density = reader.formula(&field.material.density);
         reader.independent_of_time(density, &field.material.density, "density");
+        reader.positive(density, &field.material.density);
         let arguments = reader.arguments(field);
         let energy = material.and_then(|material| reader.energy(field, material, &arguments));
         let domain = reader.domain(&field.domain);
@@ -204,6 +205,18 @@ impl Reader<'_> {
             {
                 names.expressions.entry(value).or_insert_with(|| definition.name.value.clone());
             }
+        }
+    }
+
+    fn positive(&mut self, density: Option<Expr>, formula: &Formula) {
+        let number = density.and_then(|density| self.graph.as_number(density));
+        if let Some(number) = number.filter(|number| **number <= Rational::ZERO) {
+            let label = format!("this is {number}");
+            self.diagnostics.push(
+                Diagnostic::error(formula.span, "the density must be positive")
+                    .label(label)
+                    .help("the body force is per unit mass: b = a - Div P/rho0"),
+            );
         }
     }
 
@@ -366,9 +379,10 @@ impl Reader<'_> {
         None
     }
 
-    /// Formulas that no quantity depends on: extremes, a rigid motion, and those of keys that were
+    /// Formulas that no quantity depends on: a fibre, extremes, a rigid motion, and those of keys that were
     /// refused.
     fn variations(&mut self, field: &FieldSpec) {
+        self.formulas(field.material.fibre.as_deref().unwrap_or_default());
         for (name, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
             self.constant(value);
             let known = field.parameters.iter().map(|parameter| parameter.name.value.as_str());

@@ -85,7 +85,7 @@ impl<'a, T: Number> Interpreter<'a, T> {
 
     /// Runs the Point and PointTime stages of a plan.
     pub fn set_point(&mut self, plan: &[bool], point: Point<'_, T>) {
-        let dimension = point.coordinates.len();
+        let dimension = point.gradient.len().isqrt();
         for stage in [Stage::Point, Stage::PointTime] {
             self.run(stage, plan, |symbol| match symbol {
                 Symbol::Coordinate(axis) => point.coordinates[axis].clone(),

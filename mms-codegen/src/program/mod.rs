@@ -191,8 +191,14 @@ impl Program {
 
     /// Which instructions `outputs` need, by position.
     pub fn needed(&self, outputs: &[Output]) -> Vec<bool> {
+        let values = outputs.iter().filter_map(|output| self.outputs.get(output)).flatten();
+        self.needed_for(values.copied())
+    }
+
+    /// Which instructions `values` need, themselves included, by position.
+    pub fn needed_for(&self, values: impl IntoIterator<Item = Value>) -> Vec<bool> {
         let mut needed = vec![false; self.instrs.len()];
-        for value in outputs.iter().filter_map(|output| self.outputs.get(output)).flatten() {
+        for value in values {
             needed[value.index()] = true;
         }
         for index in (0..self.instrs.len()).rev() {

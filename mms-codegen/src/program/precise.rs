@@ -13,9 +13,12 @@ use crate::expr::Rational;
 /// Significant bits: 77 decimal digits.
 const BITS: usize = 256;
 
-/// Beyond this exponent of two an argument or a result is treated as not representable, so that
-/// no evaluation takes unbounded time or memory.
+/// A result beyond this exponent of two is treated as not representable, so that no evaluation
+/// takes unbounded time or memory.
 const LARGEST_EXPONENT: isize = 1 << 20;
+
+/// The same for the exponent of an angle: reducing it takes as many digits of pi.
+const LARGEST_ANGLE: isize = 1 << 12;
 
 type Float = FBig<HalfEven, 2>;
 
@@ -66,9 +69,11 @@ impl Precise {
     }
 
     fn bounded(self) -> Self {
-        Precise(
-            self.0.filter(|value| value.repr().is_finite() && exponent(value) < LARGEST_EXPONENT),
-        )
+        let in_range =
+            |value: &Float| value.repr().is_finite() && exponent(value) < LARGEST_EXPONENT;
+        // Exact results such as exp(0) = 1 come without a precision, which functions need.
+        let rounded = |value: Float| value.with_precision(BITS).value();
+        Precise(self.0.filter(in_range).map(rounded))
     }
 }
 
@@ -80,6 +85,10 @@ fn exponent(value: &Float) -> isize {
 /// Whether the exponential function and its like stay within bounds.
 fn moderate(value: &Float) -> bool {
     exponent(value) <= 19
+}
+
+fn is_angle(value: &Float) -> bool {
+    exponent(value) <= LARGEST_ANGLE
 }
 
 fn within_one(value: &Float) -> bool {
@@ -163,15 +172,15 @@ impl Scalar for Precise {
     }
 
     fn sin(self) -> Self {
-        self.map(|_| true, |x| x.sin())
+        self.map(is_angle, |x| x.sin())
     }
 
     fn cos(self) -> Self {
-        self.map(|_| true, |x| x.cos())
+        self.map(is_angle, |x| x.cos())
     }
 
     fn tan(self) -> Self {
-        self.map(|_| true, |x| x.tan())
+        self.map(is_angle, |x| x.tan())
     }
 
     fn sinh(self) -> Self {
@@ -207,6 +216,11 @@ impl Scalar for Precise {
     }
 
     fn powf(self, exponent: Self) -> Self {
+        let zero = |value: &Precise| value.0.as_ref().is_some_and(|v| *v == Float::ZERO);
+        let positive = exponent.0.as_ref().is_some_and(|v| *v > Float::ZERO);
+        if zero(&self) && positive {
+            return self;
+        }
         (exponent * self.ln()).exp()
     }
 }

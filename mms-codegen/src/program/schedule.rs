@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::{Instr, Op, Output, Program, Stage, Value};
-use crate::expr::{Expr, Function, Graph, Node, Rational};
+use crate::expr::{Expr, Function, Graph, Node, Rational, magnitude};
 
 /// The program of `outputs`, without anything that they do not need.
 pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program {
@@ -294,8 +294,7 @@ fn times(builder: &mut Builder, product: Option<Value>, value: Value) -> Value {
 
 /// Whether a number is negative, and its magnitude.
 fn split_sign(number: &Rational) -> (bool, Rational) {
-    let negative = *number < Rational::ZERO;
-    (negative, if negative { -number.clone() } else { number.clone() })
+    (*number < Rational::ZERO, magnitude(number))
 }
 
 /// The magnitude other than one that the constant, unless it is zero, and all coefficients share.
@@ -303,8 +302,8 @@ fn common_magnitude(constant: &Rational, terms: &[(Expr, Rational)]) -> Option<R
     if terms.len() < 2 {
         return None;
     }
-    let (_, magnitude) = split_sign(&terms[0].1);
-    let shared = |number: &Rational| split_sign(number).1 == magnitude;
+    let common = magnitude(&terms[0].1);
+    let shared = |number: &Rational| magnitude(number) == common;
     let all = terms.iter().all(|(_, coefficient)| shared(coefficient));
-    (!magnitude.is_one() && all && (constant.is_zero() || shared(constant))).then_some(magnitude)
+    (!common.is_one() && all && (constant.is_zero() || shared(constant))).then_some(common)
 }

@@ -79,7 +79,7 @@ impl Emitter<'_> {
         let kept = self.kept_in(Stage::Parameter);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
         let place = Place { field: quote!(), own: &[Stage::Parameter] };
-        let body = self.statements(&self.needed_by_kept(&kept), &place);
+        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
         let generic = self.parameters_generic();
         let responses = self.responses();
         let bounds = self.bounds();
@@ -205,7 +205,7 @@ impl Emitter<'_> {
         let kept = self.kept_in(Stage::Time);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
         let place = Place { field: quote!(self), own: &[Stage::Time] };
-        let body = self.statements(&self.needed_by_kept(&kept), &place);
+        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
         let quantities = Quantity::ALL.iter().map(|quantity| self.quantity(*quantity));
         quote! {
             /// The field at one time: everything that needs no X.

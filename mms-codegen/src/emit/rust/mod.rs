@@ -135,21 +135,6 @@ impl<'a> Emitter<'a> {
         (0..self.program.instrs.len()).filter(kept).map(|index| Value(index as u32)).collect()
     }
 
-    fn needed_by_kept(&self, kept: &[Value]) -> Vec<bool> {
-        let mut needed = vec![false; self.program.instrs.len()];
-        for value in kept {
-            needed[value.index()] = true;
-        }
-        for index in (0..needed.len()).rev() {
-            if needed[index] {
-                for operand in self.program.instrs[index].op.operands() {
-                    needed[operand.index()] = true;
-                }
-            }
-        }
-        needed
-    }
-
     fn body(&self, outputs: &[Output], place: &Place) -> TokenStream {
         self.statements(&self.program.needed(outputs), place)
     }
