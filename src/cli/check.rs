@@ -6,6 +6,7 @@ use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Comparison, Difference, POINTS, compare};
 use mms_codegen::compile::Failure;
+use mms_codegen::diagnostic::Diagnostic;
 use serde_json::{Value, json};
 
 use super::input::read;
@@ -49,7 +50,8 @@ impl Check {
         if !self.json {
             anstream::eprintln!("error: {error:#}");
         }
-        (Outcome::BadInput, json!({ "file": path, "diagnostics": format!("{error:#}") }))
+        let diagnostic = json!({ "path": path, "message": format!("{error:#}") });
+        (Outcome::BadInput, json!({ "file": path, "diagnostics": [diagnostic] }))
     }
 
     fn report_failure(&self, path: &str, failure: &Failure) -> anyhow::Result<(Outcome, Value)> {
@@ -57,7 +59,9 @@ impl Check {
             anstream::eprintln!("{}", failure.styled());
             print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
         }
-        let document = json!({ "file": path, "diagnostics": failure.to_string() });
+        let diagnostics: Vec<_> =
+            failure.diagnostics.iter().map(|it| located(failure, it)).collect();
+        let document = json!({ "file": path, "diagnostics": diagnostics });
         Ok((Outcome::BadInput, document))
     }
 
@@ -83,6 +87,18 @@ impl Check {
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
         Ok((outcome, json!({ "file": path, "claims": claims, "checks": checks })))
     }
+}
+
+fn located(failure: &Failure, diagnostic: &Diagnostic) -> Value {
+    let (line, column) = failure.sources.location(diagnostic.span);
+    json!({
+        "path": failure.sources.get(diagnostic.span.source).path,
+        "line": line,
+        "column": column,
+        "message": diagnostic.message,
+        "label": diagnostic.label,
+        "help": diagnostic.help,
+    })
 }
 
 fn comparison_document(comparison: &Comparison) -> Value {

@@ -82,3 +82,17 @@ fn a_wrong_file_is_refused_by_every_command_with_the_same_text() {
         folder.mms(command).exits(2).complains(expected.trim_end()).prints_nothing();
     }
 }
+
+#[test]
+fn the_document_of_a_wrong_file_names_each_place() {
+    let folder = changed("cos(c*pi*t/length)", "cos(c*pi*t/lenght)");
+    let document = folder.mms("check bar.toml --json").exits(2).json();
+    let diagnostic = &document["files"][0]["diagnostics"][0];
+    let found = format!("{}:{}", diagnostic["line"], diagnostic["column"]);
+    assert_eq!(found, place("length)\"\n\n[displacement]"));
+    assert_eq!(diagnostic["path"], "bar.toml");
+    assert_eq!(diagnostic["message"], "unknown name `lenght`");
+    assert_eq!(diagnostic["help"][0], "did you mean `length`?");
+    let unreadable = folder.mms("check nowhere.toml --json").exits(2).json();
+    assert!(unreadable["files"][0]["diagnostics"][0]["message"].is_string(), "{unreadable}");
+}
