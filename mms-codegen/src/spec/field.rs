@@ -134,7 +134,11 @@ pub fn read_field(
         Some(entry) => material_use(&entry, &mut reader),
         None => MaterialUse::reported(root.span),
     };
-    let dimension = dimension?;
+    let Some(dimension) = dimension else {
+        // How many bounds the body needs is unknown; that it needs them is not.
+        reader.required_table(&root, "domain");
+        return None;
+    };
     let displacement = match entry {
         Some(entry) => reader.formulas(&entry, dimension, &one_per_dimension(dimension)),
         None => vec![Formula::reported(root.span); dimension],
