@@ -7,6 +7,7 @@ use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, TooLarge, derive};
+use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
@@ -113,10 +114,10 @@ fn phases(
     let material = read_material(sources, &field, load, diagnostics);
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
     let material = material.filter(|_| diagnostics.is_empty())?;
-    let derivation = derive(&mut graph, &model)
+    let derivation = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
-    let derivation = simplify(&mut graph, derivation);
+    let derivation = simplify(&mut graph, &model, derivation);
     let outputs = outputs(&mut graph, &model, &derivation);
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));

@@ -1,44 +1,69 @@
-//! Simplification: cheaper expressions of the same value. What is declared as their cost never
+//! Simplification: of several expressions of the same value, the cheapest to compute.
+//!
+//! No way of writing a quantity is best for all. So several are made, each by passes that keep the
+//! value, and every quantity takes the one that costs least. What is declared as cost thus never
 //! grows.
 
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph};
-use crate::mechanics::Derivation;
-use crate::pass::factor::factor;
-use crate::program::schedule::schedule;
-use crate::program::{Output, Stage};
+use crate::mechanics::{Derivation, Model, derive};
+use crate::pass::nest::nest;
+use crate::pass::reduce::reduce;
+use crate::pass::relations::{Relations, lateness};
+use crate::program::schedule::{Cost, cost};
 
-/// Simplifies the components of every quantity and response.
-pub fn simplify(graph: &mut Graph, derivation: Derivation) -> Derivation {
+/// Simplifies the components of every quantity and response of a derivation without relations.
+pub fn simplify(graph: &mut Graph, model: &Model, plain: Derivation) -> Derivation {
+    let relations = Relations::find(graph, &model.displacement);
+    let mut quantities = vec![plain.quantities];
+    if !relations.is_empty() {
+        // Relations that are used early keep the motion short, and all that follows from it.
+        let reduced = graph.attempt(|graph| derive(graph, model, &relations));
+        quantities.extend(reduced.and_then(Result::ok).map(|reduced| reduced.quantities));
+    }
     Derivation {
-        quantities: simplify_each(graph, derivation.quantities),
-        responses: simplify_each(graph, derivation.responses),
+        quantities: cheapest(graph, quantities, &relations),
+        responses: cheapest(graph, vec![plain.responses], &Relations::default()),
     }
 }
 
-fn simplify_each<K: Ord>(
+/// The cheapest components for every key, of which some forms are known; of equals, the first.
+fn cheapest<K: Ord>(
     graph: &mut Graph,
-    outputs: BTreeMap<K, Vec<Expr>>,
+    forms: Vec<BTreeMap<K, Vec<Expr>>>,
+    relations: &Relations,
 ) -> BTreeMap<K, Vec<Expr>> {
-    outputs.into_iter().map(|(key, plain)| (key, cheaper(graph, plain))).collect()
-}
-
-/// The components with common factors taken out, or as they are where that costs no more.
-pub fn cheaper(graph: &mut Graph, plain: Vec<Expr>) -> Vec<Expr> {
-    let factored = factor(graph, &plain);
-    if graph.is_exhausted() {
-        return plain;
+    let mut written = Vec::new();
+    for form in &forms {
+        let components: Vec<Expr> = form.values().flatten().copied().collect();
+        written.extend(ways(graph, components, relations));
     }
-    if cost(graph, &factored) <= cost(graph, &plain) { factored } else { plain }
+    let mut position = 0;
+    let mut best = BTreeMap::new();
+    for (key, components) in forms.into_iter().next().unwrap_or_default() {
+        let range = position..position + components.len();
+        position = range.end;
+        let mut costs = BTreeMap::<&[Expr], Cost>::new();
+        let cheapest = written
+            .iter()
+            .map(|way| &way[range.clone()])
+            .min_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
+        best.insert(key, cheapest.map(<[Expr]>::to_vec).unwrap_or(components));
+    }
+    best
 }
 
-/// What components cost together: operations that depend on X first, since they are done at every
-/// point, then all operations.
-pub fn cost(graph: &Graph, components: &[Expr]) -> (usize, usize) {
-    // The name of the output does not matter for its cost.
-    let output = Output::Expected(0);
-    let program = schedule(graph, &BTreeMap::from([(output, components.to_vec())]));
-    let counts = program.operations(&[output]);
-    (counts[&Stage::Point] + counts[&Stage::PointTime], counts.values().sum())
+/// Expressions as they are, and rewritten; what would outgrow the graph is left out.
+///
+/// They are rewritten together, since what they have in common is then rewritten once.
+pub fn ways(graph: &mut Graph, components: Vec<Expr>, relations: &Relations) -> Vec<Vec<Expr>> {
+    let mut ways = vec![components.clone()];
+    ways.extend(graph.attempt(|graph| nest(graph, &components, &lateness)));
+    let among = Relations::find(graph, &components).at_points(graph);
+    let all = [Some(relations.clone()), relations.thorough(), Some(among)];
+    for relations in all.into_iter().flatten().filter(|relations| !relations.is_empty()) {
+        ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
+    }
+    ways
 }

@@ -45,6 +45,17 @@ const PLANE: &str = "[\"0.1*sin(2*X + Y)*cos(t)\", \"0.2*X*Y^2*sin(t + X)\"]";
 const SPACE: &str =
     "[\"0.1*sin(X*Y + Z)*cos(t)\", \"0.1*X*Z^2*sin(t + Y)\", \"0.1*exp(X - Y)*cos(Z + t)\"]";
 
+/// A rotation that varies with the radius: its relations collapse det F to 1.
+const VORTEX: &str = "[\"X*cos(t*exp(-hypot(X, Y))) - Y*sin(t*exp(-hypot(X, Y))) - X\", \
+                      \"X*sin(t*exp(-hypot(X, Y))) + Y*cos(t*exp(-hypot(X, Y))) - Y\"]";
+/// A radial displacement: a polynomial of the radius times X/R.
+const RING: &str = "[\"sin(t)*(3*hypot(X, Y) - (X^2 + Y^2)^(3/2))*X/hypot(X, Y)/9\", \
+                    \"sin(t)*(3*hypot(X, Y) - (X^2 + Y^2)^(3/2))*Y/hypot(X, Y)/9\"]";
+/// Rotation about an axis, along which it varies, and stretch.
+const TWIST: &str = "[\"(1 + t/9)*(X*cos(Z*t + ln(1 + Z)) - Y*sin(Z*t + ln(1 + Z))) - X\", \
+                     \"(1 + t/9)*(X*sin(Z*t + ln(1 + Z)) + Y*cos(Z*t + ln(1 + Z))) - Y\", \
+                     \"0.1*t*(cosh(Z) + sinh(Z))*sqrt(X^2 + Y^2 + Z^2)\"]";
+
 fn step() -> Precise {
     Precise::from_f64(1e-20)
 }
@@ -169,6 +180,14 @@ fn every_invariant_graded_in_two_dimensions() {
 #[test]
 fn every_invariant_graded_in_three_dimensions() {
     everything_holds(&field(3, SPACE, GRADED, "2 + X*Z"));
+}
+
+#[test]
+fn what_relations_simplify_keeps_its_value() {
+    for (dimension, displacement) in [(2, VORTEX), (2, RING), (3, TWIST)] {
+        everything_holds(&field(dimension, displacement, NEO_HOOKEAN, "1"));
+        everything_holds(&field(dimension, displacement, GRADED, "2 + X*Y"));
+    }
 }
 
 /// dP_11/dF_11 at F = I is lambda + 2 mu, and the wave speed its root over rho0.

@@ -8,12 +8,13 @@ use mms_codegen::expr::resolve::Scope;
 use mms_codegen::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_codegen::pass::differentiate::differentiate;
 use mms_codegen::pass::factor::factor;
+use mms_codegen::pass::relations::Relations;
 use mms_codegen::pass::substitute::substitute;
 use mms_codegen::program::interpret::{Interpreter, Number as _, Point};
 use mms_codegen::program::precise::Precise;
-use mms_codegen::program::schedule::schedule;
-use mms_codegen::program::{Output, Program};
-use mms_codegen::simplify::{cheaper, cost};
+use mms_codegen::program::schedule::{cost, schedule, schedule_plainly};
+use mms_codegen::program::{Output, Program, Stage};
+use mms_codegen::simplify::ways;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::Formula;
 use mms_codegen::syntax;
@@ -137,9 +138,12 @@ fn evaluate(recipe: &Recipe, x: &Precise, largest: &mut f64) -> Precise {
 /// The value of each root at a point, in 77 digits.
 fn values(graph: &Graph, roots: &[Expr], x: &Precise) -> Vec<Precise> {
     let outputs = BTreeMap::from([(Output::Expected(0), roots.to_vec())]);
-    let program = schedule(graph, &outputs);
-    assert_is_ordered(&program);
-    let mut interpreter = Interpreter::new(&program, &[]);
+    run(&schedule(graph, &outputs), x)
+}
+
+fn run(program: &Program, x: &Precise) -> Vec<Precise> {
+    assert_is_ordered(program);
+    let mut interpreter = Interpreter::new(program, &[]);
     interpreter.set_time(&ratio(3, 7));
     let plan = interpreter.plan(&[Output::Expected(0)]);
     interpreter.set_point(&plan, Point::at(&[x.clone(), ratio(-2, 5)]));
@@ -245,15 +249,32 @@ proptest! {
         let root = build(&mut graph, &recipe);
         prop_assume!(root.is_some());
         let root = root.expect("assumed");
-        let factored = factor(&mut graph, &[root])[0];
         let x = ratio(11, 13);
-        let [before, after] = [root, factored].map(|root| values(&graph, &[root], &x).remove(0));
-        if before.is_defined() {
-            prop_assert!(agree(&before, &after, 60));
+        let before = values(&graph, &[root], &x).remove(0);
+        prop_assume!(before.is_defined());
+        let factored = factor(&mut graph, &[root]);
+        let relations = Relations::find(&mut graph, &[root]);
+        for way in ways(&mut graph, vec![root], &relations).into_iter().chain([factored]) {
+            let after = values(&graph, &way, &x).remove(0);
+            let text = graph.print(way[0], &Names::default());
+            prop_assert!(agree(&before, &after, 50), "{}: {:e} {:e}", text, before.to_f64(), after.to_f64());
         }
-        let chosen = cheaper(&mut graph, vec![root])[0];
-        prop_assert!(chosen == root || chosen == factored);
-        prop_assert!(cost(&graph, &[chosen]) <= cost(&graph, &[root]));
+    }
+
+    #[test]
+    fn sharing_changes_no_value_and_costs_nothing(recipes in proptest::collection::vec(recipe(), 1..5)) {
+        let mut graph = Graph::default();
+        let roots: Option<Vec<Expr>> = recipes.iter().map(|recipe| build(&mut graph, recipe)).collect();
+        prop_assume!(roots.is_some());
+        let roots = roots.expect("assumed");
+        let x = ratio(11, 13);
+        let plainly = schedule_plainly(&graph, &BTreeMap::from([(Output::Expected(0), roots.clone())]));
+        let shared = values(&graph, &roots, &x);
+        for (plain, shared) in run(&plainly, &x).iter().zip(&shared) {
+            prop_assert!(!plain.is_defined() || agree(plain, shared, 50));
+        }
+        let counts = plainly.operations(&[Output::Expected(0)]);
+        prop_assert!(cost(&graph, &roots).per_point <= counts[&Stage::Point] + counts[&Stage::PointTime]);
     }
 
     #[test]
@@ -345,7 +366,9 @@ fn a_full_graph_is_told_and_never_answers() {
         let ast = syntax::parse(&formula, &mut diagnostics).expect("a formula");
         let root = scope.resolve(&mut graph, &ast, &mut diagnostics)?;
         let slope = differentiate(&mut graph, &[root], X);
-        let chosen = cheaper(&mut graph, slope)[0];
+        let relations = Relations::find(&mut graph, &slope);
+        let ways = ways(&mut graph, slope, &relations);
+        let chosen = ways.into_iter().min_by_key(|way| cost(&graph, way))?[0];
         (!graph.is_exhausted())
             .then(|| values(&graph, &[chosen], &ratio(11, 13)).remove(0).to_f64())
     };

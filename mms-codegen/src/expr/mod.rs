@@ -9,10 +9,13 @@ mod function;
 pub mod print;
 pub mod resolve;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 pub use dashu_ratio::RBig as Rational;
 pub use function::Function;
+
+use crate::program::Stage;
+use rustc_hash::FxHashMap;
 
 /// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -72,6 +75,21 @@ impl Node {
     }
 }
 
+impl Node {
+    /// Replaces every operand.
+    pub(crate) fn map_children(&mut self, mut replace: impl FnMut(Expr) -> Expr) {
+        match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(_, weighted) | Node::Product(weighted) => {
+                weighted.iter_mut().for_each(|(child, _)| *child = replace(*child));
+            }
+            Node::Call(_, arguments) => {
+                arguments.iter_mut().for_each(|child| *child = replace(*child));
+            }
+        }
+    }
+}
+
 /// How large a graph may become: nodes and operands together. A rotating 3-D field needs some
 /// thousands.
 pub const DEFAULT_MAX_NODES: usize = 200_000;
@@ -83,8 +101,10 @@ pub const DEFAULT_MAX_NODES: usize = 200_000;
 #[derive(Clone, Debug)]
 pub struct Graph {
     nodes: Vec<Node>,
+    /// When the value of each node is known.
+    stages: Vec<Stage>,
     /// Only ever looked up, never iterated: hash order cannot be observed.
-    index: HashMap<Node, Expr>,
+    index: FxHashMap<Node, Expr>,
     /// Nodes and operands so far.
     size: usize,
     limit: usize,
@@ -100,8 +120,8 @@ impl Default for Graph {
 impl Graph {
     /// An empty graph of at most `limit` nodes and operands.
     pub fn with_limit(limit: usize) -> Self {
-        let (nodes, index) = (Vec::new(), HashMap::new());
-        let mut graph = Graph { nodes, index, size: 0, limit, exhausted: false };
+        let (nodes, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
+        let mut graph = Graph { nodes, stages, index, size: 0, limit, exhausted: false };
         graph.intern(Node::Number(Rational::ZERO));
         graph
     }
@@ -121,6 +141,26 @@ impl Graph {
         self.limit += self.size + DEFAULT_MAX_NODES;
     }
 
+    /// What `make` returns, or `None`, and the graph as it was, where it reaches the bound.
+    pub(crate) fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
+        let (nodes, size, exhausted) = (self.nodes.len(), self.size, self.exhausted);
+        let made = make(self);
+        if exhausted || !self.exhausted {
+            return Some(made);
+        }
+        for node in self.nodes.drain(nodes..) {
+            self.index.remove(&node);
+        }
+        self.stages.truncate(nodes);
+        (self.size, self.exhausted) = (size, exhausted);
+        None
+    }
+
+    /// The handle of a canonical node that was made already.
+    pub(crate) fn find(&self, node: &Node) -> Option<Expr> {
+        self.index.get(node).copied()
+    }
+
     /// What stands for everything in an exhausted graph.
     fn exhaust(&mut self) -> Expr {
         self.exhausted = true;
@@ -130,6 +170,11 @@ impl Graph {
     /// The node behind a handle.
     pub fn node(&self, expr: Expr) -> &Node {
         &self.nodes[expr.0 as usize]
+    }
+
+    /// When the value of an expression is known.
+    pub fn stage(&self, expr: Expr) -> Stage {
+        self.stages[expr.0 as usize]
     }
 
     /// How many nodes were made so far.
@@ -153,6 +198,11 @@ impl Graph {
             .filter(|_| self.nodes.is_empty() || self.size <= self.limit);
         let Some(id) = id else { return self.exhaust() };
         let expr = Expr(id);
+        let own = match node {
+            Node::Symbol(symbol) => Stage::of(symbol),
+            _ => Stage::Parameter,
+        };
+        self.stages.push(node.children().fold(own, |stage, child| stage.join(self.stage(child))));
         self.nodes.push(node.clone());
         self.index.insert(node, expr);
         expr

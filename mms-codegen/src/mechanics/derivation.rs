@@ -7,6 +7,7 @@ use super::material::Law;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::pass::relations::Relations;
 use crate::quantity::Quantity;
 
 /// Functions of a displacement gradient H that the caller supplies: the material of the field as a
@@ -38,11 +39,15 @@ pub struct Derivation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooLarge(pub &'static str);
 
-/// Derives every quantity of a field.
-pub fn derive(graph: &mut Graph, model: &Model) -> Result<Derivation, TooLarge> {
+/// Derives every quantity of a field; the motion is simplified by `relations` between its parts.
+pub fn derive(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+) -> Result<Derivation, TooLarge> {
     let law = Law::new(graph, model.energy);
     within_bound(graph, "stress of the material")?;
-    let motion = Motion::new(graph, &model.displacement);
+    let motion = Motion::new(graph, &model.displacement, relations);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
     let mut quantities = kinematic_quantities(&motion);
     quantities.extend(stress_quantities(graph, &law, &motion.strain));
@@ -127,7 +132,7 @@ fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, 
     let dimension = model.displacement.len();
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
-    let strain = Strain::new(graph, gradient);
+    let strain = Strain::new(graph, gradient, &Relations::default());
     let modulus = law.longitudinal_modulus(graph);
     let squared_speed = graph.div(modulus, model.density);
     let speed = graph.power(squared_speed, Rational::from_parts(1.into(), 2u8.into()));

@@ -18,6 +18,7 @@ use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
+use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 
 /// i1 = I1 - 3.
@@ -105,19 +106,16 @@ impl Law {
         let dimension = motion.displacement.len();
         let strain = &motion.strain;
         let laplacian = motion.laplacian(graph);
-        let log_volume = {
-            let transposed = strain.inverse.transpose();
-            motion.contract_second_gradient(graph, &transposed)
-        };
+        let log_volume = &motion.log_volume_gradient;
         let right = {
             let identity = Tensor::identity(graph, dimension);
             identity.add(graph, &strain.right)
         };
         let cubic = strain.deformation.mul(graph, &right);
-        let invariants = self.invariant_gradients(graph, motion, &cubic, &log_volume);
+        let invariants = &motion.invariant_gradients;
         let roots = [self.alpha, self.beta, self.gamma];
         let [alpha_slope, beta_slope, gamma_slope] =
-            roots.map(|root| self.gradient(graph, strain, root, &invariants));
+            roots.map(|root| self.gradient(graph, strain, root, invariants));
         let values = self.at(graph, strain, &roots);
         let (alpha, beta, gamma) = (values[0], values[1], values[2]);
         let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
@@ -146,7 +144,7 @@ impl Law {
         let stretch = Symbol::Gradient(0, 0);
         let component = graph.symbol(stretch);
         let gradient = Tensor::from_components(1, vec![component]);
-        let strain = Strain::new(graph, gradient);
+        let strain = Strain::new(graph, gradient, &Relations::default());
         let stress = self.first_piola_kirchhoff(graph, &strain).at(0, 0);
         let slope = differentiate(graph, &[stress], stretch);
         let zero = graph.number(0);
@@ -155,45 +153,9 @@ impl Law {
 
     /// Functions of the invariants at a strain.
     fn at(&self, graph: &mut Graph, strain: &Strain, roots: &[Expr]) -> Vec<Expr> {
-        let first = strain.right.trace(graph);
-        let second = {
-            // I2 - 3 = 2 i1 + (i1^2 - tr (C - I)^2)/2.
-            let square = graph.power(first, 2);
-            let contracted = strain.right.contract(graph, &strain.right);
-            let half = Rational::from_parts(1.into(), 2u8.into());
-            graph.sum([(first, Rational::from(2)), (square, half.clone()), (contracted, -half)])
-        };
-        let values = BTreeMap::from([(FIRST, first), (SECOND, second), (VOLUME, strain.volume)]);
+        let [first, second, volume] = strain.invariants;
+        let values = BTreeMap::from([(FIRST, first), (SECOND, second), (VOLUME, volume)]);
         substitute(graph, roots, &values)
-    }
-
-    /// The gradients of i1, i2 and j:
-    /// I1,J = 2 F : F,J;  I2,J = 2 (I1 F - F C) : F,J;  J,J = J g_J.
-    fn invariant_gradients(
-        &self,
-        graph: &mut Graph,
-        motion: &Motion,
-        cubic: &Tensor,
-        log_volume: &[Expr],
-    ) -> [Vec<Expr>; 3] {
-        let strain = &motion.strain;
-        let first = {
-            let (shift, three) = (strain.right.trace(graph), graph.number(3));
-            graph.add(shift, three)
-        };
-        let minus_one = graph.number(-1);
-        let second = {
-            let (scaled, negated) =
-                (strain.deformation.scale(graph, first), cubic.scale(graph, minus_one));
-            scaled.add(graph, &negated)
-        };
-        let mut twice = |with: &Tensor| -> Vec<Expr> {
-            let half = motion.contract_second_gradient(graph, with);
-            half.into_iter().map(|component| graph.scale(component, 2)).collect()
-        };
-        let (first, second) = (twice(&strain.deformation), twice(&second));
-        let volume = log_volume.iter().map(|slope| graph.mul(strain.jacobian, *slope)).collect();
-        [first, second, volume]
     }
 
     /// The total gradient of a function of the invariants and, through graded parameters, of X.

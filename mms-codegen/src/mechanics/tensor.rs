@@ -1,6 +1,8 @@
 //! Small square matrices of expressions.
 
 use crate::expr::{Expr, Graph, Rational};
+use crate::pass::reduce::reduce;
+use crate::pass::relations::Relations;
 
 /// A `dimension` x `dimension` matrix, row-major.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,6 +48,11 @@ impl Tensor {
     /// `A^T`.
     pub fn transpose(&self) -> Self {
         Self::from_fn(self.dimension, |row, column| self.at(column, row))
+    }
+
+    /// The same matrix, its components reduced modulo `relations`.
+    pub fn reduce(&self, graph: &mut Graph, relations: &Relations) -> Self {
+        Self::from_components(self.dimension, reduce(graph, &self.components, relations))
     }
 
     /// `A + B`.

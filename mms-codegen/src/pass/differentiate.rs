@@ -1,69 +1,111 @@
 //! Symbolic differentiation: one rule per operation.
+//!
+//! What depends on X through one expression k alone, such as a function of a radius, is
+//! differentiated by k first: dn/dX = (dn/dk) (dk/dX). So the derivative by k stays in one piece,
+//! and is the same in all directions.
 
 use std::collections::BTreeMap;
 
+use super::factor::factored_sum;
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// The partial derivatives of `roots` by `symbol`, all other symbols held fixed.
 pub fn differentiate(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {
-    let zero = graph.number(0);
-    let mut derivatives = BTreeMap::<Expr, Expr>::new();
+    let mut slopes = Slopes::default();
     for expr in graph.reachable(roots) {
         let node = graph.node(expr).clone();
-        let moves = node.children().any(|child| derivatives[&child] != zero);
-        let derivative = match node {
-            Node::Symbol(leaf) if leaf == symbol => graph.number(1),
-            _ if !moves => zero,
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => zero,
-            Node::Sum(_, terms) => {
-                graph.sum(terms.into_iter().map(|(term, factor)| (derivatives[&term], factor)))
+        if node == Node::Symbol(symbol) {
+            slopes.root = Some(expr);
+        } else if let Some(kernel) = slopes.kernel(&node) {
+            let slope = slopes.local(graph, expr, &node, kernel);
+            slopes.of.insert(expr, (kernel, slope));
+        }
+    }
+    let zero = graph.number(0);
+    roots
+        .iter()
+        .map(|root| match slopes.root {
+            Some(leaf) if slopes.moves(*root) => slopes.chain(graph, *root, leaf),
+            _ => zero,
+        })
+        .collect()
+}
+
+/// The kernel of every expression that moves with the symbol, and the derivative by it.
+///
+/// The kernel of an expression is the last one on all ways from the symbol to it: its immediate
+/// dominator (Lengauer & Tarjan, 1979). The kernel of a kernel stands before it, down to the symbol.
+#[derive(Default)]
+struct Slopes {
+    root: Option<Expr>,
+    of: BTreeMap<Expr, (Expr, Expr)>,
+}
+
+impl Slopes {
+    fn moves(&self, expr: Expr) -> bool {
+        self.root == Some(expr) || self.of.contains_key(&expr)
+    }
+
+    /// What all operands that move have passed through last; `None` if none moves.
+    fn kernel(&self, node: &Node) -> Option<Expr> {
+        let moving = node.children().filter(|child| self.moves(*child));
+        moving.reduce(|a, b| {
+            let (mut a, mut b) = (a, b);
+            // Kernels have smaller handles than what they are kernels of.
+            while a != b {
+                let later = if a > b { &mut a } else { &mut b };
+                *later = self.of[later].0;
             }
-            Node::Product(factors) => product_rule(graph, &factors, &derivatives),
+            a
+        })
+    }
+
+    /// The derivative of `expr` by one of its kernels: the product of the slopes between.
+    fn chain(&self, graph: &mut Graph, expr: Expr, kernel: Expr) -> Expr {
+        let mut slopes = Vec::new();
+        let mut expr = expr;
+        while expr != kernel {
+            let (next, slope) = self.of[&expr];
+            slopes.push((slope, Rational::ONE));
+            expr = next;
+        }
+        graph.product(slopes)
+    }
+
+    /// The derivative of a node by its kernel.
+    fn local(&self, graph: &mut Graph, expr: Expr, node: &Node, kernel: Expr) -> Expr {
+        let mut terms = Vec::new();
+        match node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(_, addends) => {
+                for (term, coefficient) in addends.iter().filter(|(term, _)| self.moves(*term)) {
+                    terms.push((self.chain(graph, *term, kernel), coefficient.clone()));
+                }
+            }
+            // d(prod b^e) = sum e b^(e-1) db (the other factors).
+            Node::Product(factors) => {
+                for (index, (base, exponent)) in factors.iter().enumerate() {
+                    if self.moves(*base) {
+                        let mut term = factors.clone();
+                        term[index].1 -= Rational::ONE;
+                        term.push((self.chain(graph, *base, kernel), Rational::ONE));
+                        terms.push((graph.product(term), exponent.clone()));
+                    }
+                }
+            }
+            // d f(a, ..) = sum (df/da) da.
             Node::Call(function, arguments) => {
-                chain_rule(graph, expr, function, &arguments, &derivatives)
+                for (index, argument) in arguments.iter().enumerate() {
+                    if self.moves(*argument) {
+                        let outer = partial(graph, expr, *function, arguments, index);
+                        let inner = self.chain(graph, *argument, kernel);
+                        terms.push((graph.mul(outer, inner), Rational::ONE));
+                    }
+                }
             }
-        };
-        derivatives.insert(expr, derivative);
-    }
-    roots.iter().map(|root| derivatives[root]).collect()
-}
-
-/// d(prod b^e) = sum e b^(e-1) db (the other factors).
-fn product_rule(
-    graph: &mut Graph,
-    factors: &[(Expr, Rational)],
-    derivatives: &BTreeMap<Expr, Expr>,
-) -> Expr {
-    let mut terms = Vec::new();
-    for (index, (base, exponent)) in factors.iter().enumerate() {
-        if graph.is_zero(derivatives[base]) {
-            continue;
         }
-        let mut term = factors.to_vec();
-        term[index].1 -= Rational::ONE;
-        term.push((derivatives[base], Rational::ONE));
-        terms.push((graph.product(term), exponent.clone()));
+        factored_sum(graph, terms)
     }
-    graph.sum(terms)
-}
-
-/// d f(a, ..) = sum (df/da) da.
-fn chain_rule(
-    graph: &mut Graph,
-    value: Expr,
-    function: Function,
-    arguments: &[Expr],
-    derivatives: &BTreeMap<Expr, Expr>,
-) -> Expr {
-    let mut terms = Vec::new();
-    for (index, argument) in arguments.iter().enumerate() {
-        let inner = derivatives[argument];
-        if !graph.is_zero(inner) {
-            let outer = partial(graph, value, function, arguments, index);
-            terms.push((graph.mul(outer, inner), Rational::ONE));
-        }
-    }
-    graph.sum(terms)
 }
 
 /// The partial derivative of `value = function(arguments)` by the argument of that index.

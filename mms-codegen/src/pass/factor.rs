@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 
+/// Bases with their exponents.
+type Powers = Vec<(Expr, Rational)>;
+
 /// `roots` with common factors taken out of every sum below them.
 pub fn factor(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
@@ -32,13 +35,43 @@ fn factor_sum(graph: &mut Graph, expr: Expr) -> Expr {
     graph.product(outer)
 }
 
+/// The sum of terms, with common factors taken out before the terms can merge: where d = R - 1 is
+/// a sum, a d + b d^3 is d (a + b d^2) and not a R - a + b d^3.
+pub(super) fn factored_sum(graph: &mut Graph, terms: Vec<(Expr, Rational)>) -> Expr {
+    let primitive = terms
+        .into_iter()
+        .map(|(term, coefficient)| {
+            let (content, primitive) = graph.split_content(term);
+            (primitive, content * coefficient)
+        })
+        .collect();
+    match take_common_of(graph, primitive) {
+        Ok((mut factors, rest)) => {
+            factors.push((rest, Rational::ONE));
+            graph.product(factors)
+        }
+        Err(terms) => graph.sum(terms),
+    }
+}
+
 /// The powers that every term of a sum has, and the sum without them.
-fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Vec<(Expr, Rational)>, Expr)> {
+fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Powers, Expr)> {
     let Node::Sum(constant, terms) = graph.node(expr) else { return None };
-    if !constant.is_zero() || terms.len() < 2 {
+    if !constant.is_zero() {
         return None;
     }
     let terms = terms.clone();
+    take_common_of(graph, terms).ok()
+}
+
+/// The powers that all of `terms` have, and their sum without them, or the terms as they are.
+fn take_common_of(
+    graph: &mut Graph,
+    terms: Vec<(Expr, Rational)>,
+) -> Result<(Powers, Expr), Vec<(Expr, Rational)>> {
+    if terms.len() < 2 {
+        return Err(terms);
+    }
     let mut common = powers(graph, terms[0].0);
     for (term, _) in &terms[1..] {
         let other = powers(graph, *term);
@@ -51,7 +84,7 @@ fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Vec<(Expr, Rational)>, 
             .collect();
     }
     if common.is_empty() {
-        return None;
+        return Err(terms);
     }
     let divisor: Vec<_> = common.iter().map(|(base, power)| (*base, -power.clone())).collect();
     let mut rest = Vec::new();
@@ -61,7 +94,7 @@ fn take_common(graph: &mut Graph, expr: Expr) -> Option<(Vec<(Expr, Rational)>, 
         rest.push((graph.product(factors), coefficient));
     }
     let rest = graph.sum(rest);
-    Some((common.into_iter().collect(), rest))
+    Ok((common.into_iter().collect(), rest))
 }
 
 fn powers(graph: &Graph, term: Expr) -> BTreeMap<Expr, Rational> {

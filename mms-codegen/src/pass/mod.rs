@@ -3,4 +3,8 @@
 
 pub mod differentiate;
 pub mod factor;
+pub mod nest;
+mod polynomial;
+pub mod reduce;
+pub mod relations;
 pub mod substitute;

@@ -24,19 +24,7 @@ pub(crate) fn rebuild(
     let mut rebuilt = BTreeMap::<Expr, Expr>::new();
     for expr in graph.reachable(roots) {
         let mut node = graph.node(expr).clone();
-        match &mut node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
-            Node::Sum(_, weighted) | Node::Product(weighted) => {
-                for (child, _) in weighted {
-                    *child = rebuilt[child];
-                }
-            }
-            Node::Call(_, arguments) => {
-                for child in arguments {
-                    *child = rebuilt[child];
-                }
-            }
-        }
+        node.map_children(|child| rebuilt[&child]);
         let made = make(graph, node);
         rebuilt.insert(expr, made);
     }

@@ -1,0 +1,126 @@
+//! Polynomials in expressions: sums that are fully multiplied out, with exact coefficients.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::expr::{Expr, Graph, Rational};
+
+/// Factors with non-zero integer exponents, negative ones included, in order of handles.
+pub(super) type Monomial = Vec<(Expr, i32)>;
+
+/// The greatest exponent; beyond it a power is not multiplied out.
+const MAX_EXPONENT: i64 = 1 << 20;
+
+/// How many terms a polynomial may have.
+pub(super) const MAX_TERMS: usize = 200;
+
+/// A sum of monomials with non-zero coefficients.
+///
+/// Operations return `None` where the result would have more than [`MAX_TERMS`] terms.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Polynomial {
+    pub(super) terms: BTreeMap<Monomial, Rational>,
+}
+
+impl Polynomial {
+    /// A number.
+    pub(super) fn constant(number: Rational) -> Self {
+        Self::monomial(Monomial::new(), number)
+    }
+
+    /// A power of an expression, which is not looked into.
+    pub(super) fn power_of(atom: Expr, exponent: i32) -> Self {
+        let monomial = if exponent == 0 { Monomial::new() } else { vec![(atom, exponent)] };
+        Self::monomial(monomial, Rational::ONE)
+    }
+
+    /// A single term.
+    pub(super) fn monomial(monomial: Monomial, coefficient: Rational) -> Self {
+        let mut polynomial = Polynomial::default();
+        polynomial.add(monomial, coefficient);
+        polynomial
+    }
+
+    fn add(&mut self, monomial: Monomial, coefficient: Rational) {
+        use std::collections::btree_map::Entry;
+        match self.terms.entry(monomial) {
+            Entry::Vacant(entry) if !coefficient.is_zero() => drop(entry.insert(coefficient)),
+            Entry::Vacant(_) => {}
+            Entry::Occupied(mut entry) => {
+                *entry.get_mut() += coefficient;
+                if entry.get().is_zero() {
+                    entry.remove();
+                }
+            }
+        }
+    }
+
+    /// The only term, if there is one and no other.
+    pub(super) fn single(&self) -> Option<(&Monomial, &Rational)> {
+        if self.terms.len() == 1 { self.terms.first_key_value() } else { None }
+    }
+
+    /// Every expression that it has a power of.
+    pub(super) fn atoms(&self) -> BTreeSet<Expr> {
+        self.terms.keys().flatten().map(|(atom, _)| *atom).collect()
+    }
+
+    /// `self + factor other`.
+    pub(super) fn plus(mut self, other: &Polynomial, factor: &Rational) -> Option<Self> {
+        for (monomial, coefficient) in &other.terms {
+            self.add(monomial.clone(), coefficient * factor);
+        }
+        (self.terms.len() <= MAX_TERMS).then_some(self)
+    }
+
+    /// `self other`.
+    pub(super) fn times(&self, other: &Polynomial) -> Option<Self> {
+        if self.terms.len() * other.terms.len() > 8 * MAX_TERMS {
+            return None;
+        }
+        let mut product = Polynomial::default();
+        for (a, first) in &self.terms {
+            for (b, second) in &other.terms {
+                product.add(join(a, b)?, first * second);
+            }
+        }
+        (product.terms.len() <= MAX_TERMS).then_some(product)
+    }
+
+    /// A power by repeated squaring; `reduce` is applied to what becomes longer.
+    pub(super) fn power(
+        &self,
+        exponent: u32,
+        reduce: impl Fn(Polynomial) -> Option<Polynomial>,
+    ) -> Option<Self> {
+        let mut power = Self::constant(Rational::ONE);
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            power = reduce(power.times(&power)?)?;
+            if exponent >> bit & 1 == 1 {
+                power = reduce(power.times(self)?)?;
+            }
+        }
+        Some(power)
+    }
+}
+
+/// The expression of a monomial.
+pub(super) fn product(graph: &mut Graph, monomial: &Monomial) -> Expr {
+    graph.product(monomial.iter().map(|(atom, exponent)| (*atom, Rational::from(*exponent))))
+}
+
+/// The product of two monomials.
+fn join(a: &Monomial, b: &Monomial) -> Option<Monomial> {
+    let mut joined: BTreeMap<Expr, i64> =
+        a.iter().map(|(atom, exponent)| (*atom, i64::from(*exponent))).collect();
+    for (atom, exponent) in b {
+        *joined.entry(*atom).or_default() += i64::from(*exponent);
+    }
+    joined
+        .into_iter()
+        .filter(|(_, exponent)| *exponent != 0)
+        .map(|(atom, exponent)| {
+            let exponent = Some(exponent).filter(|exponent| exponent.abs() <= MAX_EXPONENT)?;
+            Some((atom, exponent as i32))
+        })
+        .collect()
+}

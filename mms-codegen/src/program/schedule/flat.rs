@@ -1,0 +1,308 @@
+//! Expressions as n-ary operations grouped by stage: what sharing works on.
+//!
+//! Unlike the graph, a sum may contain a sum here and a product a product. So the terms of one
+//! stage can stand apart, and what several operations share can be an operation of its own.
+
+use std::collections::BTreeMap;
+
+use dashu_int::IBig;
+use rustc_hash::FxHashMap;
+
+use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::program::Stage;
+
+/// Longer sums and products are parted, so that the work on pairs of their operands grows with
+/// their length and not with its square.
+const MAX_OPERANDS: usize = 32;
+
+/// Greater powers are left to the power function.
+const MAX_EXPONENT: i32 = 1 << 24;
+
+/// A handle to an operation of [`Flat`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Item(pub(super) u32);
+
+impl Item {
+    /// Its position.
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An operation on any number of operands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Form {
+    /// An exact number.
+    Constant(Rational),
+    /// pi.
+    Pi,
+    /// A leaf.
+    Input(Symbol),
+    /// Terms with their coefficients, in order; the constant is a coefficient of the number 1.
+    Sum(Vec<(Item, Rational)>),
+    /// Factors with their exponents, in order.
+    Product(Vec<(Item, i32)>),
+    /// An elementary function.
+    Call(Function, Vec<Item>),
+}
+
+impl Form {
+    /// The operands.
+    pub(super) fn operands(&self) -> Vec<Item> {
+        match self {
+            Form::Constant(_) | Form::Pi | Form::Input(_) => Vec::new(),
+            Form::Sum(terms) => terms.iter().map(|(item, _)| *item).collect(),
+            Form::Product(factors) => factors.iter().map(|(item, _)| *item).collect(),
+            Form::Call(_, arguments) => arguments.clone(),
+        }
+    }
+}
+
+/// Which stages are kept apart in a sum or product.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Grouping {
+    /// All four: what needs X alone can be kept for all times.
+    Staged,
+    /// What needs X is one group, which leaves more to be shared.
+    Joint,
+}
+
+/// Hash-consed n-ary operations.
+#[derive(Clone, Debug)]
+pub(super) struct Flat {
+    pub(super) forms: Vec<Form>,
+    pub(super) stages: Vec<Stage>,
+    /// Only ever looked up, never iterated.
+    index: FxHashMap<Form, Item>,
+    grouping: Grouping,
+}
+
+impl Flat {
+    /// The operations of `roots`, and the item of each root.
+    pub(super) fn new(graph: &Graph, roots: &[Expr], grouping: Grouping) -> (Self, Vec<Item>) {
+        let mut flat =
+            Flat { forms: Vec::new(), stages: Vec::new(), index: FxHashMap::default(), grouping };
+        let mut items = BTreeMap::<Expr, Item>::new();
+        for expr in graph.reachable(roots) {
+            let item = flat.flatten(graph.node(expr), &items);
+            items.insert(expr, item);
+        }
+        (flat, roots.iter().map(|root| items[root]).collect())
+    }
+
+    pub(super) fn form(&self, item: Item) -> &Form {
+        &self.forms[item.index()]
+    }
+
+    pub(super) fn stage(&self, item: Item) -> Stage {
+        self.stages[item.index()]
+    }
+
+    /// The one item of a form.
+    pub(super) fn intern(&mut self, form: Form) -> Item {
+        if let Some(item) = self.index.get(&form) {
+            return *item;
+        }
+        let item = self.push(form.clone());
+        self.index.insert(form, item);
+        item
+    }
+
+    /// A new item, which no other form is compared with.
+    pub(super) fn push(&mut self, form: Form) -> Item {
+        let own = match form {
+            Form::Input(symbol) => Stage::of(symbol),
+            _ => Stage::Parameter,
+        };
+        let operands = form.operands().into_iter();
+        let stage = operands.fold(own, |stage, item| stage.join(self.stage(item)));
+        let item = Item(u32::try_from(self.forms.len()).expect("the node limit bounds programs"));
+        self.forms.push(form);
+        self.stages.push(stage);
+        item
+    }
+
+    fn constant(&mut self, number: impl Into<Rational>) -> Item {
+        self.intern(Form::Constant(number.into()))
+    }
+
+    fn flatten(&mut self, node: &Node, items: &BTreeMap<Expr, Item>) -> Item {
+        match node {
+            Node::Number(number) => self.constant(number.clone()),
+            Node::Pi => self.intern(Form::Pi),
+            Node::Symbol(symbol) => self.intern(Form::Input(*symbol)),
+            Node::Sum(constant, terms) => {
+                let mut flat = Vec::new();
+                if !constant.is_zero() {
+                    flat.push((self.constant(1), constant.clone()));
+                }
+                for (term, coefficient) in terms {
+                    flat.push(self.scaled(items[term], coefficient));
+                }
+                self.sum(flat)
+            }
+            Node::Product(factors) => {
+                let mut flat = Vec::new();
+                for (base, exponent) in factors {
+                    self.power(items[base], exponent, &mut flat);
+                }
+                self.product(flat)
+            }
+            Node::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|argument| items[argument]).collect();
+                self.intern(Form::Call(*function, arguments))
+            }
+        }
+    }
+
+    /// A term and its coefficient, which joins the factors that are known earlier, if there are.
+    fn scaled(&mut self, term: Item, coefficient: &Rational) -> (Item, Rational) {
+        let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
+        let plain = (term, coefficient.clone());
+        if *coefficient == one || *coefficient == minus_one {
+            return plain;
+        }
+        let Form::Product(factors) = self.form(term) else { return plain };
+        let mut factors = factors.clone();
+        let stage = self.stage(term);
+        let Some(early) = factors.iter().position(|(item, exponent)| {
+            *exponent == 1 && self.stage(*item) < stage.min(Stage::Point)
+        }) else {
+            return plain;
+        };
+        let sign = if *coefficient < Rational::ZERO { minus_one } else { one };
+        let number = self.constant(coefficient * &sign);
+        factors[early].0 = self.product(vec![(number, 1), factors[early]]);
+        (self.product(factors), sign)
+    }
+
+    /// Adds the factors of a power: halves are square roots, other fractions power functions.
+    fn power(&mut self, base: Item, exponent: &Rational, factors: &mut Vec<(Item, i32)>) {
+        let sign = if *exponent < Rational::ZERO { -1 } else { 1 };
+        let magnitude = exponent * Rational::from(sign);
+        let whole = magnitude.numerator() / IBig::from(magnitude.denominator().clone());
+        let fraction = &magnitude - Rational::from(whole.clone());
+        let count = i32::try_from(whole).ok().filter(|count| *count <= MAX_EXPONENT);
+        let half = Rational::from_parts(1.into(), 2u8.into());
+        match count {
+            Some(count) if fraction.is_zero() || fraction == half => {
+                if fraction == half {
+                    let root = self.intern(Form::Call(Function::Sqrt, vec![base]));
+                    factors.push((root, sign));
+                }
+                if count > 0 {
+                    factors.push((base, sign * count));
+                }
+            }
+            _ => {
+                let exponent = self.constant(magnitude);
+                let power = self.intern(Form::Call(Function::Powf, vec![base, exponent]));
+                factors.push((power, sign));
+            }
+        }
+    }
+
+    /// The group of a stage: groups are computed on their own, in this order.
+    fn group(&self, item: Item) -> Stage {
+        match (self.stage(item), self.grouping) {
+            (Stage::PointTime, Grouping::Joint) => Stage::Point,
+            (stage, _) => stage,
+        }
+    }
+
+    /// A sum whose terms are grouped by stage.
+    fn sum(&mut self, terms: Vec<(Item, Rational)>) -> Item {
+        let mut groups = BTreeMap::<Stage, Vec<(Item, Rational)>>::new();
+        for (item, coefficient) in terms {
+            groups.entry(self.group(item)).or_default().push((item, coefficient));
+        }
+        let carried = self.carry(groups, |flat, _, group| match group.as_slice() {
+            [_] => group,
+            _ => vec![(flat.collected_sum(group), Rational::ONE)],
+        });
+        self.collected_sum(carried)
+    }
+
+    /// A product whose factors are grouped by stage.
+    fn product(&mut self, factors: Vec<(Item, i32)>) -> Item {
+        let mut groups = BTreeMap::<Stage, Vec<(Item, i32)>>::new();
+        for (item, exponent) in factors {
+            groups.entry(self.group(item)).or_default().push((item, exponent));
+        }
+        let carried = self.carry(groups, |flat, stage, mut group| {
+            // One division at a point serves numerator and denominator; what is known before
+            // is inverted before.
+            let inverse = group.iter().all(|(_, exponent)| *exponent < 0);
+            if stage <= Stage::Time || !inverse {
+                return vec![(flat.collected_product(group), 1)];
+            }
+            group.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
+            vec![(flat.collected_product(group), -1)]
+        });
+        self.collected_product(carried)
+    }
+
+    /// Joins groups: each but the last becomes one operand beside the next. What needs t and no X
+    /// waits for what needs both.
+    fn carry<N>(
+        &mut self,
+        groups: BTreeMap<Stage, Vec<(Item, N)>>,
+        mut close: impl FnMut(&mut Self, Stage, Vec<(Item, N)>) -> Vec<(Item, N)>,
+    ) -> Vec<(Item, N)> {
+        let mut early = Vec::new();
+        let mut late = Vec::new();
+        let last = groups.keys().last().copied();
+        for (stage, group) in groups {
+            let to = if stage <= Stage::Time { &mut early } else { &mut late };
+            if Some(stage) == last && to.is_empty() {
+                to.extend(group);
+            } else {
+                to.extend(close(self, stage, group));
+            }
+        }
+        if early.len() > 1 && !late.is_empty() {
+            early = close(self, Stage::Time, early);
+        }
+        early.extend(late);
+        early
+    }
+
+    /// A sum of terms that are grouped already; a lone term with coefficient 1 is itself.
+    fn collected_sum(&mut self, terms: Vec<(Item, Rational)>) -> Item {
+        let mut collected = BTreeMap::<Item, Rational>::new();
+        for (item, coefficient) in terms {
+            *collected.entry(item).or_default() += coefficient;
+        }
+        collected.retain(|_, coefficient| !coefficient.is_zero());
+        let mut terms: Vec<_> = collected.into_iter().collect();
+        while terms.len() > MAX_OPERANDS {
+            let parts = terms.chunks(MAX_OPERANDS);
+            terms =
+                parts.map(|part| (self.intern(Form::Sum(part.to_vec())), Rational::ONE)).collect();
+        }
+        match terms.as_slice() {
+            [] => self.constant(0),
+            [(item, one)] if one.is_one() => *item,
+            _ => self.intern(Form::Sum(terms)),
+        }
+    }
+
+    /// A product of factors that are grouped already; a lone factor is itself.
+    fn collected_product(&mut self, factors: Vec<(Item, i32)>) -> Item {
+        let mut collected = BTreeMap::<Item, i32>::new();
+        for (item, exponent) in factors {
+            *collected.entry(item).or_default() += exponent;
+        }
+        collected.retain(|_, exponent| *exponent != 0);
+        let mut factors: Vec<_> = collected.into_iter().collect();
+        while factors.len() > MAX_OPERANDS {
+            let parts = factors.chunks(MAX_OPERANDS);
+            factors = parts.map(|part| (self.intern(Form::Product(part.to_vec())), 1)).collect();
+        }
+        match factors.as_slice() {
+            [] => self.constant(1),
+            [(item, 1)] => *item,
+            _ => self.intern(Form::Product(factors)),
+        }
+    }
+}

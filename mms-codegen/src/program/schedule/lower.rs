@@ -1,0 +1,189 @@
+//! Binary operations in order: values are numbered, so that an operation on the same operands is
+//! one value.
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
+
+use super::flat::{Flat, Form, Item};
+use crate::expr::{Rational, magnitude};
+use crate::program::{Instr, Op, Stage, Value};
+
+/// Value numbering: an operation on the same operands is one value.
+#[derive(Default)]
+pub(super) struct Builder {
+    pub(super) instrs: Vec<Instr>,
+    /// Only ever looked up, never iterated.
+    index: FxHashMap<Op, Value>,
+}
+
+impl Builder {
+    fn push(&mut self, op: Op) -> Value {
+        let op = match op {
+            Op::Add(a, b) if b < a => Op::Add(b, a),
+            Op::Multiply(a, b) if b < a => Op::Multiply(b, a),
+            other => other,
+        };
+        if let Some(value) = self.index.get(&op) {
+            return *value;
+        }
+        let own = match op {
+            Op::Input(symbol) => Stage::of(symbol),
+            _ => Stage::Parameter,
+        };
+        let stage = op.operands().fold(own, |stage, operand| stage.join(self.stage(operand)));
+        let value =
+            Value(u32::try_from(self.instrs.len()).expect("the node limit bounds programs"));
+        self.instrs.push(Instr { op: op.clone(), stage });
+        self.index.insert(op, value);
+        value
+    }
+
+    fn stage(&self, value: Value) -> Stage {
+        self.instrs[value.index()].stage
+    }
+
+    fn constant(&mut self, number: impl Into<Rational>) -> Value {
+        self.push(Op::Constant(number.into()))
+    }
+
+    /// The values of `roots`, after everything that they need.
+    pub(super) fn lower(&mut self, flat: &Flat, roots: &[Item]) -> Vec<Value> {
+        let mut values = BTreeMap::<Item, Value>::new();
+        let mut open: Vec<Item> = roots.iter().rev().copied().collect();
+        while let Some(item) = open.last().copied() {
+            let operands = flat.form(item).operands();
+            let before = open.len();
+            open.extend(operands.into_iter().rev().filter(|operand| !values.contains_key(operand)));
+            if open.len() > before {
+                continue;
+            }
+            open.pop();
+            if !values.contains_key(&item) {
+                let value = self.form(flat.form(item), &values);
+                values.insert(item, value);
+            }
+        }
+        roots.iter().map(|root| values[root]).collect()
+    }
+
+    fn form(&mut self, form: &Form, values: &BTreeMap<Item, Value>) -> Value {
+        match form {
+            Form::Constant(number) => self.constant(number.clone()),
+            Form::Pi => self.push(Op::Pi),
+            Form::Input(symbol) => self.push(Op::Input(*symbol)),
+            Form::Sum(terms) => {
+                let terms = terms.iter().map(|(item, factor)| (values[item], factor.clone()));
+                self.sum(terms.collect())
+            }
+            Form::Product(factors) => {
+                self.product(factors.iter().map(|(item, exponent)| (values[item], *exponent)))
+            }
+            Form::Call(function, arguments) => match arguments[..] {
+                [a] => self.push(Op::Unary(*function, values[&a])),
+                [a, b] => self.push(Op::Binary(*function, values[&a], values[&b])),
+                _ => unreachable!("functions take one or two arguments"),
+            },
+        }
+    }
+
+    /// Terms of one stage are added up first, then the stages, earliest first.
+    fn sum(&mut self, mut terms: Vec<(Value, Rational)>) -> Value {
+        let content = common_magnitude(&terms);
+        if let Some(content) = &content {
+            terms.iter_mut().for_each(|(_, coefficient)| *coefficient /= content);
+        }
+        let mut groups = BTreeMap::<Stage, Signed>::new();
+        for (term, coefficient) in terms {
+            let negative = coefficient < Rational::ZERO;
+            let value = self.scaled(magnitude(&coefficient), term);
+            groups.entry(self.stage(value)).or_default().add(self, negative, value);
+        }
+        let mut total = Signed::default();
+        for group in groups.into_values() {
+            if let Some((negative, value)) = group.0 {
+                total.add(self, negative, value);
+            }
+        }
+        let total = total.finish(self);
+        match content {
+            Some(content) => self.scaled(content, total),
+            None => total,
+        }
+    }
+
+    /// A value times a positive number.
+    fn scaled(&mut self, factor: Rational, value: Value) -> Value {
+        if factor.is_one() {
+            return value;
+        }
+        let one = matches!(&self.instrs[value.index()].op, Op::Constant(one) if one.is_one());
+        let factor = self.constant(factor);
+        if one { factor } else { self.push(Op::Multiply(factor, value)) }
+    }
+
+    /// Factors that are known early are multiplied first; one division serves all that divide.
+    fn product(&mut self, factors: impl Iterator<Item = (Value, i32)>) -> Value {
+        let mut factors: Vec<_> = factors.collect();
+        factors.sort_by_key(|(value, _)| self.stage(*value));
+        let (mut numerator, mut denominator) = (None, None);
+        for (base, exponent) in factors {
+            let power = self.integer_power(base, exponent.unsigned_abs());
+            let product = if exponent > 0 { &mut numerator } else { &mut denominator };
+            *product = Some(match *product {
+                Some(product) => self.push(Op::Multiply(product, power)),
+                None => power,
+            });
+        }
+        let numerator = numerator.unwrap_or_else(|| self.constant(1));
+        match denominator {
+            Some(denominator) => self.push(Op::Divide(numerator, denominator)),
+            None => numerator,
+        }
+    }
+
+    fn integer_power(&mut self, base: Value, exponent: u32) -> Value {
+        let mut power: Option<Value> = None;
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            power = power.map(|power| self.push(Op::Multiply(power, power)));
+            if exponent >> bit & 1 == 1 {
+                power = Some(match power {
+                    Some(power) => self.push(Op::Multiply(power, base)),
+                    None => base,
+                });
+            }
+        }
+        power.unwrap_or_else(|| self.constant(1))
+    }
+}
+
+/// A running sum with a sign in front.
+#[derive(Default)]
+struct Signed(Option<(bool, Value)>);
+
+impl Signed {
+    fn add(&mut self, builder: &mut Builder, negative: bool, value: Value) {
+        self.0 = Some(match self.0 {
+            None => (negative, value),
+            Some((sign, total)) if sign == negative => (sign, builder.push(Op::Add(total, value))),
+            Some((false, total)) => (false, builder.push(Op::Subtract(total, value))),
+            Some((true, total)) => (false, builder.push(Op::Subtract(value, total))),
+        });
+    }
+
+    fn finish(self, builder: &mut Builder) -> Value {
+        match self.0 {
+            None => builder.constant(0),
+            Some((false, total)) => total,
+            Some((true, total)) => builder.push(Op::Negate(total)),
+        }
+    }
+}
+
+/// The magnitude other than one that all coefficients share.
+fn common_magnitude(terms: &[(Value, Rational)]) -> Option<Rational> {
+    let [(_, first), _, ..] = terms else { return None };
+    let common = magnitude(first);
+    let shared = |number: &Rational| magnitude(number) == common;
+    (!common.is_one() && terms.iter().all(|(_, factor)| shared(factor))).then_some(common)
+}

@@ -1,0 +1,108 @@
+//! From expressions to straight-line code, in three steps: n-ary operations grouped by stage
+//! (`flat`), what they share taken out (`share`), binary operations (`lower`).
+//!
+//! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that
+//! outputs have in common are one value all the same. So an output costs the same beside others as
+//! alone.
+
+mod flat;
+mod lower;
+mod share;
+
+use std::collections::BTreeMap;
+
+use flat::{Flat, Grouping};
+use lower::Builder;
+
+use super::{Instr, Output, Program, Stage, Value};
+use crate::expr::{Expr, Graph};
+
+/// What operations cost: those that depend on X first, since they are done at every point, then
+/// all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cost {
+    /// Operations of the stages Point and PointTime.
+    pub per_point: usize,
+    /// Operations of all stages.
+    pub total: usize,
+}
+
+/// The program of `outputs`, without anything that they do not need.
+pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program {
+    let mut builder = Builder::default();
+    let outputs = outputs
+        .iter()
+        .map(|(output, components)| {
+            let (flat, roots) = cheapest(graph, components);
+            (*output, builder.lower(&flat, &roots))
+        })
+        .collect();
+    in_stage_order(Program { instrs: builder.instrs, outputs })
+}
+
+/// The program of `outputs` as their expressions stand: nothing is shared but equal expressions.
+pub fn schedule_plainly(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program {
+    let mut builder = Builder::default();
+    let outputs = outputs
+        .iter()
+        .map(|(output, components)| {
+            let (flat, roots) = Flat::new(graph, components, Grouping::Staged);
+            (*output, builder.lower(&flat, &roots))
+        })
+        .collect();
+    in_stage_order(Program { instrs: builder.instrs, outputs })
+}
+
+/// What the components of one output cost.
+pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
+    let (flat, roots) = cheapest(graph, components);
+    cost_of(&flat, &roots)
+}
+
+/// The cheapest way to compute `components`; of equals, the first.
+fn cheapest(graph: &Graph, components: &[Expr]) -> (Flat, Vec<flat::Item>) {
+    let staged = Flat::new(graph, components, Grouping::Staged);
+    let joint = Flat::new(graph, components, Grouping::Joint);
+    let distinct = joint.0.forms != staged.0.forms;
+    let plain = staged.clone();
+    let mut ways = vec![staged];
+    ways.extend(Some(joint).filter(|_| distinct));
+    ways.iter_mut().for_each(|(flat, _)| share::share(flat));
+    ways.push(plain);
+    ways.into_iter().min_by_key(|(flat, roots)| cost_of(flat, roots)).expect("there are ways")
+}
+
+fn cost_of(flat: &Flat, roots: &[flat::Item]) -> Cost {
+    let mut builder = Builder::default();
+    builder.lower(flat, roots);
+    let counted = builder.instrs.iter().filter(|instr| instr.op.is_counted());
+    let at_point = |instr: &&Instr| matches!(instr.stage, Stage::Point | Stage::PointTime);
+    Cost { per_point: counted.clone().filter(at_point).count(), total: counted.count() }
+}
+
+/// Drops what no output needs, and sorts by stage; within a stage the order stays.
+fn in_stage_order(program: Program) -> Program {
+    let all: Vec<Output> = program.outputs.keys().copied().collect();
+    let needed = program.needed(&all);
+    let mut order: Vec<usize> = (0..program.instrs.len()).filter(|index| needed[*index]).collect();
+    order.sort_by_key(|index| program.instrs[*index].stage);
+    let mut renamed = vec![Value(0); program.instrs.len()];
+    for (new, old) in order.iter().enumerate() {
+        renamed[*old] = Value(new as u32);
+    }
+    let rename = |value: Value| renamed[value.index()];
+    Program {
+        instrs: order
+            .into_iter()
+            .map(|old| Instr {
+                op: program.instrs[old].op.map(rename),
+                stage: program.instrs[old].stage,
+            })
+            .collect(),
+        outputs: program
+            .outputs
+            .into_iter()
+            .map(|(output, values)| (output, values.into_iter().map(rename).collect()))
+            .collect(),
+    }
+}

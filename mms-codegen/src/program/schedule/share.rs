@@ -1,0 +1,207 @@
+//! Sharing: pairs of operands that several sums or products have in common become operations of
+//! their own, the most frequent pair first (Hosangadi, Fallah & Kastner, Optimizing Polynomial
+//! Expressions by Algebraic Factorization and Common Subexpression Elimination, 2006, uses the same
+//! greedy rule).
+//!
+//! In a sum a pair is two terms and the ratio of their coefficients, in a product two factors of
+//! which either both multiply, or one divides; a power is a pair of equal factors. Every
+//! occurrence but the first saves an operation.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::flat::{Flat, Form, Item};
+use crate::expr::Rational;
+
+/// What can be shared.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Pair {
+    /// a + ratio b, a before b.
+    Sum(Item, Item, Rational),
+    /// a b, a before b or the same.
+    Product(Item, Item),
+    /// a / b.
+    Quotient(Item, Item),
+}
+
+impl Pair {
+    fn form(&self) -> Form {
+        match self.clone() {
+            Pair::Sum(a, b, ratio) => Form::Sum(vec![(a, Rational::ONE), (b, ratio)]),
+            Pair::Product(a, b) if a == b => Form::Product(vec![(a, 2)]),
+            Pair::Product(a, b) => Form::Product(vec![(a, 1), (b, 1)]),
+            Pair::Quotient(a, b) if a < b => Form::Product(vec![(a, 1), (b, -1)]),
+            Pair::Quotient(a, b) => Form::Product(vec![(b, -1), (a, 1)]),
+        }
+    }
+
+    fn operands(&self) -> (Item, Item) {
+        let (Pair::Sum(a, b, _) | Pair::Product(a, b) | Pair::Quotient(a, b)) = self;
+        (*a, *b)
+    }
+
+    /// A form that contains the pair, with `whole` in its place.
+    fn replace(&self, form: &Form, whole: Item) -> Form {
+        match (self, form) {
+            (Pair::Sum(a, b, _), Form::Sum(terms)) => {
+                let mut terms: BTreeMap<Item, Rational> = terms.iter().cloned().collect();
+                let coefficient = terms.remove(a).unwrap_or_default();
+                terms.remove(b);
+                *terms.entry(whole).or_default() += coefficient;
+                terms.retain(|_, coefficient| !coefficient.is_zero());
+                Form::Sum(terms.into_iter().collect())
+            }
+            (Pair::Product(a, b) | Pair::Quotient(a, b), Form::Product(factors)) => {
+                let mut factors: BTreeMap<Item, i32> = factors.iter().copied().collect();
+                let (first, second) = (factors[a], factors[b]);
+                // A quotient whose numerator is below is a pair the other way round.
+                let sign = first.signum();
+                let opposite = if matches!(self, Pair::Quotient(..)) { -1 } else { 1 };
+                let count = if a == b { first.abs() / 2 } else { first.abs().min(second.abs()) };
+                *factors.entry(*a).or_default() -= sign * count;
+                *factors.entry(*b).or_default() -= sign * opposite * count;
+                *factors.entry(whole).or_default() += sign * count;
+                factors.retain(|_, exponent| *exponent != 0);
+                Form::Product(factors.into_iter().collect())
+            }
+            _ => form.clone(),
+        }
+    }
+}
+
+/// Extracts shared pairs until no pair occurs twice.
+pub(super) fn share(flat: &mut Flat) {
+    let mut table = Table { common: common(flat), ..Table::default() };
+    for index in 0..flat.forms.len() {
+        table.enter(flat, Item(index as u32), |_| true);
+    }
+    while let Some(pair) = table.best() {
+        table.extract(flat, &pair);
+    }
+}
+
+/// Operands of more than one sum or product, or of one more than once: only they can be shared.
+fn common(flat: &Flat) -> Vec<bool> {
+    let mut uses = vec![0_u64; flat.forms.len()];
+    for form in &flat.forms {
+        match form {
+            Form::Sum(terms) => terms.iter().for_each(|(item, _)| uses[item.index()] += 1),
+            Form::Product(factors) => factors.iter().for_each(|(item, exponent)| {
+                uses[item.index()] += u64::from(exponent.unsigned_abs());
+            }),
+            Form::Constant(_) | Form::Pi | Form::Input(_) | Form::Call(..) => {}
+        }
+    }
+    uses.into_iter().map(|count| count > 1).collect()
+}
+
+/// Which pairs occur where, and how often.
+#[derive(Default)]
+struct Table {
+    /// Of the operations before sharing.
+    common: Vec<bool>,
+    /// How often a pair occurs, and how often in which operation.
+    places: BTreeMap<Pair, (u64, BTreeMap<Item, u64>)>,
+    /// Pairs that occur more than once. The most frequent is last; of equals, the first in order.
+    ranked: BTreeSet<(u64, Reverse<Pair>)>,
+}
+
+impl Table {
+    fn enter(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
+        for (pair, count) in self.pairs(flat.form(item), concerned) {
+            self.change(pair, |places| places.insert(item, count));
+        }
+    }
+
+    fn withdraw(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
+        for (pair, _) in self.pairs(flat.form(item), concerned) {
+            self.change(pair, |places| places.remove(&item));
+        }
+    }
+
+    /// Changes the places of a pair, and its rank with them.
+    fn change<R>(&mut self, pair: Pair, change: impl FnOnce(&mut BTreeMap<Item, u64>) -> R) {
+        let entry = self.places.entry(pair.clone()).or_default();
+        let before = entry.0;
+        change(&mut entry.1);
+        entry.0 = entry.1.values().sum();
+        let after = entry.0;
+        if after == 0 {
+            self.places.remove(&pair);
+        }
+        if before == after {
+            return;
+        }
+        if before > 1 {
+            self.ranked.remove(&(before, Reverse(pair.clone())));
+        }
+        if after > 1 {
+            self.ranked.insert((after, Reverse(pair)));
+        }
+    }
+
+    fn best(&self) -> Option<Pair> {
+        self.ranked.last().map(|(_, pair)| pair.0.clone())
+    }
+
+    /// Makes the pair an operation, and puts it in its places.
+    fn extract(&mut self, flat: &mut Flat, pair: &Pair) {
+        let form = pair.form();
+        let places: Vec<Item> = self.places[pair].1.keys().copied().collect();
+        let existing = places.iter().copied().find(|place| *flat.form(*place) == form);
+        let whole = existing.unwrap_or_else(|| flat.push(form));
+        let (a, b) = pair.operands();
+        let concerned = |item: Item| item == a || item == b || item == whole;
+        for place in places {
+            self.withdraw(flat, place, concerned);
+            if place != whole {
+                flat.forms[place.index()] = pair.replace(flat.form(place), whole);
+                self.enter(flat, place, concerned);
+            }
+        }
+    }
+
+    /// The pairs of an operation with a concerned operand, and how often each occurs in it.
+    fn pairs(&self, form: &Form, concerned: impl Fn(Item) -> bool) -> Vec<(Pair, u64)> {
+        let is_common = |item: Item| self.common.get(item.index()).copied().unwrap_or(true);
+        let mut pairs = Vec::new();
+        match form {
+            Form::Sum(terms) => {
+                let terms: Vec<_> = terms.iter().filter(|(item, _)| is_common(*item)).collect();
+                for (index, (a, first)) in terms.iter().enumerate() {
+                    for (b, second) in &terms[index + 1..] {
+                        if concerned(*a) || concerned(*b) {
+                            pairs.push((Pair::Sum(*a, *b, second / first), 1));
+                        }
+                    }
+                }
+            }
+            Form::Product(factors) => {
+                let factors: Vec<_> = factors.iter().filter(|(item, _)| is_common(*item)).collect();
+                for (index, (a, first)) in factors.iter().enumerate() {
+                    let squares = u64::from(first.unsigned_abs() / 2);
+                    if squares > 0 && concerned(*a) {
+                        pairs.push((Pair::Product(*a, *a), squares));
+                    }
+                    for (b, second) in &factors[index + 1..] {
+                        if concerned(*a) || concerned(*b) {
+                            pairs.push(factor_pair((*a, *first), (*b, *second)));
+                        }
+                    }
+                }
+            }
+            Form::Constant(_) | Form::Pi | Form::Input(_) | Form::Call(..) => {}
+        }
+        pairs
+    }
+}
+
+/// The pair of two powers, and how often it occurs in their product.
+fn factor_pair((a, first): (Item, i32), (b, second): (Item, i32)) -> (Pair, u64) {
+    let pair = match (first > 0, second > 0) {
+        (true, false) => Pair::Quotient(a, b),
+        (false, true) => Pair::Quotient(b, a),
+        _ => Pair::Product(a, b),
+    };
+    (pair, u64::from(first.unsigned_abs().min(second.unsigned_abs())))
+}
