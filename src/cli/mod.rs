@@ -4,6 +4,7 @@ mod check;
 mod eval;
 mod input;
 mod list;
+mod schema;
 mod show;
 mod study;
 
@@ -33,6 +34,7 @@ enum Command {
     Check(check::Check),
     Eval(eval::Eval),
     Study(study::Study),
+    Schema(schema::Schema),
 }
 
 /// How a command ended that did what it was asked to.
@@ -58,6 +60,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
         Some(Command::Study(study)) => study.run(),
+        Some(Command::Schema(schema)) => schema.run(),
     };
     let outcome = result.unwrap_or_else(|error| {
         let style = anstyle::AnsiColor::Red.on_default().bold();
