@@ -4,6 +4,7 @@ mod check;
 mod eval;
 mod input;
 mod list;
+mod new;
 mod schema;
 mod show;
 mod study;
@@ -34,6 +35,7 @@ enum Command {
     Check(check::Check),
     Eval(eval::Eval),
     Study(study::Study),
+    New(new::New),
     Schema(schema::Schema),
 }
 
@@ -60,6 +62,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
         Some(Command::Study(study)) => study.run(),
+        Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     };
     let outcome = result.unwrap_or_else(|error| {
