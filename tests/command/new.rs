@@ -94,6 +94,18 @@ fn the_file_goes_where_fields_are_kept() {
 }
 
 #[test]
+fn the_first_line_names_the_schema_where_there_is_one() {
+    let folder = Folder::new();
+    folder.write("docs/field.schema.json", "{}");
+    folder.mms("new beside --dimension 1 --output drafts").exits(0);
+    folder.mms("new below --dimension 1 --output drafts/more").exits(0);
+    let text = folder.read("drafts/beside.toml");
+    assert!(text.starts_with("#:schema ../docs/field.schema.json\n"), "{text}");
+    let text = folder.read("drafts/more/below.toml");
+    assert!(text.starts_with("# Editors") && text.contains("mms schema >"), "{text}");
+}
+
+#[test]
 fn a_file_that_exists_is_left_as_it_is() {
     let folder = Folder::new();
     folder.write("mine.toml", "precious");

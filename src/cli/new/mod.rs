@@ -53,6 +53,9 @@ impl New {
         let folder = self.folder();
         let path = folder.join(format!("{}.toml", self.name));
         let shown = path.display().to_string();
+        // First, since `..` leads nowhere from a folder that is not there.
+        fs::create_dir_all(&folder)
+            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
         let template = Template {
             name: &self.name,
             path: &shown,
@@ -61,7 +64,7 @@ impl New {
             material: &material,
             schema: folder.join(SCHEMA).is_file().then_some(SCHEMA),
         };
-        write_new(&folder, &path, &template.text())?;
+        write_new(&path, &template.text())?;
         print(&self.next_steps(&shown))?;
         Ok(Outcome::AsExpected)
     }
@@ -93,11 +96,9 @@ impl New {
     }
 }
 
-/// Writes a file that must not be there yet, and the folders above it.
-fn write_new(folder: &Path, path: &Path, text: &str) -> anyhow::Result<()> {
+/// Writes a file that must not be there yet.
+fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
     let shown = path.display();
-    fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
     match OpenOptions::new().write(true).create_new(true).open(path) {
         Ok(mut file) => {
             file.write_all(text.as_bytes()).with_context(|| format!("cannot write `{shown}`"))
