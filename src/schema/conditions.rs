@@ -7,7 +7,7 @@ use mms_codegen::spec::format::{self, MATERIAL};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
-use super::shipped_materials;
+use crate::gallery;
 
 /// All of them.
 pub fn of_field() -> Value {
@@ -135,7 +135,7 @@ fn rigid() -> Value {
 /// The parameters of each shipped material.
 fn materials() -> Vec<Value> {
     let condition = |stem: &str| has(&[("material.model", json!({ "const": stem }))]);
-    let shipped = shipped_materials().into_iter().map(|material| {
+    let shipped = gallery::materials().into_iter().map(|material| {
         let parameters: Vec<_> =
             material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
         let keys: Vec<_> = format::names(MATERIAL).into_iter().chain(parameters.clone()).collect();

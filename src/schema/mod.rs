@@ -11,10 +11,7 @@
 mod conditions;
 mod holds;
 
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::source::Sources;
 use mms_codegen::spec::format::{FIELD_FILE, Key, MATERIAL_FILE};
-use mms_codegen::spec::{MaterialSpec, read_material};
 use serde_json::{Value, json};
 
 /// The JSON Schema of a field file.
@@ -39,14 +36,4 @@ fn document(title: &str, description: &str, keys: &[Key]) -> Value {
     });
     holds::extend(&mut schema, holds::table(keys));
     schema
-}
-
-/// The shipped materials, read.
-fn shipped_materials() -> Vec<MaterialSpec> {
-    let mut sources = Sources::default();
-    let materials = MATERIALS.iter().filter_map(|(stem, text)| {
-        let source = sources.add(*stem, *text);
-        read_material(&sources, source, stem, &mut Vec::new())
-    });
-    materials.collect()
 }

@@ -7,12 +7,13 @@
 
 use anyhow::bail;
 use mms_codegen::compile::MATERIALS;
-use mms_codegen::source::Sources;
 use mms_codegen::spec::names::FUNCTIONS;
 use mms_codegen::spec::{
-    FILLS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS, read_material,
+    FILLS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
 use mms_codegen::suggest::did_you_mean;
+
+use crate::gallery;
 
 /// The text, with the lines of all variants.
 const TEMPLATE: &str = include_str!("template.toml");
@@ -66,21 +67,17 @@ pub struct Template<'a> {
 
 /// The shipped material of that name.
 pub fn material(name: &str) -> anyhow::Result<MaterialSpec> {
-    let stems = || MATERIALS.iter().map(|(stem, _)| *stem);
-    let Some((stem, text)) = MATERIALS.iter().find(|(stem, _)| *stem == name) else {
-        match did_you_mean(name, stems()) {
-            Some(near) => bail!("no material `{name}`; did you mean `{near}`?"),
-            None => bail!(
-                "no material `{name}`; there are {}. One of your own is named in the file",
-                stems().collect::<Vec<_>>().join(", ")
-            ),
-        }
-    };
-    let mut sources = Sources::default();
-    let source = sources.add(format!("materials/{stem}.toml"), *text);
-    match read_material(&sources, source, stem, &mut Vec::new()) {
-        Some(material) => Ok(material),
-        None => bail!("the shipped material `{stem}` cannot be read"),
+    let materials = gallery::materials();
+    if let Some(material) = materials.iter().find(|material| material.name == name) {
+        return Ok(material.clone());
+    }
+    let stems = materials.iter().map(|material| material.name.as_str());
+    match did_you_mean(name, stems.clone()) {
+        Some(near) => bail!("no material `{name}`; did you mean `{near}`?"),
+        None => bail!(
+            "no material `{name}`; there are {}. One of your own is named in the file",
+            stems.collect::<Vec<_>>().join(", ")
+        ),
     }
 }
 

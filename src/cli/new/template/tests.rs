@@ -1,6 +1,7 @@
 use mms_codegen::certify::closed_form::compare;
 use mms_codegen::compile::Failure;
-use mms_codegen::spec::format;
+use mms_codegen::source::Sources;
+use mms_codegen::spec::{format, read_material};
 use mms_codegen::{Compiled, compile};
 
 use super::*;
@@ -31,8 +32,10 @@ fn greedy() -> MaterialSpec {
 
 /// Every shipped material, and one that is not.
 fn materials() -> Vec<MaterialSpec> {
-    let shipped = MATERIALS.iter().map(|(stem, _)| material(stem).expect("a shipped material"));
-    shipped.chain([greedy()]).collect()
+    let mut materials = gallery::materials();
+    assert_eq!(materials.len(), MATERIALS.len());
+    materials.push(greedy());
+    materials
 }
 
 fn text(body: Body, dimension: usize, material: &MaterialSpec) -> String {
