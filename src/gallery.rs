@@ -1,7 +1,9 @@
 //! The shipped fields, compiled: the folder `fields/` is the list.
 
 use mms_codegen::Compiled;
-use mms_codegen::compile::Failure;
+use mms_codegen::compile::{Failure, MATERIALS};
+use mms_codegen::source::Sources;
+use mms_codegen::spec::{MaterialSpec, read_material};
 
 use crate::scene::Scene;
 
@@ -56,4 +58,14 @@ impl Entry {
 /// The compiled field of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     FIELDS.iter().find(|entry| entry.name == name)
+}
+
+/// The shipped materials, read, in the order of their names.
+pub fn materials() -> Vec<MaterialSpec> {
+    let mut sources = Sources::default();
+    let materials = MATERIALS.iter().filter_map(|(stem, text)| {
+        let source = sources.add(format!("materials/{stem}.toml"), *text);
+        read_material(&sources, source, stem, &mut Vec::new())
+    });
+    materials.collect()
 }

@@ -10,6 +10,7 @@ pub mod gallery;
 pub mod interpreted;
 pub mod report;
 pub mod scene;
+pub mod schema;
 
 /// The README's programs.
 #[cfg(doctest)]

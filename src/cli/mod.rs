@@ -4,6 +4,8 @@ mod check;
 mod eval;
 mod input;
 mod list;
+mod new;
+mod schema;
 mod show;
 mod study;
 
@@ -33,6 +35,8 @@ enum Command {
     Check(check::Check),
     Eval(eval::Eval),
     Study(study::Study),
+    New(new::New),
+    Schema(schema::Schema),
 }
 
 /// How a command ended that did what it was asked to.
@@ -58,6 +62,8 @@ pub fn run() -> ExitCode {
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
         Some(Command::Study(study)) => study.run(),
+        Some(Command::New(new)) => new.run(),
+        Some(Command::Schema(schema)) => schema.run(),
     };
     let outcome = result.unwrap_or_else(|error| {
         let style = anstyle::AnsiColor::Red.on_default().bold();

@@ -5,6 +5,7 @@ mod eval;
 mod main_job;
 mod material;
 mod mms;
+mod new;
 mod overview;
 mod study;
 mod study_files;

@@ -63,7 +63,17 @@ fn show_refuses_unknown_names_with_a_suggestion() {
 
 #[test]
 fn bad_usage_exits_2_and_prints_nothing() {
-    for arguments in ["nonsense", "--nonsense", "list extra", "show", "check", "study", "eval"] {
+    for arguments in [
+        "nonsense",
+        "--nonsense",
+        "list extra",
+        "show",
+        "check",
+        "study",
+        "eval",
+        "new",
+        "schema extra",
+    ] {
         Folder::new().mms(arguments).exits(2).complains("error:").prints_nothing();
     }
 }
@@ -71,7 +81,7 @@ fn bad_usage_exits_2_and_prints_nothing() {
 #[test]
 fn help_and_version_exit_0() {
     let help = Folder::new().mms("--help").exits(0);
-    for command in ["list", "show", "check", "eval", "study"] {
+    for command in ["list", "show", "check", "eval", "study", "new", "schema"] {
         help.prints(command);
     }
     Folder::new().mms("--version").exits(0).prints(env!("CARGO_PKG_VERSION"));

@@ -34,12 +34,6 @@ pub struct ExtremeSpec {
     pub span: Span,
 }
 
-/// The keys of `[[check]]`.
-pub(super) const CHECK: &[&str] = &["quantity", "equals", "let", "source"];
-
-/// The keys of `[[extreme]]`.
-pub(super) const EXTREME: &[&str] = &["name", "set"];
-
 /// Reads one `[[check]]`; `field` are the names that the field defines.
 pub(super) fn check<'a>(
     table: &Table<'a>,

@@ -1,6 +1,7 @@
 //! `[domain]`, `[boundary]` and `[rigid]`: where and when a field lives, what it claims on its
 //! faces, and how the whole of it moves.
 
+use super::format::{DOMAIN, RIGID, ROTATION};
 use super::formula::Formula;
 use super::table::{Entry, Reader, Table, list};
 use super::value::{plural, unknown_word};
@@ -56,7 +57,8 @@ pub enum Face {
 }
 
 impl Face {
-    const ALL: &[Face] = &[
+    /// Every face of any body.
+    pub const ALL: &[Face] = &[
         Face::Min(0),
         Face::Max(0),
         Face::Min(1),
@@ -88,14 +90,20 @@ impl Face {
     /// The faces of a body, in a fixed order.
     pub fn of(body: &Body, dimension: usize) -> Vec<Face> {
         match body {
-            Body::Box { .. } => {
-                (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
-            }
-            Body::Annulus { theta: None, .. } => vec![Face::Inner, Face::Outer],
-            Body::Annulus { theta: Some(_), .. } => {
-                vec![Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax]
-            }
+            Body::Box { .. } => Face::of_box(dimension),
+            Body::Annulus { theta, .. } => Face::of_annulus(theta.is_some()),
         }
+    }
+
+    /// The faces of a box, in a fixed order.
+    pub fn of_box(dimension: usize) -> Vec<Face> {
+        (0..dimension).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect()
+    }
+
+    /// The faces of an annulus, whole or a sector, in a fixed order.
+    pub fn of_annulus(is_sector: bool) -> Vec<Face> {
+        let faces = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
+        faces[..if is_sector { 4 } else { 2 }].to_vec()
     }
 }
 
@@ -127,6 +135,17 @@ impl Claim {
             Claim::Free => "free",
             Claim::Prescribed => "prescribed",
             Claim::Traction => "traction",
+        }
+    }
+
+    /// What it says, in a few words.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Claim::Fixed => "u = 0",
+            Claim::Roller => "u.N = 0 and no tangential traction",
+            Claim::Free => "P N = 0",
+            Claim::Prescribed => "u is given by the field",
+            Claim::Traction => "P N is given by the field",
         }
     }
 }
@@ -165,8 +184,8 @@ pub enum Rotation {
     },
 }
 
-const SHAPES: &[&str] = &["box", "annulus"];
-const DOMAIN: &[&str] = &["shape", "lower", "upper", "inner", "outer", "theta", "time"];
+/// The words for the shapes of a body.
+pub const BODIES: &[&str] = &["box", "annulus"];
 
 /// A domain without content, in place of one whose absence has been reported.
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
@@ -185,7 +204,7 @@ pub(super) fn domain<'a>(
         return reported(dimension, reader.span(entry.value));
     };
     let shape = reader.required(&table, "shape");
-    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", SHAPES));
+    let named = shape.as_ref().and_then(|shape| reader.word(shape, "shape", BODIES));
     // Without a valid shape the keys tell what was meant.
     let is_annulus = match &named {
         Some(shape) => shape.value == "annulus",
@@ -281,7 +300,7 @@ pub(super) fn rigid<'a>(
     dimension: usize,
     reader: &mut Reader<'a>,
 ) -> Option<RigidSpec> {
-    let table = reader.table(entry, "[rigid]", &["rotation", "translation"])?;
+    let table = reader.table(entry, "[rigid]", RIGID)?;
     if table.entries.is_empty() {
         let message = "a rigid motion needs a `rotation`, a `translation` or both";
         reader.report(Diagnostic::error(table.span, message).label("this one has neither"));
@@ -315,7 +334,7 @@ fn space_rotation<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Rota
         reader.wrong_type_because("rotation", entry.value, expected, Some(instead.into()));
         return None;
     }
-    let table = reader.table(entry, "the rotation", &["axis", "angle"])?;
+    let table = reader.table(entry, "the rotation", ROTATION)?;
     let axis = reader.required_formulas(&table, "axis", 3, "expected three components");
     let angle = reader.required_formula(&table, "angle");
     Some(Rotation::Space { axis, angle })

@@ -1,15 +1,16 @@
 //! The field file as a whole.
 
-use super::check::{CHECK, CheckSpec, EXTREME, ExtremeSpec, check, extremes};
+use super::check::{CheckSpec, ExtremeSpec, check, extremes};
 use super::document::Document;
 use super::domain::{
     Body, BoundarySpec, DomainSpec, RigidSpec, Rotation, boundary, domain, one_per_dimension,
     reported, rigid,
 };
+use super::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use super::formula::Formula;
 use super::material::{MaterialUse, material_use};
 use super::names::{Keeper, Names};
-use super::study::{STUDY, StudySpec, study};
+use super::study::{StudySpec, study};
 use super::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use super::table::{Entry, Reader, Table};
 use crate::diagnostic::Diagnostic;
@@ -94,20 +95,6 @@ impl FieldSpec {
     }
 }
 
-const ROOT: &[&str] = &[
-    "field",
-    "parameters",
-    "let",
-    "displacement",
-    "material",
-    "domain",
-    "boundary",
-    "check",
-    "study",
-    "extreme",
-    "rigid",
-];
-
 /// Reads a field file. `None` only where not even the dimension can be told, or the file is too
 /// long to be read.
 pub fn read_field(
@@ -118,7 +105,7 @@ pub fn read_field(
 ) -> Option<FieldSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
-    let root = reader.root("a field file", &document.root, ROOT);
+    let root = reader.root("a field file", &document.root, FIELD_FILE);
     let header = header(&root, &mut reader);
     let mut names = Names::new(Keeper::Field);
     let parameters = open(&root, "parameters", &mut reader)
@@ -184,7 +171,7 @@ struct Header {
 fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
     let table = reader
         .required_table(root, "field")
-        .and_then(|entry| reader.table(&entry, "[field]", &["title", "dimension", "reference"]));
+        .and_then(|entry| reader.table(&entry, "[field]", FIELD));
     let Some(table) = table else { return Header::default() };
     Header {
         title: reader
@@ -216,7 +203,7 @@ fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<usize> {
 
 fn displacement_entry<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Option<Entry<'a>> {
     let entry = reader.required_table(root, "displacement")?;
-    let table = reader.table(&entry, "[displacement]", &["u"])?;
+    let table = reader.table(&entry, "[displacement]", DISPLACEMENT)?;
     reader.required(&table, "u")
 }
 
@@ -263,7 +250,7 @@ impl Evidence {
         parameters: &[&str],
         reader: &mut Reader<'a>,
     ) -> Self {
-        let mut tables = |key: &str, keys: &[&'static str]| match root.get(key) {
+        let mut tables = |key: &str, keys: &[Key]| match root.get(key) {
             Some(entry) => reader.tables(&entry, keys),
             None => Vec::new(),
         };

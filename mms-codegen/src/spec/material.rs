@@ -1,6 +1,7 @@
 //! Materials: the `[material]` table of a field, and material files.
 
 use super::document::Document;
+use super::format::{self, MATERIAL, MATERIAL_FILE, MATERIAL_HEADER};
 use super::formula::Formula;
 use super::names::{Keeper, Names};
 use super::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
@@ -56,8 +57,6 @@ impl MaterialSpec {
     }
 }
 
-const OWN_KEYS: &[&str] = &["model", "density", "fibre"];
-
 impl MaterialUse {
     /// A material without content, in place of one whose absence has been reported.
     pub(super) fn reported(span: Span) -> Self {
@@ -76,7 +75,8 @@ pub(super) fn material_use<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Ma
     let Some(table) = reader.open_table(entry, "[material]") else {
         return MaterialUse::reported(reader.span(entry.value));
     };
-    let misspelt = misspelt_keys(&table, reader);
+    let own_keys = format::names(MATERIAL);
+    let misspelt = misspelt_keys(&table, &own_keys, reader);
     let mut spec = MaterialUse::reported(table.span);
     let is_misspelt = |key: &str| misspelt.iter().any(|(_, meant)| *meant == key);
     if !is_misspelt("model") {
@@ -89,7 +89,7 @@ pub(super) fn material_use<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Ma
         .get("fibre")
         .map(|fibre| reader.formulas(&fibre, 3, "expected a direction in space: three components"));
     for Entry { key, value } in &table.entries {
-        let is_argument = !OWN_KEYS.contains(&key.value.as_str());
+        let is_argument = !own_keys.contains(&key.value.as_str());
         if is_argument && !misspelt.iter().any(|(found, _)| *found == key.value) {
             spec.arguments.push((key.clone(), reader.formula(&key.value, value)));
         }
@@ -108,11 +108,15 @@ fn model<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<Strin
 }
 
 /// Keys that would be arguments, but for their likeness to a key that is absent.
-fn misspelt_keys(table: &Table<'_>, reader: &mut Reader<'_>) -> Vec<(String, &'static str)> {
-    let absent: Vec<_> = OWN_KEYS.iter().copied().filter(|key| table.get(key).is_none()).collect();
+fn misspelt_keys(
+    table: &Table<'_>,
+    own_keys: &[&'static str],
+    reader: &mut Reader<'_>,
+) -> Vec<(String, &'static str)> {
+    let absent: Vec<_> = own_keys.iter().copied().filter(|key| table.get(key).is_none()).collect();
     let mut misspelt = Vec::new();
     for Entry { key, .. } in &table.entries {
-        if OWN_KEYS.contains(&key.value.as_str()) || reader.is_incomplete() {
+        if own_keys.contains(&key.value.as_str()) || reader.is_incomplete() {
             continue;
         }
         let Some(meant) = did_you_mean(&key.value, absent.iter().copied()) else { continue };
@@ -135,7 +139,7 @@ pub fn read_material(
 ) -> Option<MaterialSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
-    let root = reader.root("a material file", &document.root, &["material", "parameters", "let"]);
+    let root = reader.root("a material file", &document.root, MATERIAL_FILE);
     let mut names = Names::new(Keeper::Material);
     let parameters = root
         .get("parameters")
@@ -164,7 +168,7 @@ pub fn read_material(
 }
 
 fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a>) {
-    let Some(table) = reader.table(entry, "[material]", HEADER) else { return };
+    let Some(table) = reader.table(entry, "[material]", MATERIAL_HEADER) else { return };
     if let Some(title) = reader.required_string(&table, "title") {
         spec.title = title.value;
     }
@@ -174,5 +178,3 @@ fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a
         spec.frame_indifferent = reader.boolean(&entry).unwrap_or(true);
     }
 }
-
-const HEADER: &[&str] = &["title", "reference", "strain_energy", "frame_indifferent"];

@@ -14,6 +14,7 @@ mod check;
 mod document;
 mod domain;
 mod field;
+pub mod format;
 mod formula;
 mod material;
 pub mod names;
@@ -24,12 +25,13 @@ mod value;
 
 pub use check::{CheckSpec, ExtremeSpec};
 pub use document::MAX_FILE;
-pub use domain::{Body, BoundarySpec, Claim, DomainSpec, Face, RigidSpec, Rotation};
+pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face, RigidSpec, Rotation};
 pub use field::{FieldSpec, read_field};
 pub use formula::Formula;
 pub use material::{MaterialSpec, MaterialUse, read_material};
 pub use study::{FILLS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS};
 pub use symbols::{LetSpec, MaterialParameter, ParameterSpec};
+pub use value::MAX_COUNT;
 
 #[cfg(test)]
 pub(crate) use formula::formula_in;

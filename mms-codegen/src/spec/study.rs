@@ -55,22 +55,6 @@ pub struct StudySpec {
     pub span: Span,
 }
 
-/// The keys of `[[study]]`.
-pub(super) const STUDY: &[&str] = &[
-    "shape",
-    "integrator",
-    "formulation",
-    "transfer",
-    "courant",
-    "particles_per_cell",
-    "fill",
-    "precision",
-    "cells",
-    "order",
-    "tolerance",
-    "reason",
-];
-
 /// What the command does where a study leaves a choice open.
 const DEFAULT_SHAPE: &str = "cpgimp";
 const DEFAULT_INTEGRATOR: &str = "leapfrog";

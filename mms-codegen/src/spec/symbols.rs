@@ -1,5 +1,6 @@
 //! `[parameters]` and `[let]`: the names that a file defines.
 
+use super::format::{MATERIAL_PARAMETER, PARAMETER};
 use super::formula::Formula;
 use super::names::Names;
 use super::table::{Entry, Reader, Table};
@@ -93,7 +94,7 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
         return parameter;
     }
     let label = format!("the parameter `{}`", entry.key.value);
-    let Some(table) = reader.table(entry, &label, &["value", "unit", "doc", "range"]) else {
+    let Some(table) = reader.table(entry, &label, PARAMETER) else {
         return parameter;
     };
     parameter.value = reader.required_formula(&table, "value");
@@ -114,7 +115,7 @@ pub(super) fn material_parameters<'a>(
     let mut parameters = Vec::new();
     for entry in &table.entries {
         let label = format!("the parameter `{}` of a material", entry.key.value);
-        let fields = reader.table(entry, &label, &["unit", "doc"]);
+        let fields = reader.table(entry, &label, MATERIAL_PARAMETER);
         let unit = fields
             .as_ref()
             .and_then(|fields| fields.get("unit"))

@@ -7,6 +7,7 @@
 use toml::de::{DeTable, DeValue};
 
 use super::document::Document;
+use super::format::{self, Key};
 use super::formula::Formula;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::source::{SourceId, Sources, Span, Spanned};
@@ -110,7 +111,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The file's outermost table.
-    pub fn root(&mut self, name: &str, root: &'a DeTable<'a>, keys: &[&'static str]) -> Table<'a> {
+    pub fn root(&mut self, name: &str, root: &'a DeTable<'a>, keys: &[Key]) -> Table<'a> {
         let span = self.sources.span(self.id, 0, 0);
         let mut table = self.entries(name, span, root);
         self.check_keys(&mut table, keys);
@@ -118,12 +119,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A table in which only these keys make sense.
-    pub fn table(
-        &mut self,
-        entry: &Entry<'a>,
-        name: &str,
-        keys: &[&'static str],
-    ) -> Option<Table<'a>> {
+    pub fn table(&mut self, entry: &Entry<'a>, name: &str, keys: &[Key]) -> Option<Table<'a>> {
         let mut table = self.open_table(entry, name)?;
         self.check_keys(&mut table, keys);
         Some(table)
@@ -144,7 +140,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The tables under `[[name]]`.
-    pub fn tables(&mut self, entry: &Entry<'a>, keys: &[&'static str]) -> Vec<Table<'a>> {
+    pub fn tables(&mut self, entry: &Entry<'a>, keys: &[Key]) -> Vec<Table<'a>> {
         let name = format!("[[{}]]", entry.key.value);
         let DeValue::Array(items) = entry.value.get_ref() else {
             self.wrong_type(&entry.key.value, entry.value, &format!("an array of tables, {name}"));
@@ -169,7 +165,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Reports every key that is not one of these.
-    fn check_keys(&mut self, table: &mut Table<'a>, keys: &[&'static str]) {
+    fn check_keys(&mut self, table: &mut Table<'a>, keys: &[Key]) {
+        let keys = format::names(keys);
         let absent: Vec<_> = keys.iter().copied().filter(|key| table.get(key).is_none()).collect();
         for entry in &table.entries {
             let key = entry.key.value.as_str();
@@ -184,7 +181,7 @@ impl<'a> Reader<'a> {
                     .label(format!("not a key of {}", table.name));
             self.report(match near {
                 Some(_) => diagnostic.did_you_mean(near),
-                None => diagnostic.help(format!("its keys are {}", list(keys))),
+                None => diagnostic.help(format!("its keys are {}", list(&keys))),
             });
         }
     }

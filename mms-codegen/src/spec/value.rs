@@ -9,7 +9,7 @@ use crate::source::{Span, Spanned};
 use crate::suggest::did_you_mean;
 
 /// Cells and particles beyond this are a slip.
-const MAX_COUNT: usize = 1_000_000_000;
+pub const MAX_COUNT: usize = 1_000_000_000;
 
 impl<'a> Reader<'a> {
     /// A string.

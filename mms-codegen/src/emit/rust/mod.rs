@@ -47,6 +47,13 @@ pub fn text(compiled: &Compiled) -> String {
     prettyplease::unparse(&file)
 }
 
+/// Whether Rust keeps a word for itself, so that a module cannot be called that without `r#`.
+pub fn is_keyword(name: &str) -> bool {
+    let is_word = name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    let starts = name.starts_with(|first: char| first.is_ascii_alphabetic());
+    is_word && starts && syn::parse_str::<Ident>(name).is_err()
+}
+
 /// A user's name as an identifier: keywords become raw, and those that cannot get an underscore.
 fn identifier(name: &str) -> Ident {
     if syn::parse_str::<Ident>(name).is_ok() {

@@ -1,0 +1,113 @@
+//! `mms new`: a field file to start from.
+
+mod name;
+mod template;
+
+use std::fs::{self, OpenOptions};
+use std::io::{ErrorKind, Write as _};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+
+use self::template::{Body, Template};
+use super::{Outcome, print};
+use crate::gallery;
+
+/// Where fields are kept, in this project and in others.
+const FIELDS: &str = "fields";
+
+/// The committed JSON Schema, seen from a folder beside `docs`.
+const SCHEMA: &str = "../docs/field.schema.json";
+
+/// Write a field file that passes `mms check`, with every section explained.
+///
+/// The displacement in it is a sine wave, its claims and closed forms are true, and the solver
+/// shows second order on it. No file is ever overwritten.
+#[derive(Args)]
+pub struct New {
+    /// The field's name, which is its file's too: lower-case letters, digits and underscores.
+    name: String,
+    /// The dimension of space: 1, 2 or 3.
+    #[arg(long, value_name = "D", value_parser = clap::value_parser!(u8).range(1..=3))]
+    dimension: u8,
+    /// The shape of the body; an annulus needs `--dimension 2`.
+    #[arg(long, value_enum, default_value_t)]
+    shape: Body,
+    /// A shipped material; see `mms list`.
+    #[arg(long, value_name = "NAME", default_value = "neo_hookean")]
+    material: String,
+    /// The folder to write to; `fields` by default where there is one, else the current folder.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl New {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        name::validate(&self.name)?;
+        let dimension = usize::from(self.dimension);
+        if self.shape == Body::Annulus && dimension != 2 {
+            bail!("`--shape annulus` is 2-dimensional: it needs `--dimension 2`");
+        }
+        let material = template::material(&self.material)?;
+        let folder = self.folder();
+        let path = folder.join(format!("{}.toml", self.name));
+        let shown = path.display().to_string();
+        // First, since `..` leads nowhere from a folder that is not there.
+        fs::create_dir_all(&folder)
+            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let template = Template {
+            name: &self.name,
+            path: &shown,
+            dimension,
+            body: self.shape,
+            material: &material,
+            schema: folder.join(SCHEMA).is_file().then_some(SCHEMA),
+        };
+        write_new(&path, &template.text())?;
+        print(&self.next_steps(&shown))?;
+        Ok(Outcome::AsExpected)
+    }
+
+    fn folder(&self) -> PathBuf {
+        match &self.output {
+            Some(folder) => folder.clone(),
+            None if Path::new(FIELDS).is_dir() => FIELDS.into(),
+            None => PathBuf::new(),
+        }
+    }
+
+    fn next_steps(&self, path: &str) -> String {
+        let mut lines = vec![
+            format!("{path}: written; next"),
+            format!("  mms check {path}   # mistakes, claims and closed forms"),
+            format!("  mms show {path}    # every formula that follows from it"),
+        ];
+        if self.shape == Body::Box {
+            lines.push(format!("  mms study {path}   # the order of the solver on it"));
+        }
+        if gallery::find(&self.name).is_some() {
+            lines.push(format!(
+                "note: `mms show {0}` shows the gallery's own `{0}`; name this one by its path",
+                self.name
+            ));
+        }
+        lines.join("\n")
+    }
+}
+
+/// Writes a file that must not be there yet.
+fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
+    let shown = path.display();
+    match OpenOptions::new().write(true).create_new(true).open(path) {
+        Ok(mut file) => {
+            file.write_all(text.as_bytes()).with_context(|| format!("cannot write `{shown}`"))
+        }
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            bail!(
+                "`{shown}` exists already, and is left as it is; choose another name or `--output`"
+            )
+        }
+        Err(error) => Err(error).with_context(|| format!("cannot write `{shown}`")),
+    }
+}

@@ -1,0 +1,195 @@
+//! The text of a new field file.
+//!
+//! `template.toml` is one text for all of them. A line `1| ...` is for bodies of one dimension
+//! only, `23| ...` for those of two and three, `o| ...` for the annulus, and with an `n`, as in
+//! `2n| ...`, for the neo-Hookean material only. Words such as `@name@` are filled in, those that
+//! list something from the very list that the reader of field files uses.
+
+use anyhow::bail;
+use mms_codegen::compile::MATERIALS;
+use mms_codegen::spec::names::FUNCTIONS;
+use mms_codegen::spec::{
+    FILLS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
+};
+use mms_codegen::suggest::did_you_mean;
+
+use crate::gallery;
+
+/// The text, with the lines of all variants.
+const TEMPLATE: &str = include_str!("template.toml");
+
+/// The material whose stress the closed forms in the template were derived for.
+const NEO_HOOKEAN: &str = "neo_hookean";
+
+/// The names that the template defines: a parameter of a material gets another one.
+const TAKEN: &[&str] = &[
+    "length",
+    "inner",
+    "outer",
+    "amplitude",
+    "period",
+    "rho0",
+    "A",
+    "k",
+    "R",
+    "U",
+    "w_X",
+    "w_Y",
+    "w_Z",
+    "dU",
+];
+
+/// The shape of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Body {
+    /// With edges along the axes.
+    #[default]
+    Box,
+    /// Between two circles, in the plane.
+    Annulus,
+}
+
+/// What a new field file is made of.
+pub struct Template<'a> {
+    /// The field's name.
+    pub name: &'a str,
+    /// The file, as the user's next commands name it.
+    pub path: &'a str,
+    /// The dimension of space.
+    pub dimension: usize,
+    /// The shape of the body; an annulus is of two dimensions.
+    pub body: Body,
+    /// The material.
+    pub material: &'a MaterialSpec,
+    /// The JSON Schema of field files, relative to the file, where there is one.
+    pub schema: Option<&'a str>,
+}
+
+/// The shipped material of that name.
+pub fn material(name: &str) -> anyhow::Result<MaterialSpec> {
+    let materials = gallery::materials();
+    if let Some(material) = materials.iter().find(|material| material.name == name) {
+        return Ok(material.clone());
+    }
+    let stems = materials.iter().map(|material| material.name.as_str());
+    match did_you_mean(name, stems.clone()) {
+        Some(near) => bail!("no material `{name}`; did you mean `{near}`?"),
+        None => bail!(
+            "no material `{name}`; there are {}. One of your own is named in the file",
+            stems.collect::<Vec<_>>().join(", ")
+        ),
+    }
+}
+
+impl Template<'_> {
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for line in TEMPLATE.lines() {
+            let line = match tagged(line) {
+                Some((tags, line)) if self.is_meant(tags) => line,
+                Some(_) => continue,
+                None => line,
+            };
+            text.push_str(&self.filled(line));
+            text.push('\n');
+        }
+        // Where a variant has no line, the blank ones around it meet.
+        while text.contains("\n\n\n") {
+            text = text.replace("\n\n\n", "\n\n");
+        }
+        text
+    }
+
+    /// Whether a line with these tags is for this file.
+    fn is_meant(&self, tags: &str) -> bool {
+        let body = match (self.body, self.dimension) {
+            (Body::Annulus, _) => 'o',
+            (Body::Box, 1) => '1',
+            (Body::Box, 2) => '2',
+            (Body::Box, _) => '3',
+        };
+        let is_for_body = tags == "n" || tags.contains(body);
+        is_for_body && (!tags.contains('n') || self.material.name == NEO_HOOKEAN)
+    }
+
+    /// A line with its words filled in.
+    fn filled(&self, line: &str) -> String {
+        let Some((before, rest)) = line.split_once('@') else { return line.into() };
+        let Some((word, after)) = rest.split_once('@') else { return line.into() };
+        format!("{before}{}{after}", self.meaning(word))
+    }
+
+    fn meaning(&self, word: &str) -> String {
+        match word {
+            "schema" => self.schema_line(),
+            "name" => self.name.into(),
+            "path" => self.path.into(),
+            "dimension" => self.dimension.to_string(),
+            "coordinates" => ["X", "Y", "Z"][..self.dimension].join(" "),
+            "functions" => FUNCTIONS.join(" "),
+            "parameters" => self.parameters(),
+            "arguments" => self.arguments(),
+            "model" => self.material.name.clone(),
+            "materials" => MATERIALS.iter().map(|(stem, _)| *stem).collect::<Vec<_>>().join(", "),
+            "shapes" => SHAPES.join(" "),
+            "integrators" => INTEGRATORS.join(" "),
+            "formulations" => FORMULATIONS.join(" "),
+            "transfers" => TRANSFERS.join(" "),
+            "fills" => FILLS.join(" "),
+            "precisions" => PRECISIONS.join(" "),
+            unknown => format!("@{unknown}@"),
+        }
+    }
+
+    /// The comment by which editors find the JSON Schema, or the way to it.
+    fn schema_line(&self) -> String {
+        match self.schema {
+            Some(path) => format!("#:schema {path}"),
+            None => "# Editors explain and complete the keys after `mms schema > field.schema.json`, with\n\
+                     # #:schema ./field.schema.json in the first line of this file.\n\
+                     #"
+                .into(),
+        }
+    }
+
+    /// A parameter of the field for each of the material.
+    fn parameters(&self) -> String {
+        let lines = self.material.parameters.iter().map(|parameter| {
+            let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
+            // Any positive number will do: the user knows the body, the template does not.
+            let value = if unit == Some("Pa") { "1e6" } else { "1" };
+            let mut line = format!("{:<9} = {{ value = {value}", renamed(&parameter.name.value));
+            for (key, text) in [("unit", unit), ("doc", parameter.doc.as_deref())] {
+                if let Some(text) = text {
+                    line.push_str(&format!(", {key} = {text:?}"));
+                }
+            }
+            line + " }"
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
+    fn arguments(&self) -> String {
+        let lines = self.material.parameters.iter().map(|parameter| {
+            let name = &parameter.name.value;
+            format!("{name:<7} = \"{}\"", renamed(name))
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// The tags of a line, and the line without them.
+fn tagged(line: &str) -> Option<(&str, &str)> {
+    let (tags, rest) = line.split_once('|')?;
+    let is_tags = !tags.is_empty() && tags.chars().all(|tag| "123on".contains(tag));
+    is_tags.then(|| (tags, rest.strip_prefix(' ').unwrap_or(rest)))
+}
+
+/// A name for a parameter of the field that stands for one of the material.
+fn renamed(name: &str) -> String {
+    if TAKEN.contains(&name) { format!("material_{name}") } else { name.into() }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+//! What one value of a field file says about others: how many components there are, which faces,
+//! which parameters of a material.
+
+use mms_codegen::quantity::Quantity;
+use mms_codegen::spec::Face;
+use mms_codegen::spec::format::{self, MATERIAL};
+use serde_json::{Map, Value, json};
+
+use super::holds::{count, extend};
+use crate::gallery;
+
+/// All of them.
+pub fn of_field() -> Value {
+    let dimensions = (1..=3).flat_map(|dimension| [in_dimension(dimension), box_faces(dimension)]);
+    let conditions = dimensions.chain([boxes(), annuli(), rings(), sectors(), rigid()]);
+    conditions.chain(materials()).collect()
+}
+
+/// A condition, and what follows from it.
+fn if_then(condition: Value, consequence: Value) -> Value {
+    json!({ "if": condition, "then": consequence })
+}
+
+/// What is true of a file in which all these keys (of a path such as `field.dimension`) are there
+/// and of these schemas. Without the keys nothing would be asked, and anything true.
+fn has(values: &[(&str, Value)]) -> Value {
+    let mut all: Vec<Value> = Vec::new();
+    for (path, schema) in values {
+        let mut nested = schema.clone();
+        for key in path.rsplit('.') {
+            nested = json!({ "properties": { key: nested }, "required": [key] });
+        }
+        all.push(nested);
+    }
+    match all.as_slice() {
+        [one] => one.clone(),
+        _ => json!({ "allOf": all }),
+    }
+}
+
+/// What is asked of the value at a path, if it is there.
+fn at(path: &str, schema: Value) -> Value {
+    path.rsplit('.').fold(schema, |nested, key| json!({ "properties": { key: nested } }))
+}
+
+/// All of what is asked.
+fn all(schemas: impl IntoIterator<Item = Value>) -> Value {
+    json!({ "allOf": schemas.into_iter().collect::<Vec<_>>() })
+}
+
+fn dimension_is(dimension: usize) -> (&'static str, Value) {
+    ("field.dimension", json!({ "const": dimension }))
+}
+
+fn shape_is(shape: &str) -> (&'static str, Value) {
+    ("domain.shape", json!({ "const": shape }))
+}
+
+fn in_dimension(dimension: usize) -> Value {
+    let vectors = ["displacement.u", "domain.lower", "domain.upper", "rigid.translation"];
+    let mut asked: Vec<_> = vectors.iter().map(|path| at(path, count(dimension))).collect();
+    if dimension != 2 {
+        asked.push(at("domain.shape", json!({ "const": "box" })));
+    }
+    asked.push(at("rigid.rotation", rotation(dimension)));
+    asked.push(at("check", json!({ "items": all(components(dimension)) })));
+    if_then(has(&[dimension_is(dimension)]), all(asked))
+}
+
+fn rotation(dimension: usize) -> Value {
+    match dimension {
+        1 => json!(false),
+        2 => json!({ "type": ["string", "number"] }),
+        _ => json!({ "type": "object" }),
+    }
+}
+
+/// How many components each quantity has.
+fn components(dimension: usize) -> Vec<Value> {
+    let mut words: Vec<(usize, Vec<&str>)> = Vec::new();
+    for word in format::quantities() {
+        let Some(quantity) = Quantity::from_name(word) else { continue };
+        let components = quantity.shape().components(dimension);
+        match words.iter_mut().find(|(found, _)| *found == components) {
+            Some((_, words)) => words.push(word),
+            None => words.push((components, vec![word])),
+        }
+    }
+    let of_quantity = |(components, words): (usize, Vec<&str>)| {
+        if_then(has(&[("quantity", json!({ "enum": words }))]), at("equals", count(components)))
+    };
+    words.into_iter().map(of_quantity).collect()
+}
+
+fn box_faces(dimension: usize) -> Value {
+    let condition = has(&[dimension_is(dimension), shape_is("box")]);
+    if_then(condition, faces(&Face::of_box(dimension)))
+}
+
+fn faces(faces: &[Face]) -> Value {
+    let names: Vec<_> = faces.iter().map(|face| face.name()).collect();
+    at("boundary", json!({ "propertyNames": { "enum": names } }))
+}
+
+fn boxes() -> Value {
+    if_then(has(&[shape_is("box")]), domain(&["lower", "upper"], &["inner", "outer", "theta"]))
+}
+
+fn annuli() -> Value {
+    if_then(has(&[shape_is("annulus")]), domain(&["inner", "outer"], &["lower", "upper"]))
+}
+
+/// A `[domain]` with some keys, and without others.
+fn domain(required: &[&str], refused: &[&str]) -> Value {
+    let refused: Map<_, _> = refused.iter().map(|key| (key.to_string(), json!(false))).collect();
+    at("domain", json!({ "required": required, "properties": refused }))
+}
+
+fn rings() -> Value {
+    let mut ring = has(&[shape_is("annulus")]);
+    extend(&mut ring, json!({ "not": has(&[("domain.theta", json!(true))]) }));
+    if_then(ring, faces(&Face::of_annulus(false)))
+}
+
+fn sectors() -> Value {
+    let condition = has(&[shape_is("annulus"), ("domain.theta", json!(true))]);
+    if_then(condition, faces(&Face::of_annulus(true)))
+}
+
+/// A rigid motion has a rotation, a translation or both.
+fn rigid() -> Value {
+    at("rigid", json!({ "minProperties": 1 }))
+}
+
+/// The parameters of each shipped material.
+fn materials() -> Vec<Value> {
+    let condition = |stem: &str| has(&[("material.model", json!({ "const": stem }))]);
+    let shipped = gallery::materials().into_iter().map(|material| {
+        let parameters: Vec<_> =
+            material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
+        let keys: Vec<_> = format::names(MATERIAL).into_iter().chain(parameters.clone()).collect();
+        let asked = json!({ "required": parameters, "propertyNames": { "enum": keys } });
+        if_then(condition(&material.name), at("material", asked))
+    });
+    shipped.collect()
+}

@@ -1,0 +1,128 @@
+//! What a key holds, as a schema of its value.
+
+use mms_codegen::compile::MATERIALS;
+use mms_codegen::spec::format::{self, Holds, Key, Length};
+use mms_codegen::spec::names::{COORDINATES, FUNCTIONS, INVARIANTS, Keeper, MAX_NAME};
+use mms_codegen::spec::{Claim, Face, MAX_COUNT};
+use serde_json::{Map, Value, json};
+
+/// Adds the keywords of one schema to another.
+pub fn extend(schema: &mut Value, more: Value) {
+    if let (Value::Object(schema), Value::Object(more)) = (schema, more) {
+        schema.extend(more);
+    }
+}
+
+/// A table that has these keys and no others.
+pub fn table(keys: &[Key]) -> Value {
+    json!({
+        "type": "object",
+        "properties": properties(keys),
+        "required": required(keys),
+        "additionalProperties": false,
+    })
+}
+
+/// An array of exactly so many values.
+pub fn count(components: usize) -> Value {
+    json!({ "minItems": components, "maxItems": components })
+}
+
+fn properties(keys: &[Key]) -> Value {
+    let described = |key: &Key| {
+        let mut schema = json!({ "description": key.doc });
+        extend(&mut schema, value(&key.holds));
+        (key.name.to_string(), schema)
+    };
+    Value::Object(keys.iter().map(described).collect())
+}
+
+fn required(keys: &[Key]) -> Vec<&'static str> {
+    keys.iter().filter(|key| key.required).map(|key| key.name).collect()
+}
+
+fn value(holds: &Holds) -> Value {
+    match holds {
+        Holds::Text => json!({ "type": "string" }),
+        Holds::Flag => json!({ "type": "boolean" }),
+        Holds::Dimension => json!({ "enum": [1, 2, 3] }),
+        Holds::Count => whole_number(),
+        Holds::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        Holds::Levels => json!({
+            "type": "array",
+            "items": whole_number(),
+            "minItems": 2,
+            "uniqueItems": true,
+        }),
+        Holds::Word(words) => json!({ "enum": words() }),
+        Holds::Model => model(),
+        Holds::Formula => formula(),
+        Holds::Formulas(length) => formulas(*length),
+        Holds::Table(keys) => table(keys),
+        Holds::Tables(keys) => json!({ "type": "array", "items": table(keys) }),
+        Holds::Names(keeper, holds) => json!({
+            "type": "object",
+            "propertyNames": name(*keeper),
+            "additionalProperties": value(holds),
+        }),
+        Holds::Material(keys) => json!({
+            "type": "object",
+            "properties": properties(keys),
+            "required": required(keys),
+            "propertyNames": name(Keeper::Material),
+            "additionalProperties": formula(),
+        }),
+        Holds::Faces => faces(),
+        Holds::Rotation(keys) => {
+            let mut schema = table(keys);
+            schema["type"] = json!(["string", "number", "object"]);
+            schema
+        }
+    }
+}
+
+fn whole_number() -> Value {
+    json!({ "type": "integer", "minimum": 1, "maximum": MAX_COUNT })
+}
+
+fn formula() -> Value {
+    json!({ "type": ["string", "number"] })
+}
+
+fn formulas(length: Length) -> Value {
+    let (least, most) = match length {
+        Length::Dimension => (1, 3),
+        Length::Quantity => (1, 9),
+        Length::Exactly(length) => (length, length),
+    };
+    json!({ "type": "array", "items": formula(), "minItems": least, "maxItems": most })
+}
+
+fn model() -> Value {
+    let stems: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
+    json!({ "anyOf": [{ "enum": stems }, { "type": "string", "pattern": "\\.toml$" }] })
+}
+
+/// The names that a file may define.
+fn name(keeper: Keeper) -> Value {
+    let invariants = match keeper {
+        Keeper::Field => &[],
+        Keeper::Material => INVARIANTS,
+    };
+    let given = COORDINATES.iter().chain(invariants).map(|(name, _)| *name);
+    let reserved: Vec<_> = given.chain(FUNCTIONS.iter().copied()).collect();
+    json!({
+        "pattern": "^[A-Za-z_][A-Za-z0-9_]*$",
+        "maxLength": MAX_NAME,
+        "not": { "enum": reserved },
+    })
+}
+
+fn faces() -> Value {
+    let meanings: Vec<_> =
+        Claim::ALL.iter().map(|claim| format!("{}: {}", claim.name(), claim.meaning())).collect();
+    let claim = json!({ "description": meanings.join("; "), "enum": format::claims() });
+    let faces = Face::ALL.iter().map(|face| (face.name().to_string(), claim.clone()));
+    let properties: Map<_, _> = faces.collect();
+    json!({ "type": "object", "properties": properties, "additionalProperties": false })
+}

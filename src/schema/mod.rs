@@ -1,0 +1,39 @@
+//! The JSON Schemas of field files and of material files, for editors.
+//!
+//! They are made of the table that the reader takes its keys from
+//! ([`mms_codegen::spec::format`]) and of the reader's own lists of words. What JSON Schema can
+//! say, they say as the reader does; what it cannot (what a formula means, whether a name is
+//! defined, whether cells increase) is left to `mms check`.
+//!
+//! The dialect is draft 2020-12. Since editors lag behind, only keywords are used that meant the
+//! same in draft 7, and no references.
+
+mod conditions;
+mod holds;
+
+use mms_codegen::spec::format::{FIELD_FILE, Key, MATERIAL_FILE};
+use serde_json::{Value, json};
+
+/// The JSON Schema of a field file.
+pub fn field() -> Value {
+    let mut schema =
+        document("Field file of mms", "One manufactured solution, format 1.", FIELD_FILE);
+    schema["allOf"] = conditions::of_field();
+    schema
+}
+
+/// The JSON Schema of a material file.
+pub fn material() -> Value {
+    let description = "One strain-energy density, format 1.";
+    document("Material file of mms", description, MATERIAL_FILE)
+}
+
+fn document(title: &str, description: &str, keys: &[Key]) -> Value {
+    let mut schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": title,
+        "description": description,
+    });
+    holds::extend(&mut schema, holds::table(keys));
+    schema
+}

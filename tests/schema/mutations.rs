@@ -1,0 +1,213 @@
+//! Files that are one slip away from a right one.
+
+use toml::{Table, Value};
+
+use crate::verdict::{Kind, json, reader_accepts};
+
+/// Files with all keys, between them.
+const FULL: &[(Kind, &str)] = &[
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_2d.toml")),
+    (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_3d.toml")),
+    (Kind::Field, include_str!("../../fields/bar_1d.toml")),
+    (Kind::Material, include_str!("../../mms-codegen/tests/data/pass/material_every_key.toml")),
+    (Kind::Material, include_str!("../../mms-codegen/materials/neo_hookean.toml")),
+];
+
+/// One step into a file.
+#[derive(Clone, Debug, PartialEq)]
+enum Step {
+    Key(String),
+    Item(usize),
+}
+
+/// One slip.
+#[derive(Clone, Debug)]
+enum Slip {
+    /// Another value.
+    Replace(Value),
+    /// A key or an item less.
+    Remove,
+    /// Another key for the same value.
+    Rename(String),
+    /// A key more.
+    Add(String),
+    /// The last item twice.
+    Repeat,
+}
+
+/// Values of every type; the strings are formulas, or words of one list and not of others.
+fn values() -> Vec<Value> {
+    let words =
+        ["1", "box", "annulus", "free", "leapfrog", "neo_hookean", "./mine.toml", "sigma", ""];
+    let mut values: Vec<_> = words.iter().map(|word| Value::from(*word)).collect();
+    values.extend([1, 2, 3, 7, 0, -1, 2_000_000_000].map(Value::from));
+    values.extend([1.5, -0.5, f64::INFINITY].map(Value::from));
+    values.extend([Value::from(true), Value::Array(Vec::new()), Value::Table(Table::new())]);
+    values.push(Value::Array(vec![Value::from("1")]));
+    values.push(Value::Array(vec![Value::from(4), Value::from(8)]));
+    values.push(Value::Array(vec![Value::from(1.5), Value::from(2), Value::from("3")]));
+    values.push(Value::Array(vec![Value::Table(Table::new())]));
+    values
+}
+
+const KEYS: &[&str] =
+    &["zzz", "a b", "", "X", "sin", "I1", "lambda", "outer", "let", "x_min", "z_min"];
+
+/// Every place in a file, the whole included.
+fn places(file: &Value) -> Vec<Vec<Step>> {
+    let mut places = vec![Vec::new()];
+    let mut next = 0;
+    while next < places.len() {
+        let place = places[next].clone();
+        let inner: Vec<Step> = match at(file, &place) {
+            Value::Table(table) => table.keys().cloned().map(Step::Key).collect(),
+            Value::Array(items) => (0..items.len()).map(Step::Item).collect(),
+            _ => Vec::new(),
+        };
+        places.extend(inner.into_iter().map(|step| [place.clone(), vec![step]].concat()));
+        next += 1;
+    }
+    places
+}
+
+fn at<'a>(file: &'a Value, place: &[Step]) -> &'a Value {
+    place.iter().fold(file, |value, step| match step {
+        Step::Key(key) => &value[key.as_str()],
+        Step::Item(item) => &value[*item],
+    })
+}
+
+fn at_mut<'a>(file: &'a mut Value, place: &[Step]) -> &'a mut Value {
+    place.iter().fold(file, |value, step| match step {
+        Step::Key(key) => &mut value[key.as_str()],
+        Step::Item(item) => &mut value[*item],
+    })
+}
+
+/// The slips that can happen at a place.
+fn slips(file: &Value, place: &[Step]) -> Vec<Slip> {
+    let mut slips = Vec::new();
+    if !place.is_empty() {
+        slips.extend(values().into_iter().map(Slip::Replace));
+        slips.push(Slip::Remove);
+    }
+    if let Some(Step::Key(_)) = place.last() {
+        slips.extend(KEYS.iter().map(|key| Slip::Rename(key.to_string())));
+    }
+    match at(file, place) {
+        Value::Table(_) => slips.extend(KEYS.iter().map(|key| Slip::Add(key.to_string()))),
+        Value::Array(items) if !items.is_empty() => slips.push(Slip::Repeat),
+        _ => {}
+    }
+    slips
+}
+
+/// The file with the slip, unless that changes nothing.
+fn changed(file: &Value, place: &[Step], slip: &Slip) -> Option<Value> {
+    let mut changed = file.clone();
+    match (slip, place.split_last()) {
+        (Slip::Replace(value), _) => *at_mut(&mut changed, place) = value.clone(),
+        (Slip::Remove, Some((Step::Key(key), table))) => {
+            at_mut(&mut changed, table).as_table_mut()?.remove(key);
+        }
+        (Slip::Remove, Some((Step::Item(item), array))) => {
+            at_mut(&mut changed, array).as_array_mut()?.remove(*item);
+        }
+        (Slip::Rename(name), Some((Step::Key(key), table))) => {
+            let table = at_mut(&mut changed, table).as_table_mut()?;
+            let value = table.remove(key)?;
+            if table.insert(name.clone(), value).is_some() {
+                return None;
+            }
+        }
+        (Slip::Add(name), _) => {
+            let table = at_mut(&mut changed, place).as_table_mut()?;
+            if table.insert(name.clone(), 1.into()).is_some() {
+                return None;
+            }
+        }
+        (Slip::Repeat, _) => {
+            let items = at_mut(&mut changed, place).as_array_mut()?;
+            items.push(items.last()?.clone());
+        }
+        _ => return None,
+    }
+    (changed != *file).then_some(changed)
+}
+
+/// Why the reader refuses a file that no schema can refuse, if that is so.
+fn beyond(changed: &Value) -> Option<&'static str> {
+    let set = |changed: &Value| -> Vec<String> {
+        let extremes = changed.get("extreme").and_then(Value::as_array);
+        let sets = extremes.into_iter().flatten().filter_map(|it| it.get("set")?.as_table());
+        sets.flat_map(|set| set.keys().cloned()).collect()
+    };
+    let defined = |table: &str| -> Vec<String> {
+        let table = changed.get(table).and_then(Value::as_table);
+        table.into_iter().flat_map(|table| table.keys().cloned()).collect()
+    };
+    let names = |key: &str| -> Vec<Value> {
+        let items = changed.get(key).and_then(Value::as_array);
+        items.into_iter().flatten().filter_map(|item| item.get("name").cloned()).collect()
+    };
+    let parameters = defined("parameters");
+    if set(changed).iter().any(|name| !parameters.contains(name)) {
+        return Some("a set names parameters of the same file");
+    }
+    let lets = defined("let");
+    let checks = changed.get("check").and_then(Value::as_array);
+    let own = checks.into_iter().flatten().filter_map(|check| check.get("let")?.as_table());
+    let mut own = own.flat_map(|names| names.keys());
+    if lets.iter().any(|name| parameters.contains(name))
+        || own.any(|name| parameters.contains(name) || lets.contains(name))
+    {
+        return Some("a name is defined twice in one file");
+    }
+    let extremes = names("extreme");
+    if (1..extremes.len()).any(|index| extremes[..index].contains(&extremes[index])) {
+        return Some("two extremes have one name");
+    }
+    let is_falling = |study: &Value| {
+        let cells = study.get("cells").and_then(Value::as_array).cloned().unwrap_or_default();
+        let cells: Vec<_> = cells.iter().filter_map(Value::as_integer).collect();
+        cells.windows(2).any(|pair| pair[0] > pair[1])
+    };
+    let studies = changed.get("study").and_then(Value::as_array);
+    if studies.into_iter().flatten().any(is_falling) {
+        return Some("cells must increase");
+    }
+    None
+}
+
+#[test]
+fn one_slip_is_refused_by_the_schema_where_the_reader_refuses_it() {
+    let (mut accepted, mut refused, mut reasons) = (0, 0, Vec::new());
+    for (kind, text) in FULL {
+        let file = Value::Table(text.parse().expect("valid TOML"));
+        for place in places(&file) {
+            for slip in slips(&file, &place) {
+                let Some(changed) = changed(&file, &place, &slip) else { continue };
+                let text = toml::to_string(&changed).expect("TOML");
+                let reader = reader_accepts(*kind, &text);
+                let refusals = kind.refusals(&json(&changed));
+                if reader == refusals.is_empty() {
+                    if reader {
+                        accepted += 1
+                    } else {
+                        refused += 1
+                    }
+                    continue;
+                }
+                assert!(!reader, "{place:?} {slip:?} is right, but the schema says {refusals:?}");
+                let reason = beyond(&changed);
+                let silent = || panic!("{place:?} {slip:?} is wrong, and the schema silent");
+                reasons.push(reason.unwrap_or_else(silent));
+            }
+        }
+    }
+    assert!(accepted > 1000 && refused > 5000, "{accepted} and {refused} files were compared");
+    assert!(reasons.len() < refused / 20, "{} files are beyond the schema", reasons.len());
+    reasons.sort_unstable();
+    reasons.dedup();
+    assert_eq!(reasons.len(), 4, "{reasons:?} are the only reasons that are needed");
+}

@@ -1,0 +1,106 @@
+//! What the reader and what the schema say about a text.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use jsonschema::Validator;
+use mms_codegen::compile;
+use mms_codegen::source::Sources;
+use mms_codegen::spec::format::{MATERIAL, names};
+use mms_codegen::spec::names::{Keeper, is_identifier, reserved};
+use mms_codegen::spec::{read_field, read_material};
+use serde_json::{Map, Value};
+
+static FIELD_SCHEMA: LazyLock<Validator> =
+    LazyLock::new(|| jsonschema::validator_for(&mms::schema::field()).expect("a schema"));
+static MATERIAL_SCHEMA: LazyLock<Validator> =
+    LazyLock::new(|| jsonschema::validator_for(&mms::schema::material()).expect("a schema"));
+
+/// What a file describes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Field,
+    Material,
+}
+
+impl Kind {
+    /// The kind of a file of the compiler's test data.
+    pub fn of(path: &Path) -> Kind {
+        let name = path.file_name().expect("a name").to_string_lossy();
+        if name.starts_with("material_") { Kind::Material } else { Kind::Field }
+    }
+
+    /// What the schema refuses.
+    pub fn refusals(self, document: &Value) -> Vec<String> {
+        let validator: &Validator = match self {
+            Kind::Field => &FIELD_SCHEMA,
+            Kind::Material => &MATERIAL_SCHEMA,
+        };
+        let refusals = validator.iter_errors(document);
+        refusals.map(|error| format!("{}: {error}", error.instance_path())).collect()
+    }
+}
+
+/// A TOML text as an editor hands it to a schema; nothing for what is not TOML.
+pub fn json_of(text: &str) -> Option<Value> {
+    text.parse::<toml::Table>().ok().map(|table| json(&toml::Value::Table(table)))
+}
+
+/// A TOML value in JSON, which has neither dates nor infinities. Recursive: for tests alone.
+pub fn json(value: &toml::Value) -> Value {
+    match value {
+        toml::Value::String(text) => text.as_str().into(),
+        toml::Value::Integer(number) => (*number).into(),
+        toml::Value::Float(number) => (*number).into(),
+        toml::Value::Boolean(flag) => (*flag).into(),
+        toml::Value::Datetime(date) => date.to_string().into(),
+        toml::Value::Array(items) => items.iter().map(json).collect(),
+        toml::Value::Table(table) => {
+            let entries = table.iter().map(|(key, value)| (key.clone(), json(value)));
+            Value::Object(entries.collect::<Map<_, _>>())
+        }
+    }
+}
+
+/// Whether the reader finds nothing wrong: in form, and in the material that a field names.
+pub fn reader_accepts(kind: Kind, text: &str) -> bool {
+    let mut sources = Sources::default();
+    let id = sources.add("x.toml", text);
+    let mut diagnostics = Vec::new();
+    match kind {
+        Kind::Field => drop(read_field(&sources, id, "x", &mut diagnostics)),
+        Kind::Material => drop(read_material(&sources, id, "x", &mut diagnostics)),
+    }
+    diagnostics.is_empty() && (kind == Kind::Material || material_is_right(text))
+}
+
+/// Whether the model is one that there is, with the parameters that it has. The compiler says so,
+/// beside much that is not of form.
+fn material_is_right(text: &str) -> bool {
+    let own = own_material(text);
+    let Err(failure) = compile("x", "x.toml", text, &|_| Ok(own.clone())) else { return true };
+    !failure.diagnostics.iter().any(|diagnostic| {
+        let message = diagnostic.message.as_str();
+        let is_missing = message.starts_with("material parameter") && message.ends_with("missing");
+        is_missing
+            || message.starts_with("unknown material")
+            || message.contains("is not a parameter of `")
+    })
+}
+
+/// A material of the user's own. It has the parameters that the field gives it, as far as there can
+/// be such: more the schema of the field cannot know of it.
+fn own_material(text: &str) -> String {
+    let field = json_of(text).unwrap_or_default();
+    let given = field["material"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
+    let is_parameter = |name: &&str| {
+        !names(MATERIAL).contains(name)
+            && is_identifier(name)
+            && reserved(name, Keeper::Material).is_none()
+    };
+    let parameters = given.filter(is_parameter).map(|name| format!("{name} = {{}}\n"));
+    let parameters: String = parameters.collect();
+    format!(
+        "[material]\ntitle = \"own\"\nstrain_energy = \"(J - 1)^2\"\n[parameters]\n{parameters}"
+    )
+}
