@@ -16,6 +16,7 @@ use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::did_you_mean;
 use crate::syntax;
+use crate::units;
 
 /// The materials that come with the crate: stem and text.
 pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
@@ -111,6 +112,7 @@ fn phases(
     let source = sources.add(path, text);
     let field = spec::read_field(sources, source, name, diagnostics)?;
     let material = read_material(sources, &field, load, diagnostics);
+    diagnostics.extend(units::check(sources, &field, material.as_ref()));
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derivation = derive(&mut graph, &model)
