@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::certify::declared;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
@@ -114,6 +115,7 @@ fn phases(
     let material = read_material(sources, &field, load, diagnostics);
     diagnostics.extend(units::check(sources, &field, material.as_ref()));
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
+    diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derivation = derive(&mut graph, &model)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
@@ -252,7 +254,7 @@ fn outputs(
 }
 
 /// The parameters' values as constants, some of them set by the caller.
-fn parameter_values(
+pub(crate) fn parameter_values(
     graph: &mut Graph,
     model: &Model,
     set: &BTreeMap<usize, Rational>,

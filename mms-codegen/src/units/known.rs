@@ -13,6 +13,11 @@ pub struct Size {
     pub sixties: i16,
 }
 
+impl Size {
+    /// That of the SI unit.
+    pub const SI: Size = Size { tens: 0, sixties: 0 };
+}
+
 /// A unit without its prefix: symbol, name, exponents in the order of `BASE`, power of ten of the
 /// SI unit, and whether prefixes may stand before it.
 struct Plain {
@@ -24,7 +29,7 @@ struct Plain {
 }
 
 const fn si(symbol: &'static str, name: &'static str, exponents: [i8; 7]) -> Plain {
-    Plain { symbol, name, exponents, size: Size { tens: 0, sixties: 0 }, prefixed: true }
+    Plain { symbol, name, exponents, size: Size::SI, prefixed: true }
 }
 
 const fn other(

@@ -5,16 +5,23 @@
 //! tonne, s, N, MPa). So there must be one size for each base dimension from which the sizes of
 //! all symbols follow. The logarithms of these sizes solve a linear system with one equation for
 //! each symbol, and it must have a solution.
+//!
+//! The time t belongs to the system too: it is in seconds, unless a symbol of the file is a unit
+//! of time, such as `ms`.
 
 use std::collections::BTreeMap;
 
-use super::dimension::BASE;
+use super::dimension::{BASE, Dimension};
+use super::known::Size;
 use super::parse::{Symbol, Unit};
 use crate::diagnostic::Diagnostic;
 use crate::expr::Rational;
 
 /// The logarithm of a size: its exponents of 10 and of 60.
 const SIZES: usize = 2;
+
+/// The position of the equation for t, which no symbol stands for.
+const SECONDS: usize = usize::MAX;
 
 /// An equation between logarithms of sizes: exponents of the base dimensions, then what they must
 /// amount to.
@@ -30,6 +37,13 @@ impl Equation {
         let sizes = [symbol.size.tens, symbol.size.sixties].map(Rational::from);
         let dimensions = symbol.dimension.exponents().clone();
         Equation { dimensions, sizes, origin: BTreeMap::from([(position, Rational::ONE)]) }
+    }
+
+    /// The unit of t is the second.
+    fn seconds() -> Self {
+        let dimensions = Dimension::time().exponents().clone();
+        let origin = BTreeMap::from([(SECONDS, Rational::ONE)]);
+        Equation { dimensions, sizes: [Rational::ZERO; SIZES], origin }
     }
 
     fn pivot(&self) -> Option<usize> {
@@ -59,6 +73,9 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
         }
     }
     let mut equations: Vec<Equation> = Vec::new();
+    if !symbols.iter().any(|symbol| is_of_time(symbol)) {
+        equations.push(Equation::seconds());
+    }
     for (position, symbol) in symbols.iter().enumerate() {
         let mut equation = Equation::of(symbol, position);
         for known in &equations {
@@ -67,27 +84,45 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
         if equation.pivot().is_some() {
             equations.push(equation);
         } else if equation.sizes.iter().any(|size| !size.is_zero()) {
-            let involved: Vec<_> =
-                equation.origin.keys().map(|position| symbols[*position]).collect();
-            return mixture(&involved);
+            let positions = equation.origin.keys().filter(|position| **position != SECONDS);
+            let involved: Vec<_> = positions.map(|position| symbols[*position]).collect();
+            return mixture(&involved, equation.origin.contains_key(&SECONDS));
         }
     }
     None
 }
 
-/// The last of these symbols is of another system than the others.
-fn mixture(involved: &[&Symbol]) -> Option<Diagnostic> {
-    let (last, others) = involved.split_last()?;
+/// Whether a symbol is a unit of time, or of a power of it.
+fn is_of_time(symbol: &Symbol) -> bool {
+    let exponents = symbol.dimension.exponents();
+    let is_only = |(base, exponent): (&&str, &Rational)| (*base == "s") != exponent.is_zero();
+    BASE.iter().zip(exponents).all(is_only)
+}
+
+/// These symbols are not of one system, with seconds perhaps. The place is that of the one that is
+/// not of the SI among others that are, or else of the last.
+fn mixture(involved: &[&Symbol], seconds: bool) -> Option<Diagnostic> {
+    let mut foreign = involved.iter().filter(|symbol| symbol.size != Size::SI);
+    let odd = match (foreign.next(), foreign.next()) {
+        (Some(only), None) => *only,
+        _ => *involved.last()?,
+    };
+    let others: Vec<_> =
+        involved.iter().copied().filter(|symbol| symbol.symbol != odd.symbol).collect();
     let plural = if others.is_empty() { "is" } else { "are" };
-    let message = format!("{} {plural} not of one system of units", enumeration(involved));
-    Some(
-        Diagnostic::error(last.symbol.span, message)
-            .label(match others.is_empty() {
-                true => "not the unit of a pure number".into(),
-                false => format!("does not go with {}", enumeration(others)),
-            })
-            .help("values are not converted: use one system, such as m, kg, s, N, Pa or mm, tonne, s, N, MPa"),
-    )
+    let with = if seconds { " with seconds" } else { "" };
+    let message = format!("{} {plural} not of one system of units{with}", enumeration(involved));
+    let mut diagnostic = Diagnostic::error(odd.symbol.span, message)
+        .label(match others.is_empty() {
+            true => "not the unit of a pure number".into(),
+            false => format!("does not go with {}", enumeration(&others)),
+        })
+        .help("values are not converted: use one system, such as m, kg, s, N, Pa or mm, tonne, s, N, MPa");
+    if seconds {
+        let help = "t is in seconds, unless a parameter has a unit of time such as `ms`";
+        diagnostic = diagnostic.help(help);
+    }
+    Some(diagnostic)
 }
 
 /// Symbols for a sentence: `a`, `b` and `c`.
@@ -143,6 +178,7 @@ mod tests {
             (&["m", "Pa", "N"], ""),
             (&["mm", "Pa", "N"], "`mm`, `Pa` and `N`"),
             (&["km", "s", "km/h"], "`s` and `h`"),
+            (&["kg/m^3", "m", "MPa"], "`kg`, `m` and `MPa` are not of one system of units with"),
             (&["rad", "mrad"], "`mrad`"),
         ] {
             let message = mixed(units).unwrap_or_default();
