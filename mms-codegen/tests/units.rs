@@ -15,7 +15,7 @@ use mms_codegen::program::schedule::schedule;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::Formula;
 use mms_codegen::syntax::{Ast, parse};
-use mms_codegen::units::{Dimension, Formulas, Measure};
+use mms_codegen::units::{Dimension, Formulas, Measure, Unit};
 use mms_math::Scalar as _;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
@@ -134,6 +134,15 @@ fn agree(a: &Precise, b: &Precise) -> bool {
     let size = a.clone().magnitude() + b.clone().magnitude();
     let difference = (a.clone() - b.clone()).magnitude();
     difference.at_most(&(size * Precise::from_f64(1e-40)))
+}
+
+proptest! {
+    /// Whatever stands in a unit: it is read or refused, at once.
+    #[test]
+    fn no_text_is_too_much_for_a_unit(text in "([a-zA-Z0-9*/^() .-]|kg|mm|MPa|\\^\\(1/2\\)|\\PC){0,60}") {
+        let unit = Unit::known(&text);
+        prop_assert!(unit.is_none_or(|unit| !unit.dimension.to_string().is_empty()));
+    }
 }
 
 proptest! {
