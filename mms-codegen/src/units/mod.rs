@@ -17,6 +17,6 @@ mod parse;
 pub mod system;
 
 pub use check::check;
-pub use dimension::Dimension;
+pub use dimension::{BASE, Dimension};
 pub use infer::{Expected, Formulas, Measure};
 pub use parse::{Symbol, Unit};

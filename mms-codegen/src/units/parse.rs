@@ -31,7 +31,7 @@ pub struct Symbol {
 /// A part of a unit.
 #[derive(Clone)]
 enum Part {
-    Dimension(Dimension),
+    Dimension(Box<Dimension>),
     Number(Rational),
 }
 
@@ -126,7 +126,7 @@ impl Reader<'_> {
         };
         let symbol = Spanned { value: name.to_string(), span };
         symbols.push(Symbol { symbol, dimension: dimension.clone(), size });
-        Some(Part::Dimension(dimension))
+        Some(Part::Dimension(Box::new(dimension)))
     }
 
     fn binary(
@@ -173,7 +173,7 @@ impl Reader<'_> {
 
     fn bounded(&mut self, dimension: Option<Dimension>, span: Span) -> Option<Part> {
         match dimension {
-            Some(dimension) => Some(Part::Dimension(dimension)),
+            Some(dimension) => Some(Part::Dimension(Box::new(dimension))),
             None => self.refuse(span, "the exponent of a unit is too long"),
         }
     }
@@ -181,7 +181,7 @@ impl Reader<'_> {
     /// The dimension of a part that is a factor of a unit: a symbol, or the number 1.
     fn dimension(&mut self, part: Part, span: Span) -> Option<Dimension> {
         match part {
-            Part::Dimension(dimension) => Some(dimension),
+            Part::Dimension(dimension) => Some(*dimension),
             Part::Number(number) if number.is_one() => Some(Dimension::NONE),
             Part::Number(number) => {
                 let message = format!("a unit has no number such as `{number}` in it");
