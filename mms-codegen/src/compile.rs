@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::certify::declared;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
@@ -17,6 +18,7 @@ use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::did_you_mean;
 use crate::syntax;
+use crate::units;
 
 /// The materials that come with the crate: stem and text.
 pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
@@ -112,7 +114,9 @@ fn phases(
     let source = sources.add(path, text);
     let field = spec::read_field(sources, source, name, diagnostics)?;
     let material = read_material(sources, &field, load, diagnostics);
+    diagnostics.extend(units::check(sources, &field, material.as_ref()));
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
+    diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derivation = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
@@ -251,7 +255,7 @@ fn outputs(
 }
 
 /// The parameters' values as constants, some of them set by the caller.
-fn parameter_values(
+pub(crate) fn parameter_values(
     graph: &mut Graph,
     model: &Model,
     set: &BTreeMap<usize, Rational>,

@@ -20,5 +20,6 @@ pub mod source;
 pub mod spec;
 pub mod suggest;
 pub mod syntax;
+pub mod units;
 
 pub use compile::{Compiled, compile};

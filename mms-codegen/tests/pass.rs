@@ -52,6 +52,25 @@ fn materials_are_read_without_a_word() {
     }
 }
 
+/// Those whose name begins with `units` have formulas that agree with their units, or need not.
+#[test]
+fn right_units_compile_without_a_word() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pass");
+    let mut compiled = 0;
+    for entry in fs::read_dir(folder).expect("tests/data/pass") {
+        let path = entry.expect("an entry of tests/data/pass").path();
+        let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        if name.starts_with("units_") {
+            let text = fs::read_to_string(&path).expect("a file");
+            let load = |_: &str| Err("no material files here".to_string());
+            let result = mms_codegen::compile(&name, &name, &text, &load);
+            result.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            compiled += 1;
+        }
+    }
+    assert!(compiled > 3);
+}
+
 #[test]
 fn definitions_keep_the_order_of_the_file() {
     let spec = data("every_key_2d.toml");

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, anyhow, bail};
 use dashu_ratio::RBig;
+use mms_codegen::certify::declared::accepts;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, compile};
@@ -78,6 +79,13 @@ impl Input {
             if set.insert(index, value).is_some() {
                 bail!("`--set {setting}`: `{name}` is set twice");
             }
+        }
+        if !set.is_empty() {
+            accepts(&self.compiled, &set).map_err(|failure| {
+                let settings: Vec<_> =
+                    settings.iter().map(|setting| format!("`--set {setting}`")).collect();
+                anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
+            })?;
         }
         Ok(set)
     }

@@ -261,3 +261,45 @@ fn incomplete_command_lines_are_refused() {
     refused("--at 1 --time 0", "<FIELD>");
     refused("bar_1d --at 1 --time 0 --precision f16", "[possible values: f32, f64]");
 }
+
+/// The bar with a range for its amplitude, which depends on a parameter above it.
+fn bar_with_range() -> Folder {
+    let folder = Folder::new();
+    let plain = "amplitude = { value = 0.2,";
+    assert!(BAR.contains(plain), "the bar's amplitude has changed");
+    let with_range = format!("{plain} range = [0, \"length/4\"],");
+    folder.write("bar.toml", &BAR.replace(plain, &with_range));
+    folder
+}
+
+#[test]
+fn a_value_outside_its_range_is_refused_with_the_range() {
+    let folder = bar_with_range();
+    folder.mms("eval bar.toml --at 0.3 --time 0 --set amplitude=0.25").exits(0);
+    for command in ["eval bar.toml --at 0.3 --time 0", "study bar.toml --cells 8,16"] {
+        let run = folder.mms(&format!("{command} --set amplitude=0.26")).exits(2);
+        run.complains("`--set amplitude=0.26`").complains("`amplitude` is 0.26, outside its range");
+        run.complains("bar.toml:10:37").complains("expected 0 to 0.25");
+    }
+    // The range follows the parameters it depends on.
+    folder.mms("eval bar.toml --at 0.3 --time 0 --set amplitude=0.26 --set length=2").exits(0);
+    let run = folder.mms("eval bar.toml --at 0.3 --time 0 --set length=0.5").exits(2);
+    run.complains("`amplitude` is 0.2, outside its range").complains("expected 0 to 0.125");
+}
+
+#[test]
+fn settings_that_leave_no_body_no_time_or_no_mass_are_refused() {
+    let folder = Folder::new();
+    for (setting, complaint) in [
+        ("length=0", "the box is empty along X"),
+        ("length=-1", "the time window is empty"),
+        ("young=-1", "this bound is not a real number"),
+        ("rho0=-5", "this is -5"),
+    ] {
+        for command in ["eval bar_1d --at 0.3 --time 0", "study bar_1d --cells 8,16"] {
+            let run = folder.mms(&format!("{command} --set {setting}")).exits(2);
+            run.complains(&format!("`--set {setting}`")).complains(complaint);
+            run.complains("fields/bar_1d.toml:");
+        }
+    }
+}

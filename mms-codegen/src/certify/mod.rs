@@ -1,4 +1,5 @@
 //! What a field file claims, tested against what follows from it.
 
 pub mod closed_form;
+pub mod declared;
 pub mod sample;

@@ -15,35 +15,70 @@ pub struct Sample<T> {
     pub time: T,
 }
 
-/// The first `count` points of the Halton sequence (Halton, Numer. Math. 2, 1960), mapped to the
-/// domain of a field with these parameters.
+/// A body in numbers.
+#[derive(Clone, Debug)]
+pub enum Extent<T> {
+    /// A box: its least and its greatest coordinates.
+    Box([Vec<T>; 2]),
+    /// A ring or a sector of it: inner and outer radius, first and last angle.
+    Annulus([T; 2], [T; 2]),
+}
+
+impl<T: Number> Extent<T> {
+    /// The point at these fractions of the way from one end to the other: of each edge of a box;
+    /// of the angle and of the radius of an annulus.
+    pub fn point(&self, fractions: &[T]) -> Vec<T> {
+        match self {
+            Extent::Box([lower, upper]) => {
+                let edges = lower.iter().zip(upper).zip(fractions);
+                edges.map(|((lower, upper), fraction)| between(lower, upper, fraction)).collect()
+            }
+            Extent::Annulus([inner, outer], [first, last]) => {
+                let angle = between(first, last, &fractions[0]);
+                let radius = between(inner, outer, &fractions[1]);
+                vec![radius.clone() * angle.clone().cos(), radius * angle.sin()]
+            }
+        }
+    }
+
+    /// How many fractions a point has.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Extent::Box([lower, _]) => lower.len(),
+            Extent::Annulus(..) => 2,
+        }
+    }
+}
+
+fn between<T: Number>(from: &T, to: &T, fraction: &T) -> T {
+    from.clone() + (to.clone() - from.clone()) * fraction.clone()
+}
+
+/// The point of that index, from 1 on, of the Halton sequence (Halton, Numer. Math. 2, 1960) in
+/// the unit cube of four dimensions.
+pub fn halton<T: Number>(index: usize) -> [T; 4] {
+    [2, 3, 5, 7].map(|base| T::from_rational(&radical_inverse(index, base)))
+}
+
+/// The first `count` points of the Halton sequence, mapped to the domain of a field with these
+/// parameters.
 pub fn samples<T: Number>(compiled: &Compiled, parameters: &[T], count: usize) -> Vec<Sample<T>> {
     let interpreter = Interpreter::new(&compiled.program, parameters);
     let bound = |bound: Bound| interpreter.output(Output::Bound(bound));
     let time = bound(Bound::Time);
-    let between =
-        |from: &T, to: &T, fraction: T| from.clone() + (to.clone() - from.clone()) * fraction;
+    let extent = match &compiled.field.domain.body {
+        Body::Box { .. } => Extent::Box([bound(Bound::Lower), bound(Bound::Upper)]),
+        Body::Annulus { .. } => {
+            let [inner, outer] = [bound(Bound::Inner), bound(Bound::Outer)].map(|it| it[0].clone());
+            let theta = bound(Bound::Theta);
+            Extent::Annulus([inner, outer], [theta[0].clone(), theta[1].clone()])
+        }
+    };
     (1..=count)
         .map(|index| {
-            let fraction =
-                |axis: usize| T::from_rational(&radical_inverse(index, [2, 3, 5, 7][axis]));
-            let coordinates = match &compiled.field.domain.body {
-                Body::Box { .. } => {
-                    let (lower, upper) = (bound(Bound::Lower), bound(Bound::Upper));
-                    let edges = lower.iter().zip(&upper).enumerate();
-                    edges
-                        .map(|(axis, (lower, upper))| between(lower, upper, fraction(axis)))
-                        .collect()
-                }
-                Body::Annulus { .. } => {
-                    let theta = bound(Bound::Theta);
-                    let angle = between(&theta[0], &theta[1], fraction(0));
-                    let (inner, outer) = (bound(Bound::Inner), bound(Bound::Outer));
-                    let radius = between(&inner[0], &outer[0], fraction(1));
-                    vec![radius.clone() * angle.clone().cos(), radius * angle.sin()]
-                }
-            };
-            Sample { coordinates, time: between(&time[0], &time[1], fraction(3)) }
+            let fractions = halton(index);
+            let coordinates = extent.point(&fractions);
+            Sample { coordinates, time: between(&time[0], &time[1], &fractions[3]) }
         })
         .collect()
 }

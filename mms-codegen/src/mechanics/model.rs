@@ -19,6 +19,8 @@ pub struct Parameter {
     pub name: String,
     /// Its default value, in terms of the parameters before it.
     pub default: Expr,
+    /// The least and the greatest value it may take, in terms of the parameters before it.
+    pub range: Option<[Expr; 2]>,
     /// Its unit, where the file states one.
     pub unit: Option<String>,
     /// What it is.
@@ -159,9 +161,10 @@ impl Reader<'_> {
         for (index, parameter) in field.parameters.iter().enumerate() {
             let name = &parameter.name.value;
             let default = self.formula(&parameter.value);
-            for bound in parameter.range.iter().flatten() {
-                self.formula(bound);
-            }
+            let range = parameter.range.as_ref().and_then(|range| {
+                let [least, greatest] = range.each_ref().map(|bound| self.formula(bound));
+                Some([least?, greatest?])
+            });
             let symbol = Symbol::Parameter(index);
             if default.is_some_and(|value| {
                 self.graph.as_number(value).is_some_and(|number| *number > Rational::ZERO)
@@ -174,6 +177,7 @@ impl Reader<'_> {
             parameters.push(default.map(|default| Parameter {
                 name: name.clone(),
                 default,
+                range,
                 unit: parameter.unit.as_ref().map(|unit| unit.value.clone()),
                 doc: parameter.doc.clone(),
             }));

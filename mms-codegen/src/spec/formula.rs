@@ -31,7 +31,7 @@ struct Piece {
 impl Formula {
     /// The formula of a TOML string: `raw` is the source text at `span`, quotes included, and
     /// `decoded` is what it means.
-    pub(super) fn from_string(raw: &str, decoded: &str, span: Span) -> Self {
+    pub(crate) fn from_string(raw: &str, decoded: &str, span: Span) -> Self {
         let mut scan = Scan::new(raw, span);
         if is_quoted(raw) {
             scan.string();

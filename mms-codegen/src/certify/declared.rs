@@ -1,0 +1,381 @@
+//! What a field declares about its parameters, its body, its time window and its density, in
+//! numbers: with the defaults when it is compiled, and with the values that a user sets.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+use mms_math::Scalar as _;
+
+use super::sample::{Extent, halton};
+use crate::compile::{Compiled, Failure, parameter_values};
+use crate::diagnostic::{Diagnostic, MAX_RENDERED};
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::mechanics::Response;
+use crate::mechanics::model::{Body, Model};
+use crate::program::Output;
+use crate::program::interpret::{Interpreter, Point};
+use crate::program::precise::Precise;
+use crate::program::schedule::schedule;
+use crate::source::Span;
+use crate::spec::{self, Face, FieldSpec, Formula};
+
+/// At how many points of the domain the density is evaluated, beside its corners.
+pub const POINTS: usize = 128;
+
+/// Messages say no more than so many values of parameters.
+const MAX_SHOWN: usize = 6;
+
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// Whether a compiled field allows these values of its parameters, by position: each within its
+/// range, a body and a time window that are not empty, a positive density. The failure points to
+/// what the file says.
+pub fn accepts(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<(), Failure> {
+    let diagnostics = check(&compiled.graph, &compiled.model, &compiled.field, set);
+    if diagnostics.is_empty() {
+        return Ok(());
+    }
+    Err(Failure { sources: compiled.sources.clone(), diagnostics })
+}
+
+/// The same for a field whose formulas have been resolved; `set` holds the parameters that do not
+/// have their default.
+pub fn check(
+    graph: &Graph,
+    model: &Model,
+    field: &FieldSpec,
+    set: &BTreeMap<usize, Rational>,
+) -> Vec<Diagnostic> {
+    if field.incomplete || graph.is_exhausted() {
+        return Vec::new();
+    }
+    let mut graph = graph.clone();
+    graph.make_room();
+    let values = parameter_values(&mut graph, model, set);
+    let parameters = evaluate(&graph, &[], &values);
+    let mut declared = Declared { graph, model, field, parameters, diagnostics: Vec::new() };
+    // What is computed from a parameter without a value has none either.
+    if declared.parameters_exist() {
+        declared.ranges();
+        declared.domain();
+    }
+    declared.diagnostics
+}
+
+/// The values of expressions in the parameters.
+fn evaluate(graph: &Graph, parameters: &[Precise], exprs: &[Expr]) -> Vec<Precise> {
+    let output = Output::Parameter(0);
+    let program = schedule(graph, &BTreeMap::from([(output, exprs.to_vec())]));
+    Interpreter::new(&program, parameters).output(output)
+}
+
+/// A part of the domain, as written and in numbers.
+struct Bound<'a> {
+    formula: &'a Formula,
+    expr: Expr,
+    value: Precise,
+}
+
+struct Declared<'a> {
+    graph: Graph,
+    model: &'a Model,
+    field: &'a FieldSpec,
+    parameters: Vec<Precise>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Declared<'a> {
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports parameters without a value, but not those that only follow from such a one.
+    fn parameters_exist(&mut self) -> bool {
+        let undefined: BTreeSet<Symbol> = (0..self.parameters.len())
+            .filter(|index| !self.parameters[*index].is_defined())
+            .map(Symbol::Parameter)
+            .collect();
+        for (index, parameter) in self.field.parameters.iter().enumerate() {
+            let symbol = Symbol::Parameter(index);
+            if self.diagnostics.len() >= MAX_RENDERED || !undefined.contains(&symbol) {
+                continue;
+            }
+            let causes = self.graph.symbols(self.model.parameters[index].default);
+            if causes.is_disjoint(&undefined) {
+                let message =
+                    format!("the value of `{}` is not a real number", parameter.name.value);
+                self.diagnostics.push(
+                    Diagnostic::error(parameter.value.span, message)
+                        .label("not defined for the values of the parameters above it"),
+                );
+            }
+        }
+        undefined.is_empty()
+    }
+
+    fn ranges(&mut self) {
+        let model = self.model;
+        let with_range: Vec<_> = model
+            .parameters
+            .iter()
+            .enumerate()
+            .filter_map(|(index, parameter)| Some((index, parameter.range?)))
+            .collect();
+        let exprs: Vec<Expr> = with_range.iter().flat_map(|(_, range)| *range).collect();
+        let bounds = evaluate(&self.graph, &self.parameters, &exprs);
+        for ((index, _), range) in with_range.into_iter().zip(bounds.chunks_exact(2)) {
+            let spec = &self.field.parameters[index];
+            let Some([first, last]) = &spec.range else { continue };
+            let span = Span { end: last.span.end, ..first.span };
+            let (name, value) = (&spec.name.value, &self.parameters[index]);
+            self.diagnostics.extend(range_mistake(name, value, &range[0], &range[1], span));
+        }
+    }
+
+    fn domain(&mut self) {
+        let reported = self.diagnostics.len();
+        let extent = match (&self.field.domain.body, &self.model.domain.body) {
+            (spec::Body::Box { lower, upper }, Body::Box { lower: from, upper: to }) => {
+                self.cuboid([lower, upper], [from, to])
+            }
+            (
+                spec::Body::Annulus { inner, outer, theta },
+                Body::Annulus { inner: from, outer: to, theta: angles },
+            ) => self.annulus([inner, outer], [*from, *to], theta.as_ref(), *angles),
+            _ => None,
+        };
+        // A body that is wrong has no points to look at.
+        if let Some(extent) = extent.filter(|_| self.diagnostics.len() == reported) {
+            self.density(&extent);
+        }
+        let time = self.bounds(self.field.domain.time.each_ref(), self.model.domain.time);
+        if let Some([first, last]) = time {
+            self.ascending("the time window is empty", "it starts at", &first, &last);
+        }
+    }
+
+    /// The values of two bounds, if both have one.
+    fn bounds(&mut self, formulas: [&'a Formula; 2], exprs: [Expr; 2]) -> Option<[Bound<'a>; 2]> {
+        let values = evaluate(&self.graph, &self.parameters, &exprs);
+        let bound = |index: usize| Bound {
+            formula: formulas[index],
+            expr: exprs[index],
+            value: values[index].clone(),
+        };
+        let bounds = [bound(0), bound(1)];
+        for bound in &bounds {
+            if !bound.value.is_defined() {
+                let message = "this bound is not a real number";
+                let diagnostic = Diagnostic::error(bound.formula.span, message)
+                    .label("not defined for these parameters");
+                let diagnostic = self.with_parameters(diagnostic, &[bound.expr]);
+                self.report(diagnostic);
+            }
+        }
+        bounds.iter().all(|bound| bound.value.is_defined()).then_some(bounds)
+    }
+
+    /// Reports two bounds of which the second is not the greater one.
+    fn ascending(&mut self, message: &str, first_is: &str, first: &Bound<'_>, last: &Bound<'_>) {
+        if !last.value.at_most(&first.value) {
+            return;
+        }
+        let label =
+            format!("this is {}, and {first_is} {}", digits(&last.value), digits(&first.value));
+        let diagnostic = Diagnostic::error(last.formula.span, message).label(label);
+        let diagnostic = self.with_parameters(diagnostic, &[first.expr, last.expr]);
+        self.report(diagnostic);
+    }
+
+    fn cuboid(
+        &mut self,
+        [lower, upper]: [&'a Vec<Formula>; 2],
+        [from, to]: [&Vec<Expr>; 2],
+    ) -> Option<Extent<Precise>> {
+        let mut corners = [Vec::new(), Vec::new()];
+        for (axis, (formulas, exprs)) in
+            lower.iter().zip(upper).zip(from.iter().zip(to)).enumerate()
+        {
+            let bounds = self.bounds([formulas.0, formulas.1], [*exprs.0, *exprs.1]);
+            let Some([least, greatest]) = bounds else { continue };
+            let message = format!("the box is empty along {}", AXES[axis]);
+            self.ascending(&message, "its `lower` is", &least, &greatest);
+            corners[0].push(least.value);
+            corners[1].push(greatest.value);
+        }
+        (corners[0].len() == lower.len()).then_some(Extent::Box(corners))
+    }
+
+    fn annulus(
+        &mut self,
+        radii: [&'a Formula; 2],
+        [from, to]: [Expr; 2],
+        theta: Option<&'a [Formula; 2]>,
+        angles: [Expr; 2],
+    ) -> Option<Extent<Precise>> {
+        let radii = self.bounds(radii, [from, to]);
+        if let Some([inner, outer]) = &radii {
+            self.radii(inner, outer);
+        }
+        let angles = match theta {
+            Some(theta) => {
+                let [first, last] = self.bounds(theta.each_ref(), angles)?;
+                self.angles(&first, &last);
+                [first.value, last.value]
+            }
+            None => [Precise::from_f64(0.0), Precise::from_f64(2.0) * Precise::pi()],
+        };
+        let [inner, outer] = radii?;
+        Some(Extent::Annulus([inner.value, outer.value], angles))
+    }
+
+    fn radii(&mut self, inner: &Bound<'_>, outer: &Bound<'_>) {
+        let zero = Precise::from_f64(0.0);
+        if !zero.at_most(&inner.value) {
+            let diagnostic = Diagnostic::error(inner.formula.span, "the inner radius is negative")
+                .label(format!("this is {}", digits(&inner.value)));
+            let diagnostic = self.with_parameters(diagnostic, &[inner.expr]);
+            self.report(diagnostic);
+        } else if inner.value.at_most(&zero) {
+            self.refuse_claims(&[Face::Inner], "a disc has no inner face", "`inner` is 0");
+        }
+        self.ascending("the annulus is empty", "the inner radius is", inner, outer);
+    }
+
+    fn angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {
+        self.ascending("the sector is empty", "its first angle is", first, last);
+        let turn = Precise::from_f64(2.0) * Precise::pi();
+        let length = last.value.clone() - first.value.clone();
+        // Angles that differ by a turn do so to 60 digits of 77 at least.
+        let rounding = turn.clone() * Precise::from_f64(1e-60);
+        if !length.at_most(&(turn.clone() + rounding.clone())) {
+            let label = format!("{} from the first angle, more than {TAU}", digits(&length));
+            let message = "the sector is longer than a full turn";
+            let diagnostic = Diagnostic::error(last.formula.span, message).label(label);
+            let diagnostic = self.with_parameters(diagnostic, &[first.expr, last.expr]);
+            self.report(diagnostic.help("angles are in radians"));
+        } else if (turn - rounding).at_most(&length) {
+            let edges = [Face::ThetaMin, Face::ThetaMax];
+            self.refuse_claims(&edges, "a full ring has no edges", "`theta` is a full turn");
+        }
+    }
+
+    /// Reports claims on faces that this body does not have.
+    fn refuse_claims(&mut self, faces: &[Face], message: &str, label: &str) {
+        for claim in &self.field.boundary {
+            if faces.contains(&claim.face.value) {
+                let diagnostic = Diagnostic::error(claim.face.span, message).label(label);
+                self.diagnostics.push(diagnostic.help("remove this claim"));
+            }
+        }
+    }
+
+    /// Looks for a point where the density is not positive.
+    fn density(&mut self, extent: &Extent<Precise>) {
+        let density = self.model.density;
+        let symbols = self.graph.symbols(density);
+        // A number is judged where it is read, and so is a density that changes in time.
+        if self.graph.as_number(density).is_some() || symbols.contains(&Symbol::Time) {
+            return;
+        }
+        let output = Output::Response(Response::Density);
+        let program = schedule(&self.graph, &BTreeMap::from([(output, vec![density])]));
+        let mut interpreter = Interpreter::new(&program, &self.parameters);
+        let plan = interpreter.plan(&[output]);
+        let zero = Precise::from_f64(0.0);
+        let varies = symbols.iter().any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
+        let count = if varies { usize::MAX } else { 1 };
+        let found = points(extent).take(count).find_map(|point| {
+            interpreter.set_point(&plan, Point::at(&point));
+            let density = interpreter.output(output).remove(0);
+            let is_positive = density.is_defined() && !density.at_most(&zero);
+            (!is_positive).then_some((point, density))
+        });
+        let Some((point, value)) = found else { return };
+        let mut label = match value.is_defined() {
+            true => format!("this is {}", digits(&value)),
+            false => "this is not defined".to_string(),
+        };
+        if varies {
+            let place: Vec<_> = AXES
+                .iter()
+                .zip(&point)
+                .map(|(axis, value)| format!("{axis} = {}", digits(value)))
+                .collect();
+            label.push_str(&format!(" at {}", place.join(", ")));
+        }
+        let span = self.field.material.density.span;
+        let diagnostic = Diagnostic::error(span, "the density must be positive").label(label);
+        let diagnostic = self.with_parameters(diagnostic, &[density]);
+        self.report(diagnostic.help("the body force is per unit mass: b = a - Div P/rho0"));
+    }
+
+    /// Adds the values of the parameters that expressions depend on.
+    fn with_parameters(&self, diagnostic: Diagnostic, exprs: &[Expr]) -> Diagnostic {
+        let mut indices: Vec<usize> = Vec::new();
+        for symbol in exprs.iter().flat_map(|expr| self.graph.symbols(*expr)) {
+            match symbol {
+                Symbol::Parameter(index) if !indices.contains(&index) => indices.push(index),
+                _ => {}
+            }
+        }
+        if indices.is_empty() || indices.len() > MAX_SHOWN {
+            return diagnostic;
+        }
+        let values: Vec<_> = indices
+            .into_iter()
+            .map(|index| {
+                let name = &self.model.parameters[index].name;
+                format!("`{name}` is {}", digits(&self.parameters[index]))
+            })
+            .collect();
+        diagnostic.help(format!("here {}", values.join(", ")))
+    }
+}
+
+/// What is wrong with the range of a parameter, or with its value there.
+fn range_mistake(
+    name: &str,
+    value: &Precise,
+    least: &Precise,
+    greatest: &Precise,
+    span: Span,
+) -> Option<Diagnostic> {
+    if !(least.is_defined() && greatest.is_defined()) {
+        let message = format!("the range of `{name}` is not one of real numbers");
+        let label = "not defined for the values of the parameters above it";
+        return Some(Diagnostic::error(span, message).label(label));
+    }
+    let shown = format!("{} to {}", digits(least), digits(greatest));
+    if !least.at_most(greatest) {
+        let message = format!("the range of `{name}` is reversed");
+        return Some(
+            Diagnostic::error(span, message)
+                .label(format!("this is {shown}"))
+                .help("write the least value first"),
+        );
+    }
+    if least.at_most(value) && value.at_most(greatest) {
+        return None;
+    }
+    let message = format!("`{name}` is {}, outside its range", digits(value));
+    Some(Diagnostic::error(span, message).label(format!("expected {shown}")))
+}
+
+/// The corners of a body, and points spread over it.
+fn points(extent: &Extent<Precise>) -> impl Iterator<Item = Vec<Precise>> {
+    let dimension = extent.dimension();
+    let corners = (0..1usize << dimension).map(move |corner| {
+        let end = |axis: usize| Precise::from_f64(f64::from(u8::from(corner >> axis & 1 == 1)));
+        (0..dimension).map(end).collect::<Vec<_>>()
+    });
+    let inside = (1..=POINTS).map(|index| halton(index).to_vec());
+    corners.chain(inside).map(|fractions| extent.point(&fractions))
+}
+
+/// A number in a message: short, whatever its size.
+fn digits(value: &Precise) -> String {
+    let value = value.to_f64();
+    let plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
+}
