@@ -84,12 +84,9 @@ impl Scope {
         if graph.is_exhausted() {
             // What was reported of a void graph means nothing, and so would a second report.
             diagnostics.truncate(reported);
-            let size = format!("limit: {} nodes and operands", graph.limit());
-            let formula = ast.nodes.last().map(|node| node.span);
-            diagnostics.extend(formula.map(|span| {
-                Diagnostic::error(span, "the formula is too large").label(size).help(
-                    "it makes very many terms or very long numbers: write it in a shorter form",
-                )
+            diagnostics.extend(ast.nodes.last().map(|formula| {
+                let diagnostic = Diagnostic::error(formula.span, "the formula is too large");
+                Diagnostic { help: graph.exhaustion(), ..diagnostic.label("with what it uses") }
             }));
             return None;
         }

@@ -2,9 +2,9 @@
 //! evaluation bounds a program over a whole box.
 //!
 //! Every operation rounds outward: whatever point of the box an expression is evaluated at, its
-//! exact value lies within the result. Sums, products, quotients and square roots are rounded by
-//! the sign of their exact rounding error, so that an exact result stays one; elementary functions
-//! take directed rounding in arbitrary precision at their bounds (`functions.rs`).
+//! exact value lies within the result. Sums, products and quotients are rounded by the sign of
+//! their exact rounding error, so that an exact result stays one; elementary functions take
+//! directed rounding in arbitrary precision at their bounds (`functions.rs`).
 
 mod functions;
 
@@ -37,11 +37,7 @@ impl Interval {
 
     /// The numbers from `lower` to `upper`, both included; undefined unless `lower <= upper`.
     pub fn new(lower: f64, upper: f64) -> Self {
-        if lower <= upper {
-            Interval { lower, upper, defined: true }
-        } else {
-            Interval::UNDEFINED
-        }
+        if lower <= upper { Interval { lower, upper, defined: true } } else { Interval::UNDEFINED }
     }
 
     /// The bound from below; minus infinity where there is none.
@@ -155,10 +151,8 @@ impl Number for Interval {
 
     fn square(self) -> Self {
         let farthest = self.lower.abs().max(self.upper.abs());
-        let nearest =
-            if self.contains(0.0) { 0.0 } else { self.lower.abs().min(self.upper.abs()) };
-        let (lower, upper) =
-            (product_below(nearest, nearest), -product_below(-farthest, farthest));
+        let nearest = if self.contains(0.0) { 0.0 } else { self.lower.abs().min(self.upper.abs()) };
+        let (lower, upper) = (product_below(nearest, nearest), -product_below(-farthest, farthest));
         Interval::new(lower, upper).only_if(self.defined)
     }
 }

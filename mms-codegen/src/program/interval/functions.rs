@@ -209,7 +209,8 @@ impl Scalar for Interval {
 
     fn ln(self) -> Self {
         let Some(part) = self.within(0.0, f64::INFINITY) else { return Interval::UNDEFINED };
-        let tails = Tails { from: f64::from_bits(1), left: minus(LARGE), to: f64::MAX, right: LARGE };
+        let tails =
+            Tails { from: f64::from_bits(1), left: minus(LARGE), to: f64::MAX, right: LARGE };
         part.rising(&tails, |x| around!(x, ln)).only_if(part.lower > 0.0)
     }
 
@@ -228,7 +229,9 @@ impl Scalar for Interval {
     }
 
     fn tan(self) -> Self {
-        if !self.lower.is_finite() || !self.upper.is_finite() || positions(self, 1) != (false, false)
+        if !self.lower.is_finite()
+            || !self.upper.is_finite()
+            || positions(self, 1) != (false, false)
         {
             return Interval::UNDEFINED;
         }
