@@ -1,9 +1,10 @@
 //! The shipped fields, compiled: the folder `fields/` is the list.
 
-use mms_codegen::Compiled;
+use mms_codegen::compile::Failure;
 use mms_codegen::compile::{Failure, MATERIALS};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{MaterialSpec, read_material};
+use mms_codegen::{Compiled, Limits};
 
 use crate::scene::Scene;
 
@@ -49,9 +50,14 @@ include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 impl Entry {
     /// Compiles the text again, for what the generated module does not hold.
     pub fn compile(&self) -> Result<Compiled, Failure> {
+        self.compile_with(&Limits::default())
+    }
+
+    /// The same within limits of the caller's choice.
+    pub fn compile_with(&self, limits: &Limits) -> Result<Compiled, Failure> {
         let missing = || "not part of the gallery".to_string();
         let load = |_: &str| self.material.map(str::to_string).ok_or_else(missing);
-        mms_codegen::compile(self.name, self.path, self.text, &load)
+        mms_codegen::compile_with(self.name, self.path, self.text, &load, limits)
     }
 }
 

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::certify::declared;
+use crate::culprit::culprit;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
-use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
 use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::relations::Relations;
@@ -69,14 +70,38 @@ impl std::fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Compiles the text of a field file.
+/// What a compilation may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// How many nodes and operands the expression graph may have.
+    pub max_nodes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits { max_nodes: DEFAULT_MAX_NODES }
+    }
+}
+
+/// Compiles the text of a field file, within the default [`Limits`].
 ///
 /// `name` is the field's name (its file's stem), `path` what messages show. Every mistake of the
 /// file and of its material is in the failure.
 pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<Compiled, Failure> {
+    compile_with(name, path, text, load, &Limits::default())
+}
+
+/// The same as [`compile()`], within limits of the caller's choice.
+pub fn compile_with(
+    name: &str,
+    path: &str,
+    text: &str,
+    load: Loader<'_>,
+    limits: &Limits,
+) -> Result<Compiled, Failure> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    match phases(name, path, text, load, &mut sources, &mut diagnostics) {
+    match phases(name, path, text, load, limits, &mut sources, &mut diagnostics) {
         Some(compiled) if diagnostics.is_empty() => Ok(compiled),
         _ => Err(Failure { sources, diagnostics }),
     }
@@ -107,10 +132,11 @@ fn phases(
     path: &str,
     text: &str,
     load: Loader<'_>,
+    limits: &Limits,
     sources: &mut Sources,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Compiled> {
-    let mut graph = Graph::default();
+    let mut graph = Graph::with_limit(limits.max_nodes);
     let source = sources.add(path, text);
     let field = spec::read_field(sources, source, name, diagnostics)?;
     let material = read_material(sources, &field, load, diagnostics);
@@ -148,11 +174,20 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
     )
 }
 
+/// The derivation of `what` filled the graph: points at the part of the file that made most of it.
 fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
-    let span = field.displacement.first().map_or(field.material.span, |formula| formula.span);
-    Diagnostic::error(span, format!("the {what} of this field is too large"))
-        .label(format!("limit: {} nodes and operands", graph.limit()))
-        .help("its derivatives make very many terms: write the displacement in a shorter form")
+    let culprit = culprit(field);
+    let span = match &culprit {
+        Some(culprit) => culprit.span,
+        None => field.displacement.first().map_or(field.material.span, |formula| formula.span),
+    };
+    let label = match &culprit {
+        Some(culprit) => format!("most of them come from here, in {}", culprit.definition),
+        None => "here, or in what it uses".into(),
+    };
+    let diagnostic =
+        Diagnostic::error(span, format!("the {what} of this field is too large")).label(label);
+    Diagnostic { help: graph.exhaustion(), ..diagnostic }
 }
 
 fn read_material(

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::ops::Range;
+use std::panic::Location;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet, normalize_untrusted_str};
 
@@ -28,13 +29,16 @@ pub struct Diagnostic {
     pub label: String,
     /// What to do about it, one suggestion each.
     pub help: Vec<String>,
+    /// Where in the compiler it was made, so that a test can tell which messages no file provokes.
+    pub site: &'static Location<'static>,
 }
 
 impl Diagnostic {
     /// An error at a place.
+    #[track_caller]
     pub fn error(span: Span, message: impl Into<String>) -> Self {
         let (message, label, help) = (message.into(), String::new(), Vec::new());
-        Diagnostic { message, span, label, help }
+        Diagnostic { message, span, label, help, site: Location::caller() }
     }
 
     /// Sets the words beside the caret.

@@ -8,6 +8,7 @@
 
 pub mod certify;
 pub mod compile;
+pub mod culprit;
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;
@@ -22,4 +23,4 @@ pub mod suggest;
 pub mod syntax;
 pub mod units;
 
-pub use compile::{Compiled, compile};
+pub use compile::{Compiled, Limits, compile, compile_with};

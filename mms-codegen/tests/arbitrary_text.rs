@@ -1,40 +1,22 @@
-//! No text makes the front end panic, hang or overflow a stack.
+//! No text makes the compiler panic, hang or overflow a stack. The same function is the target of
+//! the fuzzer in `fuzz/`.
 
-use mms_codegen::compile;
-use mms_codegen::diagnostic::render;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{read_field, read_material};
-use mms_codegen::syntax::parse;
+#[path = "support/survive.rs"]
+mod survive;
+
+use mms_codegen::Limits;
 use proptest::prelude::*;
+
+/// The limits are those that users get.
+fn survive(text: &str) {
+    survive::survive(text, &Limits::default());
+}
 
 const BAR: &str = include_str!("data/pass/every_key_2d.toml");
 
 /// What completes a field of one dimension.
 const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
                     [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
-
-/// Reads a text as a field and as a material, parses every formula, and renders what was found.
-fn survive(text: &str) {
-    let mut sources = Sources::default();
-    let id = sources.add("x.toml", text);
-    let mut diagnostics = Vec::new();
-    if let Some(spec) = read_field(&sources, id, "x", &mut diagnostics) {
-        assert_eq!(spec.displacement.len(), spec.dimension);
-        spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
-    }
-    if let Some(spec) = read_material(&sources, id, "x", &mut diagnostics) {
-        spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
-    }
-    for diagnostic in &diagnostics {
-        let span = diagnostic.span;
-        assert!(text.get(span.start..span.end).is_some(), "{diagnostic:?} is no place in {text:?}");
-    }
-    render(&sources, &diagnostics);
-    let load = |_: &str| Err("no files here".to_string());
-    if let Err(failure) = compile("x", "x.toml", text, &load) {
-        assert!(!failure.to_string().is_empty(), "{text:?} fails without a word");
-    }
-}
 
 /// Pieces of field files, so that random texts reach past the TOML.
 fn fragments() -> impl Strategy<Value = String> {

@@ -4,11 +4,13 @@
 //! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test diagnostics` writes
 //! the `.expected` files anew; read the difference before it is committed.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use mms_codegen::compile;
-use mms_codegen::diagnostic::render;
+use mms_codegen::compile::constant;
+use mms_codegen::diagnostic::{Diagnostic, render};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::read_material;
 use mms_codegen::syntax::parse;
@@ -27,9 +29,9 @@ fn cases() -> Vec<PathBuf> {
     cases
 }
 
-/// What a user sees for a text. Files named `material_*` are material files on their own; those
-/// of `data/fail/materials` are named by fields.
-fn rendered(name: &str, text: &str) -> String {
+/// The mistakes in a text. Files named `material_*` are material files on their own; those of
+/// `data/fail/materials` are named by fields.
+fn mistakes(name: &str, text: &str) -> (Sources, Vec<Diagnostic>) {
     let path = format!("{name}.toml");
     if name.starts_with("material_") {
         let mut sources = Sources::default();
@@ -38,16 +40,88 @@ fn rendered(name: &str, text: &str) -> String {
         if let Some(spec) = read_material(&sources, id, name, &mut diagnostics) {
             spec.formulas().for_each(|formula| drop(parse(formula, &mut diagnostics)));
         }
-        return render(&sources, &diagnostics);
+        return (sources, diagnostics);
     }
     let load = |material: &str| {
         let missing = |_| "no such file".to_string();
         fs::read_to_string(folder().join(material)).map_err(missing)
     };
     match compile(name, &path, text, &load) {
-        Ok(_) => String::new(),
-        Err(failure) => failure.to_string(),
+        Ok(_) => (Sources::default(), Vec::new()),
+        Err(failure) => (failure.sources, failure.diagnostics),
     }
+}
+
+/// What a user sees for a text.
+fn rendered(name: &str, text: &str) -> String {
+    let (sources, diagnostics) = mistakes(name, text);
+    render(&sources, &diagnostics)
+}
+
+/// The places in a source file where a message is made, tests left out.
+fn sites_in(path: &Path) -> Vec<usize> {
+    let text = fs::read_to_string(path).expect("a source file");
+    let tests = text.find("#[cfg(test)]\nmod tests").unwrap_or(text.len());
+    let makes =
+        |line: &str| line.contains("Diagnostic::error(") && !line.trim_start().starts_with("//");
+    let lines = text[..tests].lines().enumerate();
+    lines.filter(|(_, line)| makes(line)).map(|(index, _)| index + 1).collect()
+}
+
+fn source_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder of sources") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            source_files(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// A place in the sources as `src/file.rs:line`.
+fn place(path: &str, line: usize) -> String {
+    let path = path.replace('\\', "/");
+    let start = path.rfind("src/").unwrap_or(0);
+    format!("{}:{line}", &path[start..])
+}
+
+#[test]
+fn every_message_of_the_compiler_has_a_wrong_file() {
+    let mut provoked = BTreeSet::new();
+    for path in cases() {
+        let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).expect("a readable file");
+        let (_, diagnostics) = mistakes(&name, &text);
+        provoked.extend(
+            diagnostics.iter().map(|found| place(found.site.file(), found.site.line() as usize)),
+        );
+    }
+    // A file of its own for this one would be too long to read.
+    let (_, diagnostics) = mistakes("long", &"#".repeat(2_000_000));
+    assert_eq!(diagnostics.len(), 1);
+    provoked.extend(
+        diagnostics.iter().map(|found| place(found.site.file(), found.site.line() as usize)),
+    );
+    // Nor has a value of the command line a file.
+    let failure = constant("2^(1/2)").expect_err("irrational");
+    provoked.extend(failure.diagnostics.iter().map(|found| {
+        assert_eq!(found.message, "the value is not a rational number");
+        place(found.site.file(), found.site.line() as usize)
+    }));
+    let mut files = Vec::new();
+    source_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let made: BTreeSet<_> = files
+        .iter()
+        .filter(|path| !path.ends_with("syntax/tests.rs"))
+        .flat_map(|path| {
+            let shown = path.display().to_string();
+            sites_in(path).into_iter().map(move |line| place(&shown, line))
+        })
+        .collect();
+    assert!(made.len() > 50, "{made:?}");
+    let silent: Vec<_> = made.difference(&provoked).collect();
+    assert!(silent.is_empty(), "no file in tests/data/fail has the messages made at {silent:#?}");
 }
 
 #[test]

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use mms_codegen::Compiled;
-use mms_codegen::certify::closed_form::{Comparison, Difference, POINTS, compare};
+use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS, compare};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
 use serde_json::{Value, json};
 
-use super::input::read;
+use super::input::{Bound, read};
 use super::{Outcome, print, print_json};
 
 /// Check field files: mistakes, boundary claims and closed forms.
@@ -18,6 +18,8 @@ pub struct Check {
     /// Field files.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    bound: Bound,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -29,7 +31,7 @@ impl Check {
         let mut documents = Vec::new();
         for file in &self.files {
             let shown = file.display().to_string();
-            let (outcome, document) = match read(file) {
+            let (outcome, document) = match read(file, self.bound) {
                 Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
                 Ok(Err(failure)) => self.report_failure(&shown, &failure)?,
                 Err(error) => self.report_unreadable(&shown, &error),
@@ -67,7 +69,8 @@ impl Check {
 
     fn report(&self, path: &str, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
-        let refuted = comparisons.iter().any(|comparison| comparison.difference.is_some());
+        let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
+        let refuted = !comparisons.iter().all(agrees);
         if !self.json {
             print(&text(path, compiled, &comparisons))?;
         }
@@ -102,20 +105,27 @@ fn located(failure: &Failure, diagnostic: &Diagnostic) -> Value {
 }
 
 fn comparison_document(comparison: &Comparison) -> Value {
-    let difference = comparison.difference.as_ref().map(|difference| {
+    let (status, found, undefined) = match &comparison.finding {
+        Finding::Agrees => ("passed", None, 0),
+        Finding::Differs(found) => ("failed", Some(found), 0),
+        Finding::Undefined { points, first } => ("undefined", Some(first), *points),
+    };
+    // A value that does not exist is null.
+    let difference = found.map(|found| {
         json!({
-            "at": difference.coordinates,
-            "time": difference.time,
-            "component": difference.component,
-            "derived": difference.derived,
-            "expected": difference.expected,
+            "at": found.coordinates,
+            "time": found.time,
+            "component": found.component,
+            "derived": found.derived,
+            "expected": found.expected,
         })
     });
     json!({
         "quantity": comparison.quantity.name(),
         "source": comparison.source,
         "points": POINTS,
-        "status": if difference.is_some() { "failed" } else { "passed" },
+        "status": status,
+        "undefined_points": undefined,
         "difference": difference,
     })
 }
@@ -129,26 +139,37 @@ fn text(path: &str, compiled: &Compiled, comparisons: &[Comparison]) -> String {
     for comparison in comparisons {
         let quantity = comparison.quantity.name();
         let source = comparison.source.as_deref().unwrap_or("no source given");
-        match &comparison.difference {
-            None => lines
+        match &comparison.finding {
+            Finding::Agrees => lines
                 .push(format!("  check  {quantity} agrees to 1e-20 at {POINTS} points ({source})")),
-            Some(difference) => {
+            Finding::Differs(found) => {
                 lines.push(format!("  check  {quantity} FAILED ({source})"));
-                lines.push(describe(compiled, comparison, difference));
+                lines.push(describe(compiled, comparison, found));
+            }
+            Finding::Undefined { points, first } => {
+                lines.push(format!(
+                    "  check  {quantity} is UNDEFINED at {points} of {POINTS} points ({source})"
+                ));
+                lines.push(describe(compiled, comparison, first));
+                lines.push("    a division by 0, a root or logarithm of a negative number, or beyond all bounds: shrink [domain], or rewrite what has no value there".into());
             }
         }
     }
     lines.join("\n")
 }
 
-fn describe(compiled: &Compiled, comparison: &Comparison, difference: &Difference) -> String {
+fn describe(compiled: &Compiled, comparison: &Comparison, found: &Difference) -> String {
     let place = compiled.sources.place(comparison.span);
+    let value = |value: f64| match value.is_nan() {
+        true => "undefined".to_string(),
+        false => format!("{value:e}"),
+    };
     format!(
-        "    {place}: component {} at X = {:?}, t = {:e}: derived {:e}, closed form {:e}",
-        difference.component + 1,
-        difference.coordinates,
-        difference.time,
-        difference.derived,
-        difference.expected
+        "    {place}: component {} at X = {:?}, t = {:e}: derived {}, closed form {}",
+        found.component + 1,
+        found.coordinates,
+        found.time,
+        value(found.derived),
+        value(found.expected)
     )
 }

@@ -8,7 +8,7 @@ use mms_codegen::quantity::Quantity;
 use mms_runtime::Real;
 use serde_json::{Map, Value, json};
 
-use super::input::{Input, quantities};
+use super::input::{Bound, Input, quantities};
 use super::{Outcome, print, print_json};
 
 /// Evaluate quantities of a field at points.
@@ -34,6 +34,8 @@ pub struct Eval {
     /// The precision to compute in.
     #[arg(long, value_enum, default_value_t)]
     precision: Precision,
+    #[command(flatten)]
+    bound: Bound,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -61,7 +63,7 @@ impl Precision {
 
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field)?;
+        let input = Input::find(&self.field, self.bound)?;
         let quantities = quantities(&self.quantity)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),

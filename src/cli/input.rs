@@ -6,13 +6,36 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context as _, anyhow, bail};
+use clap::Args;
 use dashu_ratio::RBig;
 use mms_codegen::certify::declared::accepts;
+use mms_codegen::compile::Failure;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::suggest::did_you_mean;
-use mms_codegen::{Compiled, compile};
+use mms_codegen::{Compiled, Limits, compile_with};
 
 use crate::gallery::{self, Entry};
+
+/// How large a derivation may become.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Bound {
+    /// How many nodes and operands the expressions of a field may have together; a field that needs
+    /// more is refused.
+    #[arg(long, value_name = "N", default_value_t = Bound::default().max_nodes)]
+    max_nodes: u32,
+}
+
+impl Default for Bound {
+    fn default() -> Self {
+        Bound { max_nodes: Limits::default().max_nodes as u32 }
+    }
+}
+
+impl Bound {
+    fn limits(self) -> Limits {
+        Limits { max_nodes: self.max_nodes as usize }
+    }
+}
 
 /// A field that the user named: of the gallery, or of a file.
 pub struct Input {
@@ -26,9 +49,9 @@ pub struct Input {
 
 impl Input {
     /// The field of a gallery name, or of a path to a TOML file.
-    pub fn find(field: &str) -> anyhow::Result<Input> {
+    pub fn find(field: &str, bound: Bound) -> anyhow::Result<Input> {
         if field.ends_with(".toml") {
-            return Self::from_file(Path::new(field));
+            return Self::from_file(Path::new(field), bound);
         }
         let Some(entry) = gallery::find(field) else {
             let names = gallery::FIELDS.iter().map(|entry| entry.name);
@@ -41,14 +64,14 @@ impl Input {
             }
         };
         let compiled = entry
-            .compile()
-            .map_err(|failure| anyhow!("the gallery's own field does not compile\n{failure}"))?;
+            .compile_with(&bound.limits())
+            .map_err(|failure| anyhow!("the field of the gallery does not compile\n{failure}"))?;
         Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
     }
 
-    fn from_file(path: &Path) -> anyhow::Result<Input> {
-        let compiled =
-            read(path)?.map_err(|failure| anyhow!("the field file has mistakes\n{failure}"))?;
+    fn from_file(path: &Path, bound: Bound) -> anyhow::Result<Input> {
+        let compiled = read(path, bound)?
+            .map_err(|failure| anyhow!("the field file has mistakes\n{failure}"))?;
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
     }
 
@@ -125,7 +148,7 @@ fn quantity(name: &str) -> anyhow::Result<Quantity> {
 }
 
 /// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
-pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, mms_codegen::compile::Failure>> {
+pub fn read(path: &Path, bound: Bound) -> anyhow::Result<Result<Compiled, Failure>> {
     let shown = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -133,5 +156,5 @@ pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, mms_codegen::compile
     let load = |material: &str| {
         fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
     };
-    Ok(compile(&name, &shown, &text, &load))
+    Ok(compile_with(&name, &shown, &text, &load, &bound.limits()))
 }

@@ -7,7 +7,7 @@ use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::input::{Input, quantities};
+use super::input::{Bound, Input, quantities};
 use super::{Outcome, print, print_json};
 
 /// Show what follows from a field: its derivation, claims and operation counts.
@@ -18,6 +18,8 @@ pub struct Show {
     /// Quantities, separated by commas; all by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
+    #[command(flatten)]
+    bound: Bound,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -25,7 +27,7 @@ pub struct Show {
 
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field)?;
+        let input = Input::find(&self.field, self.bound)?;
         let quantities = match self.quantity.as_slice() {
             [] => Quantity::ALL.to_vec(),
             named => quantities(named)?,

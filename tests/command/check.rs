@@ -96,3 +96,48 @@ fn the_document_of_a_wrong_file_names_each_place() {
     let unreadable = folder.mms("check nowhere.toml --json").exits(2).json();
     assert!(unreadable["files"][0]["diagnostics"][0]["message"].is_string(), "{unreadable}");
 }
+
+/// The bar, with a displacement and one closed form of it.
+fn with_displacement(u: &str, closed_form: &str) -> Folder {
+    let folder = Folder::new();
+    let before = &BAR[..BAR.find("[[check]]").expect("a check")];
+    let text = before.replace("X*(2*length - X)/length^2 * A", u);
+    assert_ne!(text, before);
+    let check = format!("[[check]]\nquantity = \"displacement\"\nequals = [\"{closed_form}\"]\n");
+    folder.write("bar.toml", &(text + &check));
+    folder
+}
+
+#[test]
+fn a_closed_form_of_values_far_below_double_precision_holds() {
+    let folder = with_displacement("A*exp(-1e7*X)", "A/exp(X)^10000000");
+    folder.mms("check bar.toml").exits(0).prints("displacement agrees to 1e-20 at 128 points");
+    let wrong = with_displacement("A*exp(-1e7*X)", "A/exp(X)^10000001");
+    wrong.mms("check bar.toml").exits(1).prints("displacement FAILED");
+}
+
+#[test]
+fn what_is_undefined_in_the_domain_is_told_as_such() {
+    // The domain is 0 to 1: the root has no value in half of it.
+    let folder = with_displacement("A*sqrt(X - 1/2)", "sqrt(X - 1/2)*A");
+    let run = folder.mms("check bar.toml").exits(1);
+    run.prints("displacement is UNDEFINED at 64 of 128 points");
+    run.prints("derived undefined, closed form undefined").prints("shrink [domain]");
+    let check = &folder.mms("check bar.toml --json").exits(1).json()["files"][0]["checks"][0];
+    assert_eq!((&check["status"], &check["points"]), (&"undefined".into(), &128.into()));
+    assert_eq!(check["undefined_points"], 64);
+    assert!(check["difference"]["derived"].is_null(), "{check}");
+    let other = with_displacement("A*X", "A*X*sqrt(X - 1/2)/sqrt(X - 1/2)");
+    other.mms("check bar.toml").exits(0);
+    let other = with_displacement("A*X", "A*X + 0*ln(X - 1/2)");
+    other.mms("check bar.toml").exits(0);
+    let other = with_displacement("A*X", "A*X*exp(ln(X - 1/2))/(X - 1/2)");
+    let run = other.mms("check bar.toml").exits(1);
+    run.prints("closed form undefined").prints("is UNDEFINED at 65 of 128 points");
+}
+
+#[test]
+fn a_difference_is_told_before_what_is_undefined() {
+    let folder = with_displacement("A*sqrt(X - 1/2)", "2*A*sqrt(X - 1/2)");
+    folder.mms("check bar.toml").exits(1).prints("displacement FAILED");
+}

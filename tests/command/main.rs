@@ -1,5 +1,6 @@
 //! The `mms` command as a user meets it: the built program, run in a folder of its own.
 
+mod bound;
 mod check;
 mod eval;
 mod main_job;

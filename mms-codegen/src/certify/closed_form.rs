@@ -22,11 +22,27 @@ pub struct Comparison {
     pub source: Option<String>,
     /// Where it stands in the file.
     pub span: Span,
-    /// The first point where it differs, if there is one.
-    pub difference: Option<Difference>,
+    /// What was found.
+    pub finding: Finding,
 }
 
-/// A point where closed form and derived quantity differ by more than the tolerance.
+/// What the comparison of one closed form found.
+#[derive(Clone, Debug)]
+pub enum Finding {
+    /// Both have the same value at every point.
+    Agrees,
+    /// They have different values at a point.
+    Differs(Difference),
+    /// Nowhere do they differ, but at some points one or both have no value.
+    Undefined {
+        /// At how many of the points.
+        points: usize,
+        /// The first of them.
+        first: Difference,
+    },
+}
+
+/// A point, and the values of closed form and derived quantity there.
 #[derive(Clone, Debug)]
 pub struct Difference {
     /// X.
@@ -53,34 +69,45 @@ pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
             quantity: check.quantity,
             source: check.source.clone(),
             span: check.span,
-            difference: first_difference(&program, &parameters, &points, index, check.quantity),
+            finding: finding(&program, &parameters, &points, index, check.quantity),
         })
         .collect()
 }
 
-fn first_difference(
+fn finding(
     program: &Program,
     parameters: &[Precise],
     points: &[Sample<Precise>],
     check: usize,
     quantity: Quantity,
-) -> Option<Difference> {
+) -> Finding {
     let outputs = [Output::Quantity(quantity), Output::Expected(check)];
     let mut interpreter = Interpreter::new(program, parameters);
     let plan = interpreter.plan(&outputs);
-    points.iter().find_map(|point| {
+    let mut undefined = Vec::new();
+    for point in points {
         interpreter.set_time(&point.time);
         interpreter.set_point(&plan, Point::at(&point.coordinates));
         let [derived, expected] = outputs.map(|output| interpreter.output(output));
-        let component = differing_component(&derived, &expected)?;
-        Some(Difference {
+        let found = |component: usize| Difference {
             coordinates: point.coordinates.iter().map(Precise::to_f64).collect(),
             time: point.time.to_f64(),
             component,
             derived: derived[component].to_f64(),
             expected: expected[component].to_f64(),
-        })
-    })
+        };
+        let lacking = |(a, b): (&Precise, &Precise)| !a.is_defined() || !b.is_defined();
+        if let Some(component) = derived.iter().zip(&expected).position(lacking) {
+            undefined.push(found(component));
+        } else if let Some(component) = differing_component(&derived, &expected) {
+            return Finding::Differs(found(component));
+        }
+    }
+    let points = undefined.len();
+    match undefined.into_iter().next() {
+        Some(first) => Finding::Undefined { points, first },
+        None => Finding::Agrees,
+    }
 }
 
 fn differing_component(derived: &[Precise], expected: &[Precise]) -> Option<usize> {

@@ -136,6 +136,34 @@ impl Graph {
         self.limit
     }
 
+    /// Changes the bound on nodes and operands.
+    pub(crate) fn set_limit(&mut self, limit: usize) {
+        self.limit = limit;
+    }
+
+    /// Nodes and operands so far.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// What filled the graph, and what to do about it: help for a message.
+    pub fn exhaustion(&self) -> Vec<String> {
+        if self.size <= self.limit {
+            return vec![
+                "exact numbers become too long in it: use fewer digits or lower powers".into(),
+            ];
+        }
+        let (nodes, operands) = (self.nodes.len(), self.size - self.nodes.len());
+        vec![
+            format!(
+                "{nodes} nodes with {operands} operands were made; the bound is {} of both",
+                self.limit
+            ),
+            "very many terms come of it: write it in a shorter form".into(),
+            "`mms ... --max-nodes N` raises the bound; `field!` keeps the default".into(),
+        ]
+    }
+
     /// Doubles the bound above what is used: for a few more nodes in a graph that was within it.
     pub(crate) fn make_room(&mut self) {
         self.limit += self.size + DEFAULT_MAX_NODES;

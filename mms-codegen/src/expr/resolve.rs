@@ -84,12 +84,9 @@ impl Scope {
         if graph.is_exhausted() {
             // What was reported of a void graph means nothing, and so would a second report.
             diagnostics.truncate(reported);
-            let size = format!("limit: {} nodes and operands", graph.limit());
-            let formula = ast.nodes.last().map(|node| node.span);
-            diagnostics.extend(formula.map(|span| {
-                Diagnostic::error(span, "the formula is too large").label(size).help(
-                    "it makes very many terms or very long numbers: write it in a shorter form",
-                )
+            diagnostics.extend(ast.nodes.last().map(|formula| {
+                let diagnostic = Diagnostic::error(formula.span, "the formula is too large");
+                Diagnostic { help: graph.exhaustion(), ..diagnostic.label("with what it uses") }
             }));
             return None;
         }
@@ -357,26 +354,74 @@ impl Resolver<'_> {
 
     /// A sufficient condition for a base to be positive: read off, not proved by bounds.
     fn is_positive(&self, root: Expr) -> bool {
-        let mut positive = BTreeSet::new();
-        for expr in self.graph.reachable(&[root]) {
-            let holds = match self.graph.node(expr) {
-                Node::Number(number) => *number > Rational::ZERO,
-                Node::Pi | Node::Call(Function::Exp | Function::Cosh, _) => true,
-                Node::Symbol(symbol) => self.scope.positive.contains(symbol),
-                Node::Sum(constant, terms) => {
-                    *constant >= Rational::ZERO
-                        && terms.iter().all(|(term, coefficient)| {
-                            *coefficient > Rational::ZERO && positive.contains(term)
-                        })
-                }
-                Node::Product(factors) => factors.iter().all(|(base, _)| positive.contains(base)),
-                Node::Call(..) => false,
-            };
-            if holds {
-                positive.insert(expr);
-            }
+        self.scope.is_positive(self.graph, root)
+    }
+}
+
+/// What can be read off about the sign of a value where it is defined.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sign {
+    Unknown,
+    NotNegative,
+    Positive,
+}
+
+impl Scope {
+    /// Whether an expression is seen to be positive wherever it is defined.
+    pub fn is_positive(&self, graph: &Graph, root: Expr) -> bool {
+        let mut signs = BTreeMap::new();
+        for expr in graph.reachable(&[root]) {
+            let sign = self.sign(graph.node(expr), &signs);
+            signs.insert(expr, sign);
         }
-        positive.contains(&root)
+        signs[&root] == Sign::Positive
+    }
+
+    fn sign(&self, node: &Node, signs: &BTreeMap<Expr, Sign>) -> Sign {
+        match node {
+            Node::Number(number) => sign_of_number(number),
+            Node::Symbol(symbol) if self.positive.contains(symbol) => Sign::Positive,
+            Node::Pi => Sign::Positive,
+            Node::Symbol(_) => Sign::Unknown,
+            Node::Sum(constant, terms) => {
+                let term = |(term, coefficient): &(Expr, Rational)| match coefficient {
+                    negative if *negative < Rational::ZERO => Sign::Unknown,
+                    _ => signs[term],
+                };
+                let parts = terms.iter().map(term).chain([sign_of_number(constant)]);
+                let parts: Vec<_> = parts.collect();
+                match parts.contains(&Sign::Unknown) {
+                    true => Sign::Unknown,
+                    false => parts.into_iter().max().unwrap_or(Sign::Unknown),
+                }
+            }
+            Node::Product(factors) => {
+                let factor = |(base, exponent): &(Expr, Rational)| {
+                    let is_even = exponent.is_int() && (exponent.numerator() % 2i8) == 0i8.into();
+                    // A root is of what is not negative, and is so itself.
+                    let is_root = exponent.denominator() % 2u8 == 0u8;
+                    match signs[base] {
+                        Sign::Positive => Sign::Positive,
+                        _ if is_even || is_root => Sign::NotNegative,
+                        other => other,
+                    }
+                };
+                factors.iter().map(factor).min().unwrap_or(Sign::Unknown)
+            }
+            Node::Call(Function::Exp | Function::Cosh | Function::Powf, _) => Sign::Positive,
+            Node::Call(Function::Sqrt | Function::Acos, _) => Sign::NotNegative,
+            Node::Call(..) => Sign::Unknown,
+        }
+    }
+}
+
+fn sign_of_number(number: &Rational) -> Sign {
+    if *number > Rational::ZERO {
+        Sign::Positive
+    } else if number.is_zero() {
+        Sign::NotNegative
+    } else {
+        Sign::Unknown
     }
 }
 

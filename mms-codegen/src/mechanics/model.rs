@@ -166,9 +166,7 @@ impl Reader<'_> {
                 Some([least?, greatest?])
             });
             let symbol = Symbol::Parameter(index);
-            if default.is_some_and(|value| {
-                self.graph.as_number(value).is_some_and(|number| *number > Rational::ZERO)
-            }) {
+            if default.is_some_and(|value| self.scope.is_positive(self.graph, value)) {
                 self.scope.assume_positive(symbol);
             }
             let leaf = self.graph.symbol(symbol);
@@ -387,14 +385,8 @@ impl Reader<'_> {
     /// refused.
     fn variations(&mut self, field: &FieldSpec) {
         self.formulas(field.material.fibre.as_deref().unwrap_or_default());
-        for (name, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
+        for (_, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
             self.constant(value);
-            let known = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
-            if !field.incomplete && !known.clone().any(|known| known == name.value) {
-                let message = format!("`{}` is not a parameter of this field", name.value);
-                let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
-                self.diagnostics.push(diagnostic.did_you_mean(did_you_mean(&name.value, known)));
-            }
         }
         if let Some(rigid) = &field.rigid {
             let rotation = match &rigid.rotation {

@@ -3,9 +3,12 @@
 
 use std::collections::BTreeMap;
 
-use super::polynomial::{MAX_TERMS, Monomial, Polynomial, product};
+use super::polynomial::{Monomial, Polynomial, product};
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
+
+/// Longer sums are left as they are: the work can grow with the square of their length.
+const MAX_TERMS: usize = 2000;
 
 /// `roots` with every sum below them nested. Factors of a lower rank are taken out first.
 pub fn nest(graph: &mut Graph, roots: &[Expr], rank: &dyn Fn(&Graph, Expr) -> u8) -> Vec<Expr> {
@@ -36,7 +39,7 @@ fn flat_view(graph: &mut Graph, expr: Expr) -> Option<Polynomial> {
         // Roots of bases have handles in another order than the bases.
         let mut monomial = monomial;
         monomial.sort();
-        view = view.plus(&Polynomial::monomial(monomial, coefficient), &Rational::ONE)?;
+        view.add(monomial, coefficient);
     }
     Some(view)
 }
@@ -56,32 +59,71 @@ pub(super) fn integral_power(
 }
 
 /// The nested expression of a polynomial.
-///
-/// What all terms share is taken out at once, so that every further factor parts the terms, and
-/// the recursion is no deeper than there are terms.
 pub(super) fn nested(
     graph: &mut Graph,
     polynomial: Polynomial,
     rank: &dyn Fn(&Graph, Expr) -> u8,
 ) -> Expr {
-    let (common, mut rest) = take_common(polynomial);
-    let mut counts = Counts::default();
-    rest.terms.keys().for_each(|monomial| counts.add(monomial, 1));
-    let mut parts = Vec::new();
-    while let Some((atom, sign)) = counts.most_frequent(graph, rank) {
+    // The outermost sum is first.
+    let mut levels = Vec::new();
+    let mut level = Level::new(polynomial);
+    loop {
+        if let Some(inner) = level.take_most_frequent(graph, rank) {
+            levels.push(level);
+            level = Level::new(inner);
+            continue;
+        }
+        let inner = level.finish(graph);
+        let Some(outer) = levels.pop() else { return inner };
+        level = outer;
+        level.parts.push((inner, Rational::ONE));
+    }
+}
+
+/// A sum that is being nested.
+struct Level {
+    /// The factors that all of it shares.
+    common: Monomial,
+    /// The terms that are not nested yet.
+    rest: Polynomial,
+    /// In how many of them each factor stands.
+    counts: Counts,
+    /// What is nested already.
+    parts: Vec<(Expr, Rational)>,
+}
+
+impl Level {
+    /// What all terms share is taken out at once, so that every further factor parts the terms.
+    fn new(polynomial: Polynomial) -> Self {
+        let (common, rest) = take_common(polynomial);
+        let mut counts = Counts::default();
+        rest.terms.keys().for_each(|monomial| counts.add(monomial, 1));
+        Level { common, rest, counts, parts: Vec::new() }
+    }
+
+    /// Takes out the terms with the factor that most of them have, if two have it.
+    fn take_most_frequent(
+        &mut self,
+        graph: &Graph,
+        rank: &dyn Fn(&Graph, Expr) -> u8,
+    ) -> Option<Polynomial> {
+        let (atom, sign) = self.counts.most_frequent(graph, rank)?;
+        let terms = std::mem::take(&mut self.rest.terms);
         let (with, without): (BTreeMap<_, _>, _) =
-            rest.terms.into_iter().partition(|(monomial, _)| power_in(monomial, atom, sign) > 0);
-        with.keys().for_each(|monomial| counts.add(monomial, -1));
-        let inner = nested(graph, Polynomial { terms: with }, rank);
-        parts.push((inner, Rational::ONE));
-        rest = Polynomial { terms: without };
+            terms.into_iter().partition(|(monomial, _)| power_in(monomial, atom, sign) > 0);
+        with.keys().for_each(|monomial| self.counts.add(monomial, -1));
+        self.rest = Polynomial { terms: without };
+        Some(Polynomial { terms: with })
     }
-    for (monomial, coefficient) in rest.terms {
-        parts.push((product(graph, &monomial), coefficient));
+
+    fn finish(mut self, graph: &mut Graph) -> Expr {
+        for (monomial, coefficient) in self.rest.terms {
+            self.parts.push((product(graph, &monomial), coefficient));
+        }
+        let sum = graph.sum(self.parts);
+        let common = product(graph, &self.common);
+        graph.mul(common, sum)
     }
-    let sum = graph.sum(parts);
-    let common = product(graph, &common);
-    graph.mul(common, sum)
 }
 
 /// In how many terms each factor stands, above and below the line.

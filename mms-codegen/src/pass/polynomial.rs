@@ -11,7 +11,7 @@ pub(super) type Monomial = Vec<(Expr, i32)>;
 const MAX_EXPONENT: i64 = 1 << 20;
 
 /// How many terms a polynomial may have.
-pub(super) const MAX_TERMS: usize = 200;
+const MAX_TERMS: usize = 200;
 
 /// A sum of monomials with non-zero coefficients.
 ///
@@ -40,7 +40,8 @@ impl Polynomial {
         polynomial
     }
 
-    fn add(&mut self, monomial: Monomial, coefficient: Rational) {
+    /// Adds a term.
+    pub(super) fn add(&mut self, monomial: Monomial, coefficient: Rational) {
         use std::collections::btree_map::Entry;
         match self.terms.entry(monomial) {
             Entry::Vacant(entry) if !coefficient.is_zero() => drop(entry.insert(coefficient)),

@@ -18,6 +18,11 @@ pub trait Number: Scalar {
             None => Self::from_f64(number.to_f64().value()),
         }
     }
+
+    /// `self * self`; narrower than the product where the type knows that both are one number.
+    fn square(self) -> Self {
+        self.clone() * self
+    }
 }
 
 impl Number for f32 {}
@@ -122,6 +127,7 @@ impl<'a, T: Number> Interpreter<'a, T> {
             Op::Input(symbol) => input(*symbol),
             Op::Add(a, b) => of(a) + of(b),
             Op::Subtract(a, b) => of(a) - of(b),
+            Op::Multiply(a, b) if a == b => of(a).square(),
             Op::Multiply(a, b) => of(a) * of(b),
             Op::Divide(a, b) => of(a) / of(b),
             Op::Negate(a) => -of(a),

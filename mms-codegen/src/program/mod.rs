@@ -4,7 +4,9 @@
 //! [`Stage`]; the instructions stand in order of stage, operands first. A program knows no target
 //! language.
 
+pub mod dual;
 pub mod interpret;
+pub mod interval;
 pub mod precise;
 pub mod schedule;
 

@@ -13,19 +13,26 @@ use crate::expr::Rational;
 /// Significant bits: 77 decimal digits.
 const BITS: usize = 256;
 
-/// A result beyond this exponent of two is treated as not representable, so that no evaluation
-/// takes unbounded time or memory.
-const LARGEST_EXPONENT: isize = 1 << 20;
+/// A result of a larger exponent of two is treated as not representable, and one of a smaller
+/// exponent than minus this is 0: exponents never leave their own integers.
+const LARGEST_EXPONENT: isize = 1 << 60;
 
-/// The same for the exponent of an angle: reducing it takes as many digits of pi.
+/// An argument of this exponent of two or less has an exponential within the bounds above.
+const LARGEST_ARGUMENT: isize = 59;
+
+/// The exponent of the largest angle: reducing it takes as many digits of pi.
 const LARGEST_ANGLE: isize = 1 << 12;
+
+/// Of an argument below this exponent of two the exponential function is 1 + x to all digits.
+const NEGLIGIBLE_SQUARE: isize = -2 * BITS as isize;
 
 type Float = FBig<HalfEven, 2>;
 
 /// A number of 77 significant decimal digits, or undefined.
 ///
-/// What has no finite real value (1/0, ln(-1), an overflow) is undefined, and so is everything
-/// computed from it.
+/// What has no finite real value (1/0, ln(-1), exp(1e30)) is undefined, and so is everything
+/// computed from it. Numbers are told from 0 down to 2^-2^60, so that exp(-1e7) is a number as any
+/// other.
 #[derive(Clone, Debug)]
 pub struct Precise(Option<Float>);
 
@@ -71,8 +78,13 @@ impl Precise {
     fn bounded(self) -> Self {
         let in_range =
             |value: &Float| value.repr().is_finite() && exponent(value) < LARGEST_EXPONENT;
+        // A real number has one zero: that of negative sign would turn atan2 around.
+        let told_from_zero = |value: Float| match exponent(&value) > -LARGEST_EXPONENT {
+            true if value != Float::ZERO => value,
+            _ => Float::ZERO,
+        };
         // Exact results such as exp(0) = 1 come without a precision, which functions need.
-        let rounded = |value: Float| value.with_precision(BITS).value();
+        let rounded = |value: Float| told_from_zero(value).with_precision(BITS).value();
         Precise(self.0.filter(in_range).map(rounded))
     }
 }
@@ -84,7 +96,26 @@ fn exponent(value: &Float) -> isize {
 
 /// Whether the exponential function and its like stay within bounds.
 fn moderate(value: &Float) -> bool {
-    exponent(value) <= 19
+    exponent(value) <= LARGEST_ARGUMENT
+}
+
+/// Whether the exponential function is not too large, however small it may be.
+fn not_too_large(value: &Float) -> bool {
+    *value < Float::ZERO || moderate(value)
+}
+
+fn exp(x: &Float) -> Float {
+    if !moderate(x) {
+        return Float::ZERO;
+    }
+    if exponent(x) < NEGLIGIBLE_SQUARE { Float::ONE + x } else { x.exp() }
+}
+
+fn exp_m1(x: &Float) -> Float {
+    if !moderate(x) {
+        return Float::NEG_ONE;
+    }
+    if exponent(x) < NEGLIGIBLE_SQUARE { x.clone() } else { x.exp_m1() }
 }
 
 fn is_angle(value: &Float) -> bool {
@@ -127,7 +158,7 @@ impl Div for Precise {
 impl Neg for Precise {
     type Output = Self;
     fn neg(self) -> Self {
-        Precise(self.0.map(|value| -value))
+        Precise(self.0.map(|value| -value)).bounded()
     }
 }
 
@@ -156,11 +187,11 @@ impl Scalar for Precise {
     }
 
     fn exp(self) -> Self {
-        self.map(moderate, |x| x.exp())
+        self.map(not_too_large, exp)
     }
 
     fn exp_m1(self) -> Self {
-        self.map(moderate, |x| x.exp_m1())
+        self.map(not_too_large, exp_m1)
     }
 
     fn ln(self) -> Self {
@@ -192,7 +223,7 @@ impl Scalar for Precise {
     }
 
     fn tanh(self) -> Self {
-        self.map(moderate, |x| x.tanh())
+        self.map(|_| true, |x| x.tanh())
     }
 
     fn asin(self) -> Self {
@@ -222,5 +253,58 @@ impl Scalar for Precise {
             return self;
         }
         (exponent * self.ln()).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(value: f64) -> Precise {
+        Precise::from_f64(value)
+    }
+
+    fn ratio(a: &Precise, b: &Precise) -> f64 {
+        (a.clone() / b.clone()).to_f64()
+    }
+
+    #[test]
+    fn what_is_tiny_or_huge_is_still_a_number() {
+        for x in [1e6, 1e7, 1e12, 1e17] {
+            let (up, down) = (of(x).exp(), of(-x).exp());
+            assert_eq!(ratio(&down, &(of(1.0) / up.clone())), 1.0, "{x}");
+            assert_eq!(down.clone().ln().to_f64(), -x);
+            assert_eq!(ratio(&of(x).cosh(), &of(x).sinh()), 1.0);
+            assert_eq!(ratio(&up, &of(x).sinh()), 2.0);
+            assert_eq!((of(x).tanh().to_f64(), of(-x).tanh().to_f64()), (1.0, -1.0));
+            assert_eq!(down.clone().exp().to_f64(), 1.0);
+            assert_eq!(ratio(&down.clone().exp_m1(), &down), 1.0);
+            assert_eq!(of(-x).exp_m1().to_f64(), -1.0);
+        }
+    }
+
+    #[test]
+    fn there_is_one_zero() {
+        let zero = of(0.0);
+        for zero in [zero.clone(), -zero.clone(), zero.clone() * of(-1.0), of(-0.0)] {
+            assert_eq!(zero.atan2(of(-1.0)).to_f64(), core::f64::consts::PI);
+        }
+    }
+
+    #[test]
+    fn beyond_all_bounds_large_is_undefined_and_small_is_zero() {
+        let zero = of(0.0);
+        for x in [1e19, 1e300] {
+            assert!(!of(x).exp().is_defined() && !of(x).cosh().is_defined());
+            assert!(of(-x).exp().at_most(&zero) && zero.at_most(&of(-x).exp()));
+            assert_eq!(of(x).tanh().to_f64(), 1.0);
+            assert_eq!(of(-x).exp_m1().to_f64(), -1.0);
+        }
+        let tiny = (0..70).fold(of(0.5), |tiny, _| tiny.clone() * tiny);
+        assert!(tiny.is_defined() && tiny.at_most(&zero));
+        let huge = (0..70).fold(of(2.0), |huge, _| huge.clone() * huge);
+        assert!(!huge.is_defined());
+        // A zero that stands for what is too small may not be divided by.
+        assert!(!(of(1.0) / tiny).is_defined());
     }
 }

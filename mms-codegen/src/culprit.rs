@@ -1,0 +1,307 @@
+//! Which part of a field file makes a derivation too large: where the caret of that message goes.
+//!
+//! The sizes that count are those of derivatives, up to the second, since all else is made of them.
+//! Trials in graphs of their own start at the largest component of u and go down, to a definition
+//! that it uses or to an operand, for as long as that part alone makes most of what the whole does.
+//! Trials are bounded in size and number.
+
+use std::collections::BTreeSet;
+
+use crate::expr::resolve::Scope;
+use crate::expr::{Graph, Symbol};
+use crate::pass::differentiate::differentiate;
+use crate::source::Span;
+use crate::spec::names::COORDINATES;
+use crate::spec::{FieldSpec, Formula};
+use crate::syntax::{self, Ast, Kind, Operator};
+
+/// How large the graph of a trial may become: enough to tell sizes apart.
+const TRIAL: usize = 20_000;
+
+/// How many definitions are tried.
+const TRIALS: usize = 20;
+
+/// What makes most of the nodes of a derivation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Culprit {
+    /// Where it stands: a sub-expression of a formula, or all of it.
+    pub span: Span,
+    /// The definition that it is part of: a name, or a component of u.
+    pub definition: String,
+}
+
+/// A formula that u may depend on.
+struct Definition<'a> {
+    /// The name that later formulas know it by, if it has one.
+    name: Option<&'a str>,
+    shown: String,
+    formula: &'a Formula,
+    ast: Ast,
+}
+
+/// Finds what makes most of the nodes; `None` where a formula cannot be read.
+pub fn culprit(field: &FieldSpec) -> Option<Culprit> {
+    let definitions = definitions(field)?;
+    let trial = Trial::new(field, &definitions);
+    let components = field.lets.len()..definitions.len();
+    let (mut size, mut index) =
+        components.map(|index| (trial.size(index), index)).max_by_key(|(size, _)| *size)?;
+    let mut tried = BTreeSet::new();
+    while let Some(larger) = trial.used(index).find_map(|used| {
+        let new = tried.len() < TRIALS && tried.insert(used);
+        let own = if new { trial.size(used) } else { 0 };
+        (2 * own > size).then_some((own, used))
+    }) {
+        (size, index) = larger;
+    }
+    let span = trial.sub_expression(index, size).unwrap_or(definitions[index].formula.span);
+    Some(Culprit { span, definition: definitions[index].shown.clone() })
+}
+
+/// The formulas in the order of the file, up to the displacement.
+fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
+    let lets = field.lets.iter().map(|definition| {
+        let name = definition.name.value.as_str();
+        (Some(name), format!("`{name}`"), &definition.value)
+    });
+    let components = field.displacement.iter().enumerate();
+    let components =
+        components.map(|(axis, formula)| (None, format!("component {} of u", axis + 1), formula));
+    lets.chain(components)
+        .map(|(name, shown, formula)| {
+            let ast = syntax::parse(formula, &mut Vec::new())?;
+            Some(Definition { name, shown, formula, ast })
+        })
+        .collect()
+}
+
+/// The first of `count` positions that holds, if the last one does; what holds at one holds at all
+/// after it.
+fn first(count: usize, holds: impl Fn(usize) -> bool) -> Option<usize> {
+    let (mut from, mut to) = (0, count);
+    while from < to {
+        let middle = from.midpoint(to);
+        if holds(middle) { to = middle } else { from = middle + 1 }
+    }
+    (from < count).then_some(from)
+}
+
+struct Trial<'a> {
+    definitions: &'a [Definition<'a>],
+    /// All definitions as expressions.
+    graph: Graph,
+    scope: Scope,
+}
+
+impl<'a> Trial<'a> {
+    fn new(field: &FieldSpec, definitions: &'a [Definition<'a>]) -> Self {
+        let mut graph = Graph::default();
+        let mut scope = scope(&mut graph, field);
+        for definition in definitions {
+            if let Some(name) = definition.name {
+                let value = scope.resolve(&mut graph, &definition.ast, &mut Vec::new());
+                scope.define(name, value);
+            }
+        }
+        Trial { definitions, graph, scope }
+    }
+
+    /// How many nodes and operands the derivatives of a definition have, at most about [`TRIAL`].
+    fn size(&self, index: usize) -> usize {
+        self.size_of_derivatives(&self.definitions[index].ast)
+    }
+
+    /// The same of any expression: of the derivatives that kinematics needs.
+    fn size_of_derivatives(&self, ast: &Ast) -> usize {
+        let mut graph = self.graph.clone();
+        let before = graph.size();
+        graph.set_limit(before + TRIAL);
+        let value = self.scope.resolve(&mut graph, ast, &mut Vec::new());
+        for (symbol, again) in SYMBOLS.iter().flat_map(|a| SYMBOLS.iter().map(move |b| (*a, *b))) {
+            // v and its gradient are not differentiated further.
+            let needed = (again == Symbol::Time) == (symbol == Symbol::Time);
+            if let Some(value) = value
+                && needed
+                && !graph.is_exhausted()
+            {
+                let once = differentiate(&mut graph, &[value], symbol);
+                differentiate(&mut graph, &once, again);
+            }
+        }
+        graph.size() - before
+    }
+
+    /// The definitions that a definition uses, the last one first.
+    fn used(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        let names: BTreeSet<&str> = self.definitions[index]
+            .ast
+            .nodes
+            .iter()
+            .filter_map(|node| match &node.kind {
+                Kind::Name(name) => Some(name.as_str()),
+                _ => None,
+            })
+            .collect();
+        let is_used =
+            move |definition: &Definition| definition.name.is_some_and(|name| names.contains(name));
+        (0..index).rev().filter(move |used| is_used(&self.definitions[*used]))
+    }
+
+    /// The place of the smallest sub-expression of a definition that makes most of what all of it
+    /// makes: the bottom of the chain of such operands.
+    fn sub_expression(&self, index: usize, own: usize) -> Option<Span> {
+        let ast = &self.definitions[index].ast;
+        let mut root = ast.nodes.len() - 1;
+        let mut chain = vec![root];
+        // The operand with the most nodes of its own tree; those trees get smaller on the way down.
+        while let Some(next) =
+            links(ast, root).into_iter().max_by_key(|operand| operand - start(ast, *operand))
+        {
+            chain.push(next);
+            root = next;
+        }
+        let most =
+            |node: usize| 4 * self.size_of_derivatives(&Ast { nodes: part(ast, node) }) > 3 * own;
+        // Down the chain less and less is made.
+        let too_small = first(chain.len(), |position| !most(chain[position]));
+        let node = too_small.map_or(chain.len(), |position| position).checked_sub(1)?;
+        Some(ast.nodes[chain[node]].span)
+    }
+}
+
+const SYMBOLS: [Symbol; 4] =
+    [Symbol::Coordinate(0), Symbol::Coordinate(1), Symbol::Coordinate(2), Symbol::Time];
+
+/// The names of a field without its definitions.
+fn scope(graph: &mut Graph, field: &FieldSpec) -> Scope {
+    let mut scope = Scope::default();
+    for (axis, (name, _)) in COORDINATES.iter().enumerate() {
+        let value = match *name {
+            "pi" => graph.pi(),
+            "t" => graph.symbol(Symbol::Time),
+            _ => graph.symbol(Symbol::Coordinate(axis)),
+        };
+        scope.define(name, Some(value));
+    }
+    for (index, parameter) in field.parameters.iter().enumerate() {
+        let symbol = Symbol::Parameter(index);
+        // The file itself was accepted: what it takes for positive is.
+        scope.assume_positive(symbol);
+        let value = graph.symbol(symbol);
+        scope.define(&parameter.name.value, Some(value));
+    }
+    scope
+}
+
+fn operands(kind: &Kind) -> Vec<usize> {
+    match kind {
+        Kind::Number(_) | Kind::Name(_) => Vec::new(),
+        Kind::Negate(operand) => vec![*operand],
+        Kind::Binary(_, left, right) => vec![*left, *right],
+        Kind::Call { arguments, .. } => arguments.clone(),
+    }
+}
+
+/// The operands of a node, where a chain such as a*b*c is one product of three: no part of it is to
+/// blame for what its length makes.
+fn links(ast: &Ast, root: usize) -> Vec<usize> {
+    let Kind::Binary(operator, mut left, right) = ast.nodes[root].kind else {
+        return operands(&ast.nodes[root].kind);
+    };
+    let is_sum = |operator| matches!(operator, Operator::Add | Operator::Subtract);
+    let mut links = vec![right];
+    while operator != Operator::Power
+        && let Kind::Binary(inner, further, last) = ast.nodes[left].kind
+        && inner != Operator::Power
+        && is_sum(inner) == is_sum(operator)
+    {
+        links.push(last);
+        left = further;
+    }
+    links.push(left);
+    links
+}
+
+/// The first node of the tree whose root stands at `root`: a tree is contiguous.
+fn start(ast: &Ast, mut root: usize) -> usize {
+    while let Some(first) = operands(&ast.nodes[root].kind).into_iter().min() {
+        root = first;
+    }
+    root
+}
+
+/// The nodes of the tree whose root stands at `root`.
+fn part(ast: &Ast, root: usize) -> Vec<syntax::Node> {
+    let start = start(ast, root);
+    let mut nodes = ast.nodes[start..=root].to_vec();
+    for node in &mut nodes {
+        match &mut node.kind {
+            Kind::Number(_) | Kind::Name(_) => {}
+            Kind::Negate(operand) => *operand -= start,
+            Kind::Binary(_, left, right) => {
+                *left -= start;
+                *right -= start;
+            }
+            Kind::Call { arguments, .. } => {
+                arguments.iter_mut().for_each(|argument| *argument -= start);
+            }
+        }
+    }
+    nodes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Sources;
+    use crate::spec::read_field;
+
+    /// The text that is found guilty in a field of these definitions, and what it is part of.
+    fn found(lets: &str, u: &str) -> Option<(String, String)> {
+        let text = format!(
+            "[field]\ntitle = \"x\"\ndimension = 1\n[let]\n{lets}\n[displacement]\nu = [\"{u}\"]\n"
+        );
+        let mut sources = Sources::default();
+        let id = sources.add("x.toml", text);
+        let field = read_field(&sources, id, "x", &mut Vec::new()).expect("a field");
+        let culprit = culprit(&field)?;
+        Some((sources.slice(culprit.span).to_string(), culprit.definition))
+    }
+
+    fn waves(count: usize) -> String {
+        let waves: Vec<_> = (1..=count).map(|k| format!("sin({k}*X*t)")).collect();
+        waves.join("*")
+    }
+
+    #[test]
+    fn the_definition_with_most_of_the_nodes_is_found() {
+        let product = waves(30);
+        let lets = format!("a = \"X^2\"\nb = \"1 + cos(t)*({product})\"\nc = \"b + a\"");
+        let (text, definition) = found(&lets, "c*X").expect("a culprit");
+        assert_eq!(definition, "`b`");
+        assert!(text.starts_with("sin(1*X*t)") && text.ends_with("sin(30*X*t)"), "{text}");
+    }
+
+    #[test]
+    fn the_sub_expression_is_found_in_a_component() {
+        let product = waves(40);
+        let (text, definition) =
+            found("a = \"t\"", &format!("X*(t + exp({product}))")).expect("a culprit");
+        assert_eq!(definition, "component 1 of u");
+        assert!(text.contains(&product) && !text.starts_with("X*"), "{text}");
+    }
+
+    #[test]
+    fn many_small_definitions_are_not_to_blame_for_what_uses_them() {
+        let lets: String = (0..60).map(|k| format!("a{k} = \"sin({k}*X + t)\"\n")).collect();
+        let product: Vec<_> = (0..60).map(|k| format!("a{k}")).collect();
+        let (text, definition) = found(&lets, &product.join("*")).expect("a culprit");
+        assert_eq!((text, definition), (product.join("*"), "component 1 of u".into()));
+    }
+
+    #[test]
+    fn a_long_chain_of_definitions_takes_few_trials() {
+        let lets: String = (1..2_000).map(|k| format!("a{k} = \"a{}*X + t\"\n", k - 1)).collect();
+        assert!(found(&format!("a0 = \"X\"\n{lets}"), "a1999").is_some());
+    }
+}

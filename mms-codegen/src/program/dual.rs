@@ -1,0 +1,231 @@
+//! Dual numbers: a value and its derivative in one direction, by the chain rule of each operation
+//! as it is evaluated. A route to derivatives that involves no expression.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use mms_math::Scalar;
+
+use super::interpret::Number;
+use crate::expr::Rational;
+
+/// A value and its first derivative, both in any scalar: `f64`, 256 bits, an interval, or dual
+/// numbers again for second derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<T> {
+    /// The value.
+    pub value: T,
+    /// Its derivative.
+    pub slope: T,
+}
+
+impl<T: Scalar> Dual<T> {
+    /// A number that does not change.
+    pub fn constant(value: T) -> Self {
+        Dual { value, slope: T::from_f64(0.0) }
+    }
+
+    /// The variable that derivatives are taken by.
+    pub fn variable(value: T) -> Self {
+        Dual { value, slope: T::from_f64(1.0) }
+    }
+
+    /// f(self), given f and f' at the value.
+    fn chain(self, value: T, derivative: T) -> Self {
+        Dual { value, slope: derivative * self.slope }
+    }
+}
+
+fn one<T: Scalar>() -> T {
+    T::from_f64(1.0)
+}
+
+impl<T: Scalar> Add for Dual<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Dual { value: self.value + other.value, slope: self.slope + other.slope }
+    }
+}
+
+impl<T: Scalar> Sub for Dual<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Dual { value: self.value - other.value, slope: self.slope - other.slope }
+    }
+}
+
+impl<T: Scalar> Mul for Dual<T> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let slope = self.slope * other.value.clone() + self.value.clone() * other.slope;
+        Dual { value: self.value * other.value, slope }
+    }
+}
+
+impl<T: Scalar> Div for Dual<T> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value.clone();
+        let slope = (self.slope - value.clone() * other.slope) / other.value;
+        Dual { value, slope }
+    }
+}
+
+impl<T: Scalar> Neg for Dual<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Dual { value: -self.value, slope: -self.slope }
+    }
+}
+
+impl<T: Number> Number for Dual<T> {
+    fn from_rational(number: &Rational) -> Self {
+        Dual::constant(T::from_rational(number))
+    }
+
+    fn square(self) -> Self {
+        let derivative = T::from_f64(2.0) * self.value.clone();
+        let value = self.value.clone().square();
+        self.chain(value, derivative)
+    }
+}
+
+impl<T: Scalar> Scalar for Dual<T> {
+    fn from_f64(value: f64) -> Self {
+        Dual::constant(T::from_f64(value))
+    }
+
+    fn ratio(numerator: i32, denominator: i32) -> Self {
+        Dual::constant(T::ratio(numerator, denominator))
+    }
+
+    fn pi() -> Self {
+        Dual::constant(T::pi())
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.value.clone().sqrt();
+        self.chain(root.clone(), T::ratio(1, 2) / root)
+    }
+
+    fn cbrt(self) -> Self {
+        let root = self.value.clone().cbrt();
+        self.chain(root.clone(), T::ratio(1, 3) / (root.clone() * root))
+    }
+
+    fn exp(self) -> Self {
+        let exponential = self.value.clone().exp();
+        self.chain(exponential.clone(), exponential)
+    }
+
+    fn exp_m1(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().exp_m1(), x.exp())
+    }
+
+    fn ln(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().ln(), one::<T>() / x)
+    }
+
+    fn ln_1p(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().ln_1p(), one::<T>() / (one::<T>() + x))
+    }
+
+    fn sin(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().sin(), x.cos())
+    }
+
+    fn cos(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().cos(), -x.sin())
+    }
+
+    fn tan(self) -> Self {
+        let tangent = self.value.clone().tan();
+        self.chain(tangent.clone(), one::<T>() + tangent.clone() * tangent)
+    }
+
+    fn sinh(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().sinh(), x.cosh())
+    }
+
+    fn cosh(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().cosh(), x.sinh())
+    }
+
+    fn tanh(self) -> Self {
+        let x = self.value.clone();
+        let secant = one::<T>() / x.clone().cosh();
+        self.chain(x.tanh(), secant.clone() * secant)
+    }
+
+    fn asin(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().asin(), one::<T>() / distance_to_one(x))
+    }
+
+    fn acos(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().acos(), -(one::<T>() / distance_to_one(x)))
+    }
+
+    fn atan(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().atan(), one::<T>() / (one::<T>() + x.clone() * x))
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let squares = x.value.clone() * x.value.clone() + self.value.clone() * self.value.clone();
+        let turn = x.value.clone() * self.slope - self.value.clone() * x.slope;
+        Dual { value: self.value.atan2(x.value), slope: turn / squares }
+    }
+
+    fn powf(self, exponent: Self) -> Self {
+        let power = self.value.clone().powf(exponent.value.clone());
+        let by_base = exponent.value.clone()
+            * self.value.clone().powf(exponent.value - one::<T>())
+            * self.slope;
+        let by_exponent = power.clone() * self.value.ln() * exponent.slope;
+        Dual { value: power, slope: by_base + by_exponent }
+    }
+}
+
+/// sqrt(1 - x^2), as sqrt((1 - x)(1 + x)) so that nothing cancels near 1.
+fn distance_to_one<T: Scalar>(x: T) -> T {
+    ((one::<T>() - x.clone()) * (one::<T>() + x)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_of_known_functions() {
+        let x = Dual::variable(0.5_f64);
+        let close = |found: f64, expected: f64| {
+            assert!((found - expected).abs() <= 4.0 * f64::EPSILON, "{found} {expected}");
+        };
+        close((x * x * x).slope, 0.75);
+        close((Dual::constant(1.0) / x).slope, -4.0);
+        close(x.square().slope, 1.0);
+        close(x.sqrt().slope, 0.5_f64.sqrt());
+        close(x.powf(x).slope, 0.5_f64.sqrt() * (1.0 - core::f64::consts::LN_2));
+        close(x.atan2(Dual::constant(1.0)).slope, 0.8);
+        close(Dual::constant(1.0).atan2(x).slope, -0.8);
+        close(x.asin().slope, 2.0 / 3.0_f64.sqrt());
+        close(x.exp_m1().slope, 0.5_f64.exp());
+    }
+
+    #[test]
+    fn duals_of_duals_give_second_derivatives() {
+        let x = Dual::variable(Dual::variable(0.5_f64));
+        let cube = x * x * x;
+        assert_eq!((cube.slope.value, cube.slope.slope), (0.75, 3.0));
+        let wave = x.sin();
+        assert!((wave.slope.slope + 0.5_f64.sin()).abs() < 1e-16);
+    }
+}

@@ -1,0 +1,65 @@
+//! No text makes the compiler take more memory than a stated bound: counted by the allocator. Alone
+//! in its program, since it counts everything that runs in it.
+
+#[path = "support/survive.rs"]
+mod survive;
+
+use mms_codegen::Limits;
+use peak_alloc::PeakAlloc;
+use survive::survive;
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+/// What a compilation may hold at once. The graph holds at most 200,000 nodes and operands of some
+/// 100 bytes each, twice (the second time as the keys of its index); the programs and the texts
+/// that are made of it take as much again.
+const BOUND: usize = 128 << 20;
+
+/// What completes a field of one dimension.
+const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
+                    [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
+
+fn field(lets: &str, u: &str) -> String {
+    format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[let]\n{lets}[displacement]\nu = [\"{u}\"]\n{REST}"
+    )
+}
+
+fn repeated(count: usize, piece: impl Fn(usize) -> String) -> String {
+    (1..=count).map(piece).collect()
+}
+
+#[test]
+fn no_text_takes_more_memory_than_the_bound() {
+    let long = "9".repeat(900);
+    let powers =
+        "a1 = \"3/7\"\n".to_string() + &repeated(13, |k| format!("a{} = \"a{k}^2\"\n", k + 1));
+    let texts = [
+        ("nesting", field("", &"(".repeat(500_000))),
+        ("a long sum", field("", &(repeated(45_000, |k| format!("{k}*X + ")) + "1"))),
+        ("a long product", field("", &(repeated(45_000, |_| "X*".into()) + "1"))),
+        ("waves", field("", &(repeated(2_000, |k| format!("sin({k}*X + t) + ")) + "1"))),
+        ("a product of waves", field("", &(repeated(300, |k| format!("sin({k}*X + t)*")) + "1"))),
+        (
+            "long numbers",
+            field("", &(repeated(900, |k| format!("{long}.{k}*sin({k}*X) + ")) + "1")),
+        ),
+        (
+            "longer numbers",
+            field(&powers, &(repeated(4_000, |k| format!("(a14 + {k})*sin({k}*X) + ")) + "1")),
+        ),
+        ("keys", repeated(60_000, |k| format!("a{k} = 1\n"))),
+        ("tables", "[[study]]\n".repeat(60_000)),
+        ("brackets", "[".repeat(1_000_000)),
+        ("names", field(&repeated(25_000, |k| format!("a{k} = \"X + {k}\"\n")), "a1")),
+    ];
+    for (what, text) in texts {
+        let before = ALLOCATOR.current_usage();
+        ALLOCATOR.reset_peak_usage();
+        survive(&text, &Limits::default());
+        let taken = ALLOCATOR.peak_usage() - before;
+        println!("{what}: {} KiB for a text of {} KiB", taken >> 10, text.len() >> 10);
+        assert!(taken < BOUND, "{what}: {taken} bytes");
+    }
+}

@@ -1,0 +1,60 @@
+//! What passes keep: the value of every expression. A new pass is one more line here.
+
+use std::collections::BTreeMap;
+
+use mms_codegen::expr::Graph;
+use mms_codegen::pass::factor::factor;
+use mms_codegen::pass::nest::nest;
+use mms_codegen::pass::reduce::reduce;
+use mms_codegen::pass::relations::{Relations, lateness};
+use mms_codegen::program::schedule::{cost, schedule_plainly};
+use mms_codegen::program::{Output, Stage};
+use mms_codegen::simplify::ways;
+use proptest::prelude::*;
+
+use super::evaluation::{close, places, run, same_value, value_and_extent, values};
+use super::recipe::{any_recipe, built, recipe};
+
+proptest! {
+    #[test]
+    fn no_pass_changes_a_value(recipe in any_recipe()) {
+        let mut graph = Graph::default();
+        let root = built(&mut graph, &recipe)?;
+        let relations = Relations::find(&mut graph, &[root]);
+        let mut written = vec![
+            factor(&mut graph, &[root]),
+            nest(&mut graph, &[root], &lateness),
+            reduce(&mut graph, &[root], &relations),
+        ];
+        if let Some(thorough) = relations.thorough() {
+            written.push(reduce(&mut graph, &[root], &thorough));
+        }
+        written.extend(ways(&mut graph, vec![root], &relations));
+        for after in written {
+            same_value(&graph, root, after[0])?;
+        }
+    }
+
+    #[test]
+    fn sharing_changes_no_value_and_costs_nothing(
+        recipes in proptest::collection::vec(recipe(), 1..5),
+    ) {
+        let mut graph = Graph::default();
+        let roots = recipes.iter().map(|recipe| built(&mut graph, recipe));
+        let roots = roots.collect::<Result<Vec<_>, _>>()?;
+        let outputs = BTreeMap::from([(Output::Expected(0), roots.clone())]);
+        let plainly = schedule_plainly(&graph, &outputs);
+        for at in places() {
+            let (plain, shared) = (run(&plainly, &at), values(&graph, &roots, &at));
+            for ((plain, shared), root) in plain.iter().zip(&shared).zip(&roots) {
+                if let Some(scale) = value_and_extent(&graph, *root, &at).1.moderate() {
+                    prop_assert_eq!(plain.is_defined(), shared.is_defined());
+                    prop_assert!(!plain.is_defined() || close(plain, shared, scale, 40));
+                }
+            }
+        }
+        let counts = plainly.operations(&[Output::Expected(0)]);
+        let per_point = counts[&Stage::Point] + counts[&Stage::PointTime];
+        prop_assert!(cost(&graph, &roots).per_point <= per_point);
+    }
+}
