@@ -1,7 +1,7 @@
 //! The shipped fields, compiled: the folder `fields/` is the list.
 
-use mms_codegen::Compiled;
 use mms_codegen::compile::Failure;
+use mms_codegen::{Compiled, Selection};
 
 use crate::scene::Scene;
 
@@ -47,9 +47,14 @@ include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 impl Entry {
     /// Compiles the text again, for what the generated module does not hold.
     pub fn compile(&self) -> Result<Compiled, Failure> {
+        self.compile_selected(&Selection::default())
+    }
+
+    /// Compiles a part of the text, or the text with some parameters fixed.
+    pub fn compile_selected(&self, selection: &Selection) -> Result<Compiled, Failure> {
         let missing = || "not part of the gallery".to_string();
         let load = |_: &str| self.material.map(str::to_string).ok_or_else(missing);
-        mms_codegen::compile(self.name, self.path, self.text, &load)
+        mms_codegen::compile_selected(self.name, self.path, self.text, selection, &load)
     }
 }
 

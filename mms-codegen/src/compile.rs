@@ -11,6 +11,7 @@ use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
+use crate::selection::Selection;
 use crate::simplify::simplify;
 use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
@@ -38,7 +39,9 @@ pub struct Compiled {
     pub model: Model,
     /// What follows from them.
     pub derivation: Derivation,
-    /// All of it, scheduled.
+    /// What of it was wanted.
+    pub selection: Selection,
+    /// What is wanted, scheduled.
     pub program: Program,
 }
 
@@ -71,9 +74,22 @@ impl std::error::Error for Failure {}
 /// `name` is the field's name (its file's stem), `path` what messages show. Every mistake of the
 /// file and of its material is in the failure.
 pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<Compiled, Failure> {
+    compile_selected(name, path, text, &Selection::default(), load)
+}
+
+/// Compiles a part of a field, or the field with some parameters fixed; otherwise as [`compile()`].
+///
+/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart.
+pub fn compile_selected(
+    name: &str,
+    path: &str,
+    text: &str,
+    selection: &Selection,
+    load: Loader<'_>,
+) -> Result<Compiled, Failure> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    match phases(name, path, text, load, &mut sources, &mut diagnostics) {
+    match phases(name, path, text, selection, load, &mut sources, &mut diagnostics) {
         Some(compiled) if diagnostics.is_empty() => Ok(compiled),
         _ => Err(Failure { sources, diagnostics }),
     }
@@ -103,29 +119,36 @@ fn phases(
     name: &str,
     path: &str,
     text: &str,
+    selection: &Selection,
     load: Loader<'_>,
     sources: &mut Sources,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Compiled> {
     let mut graph = Graph::default();
     let source = sources.add(path, text);
-    let field = spec::read_field(sources, source, name, diagnostics)?;
+    let mut field = spec::read_field(sources, source, name, diagnostics)?;
+    selection.apply(sources, &mut field, diagnostics);
     let material = read_material(sources, &field, load, diagnostics);
-    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
+    let reported = diagnostics.len();
+    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
+    selection.explain(sources, &field, &mut diagnostics[reported..]);
+    let model = model?;
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derivation = derive(&mut graph, &model)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
     let derivation = simplify(&mut graph, derivation);
-    let outputs = outputs(&mut graph, &model, &derivation);
+    let mut outputs = outputs(&mut graph, &model, &derivation);
+    outputs.retain(|output, _| selection.schedules(*output, &field));
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
         return None;
     }
     let program = schedule(&graph, &outputs);
     diagnostics.extend(unrepresentable(&field, &program));
-    let sources = sources.clone();
-    Some(Compiled { field, material, sources, graph, model, derivation, program })
+    diagnostics.extend(selection.undefined(sources, &field, &program));
+    let (sources, selection) = (sources.clone(), selection.clone());
+    Some(Compiled { field, material, sources, graph, model, derivation, selection, program })
 }
 
 /// A constant that no double precision number is near to, if the program has one.

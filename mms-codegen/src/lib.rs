@@ -15,10 +15,12 @@ pub mod mechanics;
 pub mod pass;
 pub mod program;
 pub mod quantity;
+pub mod selection;
 pub mod simplify;
 pub mod source;
 pub mod spec;
 pub mod suggest;
 pub mod syntax;
 
-pub use compile::{Compiled, compile};
+pub use compile::{Compiled, compile, compile_selected};
+pub use selection::Selection;

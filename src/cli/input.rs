@@ -5,13 +5,18 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{Context as _, Error, anyhow, bail};
 use dashu_ratio::RBig;
+use mms_codegen::compile::Failure;
 use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::quantity;
 use mms_codegen::suggest::did_you_mean;
-use mms_codegen::{Compiled, compile};
+use mms_codegen::{Compiled, Selection, compile_selected};
 
 use crate::gallery::{self, Entry};
+
+/// What is wrong where a part of a field does not compile: the file, or the part.
+const SELECTED: &str = "the field does not compile as selected";
 
 /// A field that the user named: of the gallery, or of a file.
 pub struct Input {
@@ -26,8 +31,13 @@ pub struct Input {
 impl Input {
     /// The field of a gallery name, or of a path to a TOML file.
     pub fn find(field: &str) -> anyhow::Result<Input> {
+        Self::find_selected(field, &Selection::default())
+    }
+
+    /// A part of the field of a gallery name, or of a path to a TOML file.
+    pub fn find_selected(field: &str, selection: &Selection) -> anyhow::Result<Input> {
         if field.ends_with(".toml") {
-            return Self::from_file(Path::new(field));
+            return Self::from_file(Path::new(field), selection);
         }
         let Some(entry) = gallery::find(field) else {
             let names = gallery::FIELDS.iter().map(|entry| entry.name);
@@ -39,15 +49,26 @@ impl Input {
                 ),
             }
         };
-        let compiled = entry
-            .compile()
-            .map_err(|failure| anyhow!("the gallery's own field does not compile\n{failure}"))?;
+        let compiled = entry.compile_selected(selection).map_err(|failure| {
+            let what = if *selection == Selection::default() {
+                "the gallery's own field does not compile"
+            } else {
+                SELECTED
+            };
+            anyhow!("{what}\n{failure}")
+        })?;
         Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
     }
 
-    fn from_file(path: &Path) -> anyhow::Result<Input> {
-        let compiled =
-            read(path)?.map_err(|failure| anyhow!("the field file has mistakes\n{failure}"))?;
+    fn from_file(path: &Path, selection: &Selection) -> anyhow::Result<Input> {
+        let compiled = read_selected(path, selection)?.map_err(|failure| {
+            let what = if *selection == Selection::default() {
+                "the field file has mistakes"
+            } else {
+                SELECTED
+            };
+            anyhow!("{what}\n{failure}")
+        })?;
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
     }
 
@@ -91,7 +112,7 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
             quantities.extend(Quantity::pointwise());
             continue;
         }
-        quantities.push(quantity(name)?);
+        quantities.push(quantity(name).map_err(Error::msg)?);
     }
     let mut seen = Vec::new();
     quantities.retain(|quantity| {
@@ -102,22 +123,12 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     Ok(quantities)
 }
 
-/// The quantity of that name or alias.
-fn quantity(name: &str) -> anyhow::Result<Quantity> {
-    Quantity::from_name(name).with_context(|| {
-        let known = Quantity::ALL.iter().map(|quantity| quantity.name());
-        match did_you_mean(name, known.clone()) {
-            Some(near) => format!("unknown quantity `{name}`; did you mean `{near}`?"),
-            None => format!(
-                "unknown quantity `{name}`; the quantities are {}",
-                known.collect::<Vec<_>>().join(", ")
-            ),
-        }
-    })
+/// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
+pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, Failure>> {
+    read_selected(path, &Selection::default())
 }
 
-/// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
-pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, mms_codegen::compile::Failure>> {
+fn read_selected(path: &Path, selection: &Selection) -> anyhow::Result<Result<Compiled, Failure>> {
     let shown = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -125,5 +136,5 @@ pub fn read(path: &Path) -> anyhow::Result<Result<Compiled, mms_codegen::compile
     let load = |material: &str| {
         fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
     };
-    Ok(compile(&name, &shown, &text, &load))
+    Ok(compile_selected(&name, &shown, &text, selection, &load))
 }

@@ -1,6 +1,7 @@
 //! The `mms` command: one file per subcommand.
 
 mod check;
+mod emit;
 mod eval;
 mod input;
 mod list;
@@ -32,6 +33,7 @@ enum Command {
     Show(show::Show),
     Check(check::Check),
     Eval(eval::Eval),
+    Emit(emit::Emit),
     Study(study::Study),
 }
 
@@ -57,6 +59,7 @@ pub fn run() -> ExitCode {
         Some(Command::Show(show)) => show.run(),
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
+        Some(Command::Emit(emit)) => emit.run(),
         Some(Command::Study(study)) => study.run(),
     };
     let outcome = result.unwrap_or_else(|error| {

@@ -1,6 +1,7 @@
 //! The `mms` command as a user meets it: the built program, run in a folder of its own.
 
 mod check;
+mod emit;
 mod eval;
 mod main_job;
 mod material;
