@@ -1,10 +1,9 @@
 //! The shipped fields, compiled: the folder `fields/` is the list.
 
-use mms_codegen::compile::Failure;
 use mms_codegen::compile::{Failure, MATERIALS};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{MaterialSpec, read_material};
-use mms_codegen::{Compiled, Limits};
+use mms_codegen::{Compiled, Options};
 
 use crate::scene::Scene;
 
@@ -50,14 +49,14 @@ include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 impl Entry {
     /// Compiles the text again, for what the generated module does not hold.
     pub fn compile(&self) -> Result<Compiled, Failure> {
-        self.compile_with(&Limits::default())
+        self.compile_with(&Options::default())
     }
 
-    /// The same within limits of the caller's choice.
-    pub fn compile_with(&self, limits: &Limits) -> Result<Compiled, Failure> {
+    /// Compiles a part of the text, the text with some parameters fixed, or within other limits.
+    pub fn compile_with(&self, options: &Options) -> Result<Compiled, Failure> {
         let missing = || "not part of the gallery".to_string();
         let load = |_: &str| self.material.map(str::to_string).ok_or_else(missing);
-        mms_codegen::compile_with(self.name, self.path, self.text, &load, limits)
+        mms_codegen::compile_with(self.name, self.path, self.text, &load, options)
     }
 }
 

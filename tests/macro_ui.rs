@@ -4,14 +4,16 @@
 //! After a deliberate change, `TRYBUILD=overwrite cargo test --test macro_ui` writes the `.stderr`
 //! files anew; read the difference before it is committed.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the programs need beside them: the macro finds a file relative to the manifest of the crate
 /// that uses it, which is one that `trybuild` writes.
-const INPUTS: [&str; 5] = [
+const INPUTS: [&str; 6] = [
     "fields",
+    "examples/fields",
     "tests/ui/pass",
     "tests/ui/pass/materials",
     "tests/ui/fail",
@@ -32,10 +34,15 @@ fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Copies the field files to where the crate that `trybuild` writes has its manifest.
-fn copy_inputs() {
+/// The folder of the manifest of the crate that `trybuild` writes.
+fn manifest() -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("the target folder");
-    let manifest = target.join("tests/trybuild").join(env!("CARGO_PKG_NAME"));
+    target.join("tests/trybuild").join(env!("CARGO_PKG_NAME"))
+}
+
+/// Copies the field files to where they are looked for.
+fn copy_inputs() {
+    let manifest = manifest();
     for folder in INPUTS {
         let _ = fs::remove_dir_all(manifest.join(folder));
         fs::create_dir_all(manifest.join(folder)).expect("a folder");
@@ -46,9 +53,32 @@ fn copy_inputs() {
     }
 }
 
+/// Emits the files that `ui/pass/emitted.rs` includes, as a user does.
+fn emit_files() {
+    let folder = manifest().join("emitted");
+    let _ = fs::remove_dir_all(&folder);
+    let emit = |field: &str, to: &str, options: &[&str]| {
+        let to = folder.join(to);
+        let output = ["emit", field, "--target", "rust", "-o"].map(OsStr::new);
+        let emit = Command::new(env!("CARGO_BIN_EXE_mms"))
+            .args(output.into_iter().chain([to.as_os_str()]))
+            .args(options)
+            .current_dir(root())
+            .output()
+            .expect("the program starts");
+        assert!(emit.status.success(), "{}", String::from_utf8_lossy(&emit.stderr));
+    };
+    emit("bar_1d", "all", &[]);
+    emit("tests/ui/pass/odd_names.toml", "all", &[]);
+    emit("tests/ui/pass/plain.toml", "all", &[]);
+    let part = ["--quantity", "body_force,velocity", "--set", "lambda=0", "--freeze"];
+    emit("examples/fields/standing_wave_3d.toml", "part", &part);
+}
+
 #[test]
 fn right_files_compile_and_wrong_ones_are_refused_with_their_mistakes() {
     copy_inputs();
+    emit_files();
     let tests = trybuild::TestCases::new();
     tests.pass("tests/ui/pass/*.rs");
     tests.compile_fail("tests/ui/fail/*.rs");

@@ -7,6 +7,9 @@ mod survive;
 
 /// A twentieth of the usual: what is refused for its size is found out early, and the fuzzer tries
 /// more texts.
-const LIMITS: mms_codegen::Limits = mms_codegen::Limits { max_nodes: 10_000 };
+const MAX_NODES: usize = 10_000;
 
-libfuzzer_sys::fuzz_target!(|text: &str| survive::survive(text, &LIMITS));
+libfuzzer_sys::fuzz_target!(|text: &str| {
+    let options = mms_codegen::Options { max_nodes: MAX_NODES, ..Default::default() };
+    survive::survive(text, &options);
+});

@@ -14,6 +14,7 @@ use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
+use crate::selection::Selection;
 use crate::simplify::simplify;
 use crate::source::{SourceId, Sources};
 use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
@@ -42,7 +43,9 @@ pub struct Compiled {
     pub model: Model,
     /// What follows from them.
     pub derivation: Derivation,
-    /// All of it, scheduled.
+    /// What of it was wanted.
+    pub selection: Selection,
+    /// What is wanted, scheduled.
     pub program: Program,
 }
 
@@ -70,38 +73,48 @@ impl std::fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// What a compilation may take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+/// What of a field is compiled, and within which limits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The quantities that are wanted, and the parameters that are set or frozen.
+    pub selection: Selection,
     /// How many nodes and operands the expression graph may have.
     pub max_nodes: usize,
 }
 
-impl Default for Limits {
+impl Default for Options {
     fn default() -> Self {
-        Limits { max_nodes: DEFAULT_MAX_NODES }
+        Options { selection: Selection::default(), max_nodes: DEFAULT_MAX_NODES }
     }
 }
 
-/// Compiles the text of a field file, within the default [`Limits`].
+impl From<Selection> for Options {
+    fn from(selection: Selection) -> Self {
+        Options { selection, ..Options::default() }
+    }
+}
+
+/// Compiles the text of a field file, all of it, within the default limits.
 ///
 /// `name` is the field's name (its file's stem), `path` what messages show. Every mistake of the
 /// file and of its material is in the failure.
 pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<Compiled, Failure> {
-    compile_with(name, path, text, load, &Limits::default())
+    compile_with(name, path, text, load, &Options::default())
 }
 
-/// The same as [`compile()`], within limits of the caller's choice.
+/// Compiles a part of a field, the field with some parameters fixed, or within other limits.
+///
+/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart.
 pub fn compile_with(
     name: &str,
     path: &str,
     text: &str,
     load: Loader<'_>,
-    limits: &Limits,
+    options: &Options,
 ) -> Result<Compiled, Failure> {
     let mut sources = Sources::default();
     let mut diagnostics = Vec::new();
-    match phases(name, path, text, load, limits, &mut sources, &mut diagnostics) {
+    match phases(name, path, text, load, options, &mut sources, &mut diagnostics) {
         Some(compiled) if diagnostics.is_empty() => Ok(compiled),
         _ => Err(Failure { sources, diagnostics }),
     }
@@ -132,31 +145,38 @@ fn phases(
     path: &str,
     text: &str,
     load: Loader<'_>,
-    limits: &Limits,
+    options: &Options,
     sources: &mut Sources,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Compiled> {
-    let mut graph = Graph::with_limit(limits.max_nodes);
+    let selection = &options.selection;
+    let mut graph = Graph::with_limit(options.max_nodes);
     let source = sources.add(path, text);
-    let field = spec::read_field(sources, source, name, diagnostics)?;
+    let mut field = spec::read_field(sources, source, name, diagnostics)?;
+    selection.apply(sources, &mut field, diagnostics);
     let material = read_material(sources, &field, load, diagnostics);
     diagnostics.extend(units::check(sources, &field, material.as_ref()));
-    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics)?;
+    let reported = diagnostics.len();
+    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
+    selection.explain(sources, &field, &mut diagnostics[reported..]);
+    let model = model?;
     diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derivation = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
     let derivation = simplify(&mut graph, &model, derivation);
-    let outputs = outputs(&mut graph, &model, &derivation);
+    let mut outputs = outputs(&mut graph, &model, &derivation);
+    outputs.retain(|output, _| selection.schedules(*output, &field));
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
         return None;
     }
     let program = schedule(&graph, &outputs);
     diagnostics.extend(unrepresentable(&field, &program));
-    let sources = sources.clone();
-    Some(Compiled { field, material, sources, graph, model, derivation, program })
+    diagnostics.extend(selection.undefined(sources, &field, &program));
+    let (sources, selection) = (sources.clone(), selection.clone());
+    Some(Compiled { field, material, sources, graph, model, derivation, selection, program })
 }
 
 /// A constant that no double precision number is near to, if the program has one.

@@ -16,6 +16,7 @@ pub mod mechanics;
 pub mod pass;
 pub mod program;
 pub mod quantity;
+pub mod selection;
 pub mod simplify;
 pub mod source;
 pub mod spec;
@@ -23,4 +24,5 @@ pub mod suggest;
 pub mod syntax;
 pub mod units;
 
-pub use compile::{Compiled, Limits, compile, compile_with};
+pub use compile::{Compiled, Options, compile, compile_with};
+pub use selection::Selection;

@@ -13,6 +13,13 @@ pub struct Source {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SourceId(u32);
 
+impl SourceId {
+    /// Its position in the order of addition.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// A byte range of one source; always on character boundaries of its text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
@@ -43,6 +50,12 @@ impl Sources {
         let id = SourceId(u32::try_from(self.0.len()).unwrap_or(u32::MAX));
         self.0.push(Source { path: path.into(), text: text.into() });
         id
+    }
+
+    /// The text of that position in the order of addition.
+    pub fn nth(&self, index: usize) -> Option<SourceId> {
+        let id = u32::try_from(index).ok()?;
+        (index < self.0.len()).then_some(SourceId(id))
     }
 
     /// Every text, in the order of addition.

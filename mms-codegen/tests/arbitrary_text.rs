@@ -4,12 +4,12 @@
 #[path = "support/survive.rs"]
 mod survive;
 
-use mms_codegen::Limits;
+use mms_codegen::Options;
 use proptest::prelude::*;
 
 /// The limits are those that users get.
 fn survive(text: &str) {
-    survive::survive(text, &Limits::default());
+    survive::survive(text, &Options::default());
 }
 
 const BAR: &str = include_str!("data/pass/every_key_2d.toml");

@@ -4,7 +4,7 @@
 #[path = "support/survive.rs"]
 mod survive;
 
-use mms_codegen::Limits;
+use mms_codegen::Options;
 use peak_alloc::PeakAlloc;
 use survive::survive;
 
@@ -57,7 +57,7 @@ fn no_text_takes_more_memory_than_the_bound() {
     for (what, text) in texts {
         let before = ALLOCATOR.current_usage();
         ALLOCATOR.reset_peak_usage();
-        survive(&text, &Limits::default());
+        survive(&text, &Options::default());
         let taken = ALLOCATOR.peak_usage() - before;
         println!("{what}: {} KiB for a text of {} KiB", taken >> 10, text.len() >> 10);
         assert!(taken < BOUND, "{what}: {taken} bytes");

@@ -1,12 +1,19 @@
 //! Doorways from Rust code into the field compiler.
 
+mod request;
+
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use mms_codegen::compile::Failure;
+use mms_codegen::{Options, compile_with};
+use mms_codegen::emit::rust::{module, module_named};
 use proc_macro::TokenStream;
 use quote::quote;
-use syn::LitStr;
+use syn::{Error, Result};
+
+use request::Request;
 
 /// A manufactured solution as a module named after its file.
 ///
@@ -20,28 +27,64 @@ use syn::LitStr;
 /// The path is relative to the manifest of the crate that uses the macro. The module is compiled
 /// again whenever the file changes. Every mistake in the file is a compile error that shows its
 /// line and column. The using crate depends on `mms-runtime`.
+///
+/// # Only what is needed
+///
+/// ```ignore
+/// mms_macros::field!(
+///     "fields/bar_1d.toml",
+///     quantities = [body_force, velocity],
+///     set = { young = 2e6, rho0 = "young/1000" },
+///     freeze = [young],
+///     name = forcing,
+/// );
+/// ```
+///
+/// | option | does |
+/// |---|---|
+/// | `quantities = [..]` | compiles these alone. Nothing else is in the module, neither the domain nor the contract of a solver (`boxed`), and the using crate depends on `mms-math` instead of `mms-runtime` |
+/// | `set = { name = value, .. }` | changes defaults. A value is a number or, in quotes, a formula in the parameters above that one. Parameters that depend on it follow |
+/// | `freeze` | makes all parameters constants, at their defaults. They disappear from `Parameters`, and what they make 0 disappears from the code |
+/// | `freeze = [..]` | makes these constants |
+/// | `name = other` | names the module, so that two of one file can stand side by side |
+///
+/// A parameter that depends on others and is frozen without them keeps the value that their
+/// defaults give.
+///
+/// # Once per point
+///
+/// Each quantity can be computed from a position, or from what the position determines, which a
+/// solver keeps: `Point::<f64>::BYTES` for each point. Both give the same bits.
+///
+/// ```ignore
+/// let point = field.at_point([0.37]);              // once per particle
+/// let b = field.at_time(0.013).body_force_at(&point); // at every step
+/// ```
 #[proc_macro]
 pub fn field(input: TokenStream) -> TokenStream {
-    let path = syn::parse_macro_input!(input as LitStr);
-    match expand(&path.value()) {
-        Ok(module) => module.into(),
-        Err(message) => syn::Error::new(path.span(), message).into_compile_error().into(),
-    }
+    let request = syn::parse_macro_input!(input as Request);
+    expand(&request).unwrap_or_else(Error::into_compile_error).into()
 }
 
-fn expand(path: &str) -> Result<proc_macro2::TokenStream, String> {
-    let root = env::var_os("CARGO_MANIFEST_DIR")
-        .map(PathBuf::from)
-        .ok_or("the macro needs Cargo's CARGO_MANIFEST_DIR to find the file")?;
-    let file = root.join(path);
-    let text =
-        read(&file).map_err(|reason| format!("cannot read the field file `{path}`: {reason}"))?;
+fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
+    let path = request.path.value();
+    let refusal = |message: String| Error::new(request.path.span(), message);
+    let root = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).ok_or_else(|| {
+        refusal("the macro needs Cargo's CARGO_MANIFEST_DIR to find the file".into())
+    })?;
+    let file = root.join(&path);
+    let text = read(&file)
+        .map_err(|reason| refusal(format!("cannot read the field file `{path}`: {reason}")))?;
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let folder = file.parent().unwrap_or(&root);
-    let compiled =
-        mms_codegen::compile(&name, path, &text, &|material| read(&folder.join(material)))
-            .map_err(|failure| message(&failure.to_string()))?;
-    let module = mms_codegen::emit::rust::module(&compiled);
+    let load = |material: &str| read(&folder.join(material));
+    let options = Options::from(request.selection.clone());
+    let compiled = compile_with(&name, &path, &text, &load, &options)
+        .map_err(|failure| refused(request, failure))?;
+    let module = match &request.name {
+        Some(name) => module_named(&compiled, name),
+        None => module(&compiled),
+    };
     // Cargo compiles the using crate again when a file that it includes changes.
     let mut sources = vec![file.clone()];
     sources.extend(compiled.own_material().map(|(material, _)| folder.join(material)));
@@ -52,11 +95,35 @@ fn expand(path: &str) -> Result<proc_macro2::TokenStream, String> {
     })
 }
 
-/// The rendered mistakes as one compile error; the compiler writes the first `error: ` itself.
+/// Mistakes of the file at its path, and each mistake of the selection where it was made.
+fn refused(request: &Request, failure: Failure) -> Error {
+    let Failure { sources, diagnostics } = failure;
+    let (of_the_call, of_the_file): (Vec<_>, Vec<_>) = diagnostics
+        .into_iter()
+        .partition(|diagnostic| request.selection.entry(diagnostic.span).is_some());
+    let mut errors = Vec::new();
+    if !of_the_file.is_empty() {
+        let text = Failure { sources: sources.clone(), diagnostics: of_the_file }.to_string();
+        errors.push(Error::new(request.path.span(), message(&text)));
+    }
+    for diagnostic in of_the_call {
+        let entry = request.selection.entry(diagnostic.span);
+        let span = entry.map_or(request.path.span(), |entry| request.span(entry));
+        let text = Failure { sources: sources.clone(), diagnostics: vec![diagnostic] }.to_string();
+        errors.push(Error::new(span, message(&text)));
+    }
+    let errors = errors.into_iter().reduce(|mut all, next| {
+        all.combine(next);
+        all
+    });
+    errors.unwrap_or_else(|| Error::new(request.path.span(), "the field does not compile"))
+}
+
+/// Rendered mistakes as one compile error; the compiler writes the first `error: ` itself.
 fn message(rendered: &str) -> String {
     rendered.strip_prefix("error: ").unwrap_or(rendered).trim_end().into()
 }
 
-fn read(path: &Path) -> Result<String, String> {
+fn read(path: &Path) -> std::result::Result<String, String> {
     fs::read_to_string(path).map_err(|error| error.to_string())
 }

@@ -5,16 +5,20 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{Context as _, Error, anyhow, bail};
 use clap::Args;
 use dashu_ratio::RBig;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::Failure;
 use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::quantity;
 use mms_codegen::suggest::did_you_mean;
-use mms_codegen::{Compiled, Limits, compile_with};
+use mms_codegen::{Compiled, Options, Selection, compile_with};
 
 use crate::gallery::{self, Entry};
+
+/// What is wrong where a part of a field does not compile: the file, or the part.
+const SELECTED: &str = "the field does not compile as selected";
 
 /// How large a derivation may become.
 #[derive(Clone, Copy, Debug, Args)]
@@ -27,13 +31,14 @@ pub struct Bound {
 
 impl Default for Bound {
     fn default() -> Self {
-        Bound { max_nodes: Limits::default().max_nodes as u32 }
+        Bound { max_nodes: Options::default().max_nodes as u32 }
     }
 }
 
 impl Bound {
-    fn limits(self) -> Limits {
-        Limits { max_nodes: self.max_nodes as usize }
+    /// Within this bound, everything of a field or a part of it.
+    pub fn options(self, selection: Selection) -> Options {
+        Options { selection, max_nodes: self.max_nodes as usize }
     }
 }
 
@@ -50,8 +55,13 @@ pub struct Input {
 impl Input {
     /// The field of a gallery name, or of a path to a TOML file.
     pub fn find(field: &str, bound: Bound) -> anyhow::Result<Input> {
+        Self::find_with(field, &bound.options(Selection::default()))
+    }
+
+    /// A part of the field of a gallery name, or of a path to a TOML file.
+    pub fn find_with(field: &str, options: &Options) -> anyhow::Result<Input> {
         if field.ends_with(".toml") {
-            return Self::from_file(Path::new(field), bound);
+            return Self::from_file(Path::new(field), options);
         }
         let Some(entry) = gallery::find(field) else {
             let names = gallery::FIELDS.iter().map(|entry| entry.name);
@@ -63,15 +73,17 @@ impl Input {
                 ),
             }
         };
+        let whole = "the field of the gallery does not compile";
         let compiled = entry
-            .compile_with(&bound.limits())
-            .map_err(|failure| anyhow!("the field of the gallery does not compile\n{failure}"))?;
+            .compile_with(options)
+            .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
         Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
     }
 
-    fn from_file(path: &Path, bound: Bound) -> anyhow::Result<Input> {
-        let compiled = read(path, bound)?
-            .map_err(|failure| anyhow!("the field file has mistakes\n{failure}"))?;
+    fn from_file(path: &Path, options: &Options) -> anyhow::Result<Input> {
+        let whole = "the field file has mistakes";
+        let compiled = read_with(path, options)?
+            .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
     }
 
@@ -122,7 +134,7 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
             quantities.extend(Quantity::pointwise());
             continue;
         }
-        quantities.push(quantity(name)?);
+        quantities.push(quantity(name).map_err(Error::msg)?);
     }
     let mut seen = Vec::new();
     quantities.retain(|quantity| {
@@ -133,22 +145,17 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     Ok(quantities)
 }
 
-/// The quantity of that name or alias.
-fn quantity(name: &str) -> anyhow::Result<Quantity> {
-    Quantity::from_name(name).with_context(|| {
-        let known = Quantity::ALL.iter().map(|quantity| quantity.name());
-        match did_you_mean(name, known.clone()) {
-            Some(near) => format!("unknown quantity `{name}`; did you mean `{near}`?"),
-            None => format!(
-                "unknown quantity `{name}`; the quantities are {}",
-                known.collect::<Vec<_>>().join(", ")
-            ),
-        }
-    })
+/// What is to blame: all of the field, or what was selected of it.
+fn what_failed(options: &Options, whole: &'static str) -> &'static str {
+    if options.selection == Selection::default() { whole } else { SELECTED }
 }
 
 /// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
 pub fn read(path: &Path, bound: Bound) -> anyhow::Result<Result<Compiled, Failure>> {
+    read_with(path, &bound.options(Selection::default()))
+}
+
+fn read_with(path: &Path, options: &Options) -> anyhow::Result<Result<Compiled, Failure>> {
     let shown = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -156,5 +163,5 @@ pub fn read(path: &Path, bound: Bound) -> anyhow::Result<Result<Compiled, Failur
     let load = |material: &str| {
         fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
     };
-    Ok(compile_with(&name, &shown, &text, &load, &bound.limits()))
+    Ok(compile_with(&name, &shown, &text, &load, options))
 }

@@ -1,6 +1,7 @@
 //! The `mms` command: one file per subcommand.
 
 mod check;
+mod emit;
 mod eval;
 mod input;
 mod list;
@@ -34,6 +35,7 @@ enum Command {
     Show(show::Show),
     Check(check::Check),
     Eval(eval::Eval),
+    Emit(emit::Emit),
     Study(study::Study),
     New(new::New),
     Schema(schema::Schema),
@@ -61,6 +63,7 @@ pub fn run() -> ExitCode {
         Some(Command::Show(show)) => show.run(),
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
+        Some(Command::Emit(emit)) => emit.run(),
         Some(Command::Study(study)) => study.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),

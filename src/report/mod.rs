@@ -216,7 +216,7 @@ impl Study {
 }
 
 /// Never leaves half a file under its final name.
-fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
+pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
     let mut file = builder().tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
     file.write_all(content.as_bytes())?;
     file.persist(path)?;

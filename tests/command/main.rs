@@ -2,6 +2,7 @@
 
 mod bound;
 mod check;
+mod emit;
 mod eval;
 mod main_job;
 mod material;

@@ -5,6 +5,7 @@ use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::quantity::Quantity;
+use crate::selection::Meanings;
 use crate::source::{Span, Spanned};
 use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec};
 use crate::suggest::did_you_mean;
@@ -158,6 +159,7 @@ impl Reader<'_> {
             self.scope.announce(&definition.name);
         }
         let mut parameters = Vec::new();
+        let mut meanings = Meanings::default();
         for (index, parameter) in field.parameters.iter().enumerate() {
             let name = &parameter.name.value;
             let default = self.formula(&parameter.value);
@@ -169,8 +171,9 @@ impl Reader<'_> {
             if default.is_some_and(|value| self.scope.is_positive(self.graph, value)) {
                 self.scope.assume_positive(symbol);
             }
-            let leaf = self.graph.symbol(symbol);
-            self.scope.define(name, default.map(|_| leaf));
+            let meaning = meanings.next(self.graph, parameter, default);
+            self.scope.define(name, meaning);
+            let default = if parameter.frozen { meaning } else { default };
             names.parameters.push(name.clone());
             parameters.push(default.map(|default| Parameter {
                 name: name.clone(),

@@ -28,6 +28,8 @@ pub struct ParameterSpec {
     pub doc: Option<String>,
     /// The least and the greatest value it may take.
     pub range: Option<[Formula; 2]>,
+    /// Whether a selection makes it a constant.
+    pub frozen: bool,
 }
 
 /// A parameter of a material: its value comes from the field.
@@ -86,6 +88,7 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
         unit: None,
         doc: None,
         range: None,
+        frozen: false,
     };
     if !entry.value.get_ref().is_table() {
         let instead = format!("write {} = {{ value = ... }}", entry.key.value);

@@ -4,10 +4,10 @@ use mms_codegen::diagnostic::render;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{read_field, read_material};
 use mms_codegen::syntax::parse;
-use mms_codegen::{Limits, compile_with};
+use mms_codegen::{Options, compile_with};
 
 /// Reads a text as a field and as a material, parses every formula, and renders what was found.
-pub fn survive(text: &str, limits: &Limits) {
+pub fn survive(text: &str, options: &Options) {
     let mut sources = Sources::default();
     let id = sources.add("x.toml", text);
     let mut diagnostics = Vec::new();
@@ -24,7 +24,7 @@ pub fn survive(text: &str, limits: &Limits) {
     }
     render(&sources, &diagnostics);
     let load = |_: &str| Err("no files here".to_string());
-    if let Err(failure) = compile_with("x", "x.toml", text, &load, limits) {
+    if let Err(failure) = compile_with("x", "x.toml", text, &load, options) {
         assert!(!failure.to_string().is_empty(), "{text:?} fails without a word");
     }
 }

@@ -1,21 +1,22 @@
-//! The kernels: plain functions over arrays, generic in the scalar.
+//! What needs no time: the parameters, the struct of their stage, the domain and the material.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place, input};
-use crate::expr::Symbol;
+use super::{Emitter, Place};
 use crate::mechanics::Response;
 use crate::mechanics::model::Body;
 use crate::program::{Bound, Output, Stage};
-use crate::quantity::{Quantity, Shape};
+use crate::quantity::Shape;
 
 impl Emitter<'_> {
     pub(super) fn parameters(&self) -> TokenStream {
-        let parameters = &self.compiled.model.parameters;
+        let left = self.parameter_names.keys();
+        let parameters: Vec<_> =
+            left.clone().map(|index| &self.compiled.model.parameters[*index]).collect();
         let (dimension, count) = (self.dimension(), Literal::usize_unsuffixed(parameters.len()));
         let names: Vec<_> = parameters.iter().map(|parameter| &parameter.name).collect();
-        let fields = &self.parameter_names;
+        let fields: Vec<_> = self.parameter_names.values().collect();
         // A parameter may be called like something that a pattern cannot bind, such as `None`.
         let locals: Vec<_> = (0..names.len()).map(|index| format_ident!("p{index}")).collect();
         let docs = parameters.iter().map(|parameter| {
@@ -26,12 +27,13 @@ impl Emitter<'_> {
             }
         });
         let place = Place { field: quote!(), own: &[Stage::Parameter] };
-        let outputs: Vec<_> = (0..parameters.len()).map(Output::Parameter).collect();
+        let outputs: Vec<_> = left.copied().map(Output::Parameter).collect();
         let body = self.body(&outputs, &place);
         let values = outputs.iter().map(|output| self.operand(self.values(*output)[0], &place));
-        let own_material = match self.compiled.own_material() {
-            Some((_, text)) => quote!(::core::option::Option::Some(#text)),
-            None => quote!(::core::option::Option::None),
+        let own_material = self.contract.then(|| self.own_material());
+        let doc = match self.compiled.selection.set.is_empty() {
+            true => " The parameters; their defaults are those of the field file.",
+            false => " The parameters; their defaults are those of the field file, or set.",
         };
         // A struct without members cannot be generic in their type.
         let generic = self.parameters_generic();
@@ -45,13 +47,12 @@ impl Emitter<'_> {
             /// The number of space dimensions.
             pub const DIMENSION: usize = #dimension;
 
-            /// The text of the material's file, where the field brings its own.
-            pub const OWN_MATERIAL: Option<&str> = #own_material;
+            #own_material
 
             /// The names of the parameters, in the order of the field file.
             pub const NAMES: [&str; #count] = [#(#names),*];
 
-            /// The parameters; their defaults are those of the field file.
+            #[doc = #doc]
             #[derive(Clone, Copy, Debug, PartialEq)]
             pub struct Parameters #generic {
                 #(#[doc = #docs] pub #fields: T,)*
@@ -74,6 +75,17 @@ impl Emitter<'_> {
         }
     }
 
+    fn own_material(&self) -> TokenStream {
+        let text = match self.compiled.own_material() {
+            Some((_, text)) => quote!(::core::option::Option::Some(#text)),
+            None => quote!(::core::option::Option::None),
+        };
+        quote! {
+            /// The text of the material's file, where the field brings its own.
+            pub const OWN_MATERIAL: Option<&str> = #text;
+        }
+    }
+
     /// The struct of the Parameter stage, and what needs no time.
     pub(super) fn field(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Parameter);
@@ -81,8 +93,15 @@ impl Emitter<'_> {
         let place = Place { field: quote!(), own: &[Stage::Parameter] };
         let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
         let generic = self.parameters_generic();
-        let responses = self.responses();
-        let bounds = self.bounds();
+        let solver = self.compiled.selection.is_for_a_solver().then(|| {
+            let (bounds, responses) = (self.bounds(), self.responses());
+            quote! {
+                impl<T: Scalar + Copy> Field<T> {
+                    #bounds
+                    #responses
+                }
+            }
+        });
         // A field without any value still has a scalar type.
         let (marker, marked) = match kept.is_empty() {
             true => (
@@ -105,15 +124,12 @@ impl Emitter<'_> {
                 Field { #(#names,)* #marked }
             }
 
-            impl<T: Scalar + Copy> Field<T> {
-                #bounds
-                #responses
-            }
+            #solver
         }
     }
 
     fn parameters_generic(&self) -> Option<TokenStream> {
-        (!self.compiled.model.parameters.is_empty()).then(|| quote!(<T>))
+        (!self.parameter_names.is_empty()).then(|| quote!(<T>))
     }
 
     fn bounds(&self) -> TokenStream {
@@ -198,93 +214,5 @@ impl Emitter<'_> {
             true,
         );
         quote!(#density #speed #energy #first #kirchhoff)
-    }
-
-    /// The struct of the Time stage, and every quantity at a point.
-    pub(super) fn at_time(&self) -> TokenStream {
-        let kept = self.kept_in(Stage::Time);
-        let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place { field: quote!(self), own: &[Stage::Time] };
-        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
-        let quantities = Quantity::ALL.iter().map(|quantity| self.quantity(*quantity));
-        quote! {
-            /// The field at one time: everything that needs no X.
-            #[derive(Clone, Copy, Debug)]
-            pub struct AtTime<'a, T> {
-                field: &'a Field<T>,
-                #(#names: T,)*
-            }
-
-            impl<T: Scalar + Copy> Field<T> {
-                /// Computes once what the parameters and the time determine.
-                #[inline]
-                pub fn at_time(&self, t: T) -> AtTime<'_, T> {
-                    #body
-                    AtTime { field: self, #(#names,)* }
-                }
-            }
-
-            impl<T: Scalar + Copy> AtTime<'_, T> {
-                #(#quantities)*
-            }
-        }
-    }
-
-    fn quantity(&self, quantity: Quantity) -> TokenStream {
-        let name = format_ident!("{}", quantity.name());
-        let doc = format!(" {} Unit: {}.", quantity.doc(), quantity.unit());
-        let place = Place { field: quote!(self.field), own: &[Stage::Point, Stage::PointTime] };
-        let output = Output::Quantity(quantity);
-        let point = self.point();
-        let normal = (quantity == Quantity::Traction).then(|| {
-            let components = self.axes().map(|axis| input(Symbol::Normal(axis)));
-            let dimension = self.dimension();
-            quote!(, [#(#components),*]: [T; #dimension])
-        });
-        let kind = self.shape_type(quantity.shape());
-        let body = self.body(&[output], &place);
-        let value = self.shaped(output, quantity.shape(), &place);
-        quote! {
-            #[doc = #doc]
-            #[inline]
-            pub fn #name(&self, #point #normal) -> #kind { #body #value }
-        }
-    }
-
-    fn point(&self) -> TokenStream {
-        let dimension = self.dimension();
-        let names = self.axes().map(|axis| input(Symbol::Coordinate(axis)));
-        quote!([#(#names),*]: [T; #dimension])
-    }
-
-    fn gradient(&self) -> TokenStream {
-        let dimension = self.dimension();
-        let rows = self.axes().map(|row| {
-            let names = self.axes().map(|column| input(Symbol::Gradient(row, column)));
-            quote!([#(#names),*])
-        });
-        quote!([#(#rows),*]: [[T; #dimension]; #dimension])
-    }
-
-    fn shape_type(&self, shape: Shape) -> TokenStream {
-        let dimension = self.dimension();
-        match shape {
-            Shape::Scalar => quote!(T),
-            Shape::Vector => quote!([T; #dimension]),
-            Shape::Tensor => quote!([[T; #dimension]; #dimension]),
-        }
-    }
-
-    fn shaped(&self, output: Output, shape: Shape, place: &Place) -> TokenStream {
-        let values: Vec<_> =
-            self.values(output).iter().map(|value| self.operand(*value, place)).collect();
-        match shape {
-            Shape::Scalar => quote!(#(#values)*),
-            Shape::Vector => quote!([#(#values),*]),
-            Shape::Tensor => {
-                let rows = values.chunks(self.axes().len()).map(|row| quote!([#(#row),*]));
-                quote!([#(#rows),*])
-            }
-        }
     }
 }

@@ -1,0 +1,57 @@
+//! A field as a Rust file of its own, for crates that do not use the macro.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::{Attribute, Item};
+
+use super::{Emitter, docs, identifier};
+use crate::compile::Compiled;
+use crate::emit::File;
+
+/// The selected quantities as one file, which needs `mms-math` alone. It is a module: say
+/// `mod bar_1d;` beside it, or `include!` it in a module.
+pub fn file(compiled: &Compiled) -> File {
+    let name = identifier(&compiled.field.name).to_string();
+    let name = format!("{}.rs", name.trim_start_matches("r#"));
+    let mut file: syn::File =
+        syn::parse2(Emitter::new(compiled, false).kernels()).expect("emitted tokens are items");
+    // Attributes of the whole file would forbid `include!`.
+    let lints = attribute(quote!(#[allow(non_snake_case, unused_variables, clippy::all)]));
+    for item in &mut file.items {
+        match item {
+            Item::Fn(item) => item.attrs.push(lints.clone()),
+            Item::Impl(item) => item.attrs.push(lints.clone()),
+            Item::Struct(item) => item.attrs.push(lints.clone()),
+            _ => {}
+        }
+    }
+    let header: String = docs(compiled).iter().map(|line| comment(line)).collect();
+    File { name, text: format!("{header}\n{}", prettyplease::unparse(&file)) }
+}
+
+fn attribute(tokens: TokenStream) -> Attribute {
+    let item: syn::ItemStruct = syn::parse_quote!(#tokens struct S;);
+    item.attrs.into_iter().next().expect("one attribute was written")
+}
+
+/// A text, which may be a user's, as a comment: it cannot end it, nor hide what follows.
+fn comment(text: &str) -> String {
+    let visible = |c: char| {
+        // Marks that change the direction of writing.
+        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        if c.is_control() || turns { ' ' } else { c }
+    };
+    let line: String = text.chars().map(visible).collect();
+    format!("//{}\n", line.trim_end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::comment;
+
+    #[test]
+    fn no_text_leaves_its_comment() {
+        assert_eq!(comment(" a\nevil()\r\u{202e}b "), "// a evil()  b\n");
+        assert_eq!(comment(""), "//\n");
+    }
+}

@@ -1,0 +1,353 @@
+//! What of a field is wanted: which quantities, with which values, and which parameters become
+//! constants.
+//!
+//! A selection is applied to the field as it was read, before any name is resolved. So a constant
+//! folds wherever the formulas let it, a formula that it leaves undefined is reported where it
+//! stands, and nothing that only unwanted quantities need reaches the program.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::compile::Compiled;
+use crate::diagnostic::{Diagnostic, quoted};
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::mechanics::Response;
+use crate::pass::substitute::substitute;
+use crate::program::interpret::{Interpreter, Number as _};
+use crate::program::precise::Precise;
+use crate::program::{Bound, Op, Output, Program, Value};
+use crate::quantity::Quantity;
+use crate::source::{Sources, Span};
+use crate::spec::{FieldSpec, Formula, ParameterSpec};
+use crate::suggest::did_you_mean;
+
+/// What of a field is wanted. The default is everything, as the file says it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// The quantities; `None` stands for all, with what else a solver needs: the body, the time
+    /// window, and the material as a function of a displacement gradient.
+    pub quantities: Option<BTreeSet<Quantity>>,
+    /// New default values: the name of a parameter and a formula, which may use the parameters
+    /// above that one. Those that depend on it follow.
+    pub set: Vec<(String, String)>,
+    /// The parameters that become constants.
+    pub freeze: Freeze,
+}
+
+/// Which parameters become constants, at their default values. They are then no parameters of the
+/// generated code.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Freeze {
+    /// None of them.
+    #[default]
+    Nothing,
+    /// All of them.
+    Everything,
+    /// Those of these names.
+    Only(Vec<String>),
+}
+
+/// The part of a selection that a message is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// The value of that position in [`Selection::set`].
+    Set(usize),
+    /// The name of that position in [`Freeze::Only`].
+    Freeze(usize),
+    /// All that is frozen.
+    Frozen,
+}
+
+/// The quantity of a name or alias; otherwise what is wrong with it, in one line.
+pub fn quantity(name: &str) -> Result<Quantity, String> {
+    Quantity::from_name(name).ok_or_else(|| {
+        let known = Quantity::ALL.iter().map(|quantity| quantity.name());
+        let advice = match did_you_mean(name, known.clone()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the quantities are {}", known.collect::<Vec<_>>().join(", ")),
+        };
+        format!("unknown quantity {}; {advice}", quoted(name))
+    })
+}
+
+impl Freeze {
+    /// The names that are given.
+    fn names(&self) -> &[String] {
+        match self {
+            Freeze::Only(names) => names,
+            Freeze::Nothing | Freeze::Everything => &[],
+        }
+    }
+}
+
+impl Selection {
+    /// Whether what a solver needs beside quantities is wanted.
+    pub fn is_for_a_solver(&self) -> bool {
+        self.quantities.is_none()
+    }
+
+    /// Whether a quantity is wanted.
+    pub fn wants(&self, quantity: Quantity) -> bool {
+        self.quantities.as_ref().is_none_or(|wanted| wanted.contains(&quantity))
+    }
+
+    /// Whether an output is part of the program. The domain always is: it says where a field is
+    /// defined.
+    pub(crate) fn schedules(&self, output: Output, field: &FieldSpec) -> bool {
+        match output {
+            Output::Quantity(quantity) => self.wants(quantity),
+            Output::Response(_) => self.is_for_a_solver(),
+            Output::Parameter(index) => !field.parameters[index].frozen,
+            Output::Bound(_) | Output::Expected(_) => true,
+        }
+    }
+
+    /// The part that a message of the compiler is about, if it is not about a file.
+    pub fn entry(&self, span: Span) -> Option<Entry> {
+        // The field file is the first source, and its material the last.
+        let position = span.source.index().checked_sub(1)?;
+        if position < self.set.len() {
+            return Some(Entry::Set(position));
+        }
+        if self.freeze == Freeze::Nothing || span.source.index() > self.frozen_source() {
+            return None;
+        }
+        let last = span.source.index() == self.frozen_source();
+        Some(if last { Entry::Frozen } else { Entry::Freeze(position - self.set.len()) })
+    }
+
+    /// The position of the text that names all that is frozen.
+    fn frozen_source(&self) -> usize {
+        1 + self.set.len() + self.freeze.names().len()
+    }
+
+    /// Puts the chosen values in the place of the file's, and marks what is frozen. The texts of
+    /// the entries become sources of their own, next after the field file.
+    pub(crate) fn apply(
+        &self,
+        sources: &mut Sources,
+        field: &mut FieldSpec,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let mut seen = BTreeSet::new();
+        for (name, value) in &self.set {
+            let source = sources.add("set", format!("{name} = {value}"));
+            let span = sources.span(source, 0, name.len());
+            let Some(index) = find(field, name, span, diagnostics) else { continue };
+            if !seen.insert(index) {
+                diagnostics.push(twice(span, name, "set"));
+            }
+            let start = name.len() + " = ".len();
+            let span = sources.span(source, start, start + value.len());
+            field.parameters[index].value = Formula::plain(value, span);
+        }
+        if self.freeze == Freeze::Nothing {
+            return;
+        }
+        for name in self.freeze.names() {
+            let source = sources.add("freeze", name.as_str());
+            let span = sources.span(source, 0, name.len());
+            let Some(index) = find(field, name, span, diagnostics) else { continue };
+            if field.parameters[index].frozen {
+                diagnostics.push(twice(span, name, "frozen"));
+            }
+            field.parameters[index].frozen = true;
+        }
+        if self.freeze == Freeze::Everything {
+            field.parameters.iter_mut().for_each(|parameter| parameter.frozen = true);
+        }
+        let all = frozen(field).map(|parameter| parameter.name.value.as_str());
+        let all = all.collect::<Vec<_>>().join(", ");
+        sources.add("freeze", all);
+    }
+
+    /// Adds to messages about the field which values were frozen: it does not show in the file.
+    pub(crate) fn explain(
+        &self,
+        sources: &Sources,
+        field: &FieldSpec,
+        diagnostics: &mut [Diagnostic],
+    ) {
+        let all: Vec<&ParameterSpec> = frozen(field).collect();
+        if all.is_empty() {
+            return;
+        }
+        for diagnostic in diagnostics {
+            if self.entry(diagnostic.span).is_some() {
+                continue;
+            }
+            let text = sources.slice(diagnostic.span);
+            let named = |parameter: &&&ParameterSpec| mentions(text, &parameter.name.value);
+            let mut about: Vec<_> = all.iter().filter(named).collect();
+            if about.is_empty() {
+                about = all.iter().collect();
+            }
+            let values: Vec<_> = about
+                .iter()
+                .map(|parameter| (&parameter.name.value, &parameter.value.text))
+                .map(|(name, value)| quoted(&format!("{name} = {value}")))
+                .collect();
+            diagnostic.help.push(format!("frozen: {}", values.join(", ")));
+        }
+    }
+
+    /// A value that the frozen parameters leave undefined, such as 1/0, if the program has one.
+    pub(crate) fn undefined(
+        &self,
+        sources: &Sources,
+        field: &FieldSpec,
+        program: &Program,
+    ) -> Option<Diagnostic> {
+        frozen(field).next()?;
+        let value = undefined_constant(program)?;
+        let output = program.outputs.keys().find(|output| program.needed(&[**output])[value])?;
+        let what = output_name(*output);
+        let source = sources.nth(self.frozen_source())?;
+        let span = sources.span(source, 0, usize::MAX);
+        Some(
+            Diagnostic::error(span, format!("the {what} is not defined with these values"))
+                .label("constants")
+                .help("a division by zero, or a root or logarithm outside its domain: choose other values, or freeze fewer parameters"),
+        )
+    }
+}
+
+impl Compiled {
+    /// What was selected, in lines without a full stop; none where that is everything.
+    pub fn selected(&self) -> Vec<String> {
+        let value = |index: usize| {
+            let parameter = &self.model.parameters[index];
+            let value = self.graph.print(parameter.default, &self.model.names);
+            format!("{} = {value}", parameter.name)
+        };
+        let mut lines = Vec::new();
+        if let Some(quantities) = &self.selection.quantities {
+            let names: Vec<_> = quantities.iter().map(|quantity| quantity.name()).collect();
+            lines.push(format!("Quantities: {}", names.join(", ")));
+        }
+        let parameters = || self.field.parameters.iter().enumerate();
+        let set = |name: &str| self.selection.set.iter().any(|(set, _)| set == name);
+        let set: Vec<_> = parameters()
+            .filter(|(_, parameter)| set(&parameter.name.value) && !parameter.frozen)
+            .map(|(index, _)| value(index))
+            .collect();
+        let frozen: Vec<_> = parameters()
+            .filter(|(_, parameter)| parameter.frozen)
+            .map(|(index, _)| value(index))
+            .collect();
+        for (what, values) in [("Changed defaults", set), ("Constants", frozen)] {
+            if !values.is_empty() {
+                lines.push(format!("{what}: {}", values.join(", ")));
+            }
+        }
+        lines
+    }
+}
+
+/// The parameters that become constants.
+fn frozen(field: &FieldSpec) -> impl Iterator<Item = &ParameterSpec> {
+    field.parameters.iter().filter(|parameter| parameter.frozen)
+}
+
+/// The position of a parameter, or a message that there is none of that name.
+fn find(
+    field: &FieldSpec,
+    name: &str,
+    span: Span,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<usize> {
+    let known = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
+    let index = known.clone().position(|known| known == name);
+    if index.is_none() && !field.incomplete {
+        let message = format!("no parameter {}", quoted(name));
+        let diagnostic = Diagnostic::error(span, message).label("not a parameter of this field");
+        diagnostics.push(match did_you_mean(name, known.clone()) {
+            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None if field.parameters.is_empty() => diagnostic.help("the field has no parameters"),
+            None => {
+                let known = known.collect::<Vec<_>>().join(", ");
+                diagnostic.help(format!("the field's parameters are {known}"))
+            }
+        });
+    }
+    index
+}
+
+fn twice(span: Span, name: &str, what: &str) -> Diagnostic {
+    Diagnostic::error(span, format!("{} is {what} twice", quoted(name)))
+        .label("the second time")
+        .help("name each parameter once")
+}
+
+/// Whether a formula uses a name.
+fn mentions(formula: &str, name: &str) -> bool {
+    let part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    formula.split(|c| !part(c)).any(|word| word == name)
+}
+
+/// What the names of parameters stand for in the formulas of a field: themselves, or constants.
+#[derive(Debug, Default)]
+pub(crate) struct Meanings {
+    /// The value of each parameter so far, where all have their defaults.
+    defaults: BTreeMap<Symbol, Expr>,
+}
+
+impl Meanings {
+    /// What the next parameter stands for, given its default in terms of those before it.
+    pub(crate) fn next(
+        &mut self,
+        graph: &mut Graph,
+        parameter: &ParameterSpec,
+        default: Option<Expr>,
+    ) -> Option<Expr> {
+        let symbol = Symbol::Parameter(self.defaults.len());
+        let leaf = graph.symbol(symbol);
+        let value = default.map(|default| substitute(graph, &[default], &self.defaults)[0]);
+        // One whose formula has failed keeps its place.
+        self.defaults.insert(symbol, value.unwrap_or(leaf));
+        if parameter.frozen { value } else { default.map(|_| leaf) }
+    }
+}
+
+/// The first instruction without operands that vary whose value is not a number.
+fn undefined_constant(program: &Program) -> Option<usize> {
+    let mut constants = Vec::<Value>::new();
+    let mut constant = vec![false; program.instrs.len()];
+    for (index, instr) in program.instrs.iter().enumerate() {
+        constant[index] = !matches!(instr.op, Op::Input(_))
+            && instr.op.operands().all(|operand| constant[operand.index()]);
+        if constant[index] {
+            constants.push(Value(index as u32));
+        }
+    }
+    let output = Output::Expected(0);
+    let outputs = BTreeMap::from([(output, constants.clone())]);
+    let program = Program { instrs: program.instrs.clone(), outputs };
+    // What depends on a parameter is not looked at.
+    let any = vec![Precise::from_rational(&Rational::ONE); parameter_count(&program)];
+    let values = Interpreter::new(&program, &any).output(output);
+    let undefined = values.iter().position(|value| !value.is_defined())?;
+    Some(constants[undefined].index())
+}
+
+/// One more than the largest position of a parameter that a program reads.
+fn parameter_count(program: &Program) -> usize {
+    let positions = program.instrs.iter().map(|instr| match instr.op {
+        Op::Input(Symbol::Parameter(index)) => index + 1,
+        _ => 0,
+    });
+    positions.max().unwrap_or(0)
+}
+
+/// An output as a message calls it.
+fn output_name(output: Output) -> &'static str {
+    match output {
+        Output::Quantity(quantity) => quantity.name(),
+        Output::Response(Response::Density) => "density",
+        Output::Response(Response::WaveSpeed) => "fastest wave speed",
+        Output::Response(_) => "stress of the material",
+        Output::Bound(Bound::Time) => "time window",
+        Output::Bound(_) => "body",
+        Output::Parameter(_) => "default of a parameter",
+        Output::Expected(_) => "closed form",
+    }
+}

@@ -1,0 +1,440 @@
+//! Only what is asked for: selected quantities, changed defaults, frozen parameters.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mms_codegen::certify::sample::samples;
+use mms_codegen::emit::rust;
+use mms_codegen::expr::Rational;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::program::{Output, Stage};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::{Freeze, Selection};
+use mms_codegen::{Compiled, compile, compile_with};
+
+/// A field of one dimension; `{dimension}` and the like are filled in.
+const FIELD: &str = r#"
+[field]
+title     = "Selected"
+dimension = 1
+
+[parameters]
+lambda = { value = 6e5 }
+mu     = { value = 4e5 }
+twice  = { value = "2*mu" }
+rho0   = { value = 1000 }
+size   = { value = "1/10" }
+
+[displacement]
+u = ["size*X*(1 - X)*TIME"]
+
+[material]
+model   = "neo_hookean"
+lambda  = "lambda"
+mu      = "twice/2"
+density = "rho0"
+
+[domain]
+shape = "box"
+lower = [0]
+upper = [1]
+time  = [0, 1]
+"#;
+
+fn moving() -> String {
+    FIELD.replace("TIME", "cos(30*t)")
+}
+
+fn selection(quantities: &[Quantity], set: &[(&str, &str)], freeze: &[&str]) -> Selection {
+    Selection {
+        quantities: (!quantities.is_empty()).then(|| quantities.iter().copied().collect()),
+        set: set.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect(),
+        freeze: match freeze {
+            [] => Freeze::Nothing,
+            ["*"] => Freeze::Everything,
+            names => Freeze::Only(names.iter().map(|name| name.to_string()).collect()),
+        },
+    }
+}
+
+fn selected(text: &str, selection: &Selection) -> Result<Compiled, String> {
+    compile_with("x", "x.toml", text, &|path| Err(path.into()), &selection.clone().into())
+        .map_err(|failure| failure.to_string())
+}
+
+fn compiled(text: &str, selection: &Selection) -> Compiled {
+    selected(text, selection).unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// The values of a quantity at some points of the domain, for the default parameters but for those
+/// set here.
+fn values(compiled: &Compiled, quantity: Quantity, set: &BTreeMap<usize, Rational>) -> Vec<f64> {
+    let parameters = compiled.parameters::<f64>(set);
+    let output = Output::Quantity(quantity);
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&[output]);
+    let points = samples(compiled, &parameters, 32);
+    let normal = vec![1.0; compiled.field.dimension];
+    points
+        .iter()
+        .flat_map(|point| {
+            let coordinates = &point.coordinates;
+            interpreter.set_time(&point.time);
+            interpreter.set_point(&plan, Point { coordinates, normal: &normal, gradient: &[] });
+            interpreter.output(output)
+        })
+        .collect()
+}
+
+/// Both took other roads to the same number; each rounds some tens of operations.
+fn assert_same(found: &[f64], expected: &[f64], what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    for (found, expected) in found.iter().zip(expected) {
+        let bound = 256.0 * f64::EPSILON * size;
+        assert!((found - expected).abs() <= bound, "{what}: {found:e}, not {expected:e}");
+    }
+}
+
+/// The functions of emitted Rust, with the number of their statements.
+fn functions(text: &str) -> BTreeMap<String, usize> {
+    let file: syn::File = syn::parse_str(text).expect("Rust");
+    let mut functions = BTreeMap::new();
+    for item in file.items {
+        match item {
+            syn::Item::Fn(function) => {
+                functions.insert(function.sig.ident.to_string(), function.block.stmts.len());
+            }
+            syn::Item::Impl(block) => {
+                for item in block.items {
+                    if let syn::ImplItem::Fn(function) = item {
+                        let name = function.sig.ident.to_string();
+                        functions.insert(name, function.block.stmts.len());
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    functions
+}
+
+fn names(text: &str) -> Vec<String> {
+    functions(text).into_keys().collect()
+}
+
+#[test]
+fn everything_is_what_no_selection_gives() {
+    let text = moving();
+    let plain = compile("x", "x.toml", &text, &|path| Err(path.into())).expect("a right file");
+    let selected = compiled(&text, &Selection::default());
+    assert_eq!(plain.program.to_string(), selected.program.to_string());
+    assert_eq!(plain.provenance(), selected.provenance());
+    assert_eq!(rust::text(&plain), rust::text(&selected));
+}
+
+#[test]
+fn each_quantity_alone_has_its_values_and_no_other_code() {
+    let text = moving();
+    let all = compiled(&text, &Selection::default());
+    for quantity in Quantity::ALL {
+        let alone = compiled(&text, &selection(&[*quantity], &[], &[]));
+        let none = BTreeMap::new();
+        let [found, expected] = [&alone, &all].map(|of| values(of, *quantity, &none));
+        assert_same(&found, &expected, quantity.name());
+        let (name, at) = (quantity.name().to_string(), format!("{}_at", quantity.name()));
+        let mut expected =
+            ["at_point", "at_time", "default", "from_array", "prepare"].map(String::from).to_vec();
+        expected.extend([name, at]);
+        expected.sort();
+        assert_eq!(names(&rust::file(&alone).text), expected);
+        let outputs = alone.program.outputs.keys().filter(|output| match output {
+            Output::Quantity(_) | Output::Response(_) => true,
+            Output::Bound(_) | Output::Parameter(_) | Output::Expected(_) => false,
+        });
+        assert_eq!(outputs.collect::<Vec<_>>(), [&Output::Quantity(*quantity)]);
+    }
+}
+
+#[test]
+fn the_structs_hold_what_the_selected_quantities_read() {
+    let velocity = rust::file(&compiled(&moving(), &selection(&[Quantity::Velocity], &[], &[])));
+    let all = rust::file(&compiled(&moving(), &Selection::default()));
+    let members = |text: &str| {
+        let field = text.split("pub struct Field<T> {").nth(1).expect("the struct");
+        field.split('}').next().expect("its end").matches(": T").count()
+    };
+    assert_eq!(members(&velocity.text), 1, "{}", velocity.text);
+    assert!(members(&all.text) > 4);
+    // The body, the time window and the material are for a solver.
+    let solver = ["lower", "upper", "time_window", "density", "material_kirchhoff_stress"];
+    for name in solver {
+        assert!(names(&all.text).contains(&name.to_string()), "{name}");
+        assert!(!names(&velocity.text).contains(&name.to_string()), "{name}");
+    }
+}
+
+#[test]
+fn a_body_force_without_lambda_has_no_logarithm_and_no_stress() {
+    let text = moving();
+    let b = [Quantity::BodyForce];
+    let plain = rust::file(&compiled(&text, &selection(&b, &[], &[])));
+    let frozen = compiled(&text, &selection(&b, &[("lambda", "0")], &["lambda"]));
+    let emitted = rust::file(&frozen).text;
+    assert!(plain.text.contains(".ln_1p()"));
+    assert!(!emitted.contains(".ln"), "{emitted}");
+    assert!(!emitted.contains("stress") && !emitted.contains("lambda:"), "{emitted}");
+    // By another route: the unfrozen program where the parameter is 0.
+    let all = compiled(&text, &Selection::default());
+    let zero = BTreeMap::from([(0, Rational::ZERO)]);
+    let expected = values(&all, Quantity::BodyForce, &zero);
+    assert_same(&values(&frozen, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
+    let with_lambda = values(&all, Quantity::BodyForce, &BTreeMap::new());
+    assert!(expected.iter().zip(&with_lambda).any(|(a, b)| (a - b).abs() > 1e-3 * b.abs()));
+}
+
+#[test]
+fn a_field_at_rest_has_no_code_for_its_motion() {
+    let text = FIELD.replace("TIME", "1");
+    let all = compiled(&text, &Selection::default());
+    let emitted = rust::file(&all).text;
+    let functions = functions(&emitted);
+    for name in ["velocity", "velocity_at", "acceleration", "acceleration_at", "at_time"] {
+        assert_eq!(functions[name], 1, "{name} computes: {emitted}");
+    }
+    let b = all.program.operations(&[Output::Quantity(Quantity::BodyForce)]);
+    assert_eq!((b[&Stage::Time], b[&Stage::PointTime]), (0, 0));
+    // All of it may be kept with the point.
+    assert_eq!(functions["body_force_at"], 1, "{emitted}");
+    assert!(functions["body_force"] > 1);
+}
+
+#[test]
+fn a_field_of_one_dimension_has_no_three_by_three_algebra() {
+    let emitted = rust::file(&compiled(&moving(), &Selection::default())).text;
+    assert!(emitted.contains("[[T; 1]; 1]"));
+    assert!(!emitted.contains("; 3]") && !emitted.contains("; 2]; 2]"), "{emitted}");
+    // The inverse of F is one division, and its determinant is its entry.
+    let jacobian = compiled(&moving(), &selection(&[Quantity::Jacobian], &[], &[]));
+    let counts = jacobian.program.operations(&[Output::Quantity(Quantity::Jacobian)]);
+    let gradient = compiled(&moving(), &selection(&[Quantity::DeformationGradient], &[], &[]));
+    let output = Output::Quantity(Quantity::DeformationGradient);
+    assert_eq!(counts, gradient.program.operations(&[output]));
+}
+
+#[test]
+fn a_set_value_changes_the_default_and_those_that_depend_on_it() {
+    let text = moving();
+    let set = compiled(&text, &selection(&[], &[("mu", "1e6"), ("rho0", "mu/1000")], &[]));
+    assert_eq!(set.parameters::<f64>(&BTreeMap::new()), [6e5, 1e6, 2e6, 1e3, 0.1]);
+    let selected = set.selected();
+    assert_eq!(selected.len(), 1);
+    assert!(selected[0].starts_with("Changed defaults: mu = 1000000, rho0 = "), "{selected:?}");
+    let plain = compiled(&text, &Selection::default());
+    let parameters = BTreeMap::from([(1, Rational::from(1_000_000)), (3, Rational::from(1000))]);
+    let expected = values(&plain, Quantity::BodyForce, &parameters);
+    assert_same(&values(&set, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
+    // Other input, other hash.
+    assert_ne!(set.provenance(), plain.provenance());
+}
+
+#[test]
+fn a_frozen_parameter_keeps_the_value_that_the_defaults_give() {
+    let text = moving();
+    let frozen = compiled(&text, &selection(&[], &[("mu", "1e6")], &["twice", "size"]));
+    assert_eq!(
+        frozen.selected(),
+        ["Changed defaults: mu = 1000000", "Constants: twice = 2000000, size = 1/10"]
+    );
+    let emitted = rust::text(&frozen);
+    assert!(emitted.contains(r#"NAMES: [&str; 3] = ["lambda", "mu", "rho0"]"#), "{emitted}");
+    let plain = compiled(&text, &Selection::default());
+    let twice = BTreeMap::from([(2, Rational::from(2_000_000))]);
+    let expected = values(&plain, Quantity::BodyForce, &twice);
+    assert_same(&values(&frozen, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
+    // What it depended on has no effect any more.
+    let other = BTreeMap::from([(1, Rational::from(7))]);
+    assert_same(&values(&frozen, Quantity::BodyForce, &other), &expected, "b");
+}
+
+#[test]
+fn with_all_parameters_frozen_nothing_depends_on_any() {
+    let everything = compiled(&moving(), &selection(&[], &[], &["*"]));
+    let of_parameters = everything.program.instrs.iter().filter(|instr| {
+        use mms_codegen::expr::Symbol;
+        use mms_codegen::program::Op;
+        matches!(instr.op, Op::Input(Symbol::Parameter(_)))
+    });
+    assert_eq!(of_parameters.count(), 0);
+    let plain = compiled(&moving(), &Selection::default());
+    for quantity in Quantity::ALL {
+        let [found, expected] =
+            [&everything, &plain].map(|of| values(of, *quantity, &BTreeMap::new()));
+        assert_same(&found, &expected, quantity.name());
+    }
+}
+
+#[test]
+fn a_constant_need_not_be_rational() {
+    let text = moving().replace("value = \"1/10\"", "value = \"sqrt(2)*pi/40\"");
+    let [frozen, plain] = [&["size"][..], &[]]
+        .map(|freeze| compiled(&text, &selection(&[Quantity::Displacement], &[], freeze)));
+    let [found, expected] =
+        [&frozen, &plain].map(|of| values(of, Quantity::Displacement, &BTreeMap::new()));
+    assert_same(&found, &expected, "u");
+}
+
+#[test]
+fn a_negative_value_is_not_assumed_to_be_positive() {
+    // A variable exponent needs a positive base, which the file's default is.
+    let text = moving().replace("cos(30*t)", "size^t");
+    compiled(&text, &selection(&[], &[], &["size"]));
+    for freeze in [&["size"][..], &[]] {
+        let failure = selected(&text, &selection(&[], &[("size", "-1/10")], freeze));
+        let failure = failure.expect_err("-1/10 to the power t");
+        assert!(failure.contains("needs a positive base"), "{failure}");
+    }
+}
+
+fn refusal(text: &str, selection: &Selection) -> String {
+    selected(text, selection).expect_err("a mistake")
+}
+
+#[test]
+fn names_that_are_no_parameters_are_refused() {
+    let wrong =
+        selection(&[], &[("lamda", "0"), ("mu", "1"), ("mu", "2")], &["rho", "size", "size"]);
+    let expected = "\
+error: no parameter `lamda`
+ --> set:1:1
+  |
+1 | lamda = 0
+  | ^^^^^ not a parameter of this field
+  |
+  = help: did you mean `lambda`?
+
+error: `mu` is set twice
+ --> set:1:1
+  |
+1 | mu = 2
+  | ^^ the second time
+  |
+  = help: name each parameter once
+
+error: no parameter `rho`
+ --> freeze:1:1
+  |
+1 | rho
+  | ^^^ not a parameter of this field
+  |
+  = help: did you mean `rho0`?
+
+error: `size` is frozen twice
+ --> freeze:1:1
+  |
+1 | size
+  | ^^^^ the second time
+  |
+  = help: name each parameter once
+";
+    assert_eq!(refusal(&moving(), &wrong), expected);
+    let text = moving().replace("lambda = { value = 6e5 }\n", "").replace("\"lambda\"", "\"0\"");
+    let unknown = refusal(&text, &selection(&[], &[], &["temperature"]));
+    assert!(
+        unknown.contains("help: the field's parameters are mu, twice, rho0, size"),
+        "{unknown}"
+    );
+}
+
+#[test]
+fn a_field_without_parameters_says_so() {
+    let parameters = moving().find("[parameters]").expect("the table");
+    let end = moving().find("[displacement]").expect("the table");
+    let mut text = moving();
+    text.replace_range(parameters..end, "");
+    let text = text
+        .replace("size*", "")
+        .replace("\"lambda\"", "0")
+        .replace("\"twice/2\"", "1")
+        .replace("\"rho0\"", "1");
+    compiled(&text, &selection(&[], &[], &["*"]));
+    let failure = refusal(&text, &selection(&[], &[("mu", "1")], &[]));
+    assert!(failure.contains("help: the field has no parameters"), "{failure}");
+}
+
+#[test]
+fn a_wrong_value_is_shown_in_its_own_text() {
+    let wrong = selection(&[], &[("mu", "1/0"), ("rho0", "2*sise"), ("size", "1 +")], &[]);
+    let failure = refusal(&moving(), &wrong);
+    for expected in [
+        "division by zero\n --> set:1:8\n  |\n1 | mu = 1/0\n  |        ^ this is exactly 0",
+        // A parameter may use those above it only.
+        "unknown name `sise`\n --> set:1:10",
+        " --> set:1:11\n  |\n1 | size = 1 +\n",
+    ] {
+        assert!(failure.contains(expected), "`{expected}` is missing:\n{failure}");
+    }
+    let later = refusal(&moving(), &selection(&[], &[("mu", "rho0")], &[]));
+    assert!(later.contains("`rho0` is used before it is defined"), "{later}");
+}
+
+#[test]
+fn a_value_that_leaves_a_formula_undefined_is_shown_there() {
+    let failure = refusal(
+        &moving().replace("cos(30*t)", "cos(t/twice)"),
+        &selection(&[], &[("mu", "0")], &["mu", "twice"]),
+    );
+    let expected = "\
+error: division by zero
+  --> x.toml:14:28
+   |
+14 | u = [\"size*X*(1 - X)*cos(t/twice)\"]
+   |                            ^^^^^ this is exactly 0
+   |
+   = help: frozen: `twice = 2*mu`
+";
+    assert_eq!(failure, expected);
+    let density = refusal(&moving(), &selection(&[], &[("rho0", "-1")], &["rho0"]));
+    assert!(density.contains("the density must be positive"), "{density}");
+    assert!(density.contains("help: frozen: `rho0 = -1`"), "{density}");
+}
+
+#[test]
+fn a_value_that_leaves_a_quantity_undefined_is_refused() {
+    // u = -X puts the whole bar into one point: F = 0.
+    let text = moving().replace("size*X*(1 - X)*cos(30*t)", "size*X");
+    let collapse = |quantities: &[Quantity]| selection(quantities, &[("size", "-1")], &["size"]);
+    let failure = refusal(&text, &collapse(&[Quantity::BodyForce, Quantity::CauchyStress]));
+    assert!(failure.contains("is not defined with these values\n --> freeze:1:1"), "{failure}");
+    assert!(failure.contains("choose other values, or freeze fewer parameters"), "{failure}");
+    // What is defined may be asked for.
+    compiled(&text, &collapse(&[Quantity::Displacement, Quantity::Jacobian]));
+    // A modulus that makes the wave speed the root of a negative number.
+    let negative = |quantities: &[Quantity]| selection(quantities, &[("lambda", "-1e7")], &["*"]);
+    let failure = refusal(&moving(), &negative(&[]));
+    assert!(failure.contains("the fastest wave speed is not defined"), "{failure}");
+    compiled(&moving(), &negative(&[Quantity::BodyForce]));
+}
+
+#[test]
+fn quantities_have_names_and_aliases() {
+    use mms_codegen::selection::quantity;
+    assert_eq!(quantity("b"), quantity("body_force"));
+    let text = quantity("body_farce").expect_err("no quantity");
+    assert_eq!(text, "unknown quantity `body_farce`; did you mean `body_force`?");
+    let text = quantity("temperature").expect_err("no quantity");
+    assert!(text.starts_with("unknown quantity `temperature`; the quantities are displacement, "));
+}
+
+#[test]
+fn subsets_are_not_dearer_than_the_whole() {
+    let all = compiled(&moving(), &Selection::default());
+    let pairs = Quantity::ALL.windows(2);
+    for pair in pairs {
+        let outputs: Vec<_> = pair.iter().map(|quantity| Output::Quantity(*quantity)).collect();
+        let part = compiled(&moving(), &selection(pair, &[], &[]));
+        assert_eq!(part.selection.quantities, Some(BTreeSet::from_iter(pair.to_vec())));
+        let sum =
+            |compiled: &Compiled| -> usize { compiled.program.operations(&outputs).values().sum() };
+        assert!(sum(&part) <= sum(&all), "{pair:?}");
+    }
+}

@@ -1,0 +1,167 @@
+//! The words between the parentheses of `field!`.
+
+use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
+use mms_codegen::suggest::did_you_mean;
+use proc_macro2::{Ident, Span};
+use syn::ext::IdentExt as _;
+use syn::parse::{Parse, ParseStream};
+use syn::{Error, Lit, LitStr, Result, Token, braced, bracketed};
+
+/// What may follow the path.
+const OPTIONS: [&str; 4] = ["quantities", "set", "freeze", "name"];
+
+/// A parsed call of the macro.
+pub struct Request {
+    /// The path of the field file.
+    pub path: LitStr,
+    /// The name of the module, where it is not the file's.
+    pub name: Option<Ident>,
+    /// What of the field is wanted.
+    pub selection: Selection,
+    /// Where the entries of `set` and `freeze` stand.
+    places: Places,
+}
+
+#[derive(Default)]
+struct Places {
+    set: Vec<Span>,
+    freeze: Vec<Span>,
+    frozen: Option<Span>,
+}
+
+impl Parse for Request {
+    fn parse(input: ParseStream) -> Result<Self> {
+        let mut request = Request {
+            path: input.parse()?,
+            name: None,
+            selection: Selection::default(),
+            places: Places::default(),
+        };
+        let mut seen = Vec::<String>::new();
+        while !input.is_empty() {
+            input.parse::<Token![,]>()?;
+            if input.is_empty() {
+                break;
+            }
+            let option = input.call(Ident::parse_any)?;
+            let word = option.to_string();
+            if seen.contains(&word) {
+                return Err(Error::new(option.span(), format!("`{word}` is given twice")));
+            }
+            request.option(&option, input)?;
+            seen.push(word);
+        }
+        Ok(request)
+    }
+}
+
+impl Request {
+    /// Where a part of the selection stands in the call.
+    pub fn span(&self, entry: Entry) -> Span {
+        let span = match entry {
+            Entry::Set(position) => self.places.set.get(position).copied(),
+            Entry::Freeze(position) => self.places.freeze.get(position).copied(),
+            Entry::Frozen => self.places.frozen,
+        };
+        span.unwrap_or_else(|| self.path.span())
+    }
+
+    fn option(&mut self, option: &Ident, input: ParseStream) -> Result<()> {
+        match option.to_string().as_str() {
+            "quantities" => self.quantities(input),
+            "set" => self.set(input),
+            "freeze" => self.freeze(option, input),
+            "name" => {
+                input.parse::<Token![=]>()?;
+                self.name = Some(input.parse()?);
+                Ok(())
+            }
+            other => {
+                let advice = match did_you_mean(other, OPTIONS) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the options are {}", OPTIONS.join(", ")),
+                };
+                Err(Error::new(option.span(), format!("unknown option `{other}`; {advice}")))
+            }
+        }
+    }
+
+    /// `= [body_force, velocity]`
+    fn quantities(&mut self, input: ParseStream) -> Result<()> {
+        input.parse::<Token![=]>()?;
+        let names = names(input, "quantity")?;
+        let wanted = self.selection.quantities.get_or_insert_default();
+        for name in names {
+            let found =
+                quantity(&text(&name)).map_err(|message| Error::new(name.span(), message))?;
+            if !wanted.insert(found) {
+                let message = format!("`{}` is asked for twice", found.name());
+                return Err(Error::new(name.span(), message));
+            }
+        }
+        Ok(())
+    }
+
+    /// `= { lambda = 0, mu = "young/3" }`
+    fn set(&mut self, input: ParseStream) -> Result<()> {
+        input.parse::<Token![=]>()?;
+        let content;
+        braced!(content in input);
+        while !content.is_empty() {
+            let name = content.call(Ident::parse_any)?;
+            content.parse::<Token![=]>()?;
+            let (value, span) = value(&content)?;
+            self.places.set.push(name.span().join(span).unwrap_or(name.span()));
+            self.selection.set.push((text(&name), value));
+            if !content.is_empty() {
+                content.parse::<Token![,]>()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Nothing, or `= [lambda, mu]`.
+    fn freeze(&mut self, option: &Ident, input: ParseStream) -> Result<()> {
+        self.places.frozen = Some(option.span());
+        self.selection.freeze = Freeze::Everything;
+        if input.peek(Token![=]) {
+            input.parse::<Token![=]>()?;
+            let names = names(input, "parameter")?;
+            self.places.freeze = names.iter().map(Ident::span).collect();
+            self.selection.freeze = Freeze::Only(names.iter().map(text).collect());
+        }
+        Ok(())
+    }
+}
+
+/// A bracketed list of at least one name.
+fn names(input: ParseStream, what: &str) -> Result<Vec<Ident>> {
+    let content;
+    let brackets = bracketed!(content in input);
+    if content.is_empty() {
+        let message = format!("expected at least one {what}");
+        return Err(Error::new(brackets.span.join(), message));
+    }
+    Ok(content.parse_terminated(Ident::parse_any, Token![,])?.into_iter().collect())
+}
+
+/// A name as a field file writes it.
+fn text(name: &Ident) -> String {
+    name.unraw().to_string()
+}
+
+/// A number, digit by digit, or a formula in quotes.
+fn value(input: ParseStream) -> Result<(String, Span)> {
+    let sign = input.parse::<Option<Token![-]>>()?;
+    let minus = if sign.is_some() { "-" } else { "" };
+    let refusal = |span| Error::new(span, "expected a number, or a formula in quotes");
+    let literal: Lit = input.parse().map_err(|error| refusal(error.span()))?;
+    let span = literal.span();
+    let digits = match &literal {
+        Lit::Int(number) if number.suffix().is_empty() => number.base10_digits().to_string(),
+        Lit::Float(number) if number.suffix().is_empty() => number.base10_digits().to_string(),
+        Lit::Str(formula) if sign.is_none() => formula.value(),
+        _ => return Err(refusal(span)),
+    };
+    Ok((format!("{minus}{digits}"), span))
+}

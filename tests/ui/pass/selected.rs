@@ -1,0 +1,55 @@
+//! Two parts of one field side by side, in a crate that allows no warning.
+#![deny(warnings, missing_docs, unsafe_code, clippy::all)]
+
+mms_macros::field!("examples/fields/standing_wave_1d.toml", quantities = [b, velocity]);
+mms_macros::field!(
+    "examples/fields/standing_wave_1d.toml",
+    quantities = [body_force],
+    set = { lambda = 0, rho0 = "mu/400", amplitude = -1_0.0e-3, },
+    freeze = [lambda, amplitude],
+    name = neo,
+);
+mms_macros::field!("examples/fields/static_3d.toml", freeze, quantities = [velocity], name = rest);
+mms_macros::field!("examples/fields/static_3d.toml", freeze);
+
+use mms_math::Scalar;
+
+/// Compiles where the trait is implemented: the modules need it, and nothing of the solver.
+fn needs_math_only<T: Scalar + Copy>(x: T) -> [T; 1] {
+    let field = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
+    field.at_time(x).velocity([x])
+}
+
+fn main() {
+    assert_eq!(standing_wave_1d::NAMES, ["lambda", "mu", "rho0", "amplitude"]);
+    assert_eq!(neo::NAMES, ["mu", "rho0"]);
+    assert_eq!(neo::Parameters::<f64>::default(), neo::Parameters { mu: 4e5, rho0: 1e3 });
+    assert_eq!(rest::NAMES.len() + static_3d::NAMES.len(), 0);
+
+    // b of W = mu/2 (I1 - 3) - mu ln J with F = 1 + pi A cos(pi X), by hand:
+    // b = -(c pi)^2 A sin(pi X) + mu/rho0 (1 + F^-2) pi^2 A sin(pi X), c^2 = 2 mu/rho0.
+    let pi = std::f64::consts::PI;
+    let (mu, rho0, amplitude, x, t) = (4e5, 1e3, -0.01, 0.37_f64, 0.013_f64);
+    let speed = f64::sqrt(2.0 * mu / rho0);
+    let a = amplitude * (speed * pi * t).cos();
+    let (stretch, u) = (1.0 + pi * a * (pi * x).cos(), a * (pi * x).sin());
+    let expected = pi * pi * u * (mu / rho0 * (1.0 + stretch.powi(-2)) - speed * speed);
+    let field = neo::prepare(&neo::Parameters::default());
+    let [b] = field.at_time(t).body_force([x]);
+    // The two moduli nearly cancel.
+    let size = (pi * speed).powi(2) * amplitude.abs();
+    assert!((b - expected).abs() < 1e-14 * size, "{b}, by hand {expected}");
+
+    // With its lambda the field has another force, and the parameters change it.
+    let other = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
+    assert_ne!(other.at_time(t).body_force([x]), [b]);
+    let parameters = standing_wave_1d::Parameters { lambda: 0.0, mu, rho0, amplitude };
+    let [same] = standing_wave_1d::prepare(&parameters).at_time(t).body_force([x]);
+    assert!((same - b).abs() < 1e-14 * size, "{same}, frozen {b}");
+    assert_eq!(needs_math_only(0.0), [0.0]);
+
+    let rest = rest::prepare::<f64>(&rest::Parameters {});
+    assert_eq!(rest.at_time(0.5).velocity([0.1, 0.2, 0.3]), [0.0; 3]);
+    let solver = static_3d::prepare::<f64>(&static_3d::Parameters {}).boxed();
+    assert_eq!(solver.domain().time, [0.0, 1.0]);
+}
