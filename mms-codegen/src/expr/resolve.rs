@@ -397,7 +397,7 @@ impl Scope {
             }
             Node::Product(factors) => {
                 let factor = |(base, exponent): &(Expr, Rational)| {
-                    let is_even = exponent.is_int() && (exponent.numerator() % 2i8) == 0i8.into();
+                    let is_even = exponent.is_int() && exponent.numerator() % 2i8 == 0i8;
                     // A root is of what is not negative, and is so itself.
                     let is_root = exponent.denominator() % 2u8 == 0u8;
                     match signs[base] {
