@@ -21,7 +21,7 @@ fn size(family: Family, dimension: usize, terms: usize) -> [usize; 2] {
 
 #[test]
 fn ten_times_the_terms_make_at_most_ten_times_the_size() {
-    for family in Family::ALL {
+    for family in [Family::Waves, Family::Polynomial] {
         for dimension in [1, 2, 3] {
             // Three components of 1000 terms would pass the bound of the graph.
             let counts: &[usize] = if dimension == 1 { &[1, 10, 100, 1000] } else { &[1, 10, 100] };

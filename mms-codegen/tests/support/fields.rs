@@ -9,10 +9,6 @@ pub enum Family {
     Polynomial,
 }
 
-impl Family {
-    pub const ALL: [Family; 2] = [Family::Waves, Family::Polynomial];
-}
-
 /// A field whose components have `terms` terms each.
 pub fn text(family: Family, dimension: usize, terms: usize) -> String {
     let axes = &["X", "Y", "Z"][..dimension];

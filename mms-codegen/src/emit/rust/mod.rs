@@ -81,7 +81,8 @@ pub fn is_keyword(name: &str) -> bool {
 
 /// A user's name as an identifier: keywords become raw, and those that cannot get an underscore.
 fn identifier(name: &str) -> Ident {
-    if syn::parse_str::<Ident>(name).is_ok() {
+    // `syn` takes the word that edition 2024 reserved for a name.
+    if name != "gen" && syn::parse_str::<Ident>(name).is_ok() {
         return Ident::new(name, Span::call_site());
     }
     match name {
