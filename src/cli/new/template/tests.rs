@@ -1,4 +1,4 @@
-use mms_codegen::certify::closed_form::compare;
+use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
 use mms_codegen::compile::Failure;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{format, read_material};
