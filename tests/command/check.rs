@@ -110,16 +110,16 @@ fn with_displacement(u: &str, closed_form: &str) -> Folder {
 
 #[test]
 fn a_closed_form_of_values_far_below_double_precision_holds() {
-    let folder = with_displacement("A*exp(-1e7*X)", "A/exp(X)^10000000");
+    let folder = with_displacement("A*exp(-1e7*X/length)", "A/exp(X/length)^10000000");
     folder.mms("check bar.toml").exits(0).prints("displacement agrees to 1e-20 at 128 points");
-    let wrong = with_displacement("A*exp(-1e7*X)", "A/exp(X)^10000001");
+    let wrong = with_displacement("A*exp(-1e7*X/length)", "A/exp(X/length)^10000001");
     wrong.mms("check bar.toml").exits(1).prints("displacement FAILED");
 }
 
 #[test]
 fn what_is_undefined_in_the_domain_is_told_as_such() {
     // The domain is 0 to 1: the root has no value in half of it.
-    let folder = with_displacement("A*sqrt(X - 1/2)", "sqrt(X - 1/2)*A");
+    let folder = with_displacement("A*sqrt(X/length - 1/2)", "sqrt(X/length - 1/2)*A");
     let run = folder.mms("check bar.toml").exits(1);
     run.prints("displacement is UNDEFINED at 64 of 128 points");
     run.prints("derived undefined, closed form undefined").prints("shrink [domain]");
@@ -127,17 +127,17 @@ fn what_is_undefined_in_the_domain_is_told_as_such() {
     assert_eq!((&check["status"], &check["points"]), (&"undefined".into(), &128.into()));
     assert_eq!(check["undefined_points"], 64);
     assert!(check["difference"]["derived"].is_null(), "{check}");
-    let other = with_displacement("A*X", "A*X*sqrt(X - 1/2)/sqrt(X - 1/2)");
+    let other = with_displacement("A*X/length", "A*X/length*sqrt(X/length - 1/2)/sqrt(X/length - 1/2)");
     other.mms("check bar.toml").exits(0);
     let other = with_displacement("A*X", "A*X + 0*ln(X - 1/2)");
     other.mms("check bar.toml").exits(0);
-    let other = with_displacement("A*X", "A*X*exp(ln(X - 1/2))/(X - 1/2)");
+    let other = with_displacement("A*X/length", "A*X/length*exp(ln(X - 1/2))/(X - 1/2)");
     let run = other.mms("check bar.toml").exits(1);
     run.prints("closed form undefined").prints("is UNDEFINED at 65 of 128 points");
 }
 
 #[test]
 fn a_difference_is_told_before_what_is_undefined() {
-    let folder = with_displacement("A*sqrt(X - 1/2)", "2*A*sqrt(X - 1/2)");
+    let folder = with_displacement("A*sqrt(X/length - 1/2)", "2*A*sqrt(X/length - 1/2)");
     folder.mms("check bar.toml").exits(1).prints("displacement FAILED");
 }
