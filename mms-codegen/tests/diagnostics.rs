@@ -8,12 +8,13 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use mms_codegen::compile;
-use mms_codegen::compile::constant;
+use mms_codegen::compile::{Failure, constant};
 use mms_codegen::diagnostic::{Diagnostic, render};
+use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::read_material;
 use mms_codegen::syntax::parse;
+use mms_codegen::{compile, compile_with};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/fail")
@@ -86,6 +87,26 @@ fn place(path: &str, line: usize) -> String {
     format!("{}:{line}", &path[start..])
 }
 
+/// What `--set` and `--freeze` can do wrong: a name that is unknown, one that is given twice, and a
+/// stretch of 0, which J is divided by.
+fn wrong_selections() -> Vec<Failure> {
+    let text = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { value = 1 }\n\
+                [displacement]\nu = [\"(a - 1)*X\"]\n[material]\nmodel = \"neo_hookean\"\n\
+                lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\n\
+                lower = [0]\nupper = [1]\ntime = [0, 1]\n";
+    let set = |value: &str| vec![("a".to_string(), value.to_string())];
+    let freeze = |names: &[&str]| Freeze::Only(names.iter().map(|name| name.to_string()).collect());
+    let selections = [
+        Selection { freeze: freeze(&["b"]), ..Selection::default() },
+        Selection { freeze: freeze(&["a", "a"]), ..Selection::default() },
+        Selection { set: set("0"), freeze: freeze(&["a"]), ..Selection::default() },
+    ];
+    let load = |_: &str| Err("no files here".to_string());
+    let compile =
+        |selection: Selection| compile_with("x", "x.toml", text, &load, &selection.into());
+    selections.into_iter().map(|selection| compile(selection).expect_err("a mistake")).collect()
+}
+
 #[test]
 fn every_message_of_the_compiler_has_a_wrong_file() {
     let mut provoked = BTreeSet::new();
@@ -109,6 +130,15 @@ fn every_message_of_the_compiler_has_a_wrong_file() {
         assert_eq!(found.message, "the value is not a rational number");
         place(found.site.file(), found.site.line() as usize)
     }));
+    // Nor has a selection.
+    for failure in wrong_selections() {
+        provoked.extend(
+            failure
+                .diagnostics
+                .iter()
+                .map(|found| place(found.site.file(), found.site.line() as usize)),
+        );
+    }
     let mut files = Vec::new();
     source_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
     let made: BTreeSet<_> = files

@@ -5,6 +5,7 @@ use mms_codegen::suggest::did_you_mean;
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt as _;
 use syn::parse::{Parse, ParseStream};
+use syn::token::Bracket;
 use syn::{Error, Lit, LitStr, Result, Token, braced, bracketed};
 
 /// What may follow the path.
@@ -73,7 +74,10 @@ impl Request {
             "freeze" => self.freeze(option, input),
             "name" => {
                 input.parse::<Token![=]>()?;
-                self.name = Some(input.parse()?);
+                let name = input.parse().map_err(|error: Error| {
+                    Error::new(error.span(), "expected the name of a module")
+                })?;
+                self.name = Some(name);
                 Ok(())
             }
             other => {
@@ -108,7 +112,9 @@ impl Request {
         let content;
         braced!(content in input);
         while !content.is_empty() {
-            let name = content.call(Ident::parse_any)?;
+            let name = content.call(Ident::parse_any).map_err(|error| {
+                Error::new(error.span(), "expected the name of a parameter, as in `mu = 1`")
+            })?;
             content.parse::<Token![=]>()?;
             let (value, span) = value(&content)?;
             self.places.set.push(name.span().join(span).unwrap_or(name.span()));
@@ -137,12 +143,24 @@ impl Request {
 /// A bracketed list of at least one name.
 fn names(input: ParseStream, what: &str) -> Result<Vec<Ident>> {
     let content;
+    if !input.peek(Bracket) {
+        return Err(input.error(format!("expected a list in brackets, `[{what}, ..]`")));
+    }
     let brackets = bracketed!(content in input);
     if content.is_empty() {
         let message = format!("expected at least one {what}");
         return Err(Error::new(brackets.span.join(), message));
     }
-    Ok(content.parse_terminated(Ident::parse_any, Token![,])?.into_iter().collect())
+    let mut names = Vec::new();
+    while !content.is_empty() {
+        names.push(content.call(Ident::parse_any).map_err(|error| {
+            Error::new(error.span(), format!("expected the name of a {what}, without quotes"))
+        })?);
+        if !content.is_empty() {
+            content.parse::<Token![,]>()?;
+        }
+    }
+    Ok(names)
 }
 
 /// A name as a field file writes it.

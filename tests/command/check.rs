@@ -127,7 +127,8 @@ fn what_is_undefined_in_the_domain_is_told_as_such() {
     assert_eq!((&check["status"], &check["points"]), (&"undefined".into(), &128.into()));
     assert_eq!(check["undefined_points"], 64);
     assert!(check["difference"]["derived"].is_null(), "{check}");
-    let other = with_displacement("A*X/length", "A*X/length*sqrt(X/length - 1/2)/sqrt(X/length - 1/2)");
+    let other =
+        with_displacement("A*X/length", "A*X/length*sqrt(X/length - 1/2)/sqrt(X/length - 1/2)");
     other.mms("check bar.toml").exits(0);
     let other = with_displacement("A*X", "A*X + 0*ln(X - 1/2)");
     other.mms("check bar.toml").exits(0);

@@ -6,6 +6,7 @@ mms_macros::field!("fields/bar_1d.toml", quantities = []);
 mms_macros::field!("fields/bar_1d.toml", quantities = [body_force, velocty]);
 mms_macros::field!("fields/bar_1d.toml", quantities = [body_force, b]);
 mms_macros::field!("fields/bar_1d.toml", quantities = body_force);
+mms_macros::field!("fields/bar_1d.toml", freeze = ["young"]);
 mms_macros::field!("fields/bar_1d.toml", set = { young = fast });
 mms_macros::field!("fields/bar_1d.toml", set = { young = 1f64 });
 mms_macros::field!("fields/bar_1d.toml", set = { young = -"1" });

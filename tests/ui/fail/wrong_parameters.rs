@@ -15,5 +15,6 @@ mms_macros::field!(
     set = { lambda = -1e7 },
     freeze = [lambda, mu, rho0],
 );
+mms_macros::field!("examples/fields/static_3d.toml", set = { lambda = -1e7 }, freeze);
 
 fn main() {}
