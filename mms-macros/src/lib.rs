@@ -34,8 +34,8 @@ use request::Request;
 /// mms_macros::field!(
 ///     "fields/bar_1d.toml",
 ///     quantities = [body_force, velocity],
-///     set = { young = 2e6, rho0 = "young/1000" },
-///     freeze = [young],
+///     set = { length = 2, amplitude = "length/10" },
+///     freeze = [length],
 ///     name = forcing,
 /// );
 /// ```

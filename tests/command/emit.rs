@@ -33,10 +33,10 @@ fn a_file_is_written_whole_into_the_folder() {
 fn what_is_selected_stands_in_the_header() {
     let folder = Folder::new();
     let run = folder
-        .mms("emit bar_1d --quantity body_force --set length=2 --set amplitude=length/10 --freeze=length")
+        .mms("emit bar_1d --quantity body_force --set length=2 --set amplitude=length/8 --freeze=length")
         .exits(0);
     run.prints("// Quantities: body_force.\n").prints("// Constants: length = 2.\n");
-    run.prints("// Changed defaults: amplitude = 1/5.\n");
+    run.prints("// Changed defaults: amplitude = 1/4.\n");
     run.prints("[\"young\", \"rho0\", \"amplitude\"]");
     let run = folder.mms("emit bar_1d --freeze").exits(0);
     run.prints("// Constants: length = 1, young = 1000000, rho0 = 1000, amplitude = 1/5.\n");

@@ -5,7 +5,7 @@ mms_macros::field!("examples/fields/standing_wave_1d.toml", quantities = [b, vel
 mms_macros::field!(
     "examples/fields/standing_wave_1d.toml",
     quantities = [body_force],
-    set = { lambda = 0, rho0 = "mu/400", amplitude = -1_0.0e-3, },
+    set = { lambda = 0, rho0 = 1_00.0e1, amplitude = "-length/100", },
     freeze = [lambda, amplitude],
     name = neo,
 );
@@ -21,9 +21,10 @@ fn needs_math_only<T: Scalar + Copy>(x: T) -> [T; 1] {
 }
 
 fn main() {
-    assert_eq!(standing_wave_1d::NAMES, ["lambda", "mu", "rho0", "amplitude"]);
-    assert_eq!(neo::NAMES, ["mu", "rho0"]);
-    assert_eq!(neo::Parameters::<f64>::default(), neo::Parameters { mu: 4e5, rho0: 1e3 });
+    assert_eq!(standing_wave_1d::NAMES, ["length", "lambda", "mu", "rho0", "amplitude"]);
+    assert_eq!(neo::NAMES, ["length", "mu", "rho0"]);
+    let defaults = neo::Parameters { length: 1.0, mu: 4e5, rho0: 1e3 };
+    assert_eq!(neo::Parameters::<f64>::default(), defaults);
     assert_eq!(rest::NAMES.len() + static_3d::NAMES.len(), 0);
 
     // b of W = mu/2 (I1 - 3) - mu ln J with F = 1 + pi A cos(pi X), by hand:
@@ -43,7 +44,7 @@ fn main() {
     // With its lambda the field has another force, and the parameters change it.
     let other = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
     assert_ne!(other.at_time(t).body_force([x]), [b]);
-    let parameters = standing_wave_1d::Parameters { lambda: 0.0, mu, rho0, amplitude };
+    let parameters = standing_wave_1d::Parameters { length: 1.0, lambda: 0.0, mu, rho0, amplitude };
     let [same] = standing_wave_1d::prepare(&parameters).at_time(t).body_force([x]);
     assert!((same - b).abs() < 1e-14 * size, "{same}, frozen {b}");
     assert_eq!(needs_math_only(0.0), [0.0]);
