@@ -15,6 +15,7 @@ pub mod mechanics;
 pub mod pass;
 pub mod program;
 pub mod quantity;
+pub mod show;
 pub mod simplify;
 pub mod source;
 pub mod spec;

@@ -2,4 +2,3 @@
 //! differentiate nor reorder.
 
 pub mod rust;
-pub mod text;
