@@ -7,7 +7,7 @@ use mms_codegen::mechanics::TooLarge;
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::show::language::Language;
-use mms_codegen::show::{Document, Line, Section, latex, mathml, text};
+use mms_codegen::show::{Document, Line, Section, latex, mathml, sympy, text};
 use serde_json::{Map, Value, json};
 
 use super::input::{Input, quantities};
@@ -31,6 +31,17 @@ pub struct Show {
     /// Print one JSON document; its formulas are in the language of field files.
     #[arg(long, conflicts_with = "format")]
     json: bool,
+    /// Print a script instead, which derives everything once more and compares the values; run it
+    /// with Python.
+    #[arg(long, value_enum, conflicts_with_all = ["format", "json", "quantity"])]
+    script: Option<Script>,
+}
+
+/// What a script derives with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Script {
+    /// SymPy.
+    Sympy,
 }
 
 /// How to write the derivation.
@@ -48,6 +59,17 @@ enum Format {
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field)?;
+        if self.script == Some(Script::Sympy) {
+            let script = sympy::script(&input.compiled).map_err(|sympy::Undefined| {
+                anyhow!(
+                    "`{}` has no {} points in its domain where all quantities are finite: there is nothing to compare",
+                    input.name,
+                    sympy::POINTS
+                )
+            })?;
+            print(&script)?;
+            return Ok(Outcome::AsExpected);
+        }
         let quantities = match self.quantity.as_slice() {
             [] => Quantity::ALL.to_vec(),
             named => quantities(named)?,

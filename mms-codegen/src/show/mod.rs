@@ -21,6 +21,7 @@ pub mod latex;
 pub mod mathml;
 pub mod name;
 pub mod relation;
+pub mod sympy;
 pub mod text;
 pub mod walk;
 
