@@ -13,6 +13,8 @@ use mms_codegen::program::interpret::{Interpreter, Number as _, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::program::schedule::schedule;
 use mms_codegen::program::{Output, Program};
+use mms_codegen::show::language::Language;
+use mms_codegen::show::walk::write;
 use mms_codegen::simplify::{cheaper, cost};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::Formula;
@@ -183,10 +185,6 @@ proptest! {
         let root = build(&mut graph, &recipe);
         prop_assume!(root.is_some());
         let root = root.expect("assumed");
-        let text = graph.print(root, &Names::default());
-        let mut sources = Sources::default();
-        let source = sources.add("printed", text.clone());
-        let formula = Formula::plain(&text, sources.span(source, 0, text.len()));
         let mut scope = Scope::default();
         for (name, symbol) in [("X", X), ("Y", Symbol::Coordinate(1)), ("t", Symbol::Time)] {
             let leaf = graph.symbol(symbol);
@@ -194,10 +192,16 @@ proptest! {
         }
         let pi = graph.pi();
         scope.define("pi", Some(pi));
-        let mut diagnostics = Vec::new();
-        let ast = syntax::parse(&formula, &mut diagnostics);
-        let again = ast.and_then(|ast| scope.resolve(&mut graph, &ast, &mut diagnostics));
-        prop_assert_eq!(again, Some(root), "{}: {:?}", text, diagnostics);
+        let names = Names::default();
+        for text in [graph.print(root, &names), write(&graph, root, &names, &Language)] {
+            let mut sources = Sources::default();
+            let source = sources.add("printed", text.clone());
+            let formula = Formula::plain(&text, sources.span(source, 0, text.len()));
+            let mut diagnostics = Vec::new();
+            let ast = syntax::parse(&formula, &mut diagnostics);
+            let again = ast.and_then(|ast| scope.resolve(&mut graph, &ast, &mut diagnostics));
+            prop_assert_eq!(again, Some(root), "{}: {:?}", text, diagnostics);
+        }
     }
 
     #[test]

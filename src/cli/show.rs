@@ -95,21 +95,20 @@ fn json(compiled: &Compiled, document: &Document) -> Value {
         .collect();
     let claims: Map<String, Value> =
         document.claims.iter().map(|(face, claim)| (face.to_string(), (*claim).into())).collect();
-    let material = &compiled.field.material;
-    let arguments = material.arguments.iter();
-    let arguments: Map<String, Value> = arguments
-        .map(|(name, formula)| (name.value.clone(), formula.text.as_str().into()))
-        .collect();
+    let material = &document.material;
+    let mut definitions = formulas(document, &document.definitions);
+    definitions.extend(formulas(document, &material.whereby));
+    let density = material.density.first();
     json!({
         "field": document.name,
         "title": document.title,
         "dimension": document.dimension,
         "reference": document.reference,
-        "material": document.material.name,
+        "material": material.name,
         "strain_energy": compiled.material.strain_energy.text,
-        "material_parameters": arguments,
-        "density": material.density.text,
-        "definitions": formulas(document, &document.definitions),
+        "material_parameters": formulas(document, &material.arguments),
+        "density": density.map(|line| document.formula(line.value, &Language)),
+        "definitions": definitions,
         "boundary": claims,
         "quantities": quantities,
     })

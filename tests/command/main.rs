@@ -6,6 +6,7 @@ mod main_job;
 mod material;
 mod mms;
 mod overview;
+mod show;
 mod study;
 mod study_files;
 mod study_methods;

@@ -96,7 +96,10 @@ impl Reading {
                 true => self.graph.sum(group),
                 false => self.graph.product(group),
             };
-            parts.push((if self.is_leaf(whole) { whole } else { self.numbered(whole) }, Rational::ONE));
+            parts.push((
+                if self.is_leaf(whole) { whole } else { self.numbered(whole) },
+                Rational::ONE,
+            ));
         }
         Some(match &node {
             Node::Sum(constant, _) => {
@@ -118,7 +121,9 @@ impl Reading {
         let mut filled = 0_usize;
         for operand in operands {
             let length = length(operand);
-            if filled.saturating_add(length) > LINE && groups.last().is_some_and(|last| !last.is_empty()) {
+            if filled.saturating_add(length) > LINE
+                && groups.last().is_some_and(|last| !last.is_empty())
+            {
                 groups.push(Vec::new());
                 filled = 0;
             }

@@ -6,13 +6,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::{Id, Reading, Role};
-use super::walk::{Notation, write};
 use super::stress;
+use super::walk::{Notation, write};
 use crate::compile::Compiled;
 use crate::expr::{Expr, Graph};
 use crate::mechanics::TooLarge;
 use crate::program::{Output, Stage};
 use crate::quantity::Quantity;
+use crate::spec::Formula;
 
 /// Names that stand for one value.
 #[derive(Clone, Debug)]
@@ -45,10 +46,15 @@ pub struct Material {
     pub name: String,
     /// What it is, in a few words.
     pub title: String,
-    /// W in the parameters of the material and in I1, I2 and J.
+    /// W in the parameters of the material and in I1, I2 and J, after the parts that it is put
+    /// together from.
     pub energy: Vec<Line>,
-    /// What the field sets these parameters to, and the density `rho0`.
+    /// What the arguments and the density use that is no definition of the field.
+    pub whereby: Vec<Line>,
+    /// What the field sets the parameters of the material to.
     pub arguments: Vec<Line>,
+    /// The density `rho0`.
+    pub density: Vec<Line>,
 }
 
 /// The derivation of a field.
@@ -121,6 +127,12 @@ impl Document {
         &self.reading.graph
     }
 
+    /// Whether a line says that a name is itself.
+    pub fn is_identity(&self, line: &Line) -> bool {
+        let value = self.reading.identifier(line.value);
+        line.left.iter().all(|name| value.as_deref() == Some(&name.identifier()))
+    }
+
     /// A value in a notation.
     pub fn formula(&self, value: Expr, notation: &dyn Notation) -> String {
         write(&self.reading.graph, value, &self.reading, notation)
@@ -139,22 +151,25 @@ impl Listing {
     fn material(&mut self, compiled: &Compiled, formulas: &Formulas) -> Material {
         let spec = &compiled.field.material;
         let energy = stress::energy_of_file(&mut self.reading, compiled);
-        let arguments = spec.arguments.iter().map(|(name, formula)| (name.value.as_str(), formula));
-        let mut lines = Vec::new();
-        for (name, formula) in arguments.chain([("rho0", &spec.density)]) {
-            let value = formulas.read_alone(&mut self.reading, formula);
-            // That a name is itself says nothing.
-            let says_something =
-                |value: &Expr| self.reading.identifier(*value).as_deref() != Some(name);
-            if let Some(value) = value.filter(says_something) {
-                lines.extend(self.alone(name, value));
-            }
-        }
+        let mut whereby = Vec::new();
+        let mut line = |listing: &mut Self, name: &str, formula: &Formula| {
+            let value = formulas.read_alone(&mut listing.reading, formula)?;
+            let mut lines = listing.alone(name, value);
+            let last = lines.pop();
+            whereby.extend(lines);
+            last
+        };
+        let arguments = spec.arguments.iter();
+        let arguments =
+            arguments.filter_map(|(name, formula)| line(self, &name.value, formula)).collect();
+        let density = line(self, "rho0", &spec.density).into_iter().collect();
         Material {
             name: spec.model.value.clone(),
             title: compiled.material.title.clone(),
             energy: energy.map(|energy| self.alone("W", energy)).unwrap_or_default(),
-            arguments: lines,
+            whereby,
+            arguments,
+            density,
         }
     }
 

@@ -27,7 +27,7 @@ pub fn page(document: &Document) -> String {
                 text.push_str(&format!("\\section*{{{}: {}}}\n", escape(name), escape(title)));
             }
             Block::Note(note) => text.push_str(&format!("\\noindent {}\\par\n", escape(&note))),
-            Block::Heading { name, relation, note } => {
+            Block::Heading { name, relation, note, .. } => {
                 text.push_str(&format!("\\subsection*{{{}}}\n", escape(name)));
                 if let Some(note) = note {
                     text.push_str(&format!("\\noindent {}\n", escape(&note)));
@@ -37,7 +37,7 @@ pub fn page(document: &Document) -> String {
                 }
             }
             Block::Where => text.push_str("\\noindent where\n"),
-            Block::Lines { lines, .. } => text.push_str(&align(document, lines)),
+            Block::Lines { lines, .. } => text.push_str(&align(document, &lines)),
         }
     }
     text.push_str("\\end{document}\n");

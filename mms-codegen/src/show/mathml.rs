@@ -21,7 +21,7 @@ pub fn page(document: &Document) -> String {
         match block {
             Block::Title(..) => text.push_str(&format!("<h1>{title}</h1>\n")),
             Block::Note(note) => text.push_str(&format!("<p>{}</p>\n", escape(&note))),
-            Block::Heading { name, relation, note } => {
+            Block::Heading { name, relation, note, .. } => {
                 text.push_str(&format!("<h2>{}</h2>\n", escape(name)));
                 if let Some(note) = note {
                     text.push_str(&format!("<p>{}</p>\n", escape(&note)));
@@ -32,7 +32,7 @@ pub fn page(document: &Document) -> String {
             }
             Block::Where => text.push_str("<p>where</p>\n"),
             Block::Lines { lines, .. } => {
-                for line in lines {
+                for line in lines.iter() {
                     let value = document.formula(line.value, &MathMl);
                     let left = left(line, &MathMl, "<mo>=</mo>");
                     text.push_str(&display(&format!("{left}<mo>=</mo>{value}")));
@@ -55,7 +55,9 @@ pub struct MathMl;
 impl Notation for MathMl {
     fn whole(&self, digits: &str) -> String {
         match scientific(digits) {
-            Some((mantissa, exponent)) if mantissa == "1" => superscript("<mn>10</mn>", &number(&exponent)),
+            Some((mantissa, exponent)) if mantissa == "1" => {
+                superscript("<mn>10</mn>", &number(&exponent))
+            }
             Some((mantissa, exponent)) => {
                 let power = superscript("<mn>10</mn>", &number(&exponent));
                 row(&format!("{}<mo>&#xD7;</mo>{power}", number(&mantissa)))
@@ -162,7 +164,8 @@ impl Setting for MathMl {
         let name = Name::plain(word);
         match is_bold {
             true => {
-                let letter = greek(word).map_or_else(|| word.into(), |word| word.letter.to_string());
+                let letter =
+                    greek(word).map_or_else(|| word.into(), |word| word.letter.to_string());
                 format!("<mi style=\"font-weight: bold\">{}</mi>", escape(&letter))
             }
             false => self.name(&name),

@@ -115,7 +115,8 @@ impl Name {
     /// Whether the name can carry a dot per derivative by time: Newton's notation.
     pub(super) fn is_dotted(&self) -> bool {
         let by_time = self.along.iter().all(|along| *along == Along::Time);
-        let letter = self.stem.len() == 1 && self.stem.bytes().all(|byte| byte.is_ascii_alphabetic());
+        let letter =
+            self.stem.len() == 1 && self.stem.bytes().all(|byte| byte.is_ascii_alphabetic());
         letter && self.index.is_empty() && by_time && (1..=2).contains(&self.along.len())
     }
 

@@ -1,5 +1,7 @@
 //! The order of a page, which is the same in every notation.
 
+use std::borrow::Cow;
+
 use super::document::{Document, Line};
 use super::name::Name;
 use super::relation::{Part, Setting, relation};
@@ -19,13 +21,15 @@ pub(super) enum Block<'a> {
         relation: Option<&'static [Part]>,
         /// More about it.
         note: Option<String>,
+        /// What it costs to compute, which belongs on a screen and not on paper.
+        operations: Option<String>,
     },
     /// The word between a heading and what the formulas under it use.
     Where,
     /// Formulas.
     Lines {
         /// The formulas; never none.
-        lines: &'a [Line],
+        lines: Cow<'a, [Line]>,
         /// Whether they only serve those that follow.
         is_where: bool,
     },
@@ -41,18 +45,24 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     }
     let material = &document.material;
     let note = Some(format!("{}: {}", material.name, material.title));
-    blocks.push(Block::Heading { name: "material", relation: None, note });
-    let parts = [&material.energy, &material.arguments];
-    blocks.extend(parts.into_iter().filter(|lines| !lines.is_empty()).map(|lines| formulas(lines)));
+    blocks.push(Block::Heading { name: "material", relation: None, note, operations: None });
+    blocks.push(formulas(&material.energy));
+    blocks.push(formulas(&material.whereby));
+    // That a parameter of the material is the field's of the same name goes without saying.
+    let arguments = material.arguments.iter().chain(&material.density);
+    let arguments: Vec<Line> =
+        arguments.filter(|line| !document.is_identity(line)).cloned().collect();
+    blocks.push(Block::Lines { lines: arguments.into(), is_where: false });
     for section in &document.sections {
         blocks.push(Block::Heading {
             name: section.quantity.name(),
             relation: Some(relation(section.quantity)),
-            note: Some(operations(section)),
+            note: None,
+            operations: Some(operations(section)),
         });
         if !section.whereby.is_empty() {
             blocks.push(Block::Where);
-            blocks.push(Block::Lines { lines: &section.whereby, is_where: true });
+            blocks.push(Block::Lines { lines: (&section.whereby).into(), is_where: true });
         }
         blocks.push(formulas(&section.lines));
     }
@@ -61,15 +71,16 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
         let claims = document.claims.iter();
         blocks.extend(claims.map(|(face, claim)| Block::Note(format!("{face}: {claim}"))));
     }
+    blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
     blocks
 }
 
 fn heading(name: &str) -> Block<'_> {
-    Block::Heading { name, relation: None, note: None }
+    Block::Heading { name, relation: None, note: None, operations: None }
 }
 
 fn formulas(lines: &[Line]) -> Block<'_> {
-    Block::Lines { lines, is_where: false }
+    Block::Lines { lines: lines.into(), is_where: false }
 }
 
 fn operations(section: &super::Section) -> String {

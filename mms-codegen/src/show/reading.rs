@@ -60,6 +60,8 @@ pub(super) struct Reading {
     derivatives: BTreeMap<(Id, Along), Expr>,
     /// Helpers by their values, so that nothing is named twice.
     by_value: BTreeMap<Expr, Id>,
+    /// The last number that was tried for a helper without a better name.
+    numbers: usize,
 }
 
 impl Names for Reading {
@@ -98,6 +100,7 @@ impl Reading {
             taken,
             derivatives: BTreeMap::new(),
             by_value: BTreeMap::new(),
+            numbers: 0,
         }
     }
 
@@ -144,11 +147,15 @@ impl Reading {
 
     /// A helper `k1`, `k2`, ... for what has no better name.
     pub fn numbered(&mut self, value: Expr) -> Expr {
-        let name = (1..).map(|number| Name::plain(format!("k{number}")));
-        let mut free = name.filter(|name| self.taken.is_free(name));
-        match free.next() {
-            Some(name) => self.helper(name, value, "derived"),
-            None => value,
+        if let Some(id) = self.by_value.get(&value) {
+            return self.leaf(*id);
+        }
+        loop {
+            self.numbers += 1;
+            let name = Name::plain(format!("k{}", self.numbers));
+            if self.taken.is_free(&name) {
+                return self.helper(name, value, "derived");
+            }
         }
     }
 

@@ -43,7 +43,9 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
         Quantity::DisplacementGradient => {
             &[Tensor("H"), EQUALS, Partial(&Tensor("u"), &Tensor("X"))]
         }
-        Quantity::DeformationGradient => &[Tensor("F"), EQUALS, Tensor("I"), Sign("+"), Tensor("H")],
+        Quantity::DeformationGradient => {
+            &[Tensor("F"), EQUALS, Tensor("I"), Sign("+"), Tensor("H")]
+        }
         Quantity::Jacobian => &[Scalar("J"), EQUALS, Word("det"), Tensor("F")],
         Quantity::StrainEnergy => {
             const ARGUMENTS: &[Part] =
@@ -56,11 +58,9 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
         Quantity::NominalStress => {
             &[Raised("P", "T"), EQUALS, Scalar("J"), Raised("F", "-1"), Tensor("sigma")]
         }
-        Quantity::CauchyStress => &[
-            Tensor("sigma"),
-            EQUALS,
-            Over(&[Tensor("P"), Raised("F", "T")], &[Scalar("J")]),
-        ],
+        Quantity::CauchyStress => {
+            &[Tensor("sigma"), EQUALS, Over(&[Tensor("P"), Raised("F", "T")], &[Scalar("J")])]
+        }
         Quantity::KirchhoffStress => &[Tensor("tau"), EQUALS, Tensor("P"), Raised("F", "T")],
         Quantity::DivP => &[
             Word("Div"),
@@ -68,13 +68,9 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             EQUALS,
             Partial(&Component("P", "iJ"), &Component("X", "J")),
         ],
-        Quantity::BodyForce => &[
-            Tensor("b"),
-            EQUALS,
-            Tensor("a"),
-            MINUS,
-            Over(&[Word("Div"), Tensor("P")], &[RHO0]),
-        ],
+        Quantity::BodyForce => {
+            &[Tensor("b"), EQUALS, Tensor("a"), MINUS, Over(&[Word("Div"), Tensor("P")], &[RHO0])]
+        }
         Quantity::BodyForceDensity => {
             &[RHO0, Tensor("b"), EQUALS, RHO0, Tensor("a"), MINUS, Word("Div"), Tensor("P")]
         }

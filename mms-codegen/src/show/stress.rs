@@ -12,10 +12,10 @@
 
 use std::collections::BTreeMap;
 
+use super::abbreviate::LINE;
 use super::motion::{Formulas, Quantities, resolved};
 use super::name::{Along, Name};
 use super::reading::{Reading, Role};
-use super::abbreviate::LINE;
 use crate::compile::Compiled;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Rational, Symbol};
@@ -85,8 +85,8 @@ impl Invariants {
     /// Entries of their own, which are replaced before anything is shown.
     fn new(reading: &mut Reading) -> Self {
         let nothing = reading.graph.number(0);
-        let ids = ["I1", "I2", "J"]
-            .map(|name| reading.push(Name::plain(name), nothing, Role::Given));
+        let ids =
+            ["I1", "I2", "J"].map(|name| reading.push(Name::plain(name), nothing, Role::Given));
         let symbols = ids.map(|id| reading.symbol(id));
         Invariants { leaves: ids.map(|id| reading.leaf(id)), symbols }
     }
@@ -224,7 +224,8 @@ fn space(
     let cofactors = cofactors(reading, &deformation, dimension);
     let jacobian = jacobian(reading, compiled, quantities, &deformation, &cofactors);
     let slopes = energy.slopes(reading);
-    let right = (!reading.graph.is_zero(slopes[1])).then(|| right(reading, &deformation, dimension));
+    let right =
+        (!reading.graph.is_zero(slopes[1])).then(|| right(reading, &deformation, dimension));
     let values = invariants(reading, &deformation, right.as_deref(), jacobian, dimension);
     let whole = energy.at(reading, energy.value, values);
     quantities.add(reading, compiled, Quantity::StrainEnergy, &[whole]);
@@ -275,9 +276,8 @@ fn divergence(
     pressure: Expr,
     dimension: usize,
 ) -> Vec<Expr> {
-    let slopes: Vec<Expr> = (0..dimension)
-        .map(|axis| reading.derivative(pressure, Along::Coordinate(axis)))
-        .collect();
+    let slopes: Vec<Expr> =
+        (0..dimension).map(|axis| reading.derivative(pressure, Along::Coordinate(axis))).collect();
     (0..dimension)
         .map(|row| {
             let mut terms = Vec::new();
@@ -307,7 +307,8 @@ fn second_gradient(reading: &mut Reading, quantities: &Quantities, deformation: 
 
 /// cof F, row-major: dJ/dF.
 fn cofactors(reading: &mut Reading, deformation: &[Expr], dimension: usize) -> Vec<Expr> {
-    let at = |row: usize, column: usize| deformation[row % dimension * dimension + column % dimension];
+    let at =
+        |row: usize, column: usize| deformation[row % dimension * dimension + column % dimension];
     (0..dimension * dimension)
         .map(|k| {
             let (row, column) = (k / dimension, k % dimension);
@@ -409,21 +410,14 @@ fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantit
     quantities.add(reading, compiled, Quantity::NominalStress, &transposed);
     let columns = transpose(&deformation, dimension);
     let kirchhoff = matrix_product(reading, &first, &columns, dimension);
-    let cauchy: Vec<Expr> = kirchhoff
-        .iter()
-        .map(|component| reading.graph.div(*component, jacobian))
-        .collect();
+    let cauchy: Vec<Expr> =
+        kirchhoff.iter().map(|component| reading.graph.div(*component, jacobian)).collect();
     quantities.add(reading, compiled, Quantity::CauchyStress, &cauchy);
     quantities.add(reading, compiled, Quantity::KirchhoffStress, &kirchhoff);
 }
 
 /// b = a - Div P/rho0 and rho0 b, written out where that fits on a line.
-fn balance(
-    reading: &mut Reading,
-    compiled: &Compiled,
-    quantities: &mut Quantities,
-    density: Expr,
-) {
+fn balance(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities, density: Expr) {
     let acceleration = quantities.components(reading, Quantity::Acceleration);
     let divergence = quantities.components(reading, Quantity::DivP);
     let specific = |reading: &mut Reading, [acceleration, divergence]: [Expr; 2]| {
@@ -476,8 +470,7 @@ fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantit
 
 fn dot(reading: &mut Reading, pairs: Vec<(Expr, Expr)>) -> Expr {
     let graph = &mut reading.graph;
-    let terms: Vec<_> =
-        pairs.into_iter().map(|(a, b)| (graph.mul(a, b), Rational::ONE)).collect();
+    let terms: Vec<_> = pairs.into_iter().map(|(a, b)| (graph.mul(a, b), Rational::ONE)).collect();
     graph.sum(terms)
 }
 

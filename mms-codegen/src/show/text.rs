@@ -17,10 +17,10 @@ pub fn page(document: &Document) -> String {
         match block {
             Block::Title(name, title) => lines.push(format!("{name}: {}", plain(title))),
             Block::Note(note) => lines.push(format!("  {}", plain(&note))),
-            Block::Heading { name, relation, note } => {
+            Block::Heading { name, relation, note, operations } => {
                 lines.push(String::new());
                 let relation = relation.map(|parts| format!("  {}", Text.relation(parts)));
-                let note = note.map(|note| format!("  ({})", plain(&note)));
+                let note = note.or(operations).map(|note| format!("  ({})", plain(&note)));
                 let [relation, note] = [relation, note].map(Option::unwrap_or_default);
                 lines.push(format!("{name}{relation}{note}"));
             }
@@ -159,7 +159,8 @@ impl Setting for Text {
     }
 
     fn derivative(&self, of: &str, by: &[(String, usize)]) -> String {
-        let power = |times: usize| if times > 1 { raised(&times.to_string()) } else { String::new() };
+        let power =
+            |times: usize| if times > 1 { raised(&times.to_string()) } else { String::new() };
         let order = power(by.iter().map(|(_, times)| times).sum());
         let by = by.iter().map(|(by, times)| format!("\u{2202}{by}{}", power(*times)));
         format!("\u{2202}{order}{of}/{}", by.collect::<String>())
@@ -195,7 +196,11 @@ impl Text {
             Some(Quantity::BodyForceDensity)
                 if name.stem == Quantity::BodyForceDensity.symbol() =>
             {
-                if name.index.is_empty() { format!("{rho} b") } else { format!("({rho} b)") }
+                if name.index.is_empty() {
+                    format!("{rho} b")
+                } else {
+                    format!("({rho} b)")
+                }
             }
             _ => {
                 let (letters, digits) = name.split_digits();

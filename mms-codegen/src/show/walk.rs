@@ -81,6 +81,12 @@ pub trait Names {
     fn name(&self, symbol: Symbol) -> Name;
 }
 
+impl Names for crate::expr::print::Names {
+    fn name(&self, symbol: Symbol) -> Name {
+        Name::plain(self.symbol(symbol))
+    }
+}
+
 /// The formula of `root` in a notation.
 pub fn write(graph: &Graph, root: Expr, names: &dyn Names, notation: &dyn Notation) -> String {
     let writer = Writer { graph, names, notation };
@@ -124,14 +130,7 @@ impl Writer<'_> {
             }
             Node::Sum(constant, terms) => self.terms(constant, terms, pieces),
             Node::Product(factors) => vec![self.product(factors, pieces)],
-            Node::Call(Function::Ln1p, arguments) => {
-                let argument = self.one_more(arguments[0], pieces);
-                Term::of(self.elementary(Function::Ln, vec![self.sum(&argument)]))
-            }
-            Node::Call(function, arguments) => {
-                let arguments: Vec<&Piece> = arguments.iter().map(|child| &pieces[child]).collect();
-                Term::of(self.call(*function, &arguments))
-            }
+            Node::Call(function, arguments) => Term::of(self.call(*function, arguments, pieces)),
         }
     }
 
@@ -162,9 +161,7 @@ impl Writer<'_> {
     /// 1 + x.
     fn one_more(&self, expr: Expr, pieces: &BTreeMap<Expr, Piece>) -> Piece {
         match self.graph.node(expr) {
-            Node::Sum(constant, terms) => {
-                self.terms(&(constant + Rational::ONE), terms, pieces)
-            }
+            Node::Sum(constant, terms) => self.terms(&(constant + Rational::ONE), terms, pieces),
             _ => self.terms(&Rational::ONE, &[(expr, Rational::ONE)], pieces),
         }
     }
@@ -236,8 +233,7 @@ impl Writer<'_> {
             return base;
         }
         if *exponent == Rational::from_parts(1.into(), 2u8.into()) {
-            let is_atom = base.binding == Binding::Atom && base.call.is_none();
-            return Factor::power(self.notation.root(2, &base.text, is_atom));
+            return self.root(2, piece);
         }
         let to_function = exponent.is_int() && self.notation.has_powers_of_functions();
         if let Some((function, arguments)) = base.call.filter(|_| to_function) {
@@ -251,26 +247,53 @@ impl Writer<'_> {
         Factor::power(self.notation.power(&base, &Exponent::Number(exponent.clone())))
     }
 
-    fn call(&self, function: Function, arguments: &[&Piece]) -> Factor {
-        match (function, arguments) {
-            (Function::Powf, [base, exponent]) => {
-                let (base, exponent) = (self.factor(base), self.factor(exponent));
-                let is_atom = exponent.binding == Binding::Atom;
-                let base = match base.binding {
-                    Binding::Atom if base.call.is_none() => base.text,
-                    _ => self.notation.parentheses(&base.text),
-                };
-                let exponent = Exponent::Formula { text: exponent.text, is_atom };
-                Factor::power(self.notation.power(&base, &exponent))
+    fn call(
+        &self,
+        function: Function,
+        arguments: &[Expr],
+        pieces: &BTreeMap<Expr, Piece>,
+    ) -> Factor {
+        match function {
+            Function::Powf => self.variable_power(&pieces[&arguments[0]], &pieces[&arguments[1]]),
+            Function::Sqrt => self.root(2, &pieces[&arguments[0]]),
+            Function::Cbrt => self.root(3, &pieces[&arguments[0]]),
+            Function::Ln1p => {
+                let argument = self.one_more(arguments[0], pieces);
+                self.elementary(Function::Ln, vec![self.sum(&argument)])
             }
-            (Function::Sqrt | Function::Cbrt, [radicand]) => {
-                let radicand = self.factor(radicand);
-                let is_atom = radicand.binding == Binding::Atom && radicand.call.is_none();
-                let degree = if function == Function::Sqrt { 2 } else { 3 };
-                Factor::power(self.notation.root(degree, &radicand.text, is_atom))
+            Function::Exp
+            | Function::Ln
+            | Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Asin
+            | Function::Acos
+            | Function::Atan
+            | Function::Atan2 => {
+                let arguments = arguments.iter().map(|argument| self.sum(&pieces[argument]));
+                self.elementary(function, arguments.collect())
             }
-            _ => self.elementary(function, arguments.iter().map(|piece| self.sum(piece)).collect()),
         }
+    }
+
+    fn variable_power(&self, base: &[Term], exponent: &[Term]) -> Factor {
+        let (base, exponent) = (self.factor(base), self.factor(exponent));
+        let is_atom = exponent.binding == Binding::Atom;
+        let base = match base.binding {
+            Binding::Atom if base.call.is_none() => base.text,
+            _ => self.notation.parentheses(&base.text),
+        };
+        let exponent = Exponent::Formula { text: exponent.text, is_atom };
+        Factor::power(self.notation.power(&base, &exponent))
+    }
+
+    fn root(&self, degree: u8, radicand: &[Term]) -> Factor {
+        let radicand = self.factor(radicand);
+        let is_atom = radicand.binding == Binding::Atom && radicand.call.is_none();
+        Factor::power(self.notation.root(degree, &radicand.text, is_atom))
     }
 
     fn elementary(&self, function: Function, arguments: Vec<String>) -> Factor {
@@ -279,8 +302,7 @@ impl Writer<'_> {
     }
 
     fn sum(&self, piece: &[Term]) -> String {
-        let terms: Vec<_> =
-            piece.iter().map(|term| (term.is_negative, self.term(term))).collect();
+        let terms: Vec<_> = piece.iter().map(|term| (term.is_negative, self.term(term))).collect();
         match terms.as_slice() {
             [(false, text)] => text.clone(),
             _ => self.notation.sum(&terms),

@@ -52,7 +52,6 @@ fn head(compiled: &Compiled) -> String {
     let field = &compiled.field;
     let mut lines = vec![
         "#!/usr/bin/env python3".to_string(),
-        "# -*- coding: utf-8 -*-".into(),
         format!("# Audit of the field {}: {}", comment(&field.name), comment(&field.title)),
     ];
     lines.extend(field.reference.as_ref().map(|reference| format!("# {}", comment(reference))));
@@ -75,9 +74,12 @@ fn field(compiled: &Compiled) -> String {
     let names = Renamed::new(parameters.chain(lets));
     let axes = ["X", "Y", "Z"][..field.dimension].join(", ");
     let mut lines = vec![format!("def field({axes}, t):")];
-    lines.push("    \"\"\"The field file: u, rho0, and the parameters of the material.\"\"\"".into());
+    lines.push(
+        "    \"\"\"The field file: u, rho0, and the parameters of the material.\"\"\"".into(),
+    );
     for parameter in &field.parameters {
-        let (name, value) = (names.name(&parameter.name.value), translated(&parameter.value, &names));
+        let (name, value) =
+            (names.name(&parameter.name.value), translated(&parameter.value, &names));
         let unit = parameter.unit.as_ref().map(|unit| format!("[{}]", unit.value));
         let notes: Vec<_> = parameter.doc.iter().cloned().chain(unit).collect();
         let note = comment(&notes.join(" "));

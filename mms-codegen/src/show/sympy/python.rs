@@ -33,7 +33,9 @@ impl Renamed {
             if name.starts_with("__") {
                 chosen.insert(0, 'n');
             }
-            while KEPT.contains(&chosen.as_str()) || (chosen != name && renamed.used.contains(&chosen)) {
+            while KEPT.contains(&chosen.as_str())
+                || (chosen != name && renamed.used.contains(&chosen))
+            {
                 chosen.push('_');
             }
             renamed.used.insert(chosen.clone());
@@ -140,7 +142,8 @@ fn binary(operator: Operator, left: Piece, right: Piece) -> Piece {
 
 fn call(name: &str, arguments: Vec<Piece>) -> Piece {
     if name == "hypot" {
-        let squares = arguments.into_iter().map(|side| format!("{}**2", side.at_least(Binding::Atom)));
+        let squares =
+            arguments.into_iter().map(|side| format!("{}**2", side.at_least(Binding::Atom)));
         let text = format!("sqrt({})", squares.collect::<Vec<_>>().join(" + "));
         return Piece { text, binding: Binding::Atom, is_plain: false };
     }
