@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::energy::energy_of_file;
 use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::{Id, Reading, Role};
@@ -150,7 +151,7 @@ struct Listing {
 impl Listing {
     fn material(&mut self, compiled: &Compiled, formulas: &Formulas) -> Material {
         let spec = &compiled.field.material;
-        let energy = stress::energy_of_file(&mut self.reading, compiled);
+        let energy = energy_of_file(&mut self.reading, compiled);
         let mut whereby = Vec::new();
         let mut line = |listing: &mut Self, name: &str, formula: &Formula| {
             let value = formulas.read_alone(&mut listing.reading, formula)?;

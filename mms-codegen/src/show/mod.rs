@@ -10,7 +10,9 @@
 //! implements [`walk::Notation`], and its page.
 
 mod abbreviate;
+mod balance;
 mod document;
+mod energy;
 mod motion;
 mod page;
 mod reading;

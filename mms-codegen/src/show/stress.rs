@@ -10,26 +10,14 @@
 //! See Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6. In
 //! one dimension W is a function of F alone, and P its derivative.
 
-use std::collections::BTreeMap;
-
-use super::abbreviate::LINE;
-use super::motion::{Formulas, Quantities, resolved};
+use super::balance::{balance, density, measures, traction};
+use super::energy::Energy;
+use super::motion::{Formulas, Quantities};
 use super::name::{Along, Name};
-use super::reading::{Reading, Role};
+use super::reading::Reading;
 use crate::compile::Compiled;
-use crate::expr::resolve::Scope;
-use crate::expr::{Expr, Rational, Symbol};
-use crate::mechanics::material::{FIRST, SECOND, VOLUME};
-use crate::pass::differentiate::differentiate;
-use crate::pass::substitute::substitute;
+use crate::expr::{Expr, Rational};
 use crate::quantity::Quantity;
-
-/// What W is a function of, as leaves that stand for nothing else.
-struct Invariants {
-    /// I1, I2 and J.
-    leaves: [Expr; 3],
-    symbols: [Symbol; 3],
-}
 
 /// Adds J and everything that follows from W and the density.
 pub(super) fn derive(
@@ -48,131 +36,6 @@ pub(super) fn derive(
     quantities.add(reading, compiled, Quantity::DivP, &solid);
     balance(reading, compiled, quantities, density);
     traction(reading, compiled, quantities);
-}
-
-/// W(I1, I2, J, X).
-struct Energy {
-    value: Expr,
-    invariants: Invariants,
-}
-
-impl Energy {
-    fn read(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
-        let invariants = Invariants::new(reading);
-        let typed = invariants.typed(reading, compiled, formulas);
-        let value = typed.unwrap_or_else(|| invariants.of_model(reading, compiled.model.energy));
-        Energy { value, invariants }
-    }
-
-    /// Partial derivatives by I1, I2 and J.
-    fn slopes(&self, reading: &mut Reading) -> [Expr; 3] {
-        self.invariants.symbols.map(|symbol| {
-            let slope = differentiate(&mut reading.graph, &[self.value], symbol)[0];
-            reading.tidy(slope)
-        })
-    }
-
-    /// An expression in the invariants at their values.
-    fn at(&self, reading: &mut Reading, expr: Expr, values: [Expr; 3]) -> Expr {
-        let values: BTreeMap<Symbol, Expr> =
-            self.invariants.symbols.into_iter().zip(values).collect();
-        let made = substitute(&mut reading.graph, &[expr], &values)[0];
-        reading.tidy(made)
-    }
-}
-
-impl Invariants {
-    /// Entries of their own, which are replaced before anything is shown.
-    fn new(reading: &mut Reading) -> Self {
-        let nothing = reading.graph.number(0);
-        let ids =
-            ["I1", "I2", "J"].map(|name| reading.push(Name::plain(name), nothing, Role::Given));
-        let symbols = ids.map(|id| reading.symbol(id));
-        Invariants { leaves: ids.map(|id| reading.leaf(id)), symbols }
-    }
-
-    /// The model's W, which is a function of the departures from the undeformed state.
-    fn of_model(&self, reading: &mut Reading, energy: Expr) -> Expr {
-        let graph = &mut reading.graph;
-        let mut values = BTreeMap::new();
-        let departures = [(FIRST, 3), (SECOND, 3), (VOLUME, 1)];
-        for ((symbol, at_identity), leaf) in departures.into_iter().zip(self.leaves) {
-            let constant = graph.number(at_identity);
-            values.insert(symbol, graph.sub(leaf, constant));
-        }
-        substitute(graph, &[energy], &values)[0]
-    }
-
-    /// W as it is typed, with the field's arguments as they are typed or by their names; `None`
-    /// where that is not what the model has.
-    fn typed(
-        &self,
-        reading: &mut Reading,
-        compiled: &Compiled,
-        formulas: &Formulas,
-    ) -> Option<Expr> {
-        let mut scope = scope(reading, self.leaves, &self.symbols);
-        let departures = [(FIRST, 3), (SECOND, 3), (VOLUME, 1)].map(|(symbol, at_identity)| {
-            let graph = &mut reading.graph;
-            let (constant, departure) = (graph.number(at_identity), graph.symbol(symbol));
-            graph.add(constant, departure)
-        });
-        let mut expanded = self::scope(reading, departures, &self.symbols);
-        for (name, formula) in &compiled.field.material.arguments {
-            let value = formulas.read_alone(reading, formula)?;
-            expanded.define(&name.value, Some(formulas.expand(reading, value)));
-            let argument = reading.named(Name::plain(name.value.as_str()), value, "material");
-            scope.define(&name.value, Some(argument));
-        }
-        let same = energy_in(reading, expanded, compiled)? == compiled.model.energy;
-        energy_in(reading, scope, compiled).filter(|_| same)
-    }
-}
-
-/// What a material file may use: I1, I2, J, and what is made of them.
-fn scope(reading: &mut Reading, invariants: [Expr; 3], symbols: &[Symbol]) -> Scope {
-    let mut scope = Scope::default();
-    let pi = reading.graph.pi();
-    scope.define("pi", Some(pi));
-    for (name, invariant) in ["I1", "I2", "J"].into_iter().zip(invariants) {
-        scope.define(name, Some(invariant));
-    }
-    let third = reading.graph.power(invariants[2], 2);
-    scope.define("I3", Some(third));
-    // The field compiled: what had to be positive was shown to be.
-    symbols.iter().for_each(|symbol| scope.assume_positive(*symbol));
-    scope
-}
-
-/// The density of a material file in a scope that knows its parameters.
-fn energy_in(reading: &mut Reading, mut scope: Scope, compiled: &Compiled) -> Option<Expr> {
-    for definition in &compiled.material.lets {
-        let value = resolved(reading, &scope, &definition.value)?;
-        scope.define(&definition.name.value, Some(value));
-    }
-    resolved(reading, &scope, &compiled.material.strain_energy)
-}
-
-/// W as its own file has it: in the parameters of the material and in I1, I2 and J.
-pub(super) fn energy_of_file(reading: &mut Reading, compiled: &Compiled) -> Option<Expr> {
-    let invariants = Invariants::new(reading);
-    let mut scope = scope(reading, invariants.leaves, &invariants.symbols);
-    // These names live in the material file: they may be those of the field as well.
-    for parameter in &compiled.material.parameters {
-        let name = &parameter.name.value;
-        let nothing = reading.graph.number(0);
-        let id = reading.push(Name::plain(name.as_str()), nothing, Role::Given);
-        let leaf = reading.leaf(id);
-        scope.define(name, Some(leaf));
-        scope.assume_positive(reading.symbol(id));
-    }
-    energy_in(reading, scope, compiled)
-}
-
-fn density(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Expr {
-    let formula = &compiled.field.material.density;
-    let value = formulas.read(reading, formula, compiled.model.density);
-    reading.named(Name::plain("rho0"), value, "material")
 }
 
 /// One dimension: W(F), P = dW/dF, Div P = dP/dX. Returns Div P.
@@ -281,10 +144,10 @@ fn divergence(
     (0..dimension)
         .map(|row| {
             let mut terms = Vec::new();
-            for axis in 0..dimension {
+            for (axis, slope) in slopes.iter().enumerate() {
                 let k = row * dimension + axis;
                 terms.push((reading.derivative(shear[k], Along::Coordinate(axis)), Rational::ONE));
-                terms.push((reading.graph.mul(cofactors[k], slopes[axis]), Rational::ONE));
+                terms.push((reading.graph.mul(cofactors[k], *slope), Rational::ONE));
             }
             let sum = reading.graph.sum(terms);
             reading.tidy(sum)
@@ -400,85 +263,15 @@ fn invariants(
     [first, second, jacobian]
 }
 
-/// sigma, tau and P^T. They come after P and before Div P, as everywhere.
-fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
-    let dimension = quantities.dimension;
-    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
-    let deformation = quantities.components(reading, Quantity::DeformationGradient);
-    let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
-    let transposed = transpose(&first, dimension);
-    quantities.add(reading, compiled, Quantity::NominalStress, &transposed);
-    let columns = transpose(&deformation, dimension);
-    let kirchhoff = matrix_product(reading, &first, &columns, dimension);
-    let cauchy: Vec<Expr> =
-        kirchhoff.iter().map(|component| reading.graph.div(*component, jacobian)).collect();
-    quantities.add(reading, compiled, Quantity::CauchyStress, &cauchy);
-    quantities.add(reading, compiled, Quantity::KirchhoffStress, &kirchhoff);
-}
-
-/// b = a - Div P/rho0 and rho0 b, written out where that fits on a line.
-fn balance(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities, density: Expr) {
-    let acceleration = quantities.components(reading, Quantity::Acceleration);
-    let divergence = quantities.components(reading, Quantity::DivP);
-    let specific = |reading: &mut Reading, [acceleration, divergence]: [Expr; 2]| {
-        let part = reading.graph.div(divergence, density);
-        reading.graph.sub(acceleration, part)
-    };
-    let per_volume = |reading: &mut Reading, [acceleration, divergence]: [Expr; 2]| {
-        let inertia = reading.graph.mul(density, acceleration);
-        reading.graph.sub(inertia, divergence)
-    };
-    type Balance<'a> = &'a dyn Fn(&mut Reading, [Expr; 2]) -> Expr;
-    let forms: [(Quantity, Balance<'_>); 2] =
-        [(Quantity::BodyForce, &specific), (Quantity::BodyForceDensity, &per_volume)];
-    for (quantity, form) in forms {
-        let mut values = Vec::new();
-        let mut shown = Vec::new();
-        for (row, pair) in acceleration.iter().zip(&divergence).enumerate() {
-            let value = form(reading, [*pair.0, *pair.1]);
-            values.push(value);
-            let written_out = [Quantity::Acceleration, Quantity::DivP]
-                .map(|quantity| reading.entries[quantities.ids(quantity)[row]].value);
-            let whole = form(reading, written_out);
-            let whole = reading.tidy(whole);
-            shown.push(if reading.length(whole) <= LINE { whole } else { value });
-        }
-        quantities.add(reading, compiled, quantity, &values);
-        quantities.show(reading, quantity, &shown);
-    }
-}
-
-/// T = P N.
-fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
-    let dimension = quantities.dimension;
-    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
-    let zero = reading.graph.number(0);
-    let normal: Vec<Expr> = (0..dimension)
-        .map(|axis| {
-            let index = if dimension == 1 { String::new() } else { (axis + 1).to_string() };
-            let name = reading.taken.fresh(Name::indexed("N", index), "derived");
-            let id = reading.push(name, zero, Role::Given);
-            reading.leaf(id)
-        })
-        .collect();
-    let traction: Vec<Expr> = first
-        .chunks(dimension)
-        .map(|row| dot(reading, row.iter().copied().zip(normal.iter().copied()).collect()))
-        .collect();
-    quantities.add(reading, compiled, Quantity::Traction, &traction);
-}
-
-fn dot(reading: &mut Reading, pairs: Vec<(Expr, Expr)>) -> Expr {
+/// The sum of products.
+pub(super) fn dot(reading: &mut Reading, pairs: Vec<(Expr, Expr)>) -> Expr {
     let graph = &mut reading.graph;
     let terms: Vec<_> = pairs.into_iter().map(|(a, b)| (graph.mul(a, b), Rational::ONE)).collect();
     graph.sum(terms)
 }
 
-fn transpose(matrix: &[Expr], dimension: usize) -> Vec<Expr> {
-    (0..matrix.len()).map(|k| matrix[k % dimension * dimension + k / dimension]).collect()
-}
-
-fn matrix_product(
+/// The product of two square matrices, row-major.
+pub(super) fn matrix_product(
     reading: &mut Reading,
     left: &[Expr],
     right: &[Expr],

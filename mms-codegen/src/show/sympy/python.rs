@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn formulas_stay_as_they_were_typed() {
         assert_eq!(translated("X*(2*length - X)/length^2"), "X*(2*length - X)/length**2");
-        assert_eq!(translated("-X^2^3 - (X - t)"), "-X**2**3 - (X - t)");
+        assert_eq!(translated("-X^Y^3 - (X - t)"), "-X**Y**3 - (X - t)");
         assert_eq!(translated("X/(Y*Z)*2^-X"), "X/(Y*Z)*2**-X");
         assert_eq!(translated("(-X)^2 + (X^2)^3 + (2*X)^t"), "(-X)**2 + (X**2)**3 + (2*X)**t");
     }
