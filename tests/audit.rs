@@ -18,7 +18,10 @@ fn can_run(test: &str) -> bool {
     let found = python().args(["-c", "import sympy"]).output();
     let why = match found {
         Ok(output) if output.status.success() => return true,
-        Ok(output) => String::from_utf8_lossy(&output.stderr).trim().to_string(),
+        Ok(output) => {
+            let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+            stderr.lines().last().unwrap_or_default().to_string()
+        }
         Err(error) => error.to_string(),
     };
     let is_required = std::env::var_os("MMS_REQUIRE_SYMPY").is_some_and(|value| value == "1");

@@ -15,8 +15,11 @@ def motion(X, t):
 
 def determinant(F):
     """det F of three by three."""
-    return sum(F[0, j] * (F[1, (j + 1) % 3] * F[2, (j + 2) % 3] - F[1, (j + 2) % 3] * F[2, (j + 1) % 3])
-               for j in range(3))
+    def cofactor(j):
+        k, m = (j + 1) % 3, (j + 2) % 3
+        return F[1, k] * F[2, m] - F[1, m] * F[2, k]
+
+    return sum(F[0, j] * cofactor(j) for j in range(3))
 
 
 def response(X, arguments):

@@ -6,8 +6,9 @@
 #     sigma = P F^T/J    tau = P F^T    (Div P)_i = dP_iJ/dX_J    b = a - Div P/rho0    T = P N
 #
 # and mpmath evaluates them with 50 digits. At the end they are compared with the numbers that mms
-# computes in double precision. Usage: python3 FILE. Needs Python 3 with SymPy. The exit code is 1 if
-# a number differs by more than TOLERANCE, relative to the largest magnitude of its quantity.
+# computes in double precision. Usage: python3 FILE, with Python 3.10 or later, and SymPy. The exit
+# code is 1 if a number differs by more than TOLERANCE, relative to the largest magnitude of its
+# quantity.
 
 import sys
 

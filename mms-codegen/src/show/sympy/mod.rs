@@ -24,7 +24,7 @@ const TRIED: usize = 64;
 pub struct Undefined;
 
 /// The script of a field: prints a table of the largest differences, and exits with 1 if one of them
-/// is too large. It needs Python 3 and SymPy. An error where there are not enough points at which
+/// is too large. It needs Python 3.10 and SymPy. An error where there are not enough points at which
 /// all quantities are finite numbers.
 pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
     let values = values(compiled)?;
