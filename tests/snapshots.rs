@@ -23,12 +23,27 @@ fn the_program_of_the_bar_is_as_reviewed() {
     insta::assert_snapshot!("bar_1d_program", bar().program);
 }
 
-#[test]
-fn the_derivation_that_show_prints_is_as_reviewed() {
+/// What `mms show bar_1d` prints with one more argument.
+fn shown(argument: &str) -> String {
     let show = Command::new(env!("CARGO_BIN_EXE_mms"))
-        .args(["show", "bar_1d"])
+        .args(["show", "bar_1d", argument])
         .output()
         .expect("the program starts");
-    let text = String::from_utf8(show.stdout).expect("UTF-8");
-    insta::assert_snapshot!("bar_1d_show", text);
+    assert!(show.status.success(), "{}", String::from_utf8_lossy(&show.stderr));
+    String::from_utf8(show.stdout).expect("UTF-8")
+}
+
+#[test]
+fn the_derivation_as_text_is_as_reviewed() {
+    insta::assert_snapshot!("bar_1d_show", shown("--format=text"));
+}
+
+#[test]
+fn the_derivation_as_latex_is_as_reviewed() {
+    insta::assert_snapshot!("bar_1d_show_latex", shown("--format=latex"));
+}
+
+#[test]
+fn the_derivation_as_mathml_is_as_reviewed() {
+    insta::assert_snapshot!("bar_1d_show_mathml", shown("--format=mathml"));
 }

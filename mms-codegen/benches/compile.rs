@@ -7,7 +7,7 @@ mod fields;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use fields::{Family, text};
-use mms_codegen::{Limits, compile_with};
+use mms_codegen::{Options, compile_with};
 
 const TERMS: [usize; 4] = [1, 10, 100, 1000];
 
@@ -19,10 +19,10 @@ fn bench(bencher: Bencher<'_, '_>, family: Family, dimension: usize, terms: usiz
     let text = text(family, dimension, terms);
     let load = |_: &str| Err("no files here".to_string());
     // 1000 terms in each of three components are more than what is allowed by default.
-    let limits = Limits { max_nodes: 2_000_000 };
+    let options = Options { max_nodes: 2_000_000, ..Options::default() };
     bencher
         .counter(ItemsCount::new(terms * dimension))
-        .bench(|| compile_with("x", "x.toml", &text, &load, &limits).expect("a right field"));
+        .bench(|| compile_with("x", "x.toml", &text, &load, &options).expect("a right field"));
 }
 
 #[divan::bench(args = TERMS, max_time = 3)]

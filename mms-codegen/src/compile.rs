@@ -41,7 +41,9 @@ pub struct Compiled {
     pub graph: Graph,
     /// The field's own formulas.
     pub model: Model,
-    /// What follows from them.
+    /// What follows from them, as it was derived.
+    pub derived: Derivation,
+    /// The same in the forms that are cheapest to compute.
     pub derivation: Derivation,
     /// What of it was wanted.
     pub selection: Selection,
@@ -162,10 +164,10 @@ fn phases(
     let model = model?;
     diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     let material = material.filter(|_| diagnostics.is_empty())?;
-    let derivation = derive(&mut graph, &model, &Relations::default())
+    let derived = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
-    let derivation = simplify(&mut graph, &model, derivation);
+    let derivation = simplify(&mut graph, &model, &derived);
     let mut outputs = outputs(&mut graph, &model, &derivation);
     outputs.retain(|output, _| selection.schedules(*output, &field));
     if graph.is_exhausted() {
@@ -176,7 +178,17 @@ fn phases(
     diagnostics.extend(unrepresentable(&field, &program));
     diagnostics.extend(selection.undefined(sources, &field, &program));
     let (sources, selection) = (sources.clone(), selection.clone());
-    Some(Compiled { field, material, sources, graph, model, derivation, selection, program })
+    Some(Compiled {
+        field,
+        material,
+        sources,
+        graph,
+        model,
+        derived,
+        derivation,
+        selection,
+        program,
+    })
 }
 
 /// A constant that no double precision number is near to, if the program has one.

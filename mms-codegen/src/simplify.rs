@@ -14,9 +14,9 @@ use crate::pass::relations::{Relations, lateness};
 use crate::program::schedule::{Cost, cost};
 
 /// Simplifies the components of every quantity and response of a derivation without relations.
-pub fn simplify(graph: &mut Graph, model: &Model, plain: Derivation) -> Derivation {
+pub fn simplify(graph: &mut Graph, model: &Model, plain: &Derivation) -> Derivation {
     let relations = Relations::find(graph, &model.displacement);
-    let mut quantities = vec![plain.quantities];
+    let mut quantities = vec![plain.quantities.clone()];
     if !relations.is_empty() {
         // Relations that are used early keep the motion short, and all that follows from it.
         let reduced = graph.attempt(|graph| derive(graph, model, &relations));
@@ -24,7 +24,7 @@ pub fn simplify(graph: &mut Graph, model: &Model, plain: Derivation) -> Derivati
     }
     Derivation {
         quantities: cheapest(graph, quantities, &relations),
-        responses: cheapest(graph, vec![plain.responses], &Relations::default()),
+        responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
     }
 }
 

@@ -1,16 +1,25 @@
 //! `mms show`: the derivation, readable.
 
-use clap::Args;
+use std::collections::BTreeMap;
+
+use anyhow::anyhow;
+use clap::{Args, ValueEnum};
 use mms_codegen::Compiled;
-use mms_codegen::emit::text::{Line, definitions, derivation};
+use mms_codegen::mechanics::TooLarge;
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::show::language::Language;
+use mms_codegen::show::{Document, Line, Section, latex, mathml, sympy, text};
 use serde_json::{Map, Value, json};
 
 use super::input::{Bound, Input, quantities};
 use super::{Outcome, print, print_json};
 
-/// Show what follows from a field: its derivation, claims and operation counts.
+/// Show what follows from a field: its derivation with every step named, its claims, and how many
+/// operations each quantity takes.
+///
+/// A comma means a derivative: F_11,X is that of F_11 by X. Long formulas are put together from
+/// parts k1, k2, ..., which are listed before they are used.
 #[derive(Args)]
 pub struct Show {
     /// A gallery name, or a path to a TOML file.
@@ -18,28 +27,132 @@ pub struct Show {
     /// Quantities, separated by commas; all by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
+    /// How to write: text for a terminal, a LaTeX document, or a page of MathML for a browser.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
     #[command(flatten)]
     bound: Bound,
-    /// Print one JSON document.
-    #[arg(long)]
+    /// Print one JSON document; its formulas are in the language of field files.
+    #[arg(long, conflicts_with = "format")]
     json: bool,
+    /// Print a script instead, which derives everything once more and compares the values; run it
+    /// with Python.
+    #[arg(long, value_enum, conflicts_with_all = ["format", "json", "quantity"])]
+    script: Option<Script>,
+}
+
+/// What a script derives with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Script {
+    /// SymPy.
+    Sympy,
+}
+
+/// How to write the derivation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Unicode text.
+    #[default]
+    Text,
+    /// A LaTeX document.
+    Latex,
+    /// A page of MathML.
+    Mathml,
 }
 
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field, self.bound)?;
+        if self.script == Some(Script::Sympy) {
+            let script = sympy::script(&input.compiled).map_err(|sympy::Undefined| {
+                anyhow!(
+                    "`{}` has no {} points in its domain where all quantities are finite: there is nothing to compare",
+                    input.name,
+                    sympy::POINTS
+                )
+            })?;
+            print(&script)?;
+            return Ok(Outcome::AsExpected);
+        }
         let quantities = match self.quantity.as_slice() {
             [] => Quantity::ALL.to_vec(),
             named => quantities(named)?,
         };
-        let compiled = &input.compiled;
-        if self.json {
-            print_json(&document(&input.name, compiled, &quantities))?;
-        } else {
-            print(&text(&input.name, compiled, &quantities))?;
+        let document = Document::new(&input.compiled, &quantities).map_err(|TooLarge(what)| {
+            anyhow!("the {what} of `{}` has too many terms; ask for one --quantity", input.name)
+        })?;
+        match self.format {
+            _ if self.json => print_json(&json(&input.compiled, &document))?,
+            Format::Text => print(&text::page(&document))?,
+            Format::Latex => print(&latex::page(&document))?,
+            Format::Mathml => print(&mathml::page(&document))?,
         }
         Ok(Outcome::AsExpected)
     }
+}
+
+fn json(compiled: &Compiled, document: &Document) -> Value {
+    let quantities: Map<String, Value> = document
+        .sections
+        .iter()
+        .map(|section| (section.quantity.name().to_string(), quantity(compiled, document, section)))
+        .collect();
+    let claims: Map<String, Value> =
+        document.claims.iter().map(|(face, claim)| (face.to_string(), (*claim).into())).collect();
+    let material = &document.material;
+    let mut definitions = formulas(document, &document.definitions);
+    definitions.extend(formulas(document, &material.whereby));
+    let density = material.density.first();
+    json!({
+        "field": document.name,
+        "title": document.title,
+        "dimension": document.dimension,
+        "reference": document.reference,
+        "material": material.name,
+        "strain_energy": compiled.material.strain_energy.text,
+        "material_parameters": formulas(document, &material.arguments),
+        "density": density.map(|line| document.formula(line.value, &Language)),
+        "definitions": definitions,
+        "boundary": claims,
+        "quantities": quantities,
+        "operations": together(compiled, document),
+    })
+}
+
+/// What all quantities that are shown cost together.
+fn together(compiled: &Compiled, document: &Document) -> Value {
+    let shown: Vec<_> = document.sections.iter().map(|section| section.quantity).collect();
+    let operations = compiled.operations(&shown);
+    let by_stage = Stage::ALL.map(|stage| (stage.name(), operations.by_stage[&stage]));
+    json!({
+        "before": operations.before,
+        "after": operations.after,
+        "by_stage": BTreeMap::from(by_stage),
+        "by_kind": operations.by_kind,
+    })
+}
+
+fn quantity(compiled: &Compiled, document: &Document, section: &Section) -> Value {
+    let components = section.components.iter();
+    let formula: Vec<_> =
+        components.clone().map(|line| document.formula(line.value, &Language)).collect();
+    let symbols: Vec<_> =
+        components.flat_map(|line| &line.left).map(|name| name.identifier()).collect();
+    json!({
+        "symbols": symbols,
+        "where": formulas(document, &section.whereby),
+        "formula": formula,
+        "operations": operations(compiled, section.quantity),
+    })
+}
+
+/// Names and what they stand for, in the order in which they are needed.
+fn formulas(document: &Document, lines: &[Line]) -> Map<String, Value> {
+    let pairs = lines.iter().flat_map(|line| {
+        let formula = document.formula(line.value, &Language);
+        line.left.iter().map(move |name| (name.identifier(), formula.clone().into()))
+    });
+    pairs.collect()
 }
 
 fn operations(compiled: &Compiled, quantity: Quantity) -> Map<String, Value> {
@@ -49,78 +162,4 @@ fn operations(compiled: &Compiled, quantity: Quantity) -> Map<String, Value> {
     operations.insert("total".into(), total.into());
     operations.extend(Stage::ALL.map(|stage| (stage.name().to_string(), counts[&stage].into())));
     operations
-}
-
-fn document(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> Value {
-    let field = &compiled.field;
-    let quantities: Map<String, Value> = derivation(compiled)
-        .into_iter()
-        .filter(|(quantity, _)| quantities.contains(quantity))
-        .map(|(quantity, lines)| {
-            let formula: Vec<_> = lines.into_iter().map(|line| line.formula).collect();
-            let entry = json!({ "formula": formula, "operations": operations(compiled, quantity) });
-            (quantity.name().to_string(), entry)
-        })
-        .collect();
-    let definitions: Map<String, Value> =
-        definitions(compiled).into_iter().map(|line| (line.symbol, line.formula.into())).collect();
-    let claims: Map<String, Value> = field
-        .boundary
-        .iter()
-        .map(|claim| (claim.face.value.name().to_string(), claim.claim.value.name().into()))
-        .collect();
-    json!({
-        "field": name,
-        "title": field.title,
-        "dimension": field.dimension,
-        "reference": field.reference,
-        "material": field.material.model.value,
-        "definitions": definitions,
-        "boundary": claims,
-        "quantities": quantities,
-    })
-}
-
-fn text(name: &str, compiled: &Compiled, quantities: &[Quantity]) -> String {
-    let field = &compiled.field;
-    let mut lines = vec![format!("{name}: {}", field.title)];
-    if let Some(reference) = &field.reference {
-        lines.push(format!("  {reference}"));
-    }
-    lines.push(String::new());
-    lines.push(format!("material {}: {}", field.material.model.value, compiled.material.title));
-    lines.push(format!("  W = {}", compiled.material.strain_energy.text));
-    for (argument, formula) in &field.material.arguments {
-        lines.push(format!("  {} = {}", argument.value, formula.text));
-    }
-    lines.push(format!("  rho0 = {}", field.material.density.text));
-    lines.push(String::new());
-    lines.push("with".into());
-    let print = |line: Line| format!("  {} = {}", line.symbol, line.formula);
-    lines.extend(definitions(compiled).into_iter().map(print));
-    for (quantity, formulas) in derivation(compiled) {
-        if !quantities.contains(&quantity) {
-            continue;
-        }
-        lines.push(String::new());
-        let counts = operations(compiled, quantity);
-        let stages: Vec<_> = Stage::ALL
-            .iter()
-            .filter(|stage| counts[stage.name()] != 0)
-            .map(|stage| format!("{} {}", counts[stage.name()], stage.name()))
-            .collect();
-        let stages = if stages.is_empty() { "none".into() } else { stages.join(", ") };
-        lines.push(format!("{} (operations: {stages})", quantity.name()));
-        lines.extend(formulas.into_iter().map(print));
-    }
-    if !field.boundary.is_empty() {
-        lines.push(String::new());
-        lines.push("boundary claims".into());
-        lines.extend(
-            field.boundary.iter().map(|claim| {
-                format!("  {}: {}", claim.face.value.name(), claim.claim.value.name())
-            }),
-        );
-    }
-    lines.join("\n")
 }

@@ -1,11 +1,11 @@
-//! `mms list`, `mms show`, and the command line itself.
+//! `mms list`, and the command line itself.
 
 use mms::gallery::FIELDS;
 use mms_codegen::compile::MATERIALS;
 use mms_runtime::{IntegratorName, ShapeName};
 use serde_json::json;
 
-use super::mms::{Folder, keys};
+use super::mms::Folder;
 
 #[test]
 fn list_names_every_field_material_and_method() {
@@ -28,37 +28,6 @@ fn list_as_a_document_has_the_same_names() {
     assert_eq!(document["integrators"], json!(IntegratorName::NAMES));
     let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
     assert_eq!(document["materials"], json!(materials));
-}
-
-#[test]
-fn show_has_every_quantity_the_material_and_the_claims() {
-    let run = Folder::new().mms("show bar_1d").exits(0);
-    run.prints("bar_1d: Body force on a 1D bar").prints("Wallstedt & Guilkey");
-    run.prints("neo_hookean").prints("x_min: fixed").prints("x_max: free");
-    for symbol in ["u", "v", "a", "H", "F", "J", "W", "P", "sigma", "tau", "b"] {
-        run.prints(&format!("\n  {symbol} = "));
-    }
-}
-
-#[test]
-fn show_takes_short_names() {
-    let document = Folder::new().mms("show bar_1d --quantity b,P --json").exits(0).json();
-    assert_eq!(keys(&document["quantities"]), ["first_piola_kirchhoff", "body_force"]);
-}
-
-#[test]
-fn show_of_a_file_is_that_of_the_gallery() {
-    let folder = Folder::with_bar("copy.toml");
-    let (named, copied) = (folder.mms("show bar_1d").exits(0), folder.mms("show copy.toml"));
-    assert_eq!(copied.exits(0).stdout, named.stdout.replacen("bar_1d:", "copy:", 1));
-}
-
-#[test]
-fn show_refuses_unknown_names_with_a_suggestion() {
-    let folder = Folder::new();
-    folder.mms("show bar_1").exits(2).complains("did you mean `bar_1d`?");
-    let run = folder.mms("show bar_1d --quantity body_forc").exits(2);
-    run.complains("did you mean `body_force`?").prints_nothing();
 }
 
 #[test]

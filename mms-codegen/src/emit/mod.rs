@@ -2,7 +2,6 @@
 //! differentiate nor reorder.
 
 pub mod rust;
-pub mod text;
 
 use crate::compile::Compiled;
 

@@ -9,6 +9,8 @@ use mms_codegen::pass::differentiate::differentiate;
 use mms_codegen::pass::relations::Relations;
 use mms_codegen::pass::substitute::substitute;
 use mms_codegen::program::schedule::cost;
+use mms_codegen::show::language::Language;
+use mms_codegen::show::walk::write;
 use mms_codegen::simplify::ways;
 use mms_codegen::source::Sources;
 use mms_codegen::spec::Formula;
@@ -41,8 +43,10 @@ proptest! {
     fn a_printed_expression_reads_back_as_itself(recipe in recipe()) {
         let mut graph = Graph::default();
         let root = built(&mut graph, &recipe)?;
-        let text = graph.print(root, &Names::default());
-        prop_assert_eq!(read(&mut graph, &text), Ok(root), "{}", text);
+        let names = Names::default();
+        for text in [graph.print(root, &names), write(&graph, root, &names, &Language)] {
+            prop_assert_eq!(read(&mut graph, &text), Ok(root), "{}", text);
+        }
     }
 
     #[test]

@@ -1,0 +1,79 @@
+def number(expression, arguments):
+    """A function that evaluates an expression with 50 digits."""
+    return lambdify(arguments, expression, [{"Cbrt": real_cube_root}, "mpmath"], cse=True)
+
+
+def motion(X, t):
+    """u, v, a, H and the second derivatives u_i,JK as functions of X and t."""
+    u, density, arguments = field(*X, t)
+    v = [diff(component, t) for component in u]
+    a = [diff(component, t) for component in v]
+    H = [[diff(component, x) for x in X] for component in u]
+    second = [[[diff(slope, x) for x in X] for slope in row] for row in H]
+    return number([u, v, a, H, second, density], [*X, t]), arguments
+
+
+def determinant(F):
+    """det F of three by three."""
+    def cofactor(j):
+        k, m = (j + 1) % 3, (j + 2) % 3
+        return F[1, k] * F[2, m] - F[1, m] * F[2, k]
+
+    return sum(F[0, j] * cofactor(j) for j in range(3))
+
+
+def response(X, arguments):
+    """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_J as functions of X and F.
+
+    W is that of a body in space. The diagonal entries of F that the field lacks are 1.
+    """
+    D = len(X)
+    F = [[Symbol(f"F{i + 1}{j + 1}", real=True) for j in range(D)] for i in range(D)]
+    space = Matrix(3, 3, lambda i, j: F[i][j] if max(i, j) < D else int(i == j))
+    C = space.T * space
+    I1 = C.trace()
+    I2 = (I1**2 - (C * C).trace()) / 2
+    J = determinant(space)
+    W = strain_energy(I1, I2, J**2, J, **arguments)
+    P = [[diff(W, entry) for entry in row] for row in F]
+    tangent = [[[[diff(P[i][j], entry) for entry in row] for row in F] for j in range(D)]
+               for i in range(D)]
+    explicit = [sum(diff(P[i][j], X[j]) for j in range(D)) for i in range(D)]
+    return number([J, W, P, tangent, explicit], [*X, *sum(F, [])])
+
+
+def derived(dimension):
+    """A function from X and t to every quantity, a list of components each, rows first."""
+    X = [Symbol(name, real=True) for name in "XYZ"[:dimension]]
+    t = Symbol("t", real=True)
+    motion_at, arguments = motion(X, t)
+    response_at = response(X, arguments)
+
+    def at(X, t, N):
+        D = range(len(X))
+        u, v, a, H, second, density = motion_at(*X, t)
+        F = [[H[i][j] + (i == j) for j in D] for i in D]
+        J, W, P, tangent, explicit = response_at(*X, *sum(F, []))
+        tau = [[sum(P[i][k] * F[j][k] for k in D) for j in D] for i in D]
+        # dP_iJ/dX_J = dP_iJ/dF_kL u_k,LJ, and what depends on X by itself.
+        div_p = [explicit[i] + sum(tangent[i][j][k][m] * second[k][m][j]
+                                   for j in D for k in D for m in D) for i in D]
+        return {
+            "displacement": u,
+            "velocity": v,
+            "acceleration": a,
+            "displacement_gradient": sum(H, []),
+            "deformation_gradient": sum(F, []),
+            "jacobian": [J],
+            "strain_energy": [W],
+            "first_piola_kirchhoff": sum(P, []),
+            "nominal_stress": [P[j][i] for i in D for j in D],
+            "cauchy_stress": [tau[i][j] / J for i in D for j in D],
+            "kirchhoff_stress": sum(tau, []),
+            "div_p": div_p,
+            "body_force": [a[i] - div_p[i] / density for i in D],
+            "body_force_density": [density * a[i] - div_p[i] for i in D],
+            "traction": [sum(P[i][j] * N[j] for j in D) for i in D],
+        }
+
+    return at

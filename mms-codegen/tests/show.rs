@@ -1,0 +1,387 @@
+//! What is shown of a field: that it is right, that it can be read, and that every notation is well
+//! formed. The second route is the program that is compiled from the expanded derivation.
+
+use std::fs;
+use std::path::Path;
+
+use mms_codegen::certify::sample::samples;
+use mms_codegen::expr::resolve::Scope;
+use mms_codegen::expr::{Expr, Graph, Rational, Symbol};
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::program::precise::Precise;
+use mms_codegen::program::schedule::schedule;
+use mms_codegen::program::{Output, Program};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::show::language::Language;
+use mms_codegen::show::{Document, Line, latex, mathml, text};
+use mms_codegen::source::Sources;
+use mms_codegen::spec::Formula;
+use mms_codegen::{Compiled, compile, syntax};
+
+/// Lines of text are about a hundred characters long, and no longer.
+const LINE: usize = 105;
+
+/// A material that is a function of I1, I2, I3 and J, with definitions of its own.
+const MOONEY: &str = r#"
+[material]
+title = "compressible Mooney-Rivlin"
+strain_energy = "c1*(I1 - 3) + c2*(I2 - 3) - d*ln(J) + bulk/4*(I3 - 1)^2"
+
+[parameters]
+c1   = { unit = "Pa" }
+c2   = { unit = "Pa" }
+bulk = { unit = "Pa" }
+
+[let]
+d = "2*c1 + 4*c2"
+"#;
+
+fn compiled(name: &str, text: &str) -> Compiled {
+    let load = |path: &str| match path {
+        "./mooney.toml" => Ok(MOONEY.to_string()),
+        other => Err(format!("{other}: no such material here")),
+    };
+    compile(name, &format!("{name}.toml"), text, &load)
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+fn pass(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/pass");
+    fs::read_to_string(folder.join(name)).expect("a file of tests/data/pass")
+}
+
+fn with_mooney(text: &str, moduli: [&str; 3]) -> String {
+    let replaced = |line: &str| !line.starts_with("lambda  =") && !line.starts_with("mu      =");
+    let lines: Vec<_> = text.lines().filter(|line| replaced(line)).collect();
+    let [c1, c2, bulk] = moduli;
+    lines.join("\n").replace(
+        "model   = \"neo_hookean\"",
+        &format!("model = \"./mooney.toml\"\nc1 = \"{c1}\"\nc2 = \"{c2}\"\nbulk = \"{bulk}\""),
+    )
+}
+
+/// Fields of every dimension and kind, each with its name.
+fn fields() -> Vec<Compiled> {
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
+    let mut fields = Vec::new();
+    let mut paths: Vec<_> = fs::read_dir(gallery)
+        .expect("fields/")
+        .map(|entry| entry.expect("an entry of fields/").path())
+        .collect();
+    paths.sort();
+    for path in paths {
+        let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
+        fields.push(compiled(&name, &fs::read_to_string(&path).expect("a field")));
+    }
+    for name in ["rotating_2d", "sines_3d", "graded_2d"] {
+        fields.push(compiled(name, &pass(&format!("{name}.toml"))));
+    }
+    let moduli = ["mu/2", "mu/5 + 7", "lambda*(3 + X)"];
+    fields.push(compiled("mooney_2d", &with_mooney(&pass("rotating_2d.toml"), moduli)));
+    let moduli = ["young/8", "young/20", "young*nu*(length + X*Z/length)"];
+    fields.push(compiled("mooney_3d", &with_mooney(&pass("sines_3d.toml"), moduli)));
+    let bar = include_str!("../../fields/bar_1d.toml");
+    let moduli = ["young/8", "young/20*(1 + X)", "young"];
+    let bar = bar.replace("lambda  = \"0\"\nmu      = \"young/2\"\n", "");
+    fields.push(compiled("mooney_1d", &with_mooney(&bar, moduli)));
+    fields.push(compiled("odd_names", include_str!("../../tests/ui/pass/odd_names.toml")));
+    fields
+}
+
+fn document(field: &Compiled) -> Document {
+    Document::new(field, Quantity::ALL).expect("a derivation of usual size")
+}
+
+/// Reads formulas one after the other; each name stands for a further parameter.
+struct Reader {
+    graph: Graph,
+    scope: Scope,
+    parameters: usize,
+}
+
+impl Reader {
+    fn new(field: &Compiled) -> Self {
+        let mut reader = Reader { graph: Graph::default(), scope: Scope::default(), parameters: 0 };
+        let axes = ["X", "Y", "Z"].into_iter().take(field.field.dimension).enumerate();
+        let axes = axes.map(|(axis, name)| (name, Symbol::Coordinate(axis)));
+        for (name, symbol) in axes.chain([("t", Symbol::Time)]) {
+            let leaf = reader.graph.symbol(symbol);
+            reader.scope.define(name, Some(leaf));
+        }
+        let pi = reader.graph.pi();
+        reader.scope.define("pi", Some(pi));
+        field.model.parameters.iter().for_each(|parameter| reader.define(&parameter.name));
+        reader
+    }
+
+    fn define(&mut self, name: &str) {
+        let symbol = Symbol::Parameter(self.parameters);
+        self.parameters += 1;
+        let leaf = self.graph.symbol(symbol);
+        self.scope.assume_positive(symbol);
+        self.scope.define(name, Some(leaf));
+    }
+
+    fn program(&mut self, text: &str) -> Program {
+        let mut sources = Sources::default();
+        let source = sources.add("shown", text);
+        let formula = Formula::plain(text, sources.span(source, 0, text.len()));
+        let mut diagnostics = Vec::new();
+        let ast = syntax::parse(&formula, &mut diagnostics);
+        let value: Option<Expr> =
+            ast.and_then(|ast| self.scope.resolve(&mut self.graph, &ast, &mut diagnostics));
+        let value = value.unwrap_or_else(|| panic!("{text}: {diagnostics:?}"));
+        schedule(&self.graph, &[(Output::Expected(0), vec![value])].into())
+    }
+}
+
+/// A document's lines, with where the components of quantities begin.
+fn lines(document: &Document) -> Vec<(Option<(Quantity, usize)>, &Line)> {
+    let mut lines: Vec<_> = document.definitions.iter().map(|line| (None, line)).collect();
+    lines.extend(document.material.whereby.iter().map(|line| (None, line)));
+    for section in &document.sections {
+        lines.extend(section.whereby.iter().map(|line| (None, line)));
+        let components = section.components.iter().enumerate();
+        lines.extend(components.map(|(k, line)| (Some((section.quantity, k)), line)));
+    }
+    lines
+}
+
+/// Everything that is shown, read as a user reads it, evaluates to what the program computes.
+fn assert_shown_is_computed(field: &Compiled, document: &Document) {
+    let name = &field.field.name;
+    let dimension = field.field.dimension;
+    let parameters = field.parameters::<Precise>(&Default::default());
+    let normal: Vec<Precise> = (0..dimension).map(fifths).collect();
+    for sample in samples(field, &parameters, 5) {
+        let mut program = Interpreter::new(&field.program, &parameters);
+        let outputs: Vec<_> = Quantity::ALL.iter().map(|found| Output::Quantity(*found)).collect();
+        let plan = program.plan(&outputs);
+        program.set_time(&sample.time);
+        let coordinates = &sample.coordinates;
+        program.set_point(&plan, Point { coordinates, normal: &normal, gradient: &[] });
+        let mut reader = Reader::new(field);
+        let mut values = parameters.clone();
+        for (axis, component) in normal.iter().enumerate() {
+            let shown = if dimension == 1 { "N".into() } else { format!("N_{}", axis + 1) };
+            reader.define(&shown);
+            values.push(component.clone());
+        }
+        for (component, line) in lines(document) {
+            let text = document.formula(line.value, &Language);
+            let formula = reader.program(&text);
+            let mut interpreter = Interpreter::new(&formula, &values);
+            let plan = interpreter.plan(&[Output::Expected(0)]);
+            interpreter.set_time(&sample.time);
+            interpreter.set_point(&plan, Point::at(coordinates));
+            let value = interpreter.output(Output::Expected(0)).remove(0);
+            let shown = line.left[0].identifier();
+            if let Some((quantity, k)) = component {
+                let computed = program.output(Output::Quantity(quantity));
+                assert!(computed.iter().all(Precise::is_defined), "{name}: {shown}");
+                let one = Precise::new(&Rational::ONE);
+                let sum = |sum: Precise, value: &Precise| sum + value.clone().magnitude();
+                let scale = computed.iter().fold(one, sum);
+                let difference = (value.clone() - computed[k].clone()).magnitude();
+                let allowed = scale * tolerance();
+                assert!(
+                    difference.at_most(&allowed),
+                    "{name}: {shown} = {text} is {:e}, not {:e}",
+                    value.to_f64(),
+                    computed[k].to_f64()
+                );
+            }
+            reader.define(&shown);
+            values.push(value);
+        }
+    }
+}
+
+/// 1e-30: both sides are computed with 77 digits.
+fn tolerance() -> Precise {
+    let tenth = Precise::new(&Rational::from_parts(1.into(), 10_u8.into()));
+    (0..30).fold(Precise::new(&Rational::ONE), |power, _| power * tenth.clone())
+}
+
+/// A component of a vector that is normal to nothing in particular.
+fn fifths(axis: usize) -> Precise {
+    let numerator: i32 = [3, 4, 2][axis];
+    Precise::new(&Rational::from_parts(numerator.into(), 5_u8.into()))
+}
+
+#[test]
+fn what_is_shown_is_what_is_computed() {
+    for field in fields() {
+        assert_shown_is_computed(&field, &document(&field));
+    }
+}
+
+#[test]
+fn what_is_asked_for_alone_comes_with_all_that_it_uses() {
+    for field in fields() {
+        for quantity in Quantity::ALL {
+            let document = Document::new(&field, &[*quantity]).expect("a usual size");
+            assert_eq!(document.sections.len(), 1);
+            assert_shown_is_computed(&field, &document);
+        }
+    }
+}
+
+#[test]
+fn lines_of_text_are_short() {
+    for field in fields() {
+        for line in text::page(&document(&field)).lines() {
+            let length = line.chars().count();
+            assert!(length <= LINE, "{}: {length} characters: {line}", field.field.name);
+        }
+    }
+}
+
+/// A displacement of many terms, deep nesting, and long numbers.
+fn heavy(displacement: &str) -> Compiled {
+    let text = format!(
+        r#"
+        [field]
+        title = "heavy"
+        dimension = 1
+        [displacement]
+        u = ["{displacement}"]
+        [material]
+        model = "neo_hookean"
+        lambda = "1"
+        mu = "1"
+        density = "1"
+        [domain]
+        shape = "box"
+        lower = ["0"]
+        upper = ["1"]
+        time = ["0", "1"]
+        "#
+    );
+    compiled("heavy", &text)
+}
+
+#[test]
+fn a_wall_is_broken_into_lines() {
+    let terms: Vec<_> = (1..150).map(|k| format!("sin({k}*X + t)/{}", 1000 + k * k)).collect();
+    let nested = (0..30).fold("X".to_string(), |inside, _| format!("sin({inside} + t)/2"));
+    let product: Vec<_> = (1..40).map(|k| format!("(2 + sin(X/{k} + t))/3")).collect();
+    for displacement in [terms.join(" + "), nested, product.join("*")] {
+        let field = heavy(&displacement);
+        let quantities = [Quantity::Displacement, Quantity::Velocity, Quantity::BodyForce];
+        let document = Document::new(&field, &quantities).expect("within the bound");
+        for line in text::page(&document).lines() {
+            let length = line.chars().count();
+            assert!(length <= LINE, "{length} characters: {line}");
+        }
+        assert_shown_is_computed(&field, &document);
+    }
+}
+
+#[test]
+fn equal_input_gives_equal_pages() {
+    for (a, b) in fields().iter().zip(fields().iter()) {
+        let (a, b) = (document(a), document(b));
+        assert_eq!(text::page(&a), text::page(&b));
+        assert_eq!(latex::page(&a), latex::page(&b));
+        assert_eq!(mathml::page(&a), mathml::page(&b));
+    }
+}
+
+/// Asserts that braces, environments, displays and stretched parentheses are closed as they were
+/// opened, and that no other character has a meaning outside a formula.
+fn assert_balanced(page: &str) {
+    let mut open: Vec<&str> = Vec::new();
+    let mut rest = page;
+    while let Some(at) = rest.find(['\\', '{', '}', '$', '#', '%', '&', '_', '^', '~']) {
+        rest = &rest[at..];
+        let in_formula = open.iter().any(|open| ["[", "align*"].contains(open));
+        let length = match &rest[..1] {
+            "\\" => command(&rest[1..], &mut open),
+            "{" => {
+                open.push("{");
+                1
+            }
+            "}" => {
+                assert_eq!(open.pop(), Some("{"), "{rest:.60}");
+                1
+            }
+            "&" | "_" | "^" if in_formula => 1,
+            other => panic!("`{other}` is not escaped: {rest:.60}"),
+        };
+        rest = &rest[length..];
+    }
+    assert!(open.is_empty(), "not closed: {open:?}");
+}
+
+/// Follows a command, given without its backslash; returns the length of all of it.
+fn command<'a>(text: &'a str, open: &mut Vec<&'a str>) -> usize {
+    let letters = text.find(|next: char| !next.is_ascii_alphabetic()).expect("an end");
+    let name = &text[..letters.max(1)];
+    match name {
+        "begin" | "end" => {
+            let argument = &text[letters + 1..][..text[letters + 1..].find('}').expect("`}`")];
+            match name {
+                "begin" => open.push(argument),
+                _ => assert_eq!(open.pop(), Some(argument)),
+            }
+            return 1 + name.len() + argument.len() + 2;
+        }
+        "left" => open.push("left"),
+        "right" => assert_eq!(open.pop(), Some("left"), "{text:.60}"),
+        "[" => open.push("["),
+        "]" => assert_eq!(open.pop(), Some("[")),
+        _ => {}
+    }
+    1 + name.len()
+}
+
+#[test]
+fn latex_is_balanced_and_escaped() {
+    let mut fields = fields();
+    fields[0].field.title = r"50% of $A_1 & {B}^2 ~ \input{x} #".into();
+    for field in &fields {
+        assert_balanced(&latex::page(&document(field)));
+    }
+}
+
+#[test]
+fn mathml_is_well_formed() {
+    let mut fields = fields();
+    let title = "a < b && \"c\" > </title> \u{1} <script>";
+    fields[0].field.title = title.into();
+    for field in &fields {
+        let page = mathml::page(&document(field));
+        let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+        let parsed = roxmltree::Document::parse_with_options(&page, options)
+            .unwrap_or_else(|error| panic!("{error}\n{page}"));
+        let elements = || parsed.descendants().filter(|node| node.is_element());
+        let formulas = elements().filter(|node| node.has_tag_name("math")).count();
+        assert!(formulas > 20, "{formulas} formulas");
+        for element in elements() {
+            let (name, children) =
+                (element.tag_name().name(), element.children().filter(|node| node.is_element()));
+            let expected = match name {
+                "mfrac" | "msup" | "msub" | "mover" | "mroot" => 2,
+                "msqrt" => 1,
+                "script" => panic!("a title became an element"),
+                _ => continue,
+            };
+            assert_eq!(children.count(), expected, "{name}");
+        }
+    }
+}
+
+#[test]
+fn names_of_users_are_kept_apart_from_those_of_quantities() {
+    let field = compiled("odd_names", include_str!("../../tests/ui/pass/odd_names.toml"));
+    let document = document(&field);
+    let parameters = field.model.parameters.iter().map(|parameter| parameter.name.clone());
+    let shown = lines(&document);
+    let names = shown.iter().flat_map(|(_, line)| &line.left).map(|name| name.identifier());
+    let mut all: Vec<_> = parameters.chain(names).collect();
+    let count = all.len();
+    all.sort();
+    all.dedup();
+    assert_eq!(all.len(), count);
+}
