@@ -4,7 +4,7 @@ use super::mms::{BAR, Folder};
 
 /// A bar whose definition `A` is a product of so many waves, with a large derivative.
 fn waves(count: usize) -> Folder {
-    let waves: Vec<_> = (1..=count).map(|k| format!("cos({k}*(c*pi*t + X)/length)")).collect();
+    let waves: Vec<_> = (1..=count).map(|k| format!("cos({k}*c*pi*t/length + X/length)")).collect();
     let text = BAR.replace("cos(c*pi*t/length)\"", &format!("({})\"", waves.join("*")));
     assert_ne!(text, BAR);
     let folder = Folder::new();

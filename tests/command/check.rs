@@ -130,9 +130,9 @@ fn what_is_undefined_in_the_domain_is_told_as_such() {
     let other =
         with_displacement("A*X/length", "A*X/length*sqrt(X/length - 1/2)/sqrt(X/length - 1/2)");
     other.mms("check bar.toml").exits(0);
-    let other = with_displacement("A*X", "A*X + 0*ln(X - 1/2)");
+    let other = with_displacement("A*X/length", "A*X/length + 0*A*ln(X/length - 1/2)");
     other.mms("check bar.toml").exits(0);
-    let other = with_displacement("A*X/length", "A*X/length*exp(ln(X - 1/2))/(X - 1/2)");
+    let other = with_displacement("A*X/length", "A*X/length*exp(ln(X/length - 1/2))/(X/length - 1/2)");
     let run = other.mms("check bar.toml").exits(1);
     run.prints("closed form undefined").prints("is UNDEFINED at 65 of 128 points");
 }

@@ -1,0 +1,79 @@
+//! ARCHITECTURE.md shows one datum, the bar's J, at every border of the compiler. Here the same is
+//! made, and compared with what the page shows.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+
+use mms_codegen::expr::print::Names;
+use mms_codegen::program::Output;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::syntax::{self, Ast, Kind, Operator};
+use mms_codegen::{Compiled, Selection, compile_with, emit};
+
+fn bar() -> Compiled {
+    let text = fs::read_to_string("fields/bar_1d.toml").expect("the bar");
+    let quantities = Some(BTreeSet::from([Quantity::Jacobian]));
+    let selection = Selection { quantities, ..Selection::default() };
+    let load = |_: &str| Err("no files here".to_string());
+    compile_with("bar_1d", "fields/bar_1d.toml", &text, &load, &selection.into())
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// The nodes in their order, which is postfix.
+fn postfix(ast: &Ast) -> String {
+    let shown = ast.nodes.iter().map(|node| match &node.kind {
+        Kind::Number(number) => number.to_string(),
+        Kind::Name(name) => name.clone(),
+        Kind::Negate(_) => "negate".into(),
+        Kind::Binary(operator, ..) => match operator {
+            Operator::Add => "+",
+            Operator::Subtract => "-",
+            Operator::Multiply => "*",
+            Operator::Divide => "/",
+            Operator::Power => "^",
+        }
+        .into(),
+        Kind::Call { name, .. } => format!("{}()", name.value),
+    });
+    shown.collect::<Vec<_>>().join(" ")
+}
+
+/// What is under the heading of a step, as the page shows it.
+fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
+    let formula = &compiled.field.displacement[0];
+    let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");
+    let names =
+        Names { parameters: compiled.model.names.parameters.clone(), ..Names::default() };
+    let print = |expr| compiled.graph.print(expr, &names);
+    let emitted = emit::rust::file(compiled).text;
+    let function = emitted.find("pub fn jacobian(").expect("the function");
+    let length = emitted[function..].find("\n    }").expect("its end");
+    let output = Output::Quantity(Quantity::Jacobian);
+    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let mut interpreter = Interpreter::<f64>::new(&compiled.program, &parameters);
+    interpreter.set_time(&0.0023);
+    let plan = interpreter.plan(&[output]);
+    interpreter.set_point(&plan, Point::at(&[0.3]));
+    vec![
+        ("spec", formula.text.clone()),
+        ("parse", postfix(&ast)),
+        ("resolve", print(compiled.model.displacement[0])),
+        ("derive", print(compiled.derived.quantities[&Quantity::Jacobian][0])),
+        ("simplify", print(compiled.derivation.quantities[&Quantity::Jacobian][0])),
+        ("schedule", compiled.program.to_string()),
+        ("emit", format!("    {}\n    }}", &emitted[function..function + length])),
+        ("interpret", format!("{:?}", interpreter.output(output)[0])),
+    ]
+}
+
+#[test]
+fn the_page_shows_what_every_step_makes() {
+    let page = fs::read_to_string("ARCHITECTURE.md").expect("the page");
+    let compiled = bar();
+    let shown: String = steps(&compiled)
+        .into_iter()
+        .map(|(step, datum)| format!("{step}:\n\n```text\n{}\n```\n\n", datum.trim_end()))
+        .collect();
+    assert!(page.contains(&shown), "ARCHITECTURE.md, \"One datum\", should have\n\n{shown}");
+}
