@@ -43,8 +43,7 @@ fn postfix(ast: &Ast) -> String {
 fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let formula = &compiled.field.displacement[0];
     let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");
-    let names =
-        Names { parameters: compiled.model.names.parameters.clone(), ..Names::default() };
+    let names = Names { parameters: compiled.model.names.parameters.clone(), ..Names::default() };
     let print = |expr| compiled.graph.print(expr, &names);
     let emitted = emit::rust::file(compiled).text;
     let function = emitted.find("pub fn jacobian(").expect("the function");

@@ -132,7 +132,8 @@ fn what_is_undefined_in_the_domain_is_told_as_such() {
     other.mms("check bar.toml").exits(0);
     let other = with_displacement("A*X/length", "A*X/length + 0*A*ln(X/length - 1/2)");
     other.mms("check bar.toml").exits(0);
-    let other = with_displacement("A*X/length", "A*X/length*exp(ln(X/length - 1/2))/(X/length - 1/2)");
+    let other =
+        with_displacement("A*X/length", "A*X/length*exp(ln(X/length - 1/2))/(X/length - 1/2)");
     let run = other.mms("check bar.toml").exits(1);
     run.prints("closed form undefined").prints("is UNDEFINED at 65 of 128 points");
 }

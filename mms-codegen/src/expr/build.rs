@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use dashu_int::ops::{BitTest as _, Gcd as _};
 use dashu_int::{IBig, UBig};
 
-use super::{Expr, Function, Graph, Node, Rational, Symbol, magnitude};
+use super::{Expr, Function, Graph, Node, Rational, Symbol, is_negative, magnitude};
 
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
@@ -190,7 +190,7 @@ impl Graph {
     fn leads_with_minus(&self, expr: Expr) -> bool {
         let Node::Sum(constant, terms) = self.node(expr) else { return false };
         let leading = terms.first().map_or(constant, |(_, coefficient)| coefficient);
-        *leading < Rational::ZERO
+        is_negative(leading)
     }
 
     /// The number `c` and the sum `s` with `expr = c s`, where `s` is the same for all multiples of
@@ -200,6 +200,9 @@ impl Graph {
         let Node::Sum(constant, terms) = self.node(expr) else {
             return (Rational::ONE, expr);
         };
+        if let Some(known) = self.contents.get(&expr) {
+            return known.clone();
+        }
         let mut divisor = constant.clone();
         for (_, coefficient) in terms {
             divisor = gcd(&divisor, coefficient);
@@ -220,6 +223,8 @@ impl Graph {
             content = -content;
         }
         let primitive = self.scale(expr, Rational::ONE / &content);
+        self.contents.insert(expr, (content.clone(), primitive));
+        self.contents.insert(primitive, (Rational::ONE, primitive));
         (content, primitive)
     }
 }

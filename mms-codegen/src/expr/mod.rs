@@ -11,6 +11,7 @@ pub mod resolve;
 
 use std::collections::BTreeSet;
 
+use dashu_int::Sign;
 pub use dashu_ratio::RBig as Rational;
 pub use function::Function;
 
@@ -59,7 +60,12 @@ pub enum Node {
 
 /// |number|.
 pub(crate) fn magnitude(number: &Rational) -> Rational {
-    if *number < Rational::ZERO { -number.clone() } else { number.clone() }
+    if is_negative(number) { -number.clone() } else { number.clone() }
+}
+
+/// Whether a number is below 0; a comparison would multiply.
+pub(crate) fn is_negative(number: &Rational) -> bool {
+    number.sign() == Sign::Negative
 }
 
 impl Node {
@@ -105,6 +111,8 @@ pub struct Graph {
     stages: Vec<Stage>,
     /// Only ever looked up, never iterated: hash order cannot be observed.
     index: FxHashMap<Node, Expr>,
+    /// What sums were split into by [`Graph::split_content`], as far as that was asked.
+    contents: FxHashMap<Expr, (Rational, Expr)>,
     /// Nodes and operands so far.
     size: usize,
     limit: usize,
@@ -121,7 +129,15 @@ impl Graph {
     /// An empty graph of at most `limit` nodes and operands.
     pub fn with_limit(limit: usize) -> Self {
         let (nodes, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
-        let mut graph = Graph { nodes, stages, index, size: 0, limit, exhausted: false };
+        let mut graph = Graph {
+            nodes,
+            stages,
+            index,
+            contents: FxHashMap::default(),
+            size: 0,
+            limit,
+            exhausted: false,
+        };
         graph.intern(Node::Number(Rational::ZERO));
         graph
     }
@@ -180,6 +196,7 @@ impl Graph {
             self.index.remove(&node);
         }
         self.stages.truncate(nodes);
+        self.contents.clear();
         (self.size, self.exhausted) = (size, exhausted);
         None
     }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::substitute::rebuild;
-use crate::expr::{Expr, Graph, Node, Rational};
+use crate::expr::{Expr, Graph, Node, Rational, is_negative};
 
 /// Bases with their exponents.
 type Powers = Vec<(Expr, Rational)>;
@@ -106,6 +106,6 @@ fn powers(graph: &Graph, term: Expr) -> BTreeMap<Expr, Rational> {
 
 /// The part of two powers of one base that both have. Powers of opposite sign share nothing.
 fn shared(a: &Rational, b: &Rational) -> Option<Rational> {
-    let same_sign = (*a > Rational::ZERO) == (*b > Rational::ZERO);
+    let same_sign = is_negative(a) == is_negative(b);
     same_sign.then(|| a.min(b).clone())
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use dashu_int::IBig;
 use rustc_hash::FxHashMap;
 
-use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol, is_negative};
 use crate::program::Stage;
 
 /// Longer sums and products are parted, so that the work on pairs of their operands grows with
@@ -170,7 +170,7 @@ impl Flat {
         }) else {
             return plain;
         };
-        let sign = if *coefficient < Rational::ZERO { minus_one } else { one };
+        let sign = if is_negative(coefficient) { minus_one } else { one };
         let number = self.constant(coefficient * &sign);
         factors[early].0 = self.product(vec![(number, 1), factors[early]]);
         (self.product(factors), sign)
@@ -178,7 +178,7 @@ impl Flat {
 
     /// Adds the factors of a power: halves are square roots, other fractions power functions.
     fn power(&mut self, base: Item, exponent: &Rational, factors: &mut Vec<(Item, i32)>) {
-        let sign = if *exponent < Rational::ZERO { -1 } else { 1 };
+        let sign = if is_negative(exponent) { -1 } else { 1 };
         let magnitude = exponent * Rational::from(sign);
         let whole = magnitude.numerator() / IBig::from(magnitude.denominator().clone());
         let fraction = &magnitude - Rational::from(whole.clone());

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use super::flat::{Flat, Form, Item};
-use crate::expr::{Rational, magnitude};
+use crate::expr::{Rational, is_negative, magnitude};
 use crate::program::{Instr, Op, Stage, Value};
 
 /// Value numbering: an operation on the same operands is one value.
@@ -95,7 +95,7 @@ impl Builder {
         }
         let mut groups = BTreeMap::<Stage, Signed>::new();
         for (term, coefficient) in terms {
-            let negative = coefficient < Rational::ZERO;
+            let negative = is_negative(&coefficient);
             let value = self.scaled(magnitude(&coefficient), term);
             groups.entry(self.stage(value)).or_default().add(self, negative, value);
         }
