@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS, compare};
+use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
 use serde_json::{Value, json};
@@ -70,9 +71,10 @@ impl Check {
     fn report(&self, path: &str, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
-        let refuted = !comparisons.iter().all(agrees);
+        let gaps = gaps(compiled);
+        let refuted = !gaps.is_empty() || !comparisons.iter().all(agrees);
         if !self.json {
-            print(&text(path, compiled, &comparisons))?;
+            print(&text(path, compiled, &gaps, &comparisons))?;
         }
         let claims: Vec<_> = compiled
             .field
@@ -88,7 +90,11 @@ impl Check {
             .collect();
         let checks: Vec<_> = comparisons.iter().map(comparison_document).collect();
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
-        Ok((outcome, json!({ "file": path, "claims": claims, "checks": checks })))
+        let gaps: Vec<_> = gaps.iter().map(|gap| gap_document(compiled, gap)).collect();
+        Ok((
+            outcome,
+            json!({ "file": path, "claims": claims, "checks": checks, "undefined": gaps }),
+        ))
     }
 }
 
@@ -101,6 +107,19 @@ fn located(failure: &Failure, diagnostic: &Diagnostic) -> Value {
         "message": diagnostic.message,
         "label": diagnostic.label,
         "help": diagnostic.help,
+    })
+}
+
+/// Where u has no value, and what is to blame.
+fn gap_document(compiled: &Compiled, gap: &Gap) -> Value {
+    let (line, column) = compiled.sources.location(gap.span);
+    json!({
+        "component": gap.component + 1,
+        "line": line,
+        "column": column,
+        "points": gap.points,
+        "at": gap.first.0,
+        "time": gap.first.1,
     })
 }
 
@@ -130,11 +149,25 @@ fn comparison_document(comparison: &Comparison) -> Value {
     })
 }
 
-fn text(path: &str, compiled: &Compiled, comparisons: &[Comparison]) -> String {
+fn text(path: &str, compiled: &Compiled, gaps: &[Gap], comparisons: &[Comparison]) -> String {
     let mut lines = vec![format!("{path}: {}", compiled.field.title)];
     for claim in &compiled.field.boundary {
         let (face, claim) = (claim.face.value.name(), claim.claim.value.name());
         lines.push(format!("  claim  {face} is {claim}: not yet proved"));
+    }
+    for gap in gaps {
+        let (at, time) = &gap.first;
+        lines.push(format!(
+            "  u      component {} is UNDEFINED as written at {} of {} points",
+            gap.component + 1,
+            gap.points,
+            written::POINTS,
+        ));
+        lines.push(format!(
+            "    {}: `{}` has no value at X = {at:?}, t = {time:e}: shrink [domain], or write it in another form",
+            compiled.sources.place(gap.span),
+            compiled.sources.slice(gap.span),
+        ));
     }
     for comparison in comparisons {
         let quantity = comparison.quantity.name();

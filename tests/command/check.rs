@@ -143,3 +143,20 @@ fn a_difference_is_told_before_what_is_undefined() {
     let folder = with_displacement("A*sqrt(X/length - 1/2)", "2*A*sqrt(X/length - 1/2)");
     folder.mms("check bar.toml").exits(1).prints("displacement FAILED");
 }
+
+#[test]
+fn what_cancels_is_evaluated_as_it_is_written() {
+    // Canonical form makes X of it; as written it has no value in half of the domain.
+    let root = "sqrt(X/length - 1/2)";
+    let folder = with_displacement(&format!("A*{root}*{root}"), "A*(X/length - 1/2)");
+    let run = folder.mms("check bar.toml").exits(1);
+    run.prints("displacement agrees to 1e-20 at 128 points");
+    run.prints("component 1 is UNDEFINED as written at 16 of 32 points");
+    run.prints(&format!("bar.toml:17:9: `{root}` has no value at X = ["));
+    let found = &folder.mms("check bar.toml --json").exits(1).json()["files"][0]["undefined"];
+    assert_eq!((&found[0]["component"], &found[0]["points"]), (&1.into(), &16.into()));
+    assert_eq!((&found[0]["line"], &found[0]["column"]), (&17.into(), &9.into()));
+    // Powers, definitions and functions of two arguments, all of them defined.
+    let defined = "A*(X/length - 2)^3*(X/length - 2)^-2*hypot(X/length, 1)*cbrt(-X/length)";
+    with_displacement(defined, defined).mms("check bar.toml").exits(0);
+}

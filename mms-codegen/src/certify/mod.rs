@@ -3,3 +3,4 @@
 pub mod closed_form;
 pub mod declared;
 pub mod sample;
+pub mod written;

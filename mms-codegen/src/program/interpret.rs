@@ -137,7 +137,8 @@ impl<'a, T: Number> Interpreter<'a, T> {
     }
 }
 
-fn unary<T: Scalar>(function: Function, x: T) -> T {
+/// A function of one argument.
+pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
     match function {
         Function::Sqrt => x.sqrt(),
         Function::Cbrt => x.cbrt(),
@@ -157,7 +158,8 @@ fn unary<T: Scalar>(function: Function, x: T) -> T {
     }
 }
 
-fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
+/// A function of two arguments.
+pub(crate) fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
     match function {
         Function::Atan2 => a.atan2(b),
         Function::Powf => a.powf(b),

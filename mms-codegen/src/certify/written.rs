@@ -1,0 +1,154 @@
+//! The displacement as it is written: where it has no value.
+//!
+//! Canonical form cancels: sqrt(X)*sqrt(X) becomes X, which is defined where the former is not. So
+//! the formulas are evaluated once operation by operation, as they stand in the file.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::sample::{Sample, samples};
+use crate::compile::Compiled;
+use crate::expr::Function;
+use crate::program::interpret::{Number as _, binary, unary};
+use crate::program::precise::Precise;
+use crate::source::Span;
+use crate::spec::Formula;
+use crate::spec::names::COORDINATES;
+use crate::syntax::{self, Ast, Kind, Operator};
+
+/// At how many points of the domain u is evaluated.
+pub const POINTS: usize = 32;
+
+/// Greater integer powers are taken by the power function.
+const MAX_REPEATED: f64 = 4096.0;
+
+/// An operation that has no value at some points of the domain.
+#[derive(Clone, Debug)]
+pub struct Gap {
+    /// The component of u, from 0 on.
+    pub component: usize,
+    /// Where the operation stands.
+    pub span: Span,
+    /// At how many of [`POINTS`] points.
+    pub points: usize,
+    /// X and t of the first of them.
+    pub first: (Vec<f64>, f64),
+}
+
+/// A value, and the operation to blame where it is undefined.
+type Traced = (Precise, Option<Span>);
+
+/// Every component of u that has no value somewhere, with the operation that is to blame at the
+/// first such point.
+pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
+    let field = &compiled.field;
+    let parse = |formula: &Formula| syntax::parse(formula, &mut Vec::new());
+    let lets = field.lets.iter().map(|definition| parse(&definition.value));
+    let (Some(lets), Some(components)) = (
+        lets.collect::<Option<Vec<_>>>(),
+        field.displacement.iter().map(parse).collect::<Option<Vec<_>>>(),
+    ) else {
+        return Vec::new();
+    };
+    let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+    let mut found: Vec<Option<Gap>> = vec![None; components.len()];
+    for point in samples(compiled, &parameters, POINTS) {
+        let mut names = leaves(compiled, &parameters, &point);
+        for (definition, ast) in field.lets.iter().zip(&lets) {
+            let value = evaluate(ast, &names);
+            names.insert(&definition.name.value, value);
+        }
+        for (component, ast) in components.iter().enumerate() {
+            let Some(span) = evaluate(ast, &names).1 else { continue };
+            let coordinates = point.coordinates.iter().map(Precise::to_f64).collect();
+            let first = (coordinates, point.time.to_f64());
+            let gap = found[component].get_or_insert(Gap { component, span, points: 0, first });
+            gap.points += 1;
+        }
+    }
+    found.into_iter().flatten().collect()
+}
+
+/// What a formula may use beside definitions.
+fn leaves<'a>(
+    compiled: &'a Compiled,
+    parameters: &[Precise],
+    point: &Sample<Precise>,
+) -> BTreeMap<&'a str, Traced> {
+    let mut names = BTreeMap::new();
+    for (parameter, value) in compiled.model.parameters.iter().zip(parameters) {
+        names.insert(parameter.name.as_str(), (value.clone(), None));
+    }
+    for (axis, (name, _)) in COORDINATES.iter().enumerate() {
+        let value = match *name {
+            "pi" => Some(Precise::pi()),
+            "t" => Some(point.time.clone()),
+            _ => point.coordinates.get(axis).cloned(),
+        };
+        names.extend(value.map(|value| (*name, (value, None))));
+    }
+    names
+}
+
+/// The value of a formula. The blame goes to the first operation without a value whose operands
+/// have one.
+fn evaluate(ast: &Ast, names: &BTreeMap<&str, Traced>) -> Traced {
+    let mut values: Vec<Traced> = Vec::with_capacity(ast.nodes.len());
+    for node in &ast.nodes {
+        let of = |operand: &usize| values[*operand].0.clone();
+        let (value, operands) = match &node.kind {
+            Kind::Number(number) => (Precise::from_rational(number), Vec::new()),
+            Kind::Name(name) => {
+                // Every name was resolved before.
+                let known = names.get(name.as_str()).cloned();
+                values.push(known.unwrap_or((Precise::from_f64(f64::NAN), Some(node.span))));
+                continue;
+            }
+            Kind::Negate(operand) => (-of(operand), vec![*operand]),
+            Kind::Binary(operator, left, right) => {
+                (operate(*operator, of(left), of(right)), vec![*left, *right])
+            }
+            Kind::Call { name, arguments } => (
+                call(&name.value, &arguments.iter().map(of).collect::<Vec<_>>()),
+                arguments.clone(),
+            ),
+        };
+        let inherited = operands.iter().find_map(|operand| values[*operand].1);
+        let own = (!value.is_defined()).then_some(node.span);
+        values.push((value, inherited.or(own)));
+    }
+    values.pop().unwrap_or((Precise::from_f64(0.0), None))
+}
+
+fn operate(operator: Operator, a: Precise, b: Precise) -> Precise {
+    match operator {
+        Operator::Add => a + b,
+        Operator::Subtract => a - b,
+        Operator::Multiply => a * b,
+        Operator::Divide => a / b,
+        Operator::Power => power(a, b),
+    }
+}
+
+/// A power; an integer one exists for bases of any sign.
+fn power(base: Precise, exponent: Precise) -> Precise {
+    let count = exponent.to_f64();
+    if count.fract() != 0.0 || count.abs() > MAX_REPEATED {
+        return base.powf(exponent);
+    }
+    let one = Precise::from_f64(1.0);
+    let product = (0..count.abs() as u32).fold(one.clone(), |power, _| power * base.clone());
+    if count < 0.0 { one / product } else { product }
+}
+
+fn call(name: &str, arguments: &[Precise]) -> Precise {
+    let function = Function::ALL.iter().find(|function| function.name() == name);
+    match (function, arguments) {
+        (Some(function), [x]) => unary(*function, x.clone()),
+        (Some(function), [a, b]) => binary(*function, a.clone(), b.clone()),
+        // hypot is the one function that the graph has not.
+        (None, [a, b]) => (a.clone() * a.clone() + b.clone() * b.clone()).sqrt(),
+        _ => Precise::from_f64(f64::NAN),
+    }
+}
