@@ -49,8 +49,8 @@ fn run(script: &str) -> Output {
 fn fields() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let pass = root.join("mms-codegen/tests/data/pass");
-    let files =
-        ["rotating_2d", "sines_3d", "graded_2d"].map(|name| pass.join(format!("{name}.toml")));
+    let files = ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d"]
+        .map(|name| pass.join(format!("{name}.toml")));
     let odd = root.join("tests/ui/pass/odd_names.toml");
     let own = root.join("tests/ui/pass/own.toml");
     let paths = files.into_iter().chain([odd, own]);

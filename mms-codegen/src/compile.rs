@@ -7,6 +7,8 @@ use crate::culprit::culprit;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
+use crate::mechanics::boundary::{Datum, data};
+use crate::mechanics::face;
 use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::relations::Relations;
@@ -15,9 +17,9 @@ use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
 use crate::selection::Selection;
-use crate::simplify::simplify;
+use crate::simplify::{simplify, twins};
 use crate::source::{SourceId, Sources};
-use crate::spec::{self, FieldSpec, Formula, MaterialSpec};
+use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::did_you_mean;
 use crate::syntax;
 use crate::units;
@@ -163,12 +165,17 @@ fn phases(
     selection.explain(sources, &field, &mut diagnostics[reported..]);
     let model = model?;
     diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
+    diagnostics.extend(rotates_unfit_material(&field, material.as_ref()));
     let material = material.filter(|_| diagnostics.is_empty())?;
     let derived = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
     let derivation = simplify(&mut graph, &model, &derived);
-    let mut outputs = outputs(&mut graph, &model, &derivation);
+    let (derived, derivation) = match &model.rigid {
+        Some(rigid) => twins(&mut graph, rigid, [&derived, &derivation]),
+        None => (derived, derivation),
+    };
+    let mut outputs = outputs(&mut graph, &model, &field, &derivation);
     outputs.retain(|output, _| selection.schedules(*output, &field));
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
@@ -189,6 +196,21 @@ fn phases(
         selection,
         program,
     })
+}
+
+/// A rotation of a material that a rotation strains.
+fn rotates_unfit_material(
+    field: &FieldSpec,
+    material: Option<&MaterialSpec>,
+) -> Option<Diagnostic> {
+    let material = material.filter(|material| !material.frame_indifferent)?;
+    let angle = field.rigid.as_ref()?.angle()?;
+    let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
+    Some(
+        Diagnostic::error(angle.span, message)
+            .label("would strain the material")
+            .help("the energy of this material changes with a rotation, W(Q F) != W(F): give a translation alone, or another material"),
+    )
 }
 
 /// A constant that no double precision number is near to, if the program has one.
@@ -294,6 +316,7 @@ fn beside(path: &str, relative: &str) -> String {
 fn outputs(
     graph: &mut Graph,
     model: &Model,
+    field: &FieldSpec,
     derivation: &Derivation,
 ) -> BTreeMap<Output, Vec<Expr>> {
     let mut outputs = BTreeMap::new();
@@ -302,6 +325,9 @@ fn outputs(
     }
     for (response, components) in &derivation.responses {
         outputs.insert(Output::Response(*response), components.clone());
+    }
+    for ((face, datum), components) in data(graph, model, field, derivation) {
+        outputs.insert(Output::Face(face, datum), components);
     }
     match &model.domain.body {
         Body::Box { lower, upper } => {
@@ -372,6 +398,15 @@ impl Compiled {
         let shipped = MATERIALS.iter().any(|(stem, _)| *stem == model);
         let text = self.sources.texts().last().filter(|_| !shipped)?;
         Some((model, text))
+    }
+
+    /// The outward reference unit normal of a face, as a program of its own.
+    pub fn normal(&self, face: Face) -> Program {
+        let mut graph = self.graph.clone();
+        graph.make_room();
+        let dimension = self.model.displacement.len();
+        let normal = face::normal(&mut graph, &self.model.domain.body, dimension, face);
+        schedule(&graph, &BTreeMap::from([(Output::Face(face, Datum::Normal), normal)]))
     }
 
     /// The quantities that have a closed form, each beside it, as one program.

@@ -12,7 +12,7 @@ use crate::expr::{Graph, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::source::Span;
 use crate::spec::names::COORDINATES;
-use crate::spec::{FieldSpec, Formula};
+use crate::spec::{FieldSpec, Formula, RigidSpec};
 use crate::syntax::{self, Ast, Kind, Operator};
 
 /// How large the graph of a trial may become: enough to tell sizes apart.
@@ -58,7 +58,7 @@ pub fn culprit(field: &FieldSpec) -> Option<Culprit> {
     Some(Culprit { span, definition: definitions[index].shown.clone() })
 }
 
-/// The formulas in the order of the file, up to the displacement.
+/// The formulas in the order of the file, up to the displacement, and those of a rigid motion.
 fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
     let lets = field.lets.iter().map(|definition| {
         let name = definition.name.value.as_str();
@@ -67,7 +67,10 @@ fn definitions(field: &FieldSpec) -> Option<Vec<Definition<'_>>> {
     let components = field.displacement.iter().enumerate();
     let components =
         components.map(|(axis, formula)| (None, format!("component {} of u", axis + 1), formula));
+    let motion = field.rigid.iter().flat_map(RigidSpec::formulas);
+    let motion = motion.map(|formula| (None, "the rigid motion".to_string(), formula));
     lets.chain(components)
+        .chain(motion)
         .map(|(name, shown, formula)| {
             let ast = syntax::parse(formula, &mut Vec::new())?;
             Some(Definition { name, shown, formula, ast })

@@ -24,6 +24,7 @@ pub mod source;
 pub mod spec;
 pub mod suggest;
 pub mod syntax;
+pub mod twin;
 pub mod units;
 
 pub use compile::{Compiled, Options, compile, compile_with};

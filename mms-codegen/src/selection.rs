@@ -19,6 +19,7 @@ use crate::quantity::Quantity;
 use crate::source::{Sources, Span};
 use crate::spec::{FieldSpec, Formula, ParameterSpec};
 use crate::suggest::did_you_mean;
+use crate::twin::Twin;
 
 /// What of a field is wanted. The default is everything, as the file says it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -31,6 +32,8 @@ pub struct Selection {
     pub set: Vec<(String, String)>,
     /// The parameters that become constants.
     pub freeze: Freeze,
+    /// A rigid motion on top of the field.
+    pub twin: Twin,
 }
 
 /// Which parameters become constants, at their default values. They are then no parameters of the
@@ -95,7 +98,7 @@ impl Selection {
     pub(crate) fn schedules(&self, output: Output, field: &FieldSpec) -> bool {
         match output {
             Output::Quantity(quantity) => self.wants(quantity),
-            Output::Response(_) => self.is_for_a_solver(),
+            Output::Response(_) | Output::Face(..) => self.is_for_a_solver(),
             Output::Parameter(index) => !field.parameters[index].frozen,
             Output::Bound(_) | Output::Expected(_) => true,
         }
@@ -120,9 +123,20 @@ impl Selection {
         1 + self.set.len() + self.freeze.names().len()
     }
 
-    /// Puts the chosen values in the place of the file's, and marks what is frozen. The texts of
-    /// the entries become sources of their own, next after the field file.
+    /// Puts the chosen values in the place of the file's, marks what is frozen, and puts the rigid
+    /// motion on top. The texts of the entries become sources of their own, next after the field
+    /// file.
     pub(crate) fn apply(
+        &self,
+        sources: &mut Sources,
+        field: &mut FieldSpec,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        self.apply_values(sources, field, diagnostics);
+        self.twin.apply(sources, field, diagnostics);
+    }
+
+    fn apply_values(
         &self,
         sources: &mut Sources,
         field: &mut FieldSpec,
@@ -224,6 +238,9 @@ impl Compiled {
             let names: Vec<_> = quantities.iter().map(|quantity| quantity.name()).collect();
             lines.push(format!("Quantities: {}", names.join(", ")));
         }
+        lines.extend(
+            self.selection.twin.text(&self.field).map(|keys| format!("Rigid motion: {keys}")),
+        );
         let parameters = || self.field.parameters.iter().enumerate();
         let set = |name: &str| self.selection.set.iter().any(|(set, _)| set == name);
         let set: Vec<_> = parameters()
@@ -349,5 +366,6 @@ fn output_name(output: Output) -> &'static str {
         Output::Bound(_) => "body",
         Output::Parameter(_) => "default of a parameter",
         Output::Expected(_) => "closed form",
+        Output::Face(_, datum) => datum.name(),
     }
 }

@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph};
+use crate::mechanics::rigid::RigidMotion;
 use crate::mechanics::{Derivation, Model, derive};
 use crate::pass::nest::nest;
 use crate::pass::reduce::reduce;
@@ -26,6 +27,19 @@ pub fn simplify(graph: &mut Graph, model: &Model, plain: &Derivation) -> Derivat
         quantities: cheapest(graph, quantities, &relations),
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
     }
+}
+
+/// The rigid twins of a derivation without relations and of its simplified form, the second one no
+/// dearer than the first.
+pub fn twins(
+    graph: &mut Graph,
+    rigid: &RigidMotion,
+    [plain, simplified]: [&Derivation; 2],
+) -> (Derivation, Derivation) {
+    let [plain, simplified] = [plain, simplified].map(|inner| rigid.compose(graph, inner));
+    let forms = vec![plain.quantities.clone(), simplified.quantities];
+    let quantities = cheapest(graph, forms, &Relations::default());
+    (plain, Derivation { quantities, responses: simplified.responses })
 }
 
 /// The cheapest components for every key, of which some forms are known; of equals, the first.

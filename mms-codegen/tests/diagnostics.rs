@@ -14,6 +14,7 @@ use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::read_material;
 use mms_codegen::syntax::parse;
+use mms_codegen::twin::Twin;
 use mms_codegen::{compile, compile_with};
 
 fn folder() -> PathBuf {
@@ -87,8 +88,8 @@ fn place(path: &str, line: usize) -> String {
     format!("{}:{line}", &path[start..])
 }
 
-/// What `--set` and `--freeze` can do wrong: a name that is unknown, one that is given twice, and a
-/// stretch of 0, which J is divided by.
+/// What `--set`, `--freeze` and `--rigid` can do wrong: a name that is unknown, one that is given
+/// twice, a stretch of 0, which J is divided by, and a second rigid motion.
 fn wrong_selections() -> Vec<Failure> {
     let text = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { value = 1 }\n\
                 [displacement]\nu = [\"(a - 1)*X\"]\n[material]\nmodel = \"neo_hookean\"\n\
@@ -102,9 +103,15 @@ fn wrong_selections() -> Vec<Failure> {
         Selection { set: set("0"), freeze: freeze(&["a"]), ..Selection::default() },
     ];
     let load = |_: &str| Err("no files here".to_string());
-    let compile =
-        |selection: Selection| compile_with("x", "x.toml", text, &load, &selection.into());
-    selections.into_iter().map(|selection| compile(selection).expect_err("a mistake")).collect()
+    let compile = |text: &str, selection: Selection| {
+        compile_with("x", "x.toml", text, &load, &selection.into()).expect_err("a mistake")
+    };
+    let mut failures: Vec<_> =
+        selections.into_iter().map(|selection| compile(text, selection)).collect();
+    let moving = format!("{text}[rigid]\ntranslation = [\"t\"]\n");
+    let twin = Selection { twin: Twin::Standard, ..Selection::default() };
+    failures.push(compile(&moving, twin));
+    failures
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn fields() -> Vec<Compiled> {
         let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
         fields.push(compiled(&name, &fs::read_to_string(&path).expect("a field")));
     }
-    for name in ["rotating_2d", "sines_3d", "graded_2d"] {
+    for name in ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d"] {
         fields.push(compiled(name, &pass(&format!("{name}.toml"))));
     }
     let moduli = ["mu/2", "mu/5 + lambda/9", "lambda*(3 + X/width)"];

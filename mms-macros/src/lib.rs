@@ -46,6 +46,7 @@ use request::Request;
 /// | `set = { name = value, .. }` | changes defaults. A value is a number or, in quotes, a formula in the parameters above that one. Parameters that depend on it follow |
 /// | `freeze` | makes all parameters constants, at their defaults. They disappear from `Parameters`, and what they make 0 disappears from the code |
 /// | `freeze = [..]` | makes these constants |
+/// | `rigid = ".."` | puts a rigid motion on top, with the keys of `[rigid]`; without a value a large and accelerated one |
 /// | `name = other` | names the module, so that two of one file can stand side by side |
 ///
 /// A parameter that depends on others and is frozen without them keeps the value that their

@@ -2,6 +2,7 @@
 
 use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
 use mms_codegen::suggest::did_you_mean;
+use mms_codegen::twin::Twin;
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt as _;
 use syn::parse::{Parse, ParseStream};
@@ -9,7 +10,7 @@ use syn::token::Bracket;
 use syn::{Error, Lit, LitStr, Result, Token, braced, bracketed};
 
 /// What may follow the path.
-const OPTIONS: [&str; 4] = ["quantities", "set", "freeze", "name"];
+const OPTIONS: [&str; 5] = ["quantities", "set", "freeze", "rigid", "name"];
 
 /// A parsed call of the macro.
 pub struct Request {
@@ -72,6 +73,7 @@ impl Request {
             "quantities" => self.quantities(input),
             "set" => self.set(input),
             "freeze" => self.freeze(option, input),
+            "rigid" => self.rigid(input),
             "name" => {
                 input.parse::<Token![=]>()?;
                 let name = input.parse().map_err(|error: Error| {
@@ -122,6 +124,19 @@ impl Request {
             if !content.is_empty() {
                 content.parse::<Token![,]>()?;
             }
+        }
+        Ok(())
+    }
+
+    /// Nothing, or `= "translation = ..."`.
+    fn rigid(&mut self, input: ParseStream) -> Result<()> {
+        self.selection.twin = Twin::Standard;
+        if input.peek(Token![=]) {
+            input.parse::<Token![=]>()?;
+            let keys: LitStr = input.parse().map_err(|error: Error| {
+                Error::new(error.span(), "expected the keys of [rigid] in quotes")
+            })?;
+            self.selection.twin = Twin::Given(keys.value());
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
 use serde_json::{Value, json};
 
-use super::input::{Bound, read};
+use super::input::{Variant, read};
 use super::{Outcome, print, print_json};
 
 /// Check field files: mistakes, boundary claims and closed forms.
@@ -20,7 +20,7 @@ pub struct Check {
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
-    bound: Bound,
+    variant: Variant,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -32,7 +32,7 @@ impl Check {
         let mut documents = Vec::new();
         for file in &self.files {
             let shown = file.display().to_string();
-            let (outcome, document) = match read(file, self.bound) {
+            let (outcome, document) = match read(file, &self.variant) {
                 Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
                 Ok(Err(failure)) => self.report_failure(&shown, &failure)?,
                 Err(error) => self.report_unreadable(&shown, &error),
@@ -114,7 +114,7 @@ fn located(failure: &Failure, diagnostic: &Diagnostic) -> Value {
 fn gap_document(compiled: &Compiled, gap: &Gap) -> Value {
     let (line, column) = compiled.sources.location(gap.span);
     json!({
-        "component": gap.component + 1,
+        "component": gap.component.map(|component| component + 1),
         "line": line,
         "column": column,
         "points": gap.points,
@@ -157,9 +157,12 @@ fn text(path: &str, compiled: &Compiled, gaps: &[Gap], comparisons: &[Comparison
     }
     for gap in gaps {
         let (at, time) = &gap.first;
+        let what = match gap.component {
+            Some(component) => format!("component {}", component + 1),
+            None => "the rigid motion".into(),
+        };
         lines.push(format!(
-            "  u      component {} is UNDEFINED as written at {} of {} points",
-            gap.component + 1,
+            "  u      {what} is UNDEFINED as written at {} of {} points",
             gap.points,
             written::POINTS,
         ));

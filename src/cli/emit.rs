@@ -10,7 +10,7 @@ use mms_codegen::emit::{File, TARGETS, Target};
 use mms_codegen::selection::{Freeze, Selection};
 use serde_json::json;
 
-use super::input::{Bound, Input, quantities};
+use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json};
 use crate::report::write_whole;
 
@@ -37,7 +37,7 @@ pub struct Emit {
     #[arg(long, value_name = "NAME,..", num_args = 0.., require_equals = true, value_delimiter = ',')]
     freeze: Option<Vec<String>>,
     #[command(flatten)]
-    bound: Bound,
+    variant: Variant,
     /// Print one JSON document, with the text in it unless --output is given.
     #[arg(long)]
     json: bool,
@@ -52,7 +52,7 @@ impl Emit {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let target =
             Target::find(&self.target).with_context(|| format!("no target `{}`", self.target))?;
-        let input = Input::find_with(&self.field, &self.bound.options(self.selection()?))?;
+        let input = Input::find_with(&self.field, &self.variant.options(self.selection()?))?;
         let file = (target.emit)(&input.compiled);
         let path = match &self.output {
             Some(folder) => Some(write(folder, &file)?),
@@ -87,7 +87,12 @@ impl Emit {
             Some(names) if names.is_empty() => Freeze::Everything,
             Some(names) => Freeze::Only(names.iter().map(|name| name.trim().into()).collect()),
         };
-        Ok(Selection { quantities: wanted.map(BTreeSet::from_iter), set, freeze })
+        Ok(Selection {
+            quantities: wanted.map(BTreeSet::from_iter),
+            set,
+            freeze,
+            ..Selection::default()
+        })
     }
 }
 

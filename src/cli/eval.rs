@@ -2,13 +2,17 @@
 
 use anyhow::{Context as _, bail};
 use clap::Args;
+use mms_codegen::Compiled;
+use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::spec::Face;
+use mms_codegen::suggest::did_you_mean;
 use mms_runtime::Real;
 use serde_json::{Map, Value, json};
 
-use super::input::{Bound, Input, quantities};
+use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json};
 
 /// Evaluate quantities of a field at points.
@@ -28,6 +32,9 @@ pub struct Eval {
     /// The reference unit normal of the boundary, for the quantity `traction`.
     #[arg(long, value_name = "N1,N2", allow_hyphen_values = true)]
     normal: Option<String>,
+    /// The face whose outward normal to take, such as x_max or inner, for the quantity `traction`.
+    #[arg(long, value_name = "NAME", conflicts_with = "normal")]
+    face: Option<String>,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -35,7 +42,7 @@ pub struct Eval {
     #[arg(long, value_enum, default_value_t)]
     precision: Precision,
     #[command(flatten)]
-    bound: Bound,
+    variant: Variant,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -63,7 +70,7 @@ impl Precision {
 
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, self.bound)?;
+        let input = Input::find(&self.field, &self.variant)?;
         let quantities = quantities(&self.quantity)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
@@ -82,18 +89,17 @@ impl Eval {
             .iter()
             .map(|at| coordinates::<T>("--at", at, dimension))
             .collect::<anyhow::Result<Vec<_>>>()?;
-        let normal = match &self.normal {
-            Some(normal) => coordinates::<T>("--normal", normal, dimension)?,
-            None if quantities.contains(&Quantity::Traction) => {
-                bail!("`traction` needs the reference normal of a boundary: give --normal")
-            }
-            None => Vec::new(),
-        };
-        let squared: f64 = normal.iter().map(|component| component.to_f64().powi(2)).sum();
-        if !normal.is_empty() && (squared - 1.0).abs() > 1e-6 {
-            bail!("`--normal`: expected a unit vector, found one of length {}", squared.sqrt());
-        }
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
+        let normals = match (&self.normal, &self.face) {
+            (Some(normal), _) => vec![unit(normal, dimension)?; points.len()],
+            (None, Some(face)) => normals(&input.compiled, face, &parameters, &points)?,
+            (None, None) if quantities.contains(&Quantity::Traction) => {
+                bail!(
+                    "`traction` needs the reference normal of a boundary: give --face or --normal"
+                )
+            }
+            (None, None) => vec![Vec::new(); points.len()],
+        };
         if !self.time.is_finite() {
             bail!("`--time {}`: expected a finite number", self.time);
         }
@@ -103,8 +109,8 @@ impl Eval {
             quantities.iter().map(|quantity| Output::Quantity(*quantity)).collect();
         let plan = interpreter.plan(&outputs);
         let mut results = Vec::new();
-        for (coordinates, at) in points.iter().zip(&self.at) {
-            interpreter.set_point(&plan, Point { coordinates, normal: &normal, gradient: &[] });
+        for ((coordinates, at), normal) in points.iter().zip(&self.at).zip(&normals) {
+            interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
             let mut values = Map::new();
             values.insert("at".into(), numbers(coordinates));
             for quantity in quantities {
@@ -130,6 +136,44 @@ impl Eval {
         }
         Ok(Outcome::AsExpected)
     }
+}
+
+/// A unit vector.
+fn unit<T: Real>(normal: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
+    let components = coordinates::<T>("--normal", normal, dimension)?;
+    let squared: f64 = components.iter().map(|component| component.to_f64().powi(2)).sum();
+    if (squared - 1.0).abs() > 1e-6 {
+        bail!("`--normal`: expected a unit vector, found one of length {}", squared.sqrt());
+    }
+    Ok(components)
+}
+
+/// The outward normals of a face at points of it.
+fn normals<T: Real + Number>(
+    compiled: &Compiled,
+    face: &str,
+    parameters: &[T],
+    points: &[Vec<T>],
+) -> anyhow::Result<Vec<Vec<T>>> {
+    let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
+    let names = || faces.iter().map(|face| face.name());
+    let Some(face) = faces.iter().find(|known| known.name() == face) else {
+        match did_you_mean(face, names()) {
+            Some(near) => bail!("`--face {face}`: no such face; did you mean `{near}`?"),
+            None => {
+                bail!("`--face {face}`: this body has {}", names().collect::<Vec<_>>().join(", "))
+            }
+        }
+    };
+    let program = compiled.normal(*face);
+    let output = Output::Face(*face, Datum::Normal);
+    let mut interpreter = Interpreter::new(&program, parameters);
+    let plan = interpreter.plan(&[output]);
+    let normals = points.iter().map(|point| {
+        interpreter.set_point(&plan, Point::at(point));
+        interpreter.output(output)
+    });
+    Ok(normals.collect())
 }
 
 fn coordinates<T: Real>(option: &str, text: &str, dimension: usize) -> anyhow::Result<Vec<T>> {

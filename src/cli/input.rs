@@ -13,6 +13,7 @@ use mms_codegen::compile::Failure;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::quantity;
 use mms_codegen::suggest::did_you_mean;
+use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
 
 use crate::gallery::{self, Entry};
@@ -20,26 +21,47 @@ use crate::gallery::{self, Entry};
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";
 
-/// How large a derivation may become.
-#[derive(Clone, Copy, Debug, Args)]
-pub struct Bound {
+/// How a field is taken.
+#[derive(Clone, Debug, Args)]
+pub struct Variant {
+    /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
+    /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
+    /// "0"]'; without it the motion is a large and accelerated one. Faces that were at rest are then
+    /// prescribed, and closed forms left out.
+    #[arg(long, value_name = "MOTION", num_args = 0..=1, default_missing_value = "", value_parser = motion)]
+    rigid: Option<String>,
     /// How many nodes and operands the expressions of a field may have together; a field that needs
     /// more is refused.
-    #[arg(long, value_name = "N", default_value_t = Bound::default().max_nodes)]
+    #[arg(long, value_name = "N", default_value_t = Variant::default().max_nodes)]
     max_nodes: u32,
 }
 
-impl Default for Bound {
+impl Default for Variant {
     fn default() -> Self {
-        Bound { max_nodes: Options::default().max_nodes as u32 }
+        Variant { rigid: None, max_nodes: Options::default().max_nodes as u32 }
     }
 }
 
-impl Bound {
-    /// Within this bound, everything of a field or a part of it.
-    pub fn options(self, selection: Selection) -> Options {
+impl Variant {
+    /// Everything of the field, or a part of it.
+    pub fn options(&self, selection: Selection) -> Options {
+        let twin = match self.rigid.as_deref() {
+            None => Twin::Nothing,
+            Some("") => Twin::Standard,
+            Some(motion) => Twin::Given(motion.into()),
+        };
+        let selection = Selection { twin, ..selection };
         Options { selection, max_nodes: self.max_nodes as usize }
     }
+}
+
+/// The keys of a rigid motion, as far as can be told from a distance: an option that may stand
+/// without a value takes the name of a field for one.
+fn motion(text: &str) -> Result<String, String> {
+    if text.is_empty() || text.contains('=') {
+        return Ok(text.to_string());
+    }
+    Err("expected keys such as 'translation = [\"t\", \"0\"]'; without a value, `--rigid` goes behind the field".into())
 }
 
 /// A field that the user named: of the gallery, or of a file.
@@ -48,14 +70,14 @@ pub struct Input {
     pub name: String,
     /// What follows from its text.
     pub compiled: Arc<Compiled>,
-    /// Its compiled code, where it is of the gallery.
+    /// Its compiled code, where it is of the gallery and taken as it is.
     pub entry: Option<&'static Entry>,
 }
 
 impl Input {
     /// The field of a gallery name, or of a path to a TOML file.
-    pub fn find(field: &str, bound: Bound) -> anyhow::Result<Input> {
-        Self::find_with(field, &bound.options(Selection::default()))
+    pub fn find(field: &str, variant: &Variant) -> anyhow::Result<Input> {
+        Self::find_with(field, &variant.options(Selection::default()))
     }
 
     /// A part of the field of a gallery name, or of a path to a TOML file.
@@ -77,7 +99,8 @@ impl Input {
         let compiled = entry
             .compile_with(options)
             .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
-        Ok(Input { name: entry.name.into(), compiled: Arc::new(compiled), entry: Some(entry) })
+        let entry = Some(entry).filter(|_| options.selection.twin == Twin::Nothing);
+        Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry })
     }
 
     fn from_file(path: &Path, options: &Options) -> anyhow::Result<Input> {
@@ -151,8 +174,8 @@ fn what_failed(options: &Options, whole: &'static str) -> &'static str {
 }
 
 /// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
-pub fn read(path: &Path, bound: Bound) -> anyhow::Result<Result<Compiled, Failure>> {
-    read_with(path, &bound.options(Selection::default()))
+pub fn read(path: &Path, variant: &Variant) -> anyhow::Result<Result<Compiled, Failure>> {
+    read_with(path, &variant.options(Selection::default()))
 }
 
 fn read_with(path: &Path, options: &Options) -> anyhow::Result<Result<Compiled, Failure>> {

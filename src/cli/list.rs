@@ -7,7 +7,7 @@ use mms_codegen::compile::MATERIALS;
 use mms_runtime::{IntegratorName, ShapeName};
 use serde_json::json;
 
-use super::input::{Bound, Input};
+use super::input::{Input, Variant};
 use super::{Outcome, print, print_json};
 use crate::gallery;
 
@@ -23,7 +23,7 @@ impl List {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let fields = gallery::FIELDS
             .iter()
-            .map(|entry| Input::find(entry.name, Bound::default()))
+            .map(|entry| Input::find(entry.name, &Variant::default()))
             .collect::<anyhow::Result<Vec<_>>>()?;
         let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
         if self.json {

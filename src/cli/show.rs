@@ -12,7 +12,7 @@ use mms_codegen::show::language::Language;
 use mms_codegen::show::{Document, Line, Section, latex, mathml, sympy, text};
 use serde_json::{Map, Value, json};
 
-use super::input::{Bound, Input, quantities};
+use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json};
 
 /// Show what follows from a field: its derivation with every step named, its claims, and how many
@@ -31,7 +31,7 @@ pub struct Show {
     #[arg(long, value_enum, default_value_t)]
     format: Format,
     #[command(flatten)]
-    bound: Bound,
+    variant: Variant,
     /// Print one JSON document; its formulas are in the language of field files.
     #[arg(long, conflicts_with = "format")]
     json: bool,
@@ -62,7 +62,7 @@ enum Format {
 
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, self.bound)?;
+        let input = Input::find(&self.field, &self.variant)?;
         if self.script == Some(Script::Sympy) {
             let script = sympy::script(&input.compiled).map_err(|sympy::Undefined| {
                 anyhow!(

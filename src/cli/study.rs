@@ -11,7 +11,7 @@ use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{IntegratorName, Level, Method, Real, ShapeName, Verdict};
 
 use super::eval::Precision;
-use super::input::{Bound, Input};
+use super::input::{Input, Variant};
 use super::{Outcome, print, print_json};
 use crate::report::{Refused, Study as Report};
 use crate::scene::Scene;
@@ -53,7 +53,7 @@ pub struct Study {
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    bound: Bound,
+    variant: Variant,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -73,7 +73,7 @@ pub fn main_job() -> anyhow::Result<Outcome> {
 impl Study {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.validate()?;
-        let input = Input::find(&self.field, self.bound)?;
+        let input = Input::find(&self.field, &self.variant)?;
         let folder = self.folder(&input.name)?;
         let levels = match self.precision {
             Precision::F32 => {

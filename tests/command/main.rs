@@ -9,6 +9,7 @@ mod material;
 mod mms;
 mod new;
 mod overview;
+mod rigid;
 mod show;
 mod study;
 mod study_files;

@@ -144,6 +144,7 @@ impl<'a> Declared<'a> {
             ) => self.annulus([inner, outer], [*from, *to], theta.as_ref(), *angles),
             _ => None,
         };
+        self.axis();
         // A body that is wrong has no points to look at.
         if let Some(extent) = extent.filter(|_| self.diagnostics.len() == reported) {
             self.density(&extent);
@@ -240,6 +241,29 @@ impl<'a> Declared<'a> {
             self.refuse_claims(&[Face::Inner], "a disc has no inner face", "`inner` is 0");
         }
         self.ascending("the annulus is empty", "the inner radius is", inner, outer);
+    }
+
+    /// Reports a rotation about nothing.
+    fn axis(&mut self) {
+        let rotation = self.model.rigid.as_ref().and_then(|rigid| rigid.rotation.as_ref());
+        let Some(square) = rotation.and_then(|rotation| rotation.axis_squared(&mut self.graph))
+        else {
+            return;
+        };
+        let value = &evaluate(&self.graph, &self.parameters, &[square])[0];
+        let Some(spec::Rotation::Space { axis, .. }) =
+            self.field.rigid.as_ref().and_then(|rigid| rigid.rotation.as_ref())
+        else {
+            return;
+        };
+        if !value.is_defined() || value.at_most(&Precise::from_f64(0.0)) {
+            let span = Span { end: axis[2].span.end, ..axis[0].span };
+            let diagnostic = Diagnostic::error(span, "the axis of the rotation has no direction")
+                .label(format!("its length squared is {}", digits(value)))
+                .help("give three components that are not all 0; the length does not matter");
+            let diagnostic = self.with_parameters(diagnostic, &[square]);
+            self.report(diagnostic);
+        }
     }
 
     fn angles(&mut self, first: &Bound<'_>, last: &Bound<'_>) {

@@ -13,8 +13,8 @@ use crate::expr::Function;
 use crate::program::interpret::{Number as _, binary, unary};
 use crate::program::precise::Precise;
 use crate::source::Span;
-use crate::spec::Formula;
 use crate::spec::names::COORDINATES;
+use crate::spec::{Formula, RigidSpec};
 use crate::syntax::{self, Ast, Kind, Operator};
 
 /// At how many points of the domain u is evaluated.
@@ -26,8 +26,8 @@ const MAX_REPEATED: f64 = 4096.0;
 /// An operation that has no value at some points of the domain.
 #[derive(Clone, Debug)]
 pub struct Gap {
-    /// The component of u, from 0 on.
-    pub component: usize,
+    /// The component of u, from 0 on; `None` where it is the rigid motion on top of u.
+    pub component: Option<usize>,
     /// Where the operation stands.
     pub span: Span,
     /// At how many of [`POINTS`] points.
@@ -39,31 +39,33 @@ pub struct Gap {
 /// A value, and the operation to blame where it is undefined.
 type Traced = (Precise, Option<Span>);
 
-/// Every component of u that has no value somewhere, with the operation that is to blame at the
+/// Every component of u, and every formula of a rigid motion, that has no value somewhere, with the operation that is to blame at the
 /// first such point.
 pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     let field = &compiled.field;
     let parse = |formula: &Formula| syntax::parse(formula, &mut Vec::new());
     let lets = field.lets.iter().map(|definition| parse(&definition.value));
-    let (Some(lets), Some(components)) = (
-        lets.collect::<Option<Vec<_>>>(),
-        field.displacement.iter().map(parse).collect::<Option<Vec<_>>>(),
-    ) else {
+    let motion = field.rigid.iter().flat_map(RigidSpec::formulas);
+    let formulas = field.displacement.iter().chain(motion);
+    let (Some(lets), Some(formulas)) =
+        (lets.collect::<Option<Vec<_>>>(), formulas.map(parse).collect::<Option<Vec<_>>>())
+    else {
         return Vec::new();
     };
     let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
-    let mut found: Vec<Option<Gap>> = vec![None; components.len()];
+    let mut found: Vec<Option<Gap>> = vec![None; formulas.len()];
     for point in samples(compiled, &parameters, POINTS) {
         let mut names = leaves(compiled, &parameters, &point);
         for (definition, ast) in field.lets.iter().zip(&lets) {
             let value = evaluate(ast, &names);
             names.insert(&definition.name.value, value);
         }
-        for (component, ast) in components.iter().enumerate() {
+        for (index, ast) in formulas.iter().enumerate() {
             let Some(span) = evaluate(ast, &names).1 else { continue };
             let coordinates = point.coordinates.iter().map(Precise::to_f64).collect();
             let first = (coordinates, point.time.to_f64());
-            let gap = found[component].get_or_insert(Gap { component, span, points: 0, first });
+            let component = (index < field.displacement.len()).then_some(index);
+            let gap = found[index].get_or_insert(Gap { component, span, points: 0, first });
             gap.points += 1;
         }
     }

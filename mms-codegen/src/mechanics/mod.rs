@@ -5,10 +5,13 @@
 //! material. Everything is written in the displacement gradient H = F - I, because strains formed
 //! from F lose eps/strain.
 
+pub mod boundary;
 pub mod derivation;
+pub mod face;
 pub mod kinematics;
 pub mod material;
 pub mod model;
+pub mod rigid;
 pub mod tensor;
 
 pub use derivation::{Derivation, Response, TooLarge, derive};

@@ -1,5 +1,6 @@
 //! A field file with its names resolved: expressions instead of text.
 
+use super::rigid::{RigidMotion, Rotation};
 use crate::diagnostic::Diagnostic;
 use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
@@ -7,7 +8,7 @@ use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::quantity::Quantity;
 use crate::selection::Meanings;
 use crate::source::{Span, Spanned};
-use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec};
+use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
 use crate::suggest::did_you_mean;
 use crate::syntax;
 
@@ -78,7 +79,7 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// The names a reader knows: parameters and definitions.
     pub names: Names,
-    /// u.
+    /// u, without the rigid motion.
     pub displacement: Vec<Expr>,
     /// rho0.
     pub density: Expr,
@@ -88,6 +89,8 @@ pub struct Model {
     pub domain: Domain,
     /// Closed forms from paper.
     pub checks: Vec<Check>,
+    /// The rigid motion on top of u.
+    pub rigid: Option<RigidMotion>,
 }
 
 impl Model {
@@ -115,6 +118,7 @@ impl Model {
         let energy = material.and_then(|material| reader.energy(field, material, &arguments));
         let domain = reader.domain(&field.domain);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
+        let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
         reader.variations(field);
         Some(Model {
             parameters: parameters?,
@@ -124,6 +128,10 @@ impl Model {
             energy: energy?,
             domain: domain?,
             checks: checks.into_iter().collect::<Option<_>>()?,
+            rigid: match rigid {
+                Some(rigid) => Some(rigid?),
+                None => None,
+            },
         })
     }
 }
@@ -369,42 +377,71 @@ impl Reader<'_> {
         values.into_iter().collect()
     }
 
-    /// A formula that only parameters may enter.
+    /// A formula of the domain, which only parameters may enter.
     fn constant(&mut self, formula: &Formula) -> Option<Expr> {
+        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
+        self.limited(formula, "the domain must be fixed", HELP, is_parameter)
+    }
+
+    /// A formula that only some symbols may enter.
+    fn limited(
+        &mut self,
+        formula: &Formula,
+        message: &str,
+        help: &str,
+        allowed: impl Fn(&Symbol) -> bool,
+    ) -> Option<Expr> {
         let value = self.formula(formula)?;
-        let symbols = self.graph.symbols(value);
-        let intruder = symbols.into_iter().find(|symbol| !matches!(symbol, Symbol::Parameter(_)));
+        let intruder = self.graph.symbols(value).into_iter().find(|symbol| !allowed(symbol));
         let Some(intruder) = intruder else { return Some(value) };
         let name = Names::default().symbol(intruder);
         self.diagnostics.push(
-            Diagnostic::error(formula.span, "the domain must be fixed")
-                .label(format!("depends on {name}"))
-                .help("use parameters, and definitions that contain no X, Y, Z or t"),
+            Diagnostic::error(formula.span, message).label(format!("depends on {name}")).help(help),
         );
         None
     }
 
-    /// Formulas that no quantity depends on: a fibre, extremes, a rigid motion, and those of keys that were
-    /// refused.
+    fn rigid(&mut self, rigid: &RigidSpec, dimension: usize) -> Option<RigidMotion> {
+        const MESSAGE: &str = "a rigid motion moves all points alike";
+        const HELP: &str = "use parameters, t, and definitions that contain no X, Y or Z";
+        let of_time = |symbol: &Symbol| is_parameter(symbol) || *symbol == Symbol::Time;
+        let angle = rigid.angle().map(|angle| self.limited(angle, MESSAGE, HELP, of_time));
+        let axis = match &rigid.rotation {
+            Some(spec::Rotation::Space { axis, .. }) => Some(self.axis(axis)),
+            _ => None,
+        };
+        let translation: Option<Vec<Expr>> = match &rigid.translation {
+            Some(components) => {
+                let components: Vec<_> = components
+                    .iter()
+                    .map(|component| self.limited(component, MESSAGE, HELP, of_time))
+                    .collect();
+                components.into_iter().collect()
+            }
+            None => Some(vec![self.graph.number(0); dimension]),
+        };
+        let rotation = match (axis, angle) {
+            (Some(axis), angle) => Some(Rotation::Space { axis: axis?, angle: angle?? }),
+            (None, Some(angle)) => Some(Rotation::Plane { angle: angle? }),
+            (None, None) => None,
+        };
+        Some(RigidMotion { rotation, translation: translation? })
+    }
+
+    fn axis(&mut self, formulas: &[Formula]) -> Option<[Expr; 3]> {
+        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
+        let components: Vec<_> = formulas
+            .iter()
+            .map(|formula| self.limited(formula, "the axis must be fixed", HELP, is_parameter))
+            .collect();
+        components.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
+    }
+
+    /// Formulas that no quantity depends on: a fibre, extremes, and those of keys that were refused.
     fn variations(&mut self, field: &FieldSpec) {
         self.formulas(field.material.fibre.as_deref().unwrap_or_default());
         for (_, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
             self.constant(value);
-        }
-        if let Some(rigid) = &field.rigid {
-            let rotation = match &rigid.rotation {
-                Some(spec::Rotation::Plane(angle)) => vec![angle],
-                Some(spec::Rotation::Space { axis, angle }) => axis.iter().chain([angle]).collect(),
-                None => Vec::new(),
-            };
-            for formula in rotation.into_iter().chain(rigid.translation.iter().flatten()) {
-                self.formula(formula);
-            }
-            let message = "rigid motions are read, but not yet composed with the field";
-            let diagnostic = Diagnostic::error(rigid.span, message);
-            self.diagnostics.push(
-                diagnostic.label("would be left out of every quantity").help("remove [rigid]"),
-            );
         }
         for stray in &field.stray {
             syntax::parse(stray, self.diagnostics);
@@ -426,4 +463,8 @@ impl Reader<'_> {
             span: check.equals.first().map_or(check.quantity.span, |formula| formula.span),
         })
     }
+}
+
+fn is_parameter(symbol: &Symbol) -> bool {
+    matches!(symbol, Symbol::Parameter(_))
 }

@@ -74,6 +74,12 @@ impl Tensor {
         })
     }
 
+    /// `A v`.
+    pub fn apply(&self, graph: &mut Graph, vector: &[Expr]) -> Vec<Expr> {
+        let row = |row: usize| vector.iter().enumerate().map(move |(k, v)| (self.at(row, k), *v));
+        (0..self.dimension).map(|i| dot(graph, row(i))).collect()
+    }
+
     /// The trace.
     pub fn trace(&self, graph: &mut Graph) -> Expr {
         graph.sum((0..self.dimension).map(|k| (self.at(k, k), Rational::ONE)))

@@ -14,7 +14,9 @@ use std::collections::BTreeMap;
 
 use crate::expr::{Function, Rational, Symbol};
 use crate::mechanics::Response;
+use crate::mechanics::boundary::Datum;
 use crate::quantity::Quantity;
+use crate::spec::Face;
 
 /// A handle to the result of one instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -157,6 +159,8 @@ pub enum Output {
     Parameter(usize),
     /// The closed form of the check of that index.
     Expected(usize),
+    /// What is given on a face.
+    Face(Face, Datum),
 }
 
 /// A part of the declared domain, in terms of the parameters.

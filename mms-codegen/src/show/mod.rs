@@ -23,6 +23,7 @@ pub mod latex;
 pub mod mathml;
 pub mod name;
 pub mod relation;
+mod rigid;
 pub mod sympy;
 pub mod text;
 pub mod walk;

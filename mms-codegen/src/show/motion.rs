@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
+use super::rigid::moved;
 use crate::compile::Compiled;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Symbol};
@@ -116,6 +117,7 @@ impl Quantities {
             .zip(&compiled.model.displacement)
             .map(|(formula, derived)| formulas.read(reading, formula, *derived))
             .collect();
+        let displacement = moved(reading, compiled, formulas, displacement);
         quantities.add(reading, compiled, Quantity::Displacement, &displacement);
         let velocity = derivatives(reading, &displacement, Along::Time);
         quantities.add(reading, compiled, Quantity::Velocity, &velocity);

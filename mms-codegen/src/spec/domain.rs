@@ -1,7 +1,6 @@
-//! `[domain]`, `[boundary]` and `[rigid]`: where and when a field lives, what it claims on its
-//! faces, and how the whole of it moves.
+//! `[domain]` and `[boundary]`: where and when a field lives, and what it claims on its faces.
 
-use super::format::{DOMAIN, RIGID, ROTATION};
+use super::format::DOMAIN;
 use super::formula::Formula;
 use super::table::{Entry, Reader, Table, list};
 use super::value::{plural, unknown_word};
@@ -159,31 +158,6 @@ pub struct BoundarySpec {
     pub claim: Spanned<Claim>,
 }
 
-/// A prescribed rigid motion on top of the field: x -> Q x + c.
-#[derive(Clone, Debug)]
-pub struct RigidSpec {
-    /// The rotation Q(t).
-    pub rotation: Option<Rotation>,
-    /// The translation c(t), one component per dimension.
-    pub translation: Option<Vec<Formula>>,
-    /// The table.
-    pub span: Span,
-}
-
-/// A rotation around the origin.
-#[derive(Clone, Debug)]
-pub enum Rotation {
-    /// In the plane, by an angle.
-    Plane(Formula),
-    /// In space, around an axis.
-    Space {
-        /// The three components of the axis; its length does not matter.
-        axis: Vec<Formula>,
-        /// The angle.
-        angle: Formula,
-    },
-}
-
 /// The words for the shapes of a body.
 pub const BODIES: &[&str] = &["box", "annulus"];
 
@@ -292,50 +266,4 @@ fn face(key: &Spanned<String>, faces: &[Face], reader: &mut Reader<'_>) -> Optio
         unknown_word(key, "face", &names)
     });
     None
-}
-
-/// Reads `[rigid]`.
-pub(super) fn rigid<'a>(
-    entry: &Entry<'a>,
-    dimension: usize,
-    reader: &mut Reader<'a>,
-) -> Option<RigidSpec> {
-    let table = reader.table(entry, "[rigid]", RIGID)?;
-    if table.entries.is_empty() {
-        let message = "a rigid motion needs a `rotation`, a `translation` or both";
-        reader.report(Diagnostic::error(table.span, message).label("this one has neither"));
-    }
-    let rotation = table.get("rotation").and_then(|entry| rotation(&entry, dimension, reader));
-    let translation = table
-        .get("translation")
-        .map(|entry| reader.formulas(&entry, dimension, &one_per_dimension(dimension)));
-    Some(RigidSpec { rotation, translation, span: table.span })
-}
-
-fn rotation<'a>(entry: &Entry<'a>, dimension: usize, reader: &mut Reader<'a>) -> Option<Rotation> {
-    match dimension {
-        1 => {
-            let message = "a 1-dimensional field cannot rotate";
-            reader.report(
-                Diagnostic::error(entry.key.span, message)
-                    .label("needs `dimension = 2` or `dimension = 3`"),
-            );
-            None
-        }
-        2 => Some(Rotation::Plane(reader.formula("rotation", entry.value))),
-        _ => space_rotation(entry, reader),
-    }
-}
-
-fn space_rotation<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Rotation> {
-    if !entry.value.get_ref().is_table() {
-        let instead = r#"write rotation = { axis = ["0", "0", "1"], angle = "..." }"#;
-        let expected = "a table with its `axis` and `angle`";
-        reader.wrong_type_because("rotation", entry.value, expected, Some(instead.into()));
-        return None;
-    }
-    let table = reader.table(entry, "the rotation", ROTATION)?;
-    let axis = reader.required_formulas(&table, "axis", 3, "expected three components");
-    let angle = reader.required_formula(&table, "angle");
-    Some(Rotation::Space { axis, angle })
 }

@@ -3,13 +3,13 @@
 use super::check::{CheckSpec, ExtremeSpec, check, extremes};
 use super::document::Document;
 use super::domain::{
-    Body, BoundarySpec, DomainSpec, RigidSpec, Rotation, boundary, domain, one_per_dimension,
-    reported, rigid,
+    Body, BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
 };
 use super::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
 use super::formula::Formula;
 use super::material::{MaterialUse, material_use};
 use super::names::{Keeper, Names};
+use super::rigid::{RigidSpec, rigid};
 use super::study::{StudySpec, study};
 use super::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use super::table::{Entry, Reader, Table};
@@ -80,16 +80,7 @@ impl FieldSpec {
             all.extend(&check.equals);
         }
         all.extend(self.extremes.iter().flat_map(|extreme| &extreme.set).map(|(_, value)| value));
-        if let Some(rigid) = &self.rigid {
-            match &rigid.rotation {
-                Some(Rotation::Plane(angle)) => all.push(angle),
-                Some(Rotation::Space { axis, angle }) => {
-                    all.extend(axis.iter().chain([angle]));
-                }
-                None => {}
-            }
-            all.extend(rigid.translation.iter().flatten());
-        }
+        all.extend(self.rigid.iter().flat_map(RigidSpec::formulas));
         all.extend(&self.stray);
         all.into_iter()
     }

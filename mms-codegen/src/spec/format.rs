@@ -137,7 +137,7 @@ pub const FIELD_FILE: &[Key] = &[
     optional(
         "rigid",
         Holds::Table(RIGID),
-        "A rigid motion of the whole, on top of the displacement. Read, but not built yet.",
+        "A rigid motion of the whole on top of the displacement: the rigid twin of the field.",
     ),
 ];
 
@@ -280,6 +280,10 @@ pub const RIGID: &[Key] = &[
         "The translation: one formula per dimension.",
     ),
 ];
+
+/// A text with a rigid motion alone.
+pub(super) const RIGID_ALONE: &[Key] =
+    &[required("rigid", Holds::Table(RIGID), "The rigid motion.")];
 
 /// `rotation` in space.
 pub const ROTATION: &[Key] = &[

@@ -11,7 +11,7 @@ use crate::source::{Sources, Spanned};
 use crate::spec::names::{COORDINATES, INVARIANTS};
 use crate::spec::{
     Body, CheckSpec, DomainSpec, FieldSpec, Formula, LetSpec, MaterialSpec, ParameterSpec,
-    RigidSpec, Rotation,
+    RigidSpec,
 };
 use crate::syntax::{self, Ast, Kind};
 
@@ -234,12 +234,8 @@ impl Checker<'_> {
     }
 
     fn rigid(&mut self, rigid: &RigidSpec) {
-        let angle = match &rigid.rotation {
-            Some(Rotation::Plane(angle) | Rotation::Space { angle, .. }) => Some(angle),
-            None => None,
-        };
         let message = "an angle must be a number without unit";
-        self.expect(angle, Dimension::NONE, message, None);
+        self.expect(rigid.angle(), Dimension::NONE, message, None);
         let message = "the translation must be a length";
         self.expect(rigid.translation.iter().flatten(), Dimension::length(), message, None);
     }

@@ -55,6 +55,7 @@ fn selection(quantities: &[Quantity], set: &[(&str, &str)], freeze: &[&str]) -> 
             ["*"] => Freeze::Everything,
             names => Freeze::Only(names.iter().map(|name| name.to_string()).collect()),
         },
+        ..Selection::default()
     }
 }
 
@@ -150,7 +151,7 @@ fn each_quantity_alone_has_its_values_and_no_other_code() {
         expected.sort();
         assert_eq!(names(&rust::file(&alone).text), expected);
         let outputs = alone.program.outputs.keys().filter(|output| match output {
-            Output::Quantity(_) | Output::Response(_) => true,
+            Output::Quantity(_) | Output::Response(_) | Output::Face(..) => true,
             Output::Bound(_) | Output::Parameter(_) | Output::Expected(_) => false,
         });
         assert_eq!(outputs.collect::<Vec<_>>(), [&Output::Quantity(*quantity)]);

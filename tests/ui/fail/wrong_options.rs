@@ -13,5 +13,7 @@ mms_macros::field!("fields/bar_1d.toml", set = { young = -"1" });
 mms_macros::field!("fields/bar_1d.toml", set = { "young" = 1 });
 mms_macros::field!("fields/bar_1d.toml", name = "other");
 mms_macros::field!("fields/bar_1d.toml", name = fn);
+mms_macros::field!("fields/bar_1d.toml", rigid = [1]);
+mms_macros::field!("fields/bar_1d.toml", rigid = "rotation = 1");
 
 fn main() {}

@@ -11,6 +11,7 @@ mms_macros::field!(
 );
 mms_macros::field!("examples/fields/static_3d.toml", freeze, quantities = [velocity], name = rest);
 mms_macros::field!("examples/fields/static_3d.toml", freeze);
+mms_macros::field!("examples/fields/static_3d.toml", rigid = "translation = [0, 't^2', 0]", name = moved);
 
 use mms_math::Scalar;
 
@@ -53,4 +54,7 @@ fn main() {
     assert_eq!(rest.at_time(0.5).velocity([0.1, 0.2, 0.3]), [0.0; 3]);
     let solver = static_3d::prepare::<f64>(&static_3d::Parameters {}).boxed();
     assert_eq!(solver.domain().time, [0.0, 1.0]);
+
+    let moved = moved::prepare::<f64>(&moved::Parameters {});
+    assert_eq!(moved.at_time(0.5).velocity([0.1, 0.2, 0.3]), [0.0, 1.0, 0.0]);
 }

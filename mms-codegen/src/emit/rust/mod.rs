@@ -1,6 +1,7 @@
 //! Rust: a module of kernels over arrays, generic in the scalar, and their face to the runtime.
 
 mod adapter;
+mod face;
 mod file;
 mod kernel;
 mod point;
@@ -138,7 +139,7 @@ impl<'a> Emitter<'a> {
     fn new(compiled: &'a Compiled, contract: bool) -> Self {
         let program = &compiled.program;
         let emitted = |output: &Output| match output {
-            Output::Quantity(_) | Output::Response(_) => true,
+            Output::Quantity(_) | Output::Response(_) | Output::Face(..) => true,
             Output::Bound(_) => compiled.selection.is_for_a_solver(),
             Output::Parameter(_) | Output::Expected(_) => false,
         };

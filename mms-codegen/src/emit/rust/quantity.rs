@@ -21,6 +21,7 @@ impl Emitter<'_> {
         let place = Place { field: quote!(self), own: &[Stage::Time] };
         let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
         let quantities = self.quantities().map(|quantity| self.quantity(quantity));
+        let faces = self.on_faces();
         quote! {
             /// The field at one time: everything that needs no X.
             #[derive(Clone, Copy, Debug)]
@@ -40,6 +41,7 @@ impl Emitter<'_> {
 
             impl<T: Scalar + Copy> AtTime<'_, T> {
                 #(#quantities)*
+                #(#faces)*
             }
         }
     }

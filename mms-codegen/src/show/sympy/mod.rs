@@ -8,7 +8,7 @@ use crate::compile::Compiled;
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::quantity::Quantity;
-use crate::spec::Formula;
+use crate::spec::{Formula, RigidSpec, Rotation};
 use crate::syntax;
 
 use python::{Renamed, python};
@@ -35,6 +35,10 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
     text.push_str("\n\n");
     text.push_str(&strain_energy(compiled));
     text.push_str("\n\n");
+    if compiled.field.rigid.is_some() {
+        text.push_str(include_str!("rigid.py"));
+        text.push_str("\n\n");
+    }
     text.push_str(include_str!("derive.py"));
     text.push_str("\n\n");
     text.push_str(&values);
@@ -90,12 +94,14 @@ fn field(compiled: &Compiled) -> String {
         let value = translated(&definition.value, &names);
         lines.push(format!("    {} = {value}", names.name(&definition.name.value)));
     }
+    lines.push("    u = [".into());
+    lines.extend(field.displacement.iter().map(|u| format!("        {},", translated(u, &names))));
+    lines.push("    ]".into());
+    if let Some(rigid) = &field.rigid {
+        lines.push(format!("    u = {}", moved(rigid, &axes, &names)));
+    }
     lines.push("    return (".into());
-    lines.push("        [".into());
-    lines.extend(
-        field.displacement.iter().map(|u| format!("            {},", translated(u, &names))),
-    );
-    lines.push("        ],".into());
+    lines.push("        u,".into());
     lines.push(format!("        {},", translated(&field.material.density, &names)));
     lines.push("        {".into());
     let inner = material_names(compiled);
@@ -105,6 +111,25 @@ fn field(compiled: &Compiled) -> String {
     lines.push("        },".into());
     lines.push("    )\n".into());
     lines.join("\n")
+}
+
+/// The displacement u after a rigid motion.
+fn moved(rigid: &RigidSpec, axes: &str, names: &Renamed) -> String {
+    let list = |formulas: &[Formula]| {
+        let entries: Vec<_> = formulas.iter().map(|formula| translated(formula, names)).collect();
+        format!("[{}]", entries.join(", "))
+    };
+    let mut arguments = vec![format!("[{axes}]"), "u".into()];
+    if let Some(angle) = rigid.angle() {
+        arguments.push(format!("angle={}", translated(angle, names)));
+    }
+    if let Some(Rotation::Space { axis, .. }) = &rigid.rotation {
+        arguments.push(format!("axis={}", list(axis)));
+    }
+    if let Some(translation) = &rigid.translation {
+        arguments.push(format!("translation={}", list(translation)));
+    }
+    format!("moved({})", arguments.join(", "))
 }
 
 fn material_names(compiled: &Compiled) -> Renamed {
