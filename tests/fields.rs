@@ -299,6 +299,7 @@ fn studies<K: Kernel>() {
         if !of_this_solver(&study.formulation, "updated")
             || !of_this_solver(&study.transfer, "flip")
             || !of_this_solver(&study.precision, "f64")
+            || !of_this_solver(&study.fill, "cartesian")
         {
             continue;
         }
