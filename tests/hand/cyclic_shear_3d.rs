@@ -9,7 +9,7 @@
 //! Div P  = mu Lap u + m' cof F grad J
 //! ```
 //!
-//! P is not symmetric: P_xY - P_Yx is mu p less m r p, and a transposed gradient shows.
+//! P is not symmetric: P_xY - P_yX = (mu + m) p + m q r, with m = (lambda ln J - mu)/J.
 
 use std::f64::consts::PI;
 
