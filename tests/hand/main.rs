@@ -24,11 +24,3 @@ mod travelling_wave_2d;
 mod twisted_column;
 mod uniform_stretch;
 mod vortex;
-
-#[test]
-fn every_field_is_derived_by_hand() {
-    for entry in mms::gallery::FIELDS {
-        let path = format!("{}/tests/hand/{}.rs", env!("CARGO_MANIFEST_DIR"), entry.name);
-        assert!(std::path::Path::new(&path).is_file(), "{path} does not exist");
-    }
-}
