@@ -149,8 +149,9 @@ fn objectivity<K: Kernel>() {
     // F rounds by eps, which changes W and P by the modulus times that.
     let bound = 64.0 * f64::EPSILON * modulus::<K>();
     for (index, (point, _, gradient)) in gradients::<K>(64).into_iter().enumerate() {
-        let at_rest = K::material_first_piola_kirchhoff(&point, &vec![0.0; gradient.len()]);
-        assert_eq!(at_rest, vec![0.0; gradient.len()], "P at F = I");
+        for stress in K::material_first_piola_kirchhoff(&point, &vec![0.0; gradient.len()]) {
+            assert!(stress.abs() <= bound, "P = {stress:e} at F = I");
+        }
         for plane in [[0, 1], [1, 2], [2, 0]] {
             if is_indifferent && plane.iter().all(|axis| *axis < K::DIMENSION) {
                 rotated_in_a_plane::<K>(&point, &gradient, plane, index as f64, bound);
