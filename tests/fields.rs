@@ -168,7 +168,6 @@ fn rotated_in_a_plane<K: Kernel>(
     bound: f64,
 ) {
     let (sin, cos) = angle.sin_cos();
-    let diagonal = |k: usize| if k % (K::DIMENSION + 1) == 0 { 1.0 } else { 0.0 };
     let rotated = |tensor: &[f64]| {
         let mut rotated = tensor.to_vec();
         for column in 0..K::DIMENSION {
@@ -178,9 +177,11 @@ fn rotated_in_a_plane<K: Kernel>(
         }
         rotated
     };
-    let deformation: Vec<_> = (0..gradient.len()).map(|k| gradient[k] + diagonal(k)).collect();
-    let turned: Vec<_> =
-        rotated(&deformation).iter().enumerate().map(|(k, f)| f - diagonal(k)).collect();
+    let dimension = K::DIMENSION;
+    let unit = |k: usize| if k / dimension == k % dimension { 1.0 } else { 0.0 };
+    let deformation: Vec<_> = gradient.iter().enumerate().map(|(k, h)| h + unit(k)).collect();
+    let turned = rotated(&deformation);
+    let turned: Vec<_> = turned.iter().enumerate().map(|(k, f)| f - unit(k)).collect();
     let [before, after] =
         [gradient, &turned].map(|gradient| K::material_strain_energy(point, gradient));
     assert!((after - before).abs() <= bound, "W: {before:e}, of the rotated F {after:e}");
