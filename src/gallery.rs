@@ -2,7 +2,7 @@
 
 use mms_codegen::compile::{Failure, MATERIALS};
 use mms_codegen::source::Sources;
-use mms_codegen::spec::{MaterialSpec, read_material};
+use mms_codegen::spec::{FieldSpec, MaterialSpec, read_field, read_material};
 use mms_codegen::{Compiled, Options};
 
 use crate::scene::Scene;
@@ -63,6 +63,16 @@ impl Entry {
 /// The compiled field of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     FIELDS.iter().find(|entry| entry.name == name)
+}
+
+/// What the files of the shipped fields say, in the order of their names. Nothing is derived.
+pub fn fields() -> Vec<FieldSpec> {
+    let mut sources = Sources::default();
+    let fields = FIELDS.iter().filter_map(|entry| {
+        let source = sources.add(entry.path, entry.text);
+        read_field(&sources, source, entry.name, &mut Vec::new())
+    });
+    fields.collect()
 }
 
 /// The shipped materials, read, in the order of their names.

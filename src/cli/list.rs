@@ -4,14 +4,17 @@ use clap::Args;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use mms_codegen::compile::MATERIALS;
+use mms_codegen::spec::{Claim, FieldSpec, StudySpec};
 use mms_runtime::{IntegratorName, ShapeName};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
-use super::input::{Input, Variant};
 use super::{Outcome, print, print_json};
 use crate::gallery;
 
 /// List the fields, materials and methods.
+///
+/// Of each field: its dimension, its material, the shape of its body, what it claims on the faces,
+/// and what it is. `--json` tells face by face, and which closed forms and studies the file has.
 #[derive(Args)]
 pub struct List {
     /// Print one JSON document.
@@ -21,46 +24,80 @@ pub struct List {
 
 impl List {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let fields = gallery::FIELDS
-            .iter()
-            .map(|entry| Input::find(entry.name, &Variant::default()))
-            .collect::<anyhow::Result<Vec<_>>>()?;
+        let fields = gallery::fields();
         let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
         if self.json {
-            let fields: Vec<_> = fields
-                .iter()
-                .map(|input| {
-                    let field = &input.compiled.field;
-                    json!({
-                        "name": input.name,
-                        "title": field.title,
-                        "dimension": field.dimension,
-                        "material": field.material.model.value,
-                        "reference": field.reference,
-                    })
-                })
-                .collect();
             print_json(&json!({
-                "fields": fields,
+                "fields": fields.iter().map(document).collect::<Vec<_>>(),
                 "materials": materials,
                 "shapes": ShapeName::NAMES,
                 "integrators": IntegratorName::NAMES,
             }))?;
             return Ok(Outcome::AsExpected);
         }
-        let mut table = Table::new();
-        table.load_style(NOTHING).set_header(["field", "dimension", "material", "title"]);
-        for input in &fields {
-            let field = &input.compiled.field;
-            let dimension = field.dimension.to_string();
-            table.add_row([&input.name, &dimension, &field.material.model.value, &field.title]);
-        }
         print(&format!(
-            "{table}\n\nmaterials:   {}\nshapes:      {}\nintegrators: {}",
+            "{}\n\nmaterials:   {}\nshapes:      {}\nintegrators: {}",
+            table(&fields),
             materials.join(", "),
             ShapeName::NAMES.join(", "),
             IntegratorName::NAMES.join(", ")
         ))?;
         Ok(Outcome::AsExpected)
     }
+}
+
+/// A line per field, for a person to choose from.
+fn table(fields: &[FieldSpec]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table.set_header(["field", "dimension", "material", "body", "faces", "title"]);
+    for field in fields {
+        table.add_row([
+            &field.name,
+            &field.dimension.to_string(),
+            &field.material.model.value,
+            field.domain.body.name(),
+            &claims(field),
+            &field.title,
+        ]);
+    }
+    table
+}
+
+/// The claims of a field, each once.
+fn claims(field: &FieldSpec) -> String {
+    let is_made =
+        |claim: &&Claim| field.boundary.iter().any(|boundary| boundary.claim.value == **claim);
+    let claims: Vec<_> = Claim::ALL.iter().filter(is_made).map(|claim| claim.name()).collect();
+    claims.join(", ")
+}
+
+fn document(field: &FieldSpec) -> Value {
+    let boundary = field.boundary.iter().map(|boundary| {
+        (boundary.face.value.name().to_string(), boundary.claim.value.name().into())
+    });
+    let checks = field.checks.iter().map(|check| check.quantity.value.name());
+    json!({
+        "name": field.name,
+        "title": field.title,
+        "dimension": field.dimension,
+        "material": field.material.model.value,
+        "reference": field.reference,
+        "body": field.domain.body.name(),
+        "boundary": boundary.collect::<Map<_, _>>(),
+        "checks": checks.collect::<Vec<_>>(),
+        "studies": field.studies.iter().map(study).collect::<Vec<_>>(),
+    })
+}
+
+fn study(study: &StudySpec) -> Value {
+    json!({
+        "shape": study.shape,
+        "integrator": study.integrator,
+        "formulation": study.formulation,
+        "fill": study.fill,
+        "cells": study.cells,
+        "order": study.order,
+        "reason": study.reason,
+    })
 }

@@ -1,9 +1,11 @@
 //! `mms list`, and the command line itself.
 
+use std::path::Path;
+
 use mms::gallery::FIELDS;
 use mms_codegen::compile::MATERIALS;
 use mms_runtime::{IntegratorName, ShapeName};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use super::mms::Folder;
 
@@ -28,6 +30,53 @@ fn list_as_a_document_has_the_same_names() {
     assert_eq!(document["integrators"], json!(IntegratorName::NAMES));
     let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
     assert_eq!(document["materials"], json!(materials));
+}
+
+#[test]
+fn list_tells_what_each_field_claims_and_is_checked_by() {
+    let document = Folder::new().mms("list --json").exits(0).json();
+    let fields = document["fields"].as_array().expect("fields");
+    for (listed, entry) in fields.iter().zip(FIELDS) {
+        let field = entry.compile().expect("the gallery compiles").field;
+        let boundary = field.boundary.iter();
+        let boundary: Map<_, _> = boundary
+            .map(|it| (it.face.value.name().into(), it.claim.value.name().into()))
+            .collect();
+        assert_eq!(listed["boundary"], Value::Object(boundary), "{}", entry.name);
+        assert_eq!(listed["body"], field.domain.body.name(), "{}", entry.name);
+        let checks: Vec<_> = field.checks.iter().map(|it| it.quantity.value.name()).collect();
+        assert_eq!(listed["checks"], json!(checks), "{}", entry.name);
+        let orders: Vec<_> = field.studies.iter().map(|study| json!(study.order)).collect();
+        let studies = listed["studies"].as_array().expect("studies").iter();
+        assert_eq!(studies.map(|study| study["order"].clone()).collect::<Vec<_>>(), orders);
+    }
+}
+
+/// A line without the blanks that its columns are aligned with.
+fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// The fields that ship are those derived by hand; who adds another need not list it.
+#[test]
+fn the_readme_shows_the_gallery_as_it_is_listed() {
+    let readme = include_str!("../../README.md");
+    let (_, block) = readme.split_once("$ cargo run --release -- list\n").expect("the command");
+    let (shown, _) = block.split_once("```").expect("the end of its block");
+    let shown: Vec<_> = shown.lines().map(words).collect();
+    let is_shown = |name: &str| shown.iter().any(|line| line.first() == Some(&name));
+    for entry in FIELDS {
+        let by_hand = format!("{}/tests/hand/{}.rs", env!("CARGO_MANIFEST_DIR"), entry.name);
+        assert!(is_shown(entry.name) || !Path::new(&by_hand).exists(), "no {}", entry.name);
+    }
+    let listed = Folder::new().mms("list").exits(0).stdout;
+    let mut rest = listed.lines().map(words);
+    for line in &shown {
+        assert!(
+            rest.any(|listed| listed == *line),
+            "README.md shows {line:?}, and `mms list` does not:\n{listed}"
+        );
+    }
 }
 
 #[test]

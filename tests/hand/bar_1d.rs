@@ -10,6 +10,8 @@
 
 use mms::gallery::bar_1d::{Parameters, prepare};
 
+use crate::support::random;
+
 /// E, rho0, L and a of one bar.
 struct Bar {
     young: f64,
@@ -71,14 +73,7 @@ impl Bar {
 
 /// Bars of several sizes and stiffnesses, each with points and times within its window.
 fn cases() -> impl Iterator<Item = (Bar, f64, f64)> {
-    let mut state = 0x2545_f491_4f6c_dd1d_u64;
-    let mut random = move || {
-        // xorshift64* (Vigna, ACM TOMS 42, 2016).
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut random = random();
     (0..2000).map(move |_| {
         let bar = Bar {
             young: 10f64.powf(12.0 * random()),
@@ -150,4 +145,14 @@ fn the_printed_sign_of_b_is_wrong() {
         let scale = 2.0 * (INERTIA + STIFFNESS) * slope / rho0;
         assert_close("b - printed b", right - bar.printed_body_force(x, t), twice, scale);
     }
+}
+
+/// 60 digits by numerical differentiation of x(X, t), which needs no formula for b.
+#[test]
+fn j_and_b_have_the_values_that_differentiation_in_60_digits_gives() {
+    let field = prepare(&Parameters::<f64> { young: 1e7, ..Parameters::default() });
+    let at = field.at_time(0.0023);
+    let (jacobian, force) = (at.jacobian([0.3]), at.body_force([0.3])[0]);
+    assert!((jacobian - 1.210031099497).abs() < 1e-12, "{jacobian}");
+    assert!((force - -5026.52412833426).abs() < 1e-10, "{force}");
 }

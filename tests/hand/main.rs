@@ -1,4 +1,26 @@
 //! Derivations on paper, in plain Rust: a second opinion on every generated quantity that shares
-//! nothing with the compiler of field files. One file per field.
+//! nothing with the compiler of field files. One file per field; what several derivations share has
+//! a file of its own.
 
+mod axis_aligned;
+mod axis_aligned_1d;
+mod axis_aligned_2d;
+mod axis_aligned_3d;
 mod bar_1d;
+mod cyclic_shear_3d;
+mod expanding_ring;
+mod generalized_vortex;
+mod generalized_vortex_third;
+mod graded_bar;
+mod nearly_incompressible_2d;
+mod periodic_bar;
+mod quiet_boundary_2d;
+mod rank_one;
+mod self_weight_column;
+mod sheared_block_2d;
+mod static_bulge_3d;
+mod support;
+mod travelling_wave_2d;
+mod twisted_column;
+mod uniform_stretch;
+mod vortex;

@@ -29,6 +29,16 @@ pub enum Body {
     },
 }
 
+impl Body {
+    /// The word for it in a field file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Body::Box { .. } => "box",
+            Body::Annulus { .. } => "annulus",
+        }
+    }
+}
+
 /// The reference body and the time window that all claims are about.
 #[derive(Clone, Debug)]
 pub struct DomainSpec {
