@@ -43,7 +43,7 @@ pub struct Compiled {
     pub model: Model,
     /// What follows from them, as it was derived.
     pub derived: Derivation,
-    /// The same in the forms that are cheapest to compute.
+    /// The same; what is wanted in the forms that are cheapest to compute.
     pub derivation: Derivation,
     /// What of it was wanted.
     pub selection: Selection,
@@ -167,7 +167,7 @@ fn phases(
     let derived = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
-    let derivation = simplify(&mut graph, &model, &derived);
+    let derivation = simplify(&mut graph, &model, &derived, |quantity| selection.wants(quantity));
     let mut outputs = outputs(&mut graph, &model, &derivation);
     outputs.retain(|output, _| selection.schedules(*output, &field));
     if graph.is_exhausted() {

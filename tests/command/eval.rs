@@ -8,19 +8,26 @@ use super::mms::{BAR, Folder, assert_close, keys, numbers};
 const IDENTIFIERS: [&str; 15] = [
     "at",
     "displacement",
+    "position",
     "velocity",
     "acceleration",
     "displacement_gradient",
     "deformation_gradient",
     "jacobian",
+    "right_cauchy_green",
+    "left_cauchy_green",
+    "green_lagrange",
+    "mass_density",
     "strain_energy",
     "first_piola_kirchhoff",
     "nominal_stress",
     "cauchy_stress",
     "kirchhoff_stress",
     "div_p",
+    "div_sigma",
     "body_force",
     "body_force_density",
+    "current_body_force_density",
 ];
 
 /// The document of one evaluation of the gallery's bar.

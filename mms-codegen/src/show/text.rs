@@ -185,28 +185,15 @@ impl Setting for Text {
 
 impl Text {
     fn stem(&self, name: &Name) -> String {
-        let rho = "\u{3c1}\u{2080}";
-        match name.quantity {
-            Some(Quantity::DivP) if name.stem == Quantity::DivP.symbol() => {
-                if name.index.is_empty() { "Div P".into() } else { "(Div P)".into() }
-            }
-            Some(Quantity::NominalStress) if name.stem == Quantity::NominalStress.symbol() => {
-                "P\u{1d40}".into()
-            }
-            Some(Quantity::BodyForceDensity)
-                if name.stem == Quantity::BodyForceDensity.symbol() =>
-            {
-                if name.index.is_empty() {
-                    format!("{rho} b")
-                } else {
-                    format!("({rho} b)")
-                }
-            }
-            _ => {
-                let (letters, digits) = name.split_digits();
-                self.word(letters) + &lowered(digits)
-            }
-        }
+        let words = match name.quantity.filter(|quantity| quantity.symbol() == name.stem) {
+            Some(Quantity::NominalStress) => return "P\u{1d40}".into(),
+            Some(Quantity::DivP) => "Div P",
+            Some(Quantity::DivSigma) => "div \u{3c3}",
+            Some(Quantity::BodyForceDensity) => "\u{3c1}\u{2080} b",
+            Some(Quantity::CurrentBodyForceDensity) => "\u{3c1} b",
+            _ => return self.label(&name.stem),
+        };
+        if name.index.is_empty() { words.into() } else { format!("({words})") }
     }
 
     fn label(&self, word: &str) -> String {
