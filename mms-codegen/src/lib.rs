@@ -25,6 +25,7 @@ pub mod spec;
 pub mod suggest;
 pub mod syntax;
 pub mod units;
+pub mod visibility;
 
 pub use compile::{Compiled, Options, compile, compile_with};
 pub use selection::Selection;
