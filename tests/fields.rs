@@ -1,6 +1,7 @@
 //! Properties that hold for every field. The build script finds the files in `fields/` and calls
 //! `field_tests!` once for each.
 
+mod current;
 mod support;
 
 use mms_codegen::Compiled;
@@ -12,6 +13,7 @@ use mms_runtime::math::Scalar as _;
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Method, Verdict};
 
+use current::both_frames;
 use support::dual::Dual;
 use support::kernel::{Kernel, compiled, kernel, sample};
 
@@ -33,6 +35,16 @@ macro_rules! field_tests {
             #[test]
             fn stress_measures_agree() {
                 crate::stress_measures::<Field>();
+            }
+
+            #[test]
+            fn strains_and_densities_agree() {
+                crate::strains_and_densities::<Field>();
+            }
+
+            #[test]
+            fn both_frames_agree_by_finite_differences() {
+                crate::both_frames::<Field>();
             }
 
             #[test]
@@ -176,6 +188,58 @@ fn stress_measures<K: Kernel>() {
         }
         for row in 0..dimension {
             close("traction = P N, N along the first axis", traction[row], first[row * dimension]);
+        }
+    }
+}
+
+/// x - X = u, C = F^T F, B = F F^T, 2 E = C - I, rho J = rho0, J div sigma = Div P and
+/// J (rho b) = rho0 b.
+fn strains_and_densities<K: Kernel>() {
+    let dimension = K::DIMENSION;
+    let close = |what: &str, a: f64, b: f64, scale: f64| {
+        let bound = 64.0 * f64::EPSILON * scale;
+        assert!((a - b).abs() <= bound, "{what}: {a:e} and {b:e}");
+    };
+    for (point, time, gradient) in gradients::<K>(64) {
+        let of = |quantity| K::quantity(quantity, time, &point);
+        let (displacement, position) = (of(Quantity::Displacement), of(Quantity::Position));
+        for axis in 0..dimension {
+            let size = largest([position[axis], point[axis]]);
+            close("x - X = u", position[axis] - point[axis], displacement[axis], size);
+        }
+        let deformation = of(Quantity::DeformationGradient);
+        let (right, left) = (of(Quantity::RightCauchyGreen), of(Quantity::LeftCauchyGreen));
+        let lagrange = of(Quantity::GreenLagrange);
+        let size = largest(deformation.iter().copied()).powi(2);
+        for k in 0..dimension * dimension {
+            let (row, column) = (k / dimension, k % dimension);
+            let at = |row: usize, column: usize| row * dimension + column;
+            let product =
+                |first: &dyn Fn(usize) -> usize, second: &dyn Fn(usize) -> usize| -> f64 {
+                    (0..dimension).map(|j| deformation[first(j)] * deformation[second(j)]).sum()
+                };
+            let columns = product(&|j| at(j, row), &|j| at(j, column));
+            let rows = product(&|j| at(row, j), &|j| at(column, j));
+            close("C = F^T F", right[k], columns, size);
+            close("B = F F^T", left[k], rows, size);
+            let slope: f64 =
+                (0..dimension).map(|j| gradient[at(j, row)] * gradient[at(j, column)]).sum();
+            let twice = gradient[k] + gradient[at(column, row)] + slope;
+            let strain = largest(gradient.iter().copied());
+            close("2 E = H + H^T + H^T H", 2.0 * lagrange[k], twice, strain * (1.0 + strain));
+        }
+        let jacobian = of(Quantity::Jacobian)[0];
+        let density = K::density(&point);
+        close("rho J = rho0", of(Quantity::MassDensity)[0] * jacobian, density, density);
+        for (current, reference) in [
+            (Quantity::DivSigma, Quantity::DivP),
+            (Quantity::CurrentBodyForceDensity, Quantity::BodyForceDensity),
+        ] {
+            let (current, reference) = (of(current), of(reference));
+            let size = largest(reference.iter().copied());
+            for (current, reference) in current.into_iter().zip(reference) {
+                close("J times what is per current volume", current * jacobian, reference, size);
+            }
         }
     }
 }

@@ -95,7 +95,8 @@ impl Visibility {
         let sizes = sizes(compiled, &parameters, &points);
         let statuses = statuses(&graph, &terms, &parameters, &points, &sizes);
         let mut findings: Vec<_> = terms.into_iter().map(|(term, _)| term).zip(statuses).collect();
-        findings.sort();
+        let kind = |term: &Term| Term::KINDS.iter().position(|kind| *kind == term.kind());
+        findings.sort_by_key(|(term, _)| kind(term));
         Ok(Visibility { findings })
     }
 

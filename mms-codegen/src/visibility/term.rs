@@ -6,7 +6,7 @@ use crate::spec::Face;
 macro_rules! terms {
     ($($variant:ident $(($argument:ty))? $name:literal $scale:ident $means:literal,)*) => {
         /// A term of the equations, or a property of u that a method may be exact for.
-        #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[derive(Clone, Debug, PartialEq, Eq)]
         pub enum Term {
             $(#[doc = concat!("Absent where ", $means, ".")] $variant $(($argument))?,)*
         }

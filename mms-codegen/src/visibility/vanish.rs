@@ -5,15 +5,16 @@ use std::collections::BTreeMap;
 use super::face::{faces, on_face};
 use super::term::Term;
 use crate::compile::{Compiled, parameter_values};
-use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::expr::{Expr, Function, Graph, Rational, Symbol};
 use crate::mechanics::model::energy_with;
 use crate::mechanics::tensor::dot;
-use crate::mechanics::{Model, Response, derive};
+use crate::mechanics::{Model, Response, TooLarge, derive};
 use crate::pass::differentiate::differentiate;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 use crate::quantity::Quantity;
-use crate::spec::Face;
+use crate::source::Spanned;
+use crate::spec::{Face, Formula};
 
 /// Every term that a field of this dimension may have, with what it takes to be absent.
 pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
@@ -174,39 +175,50 @@ impl Stress {
     }
 }
 
-/// d(Div P)/ds at s = 0, where the parameter of the material is p (1 + s): p d(Div P)/dp, which is
-/// 0 where p is.
+/// d(Div P)/ds at s = 0, where the parameter of the material is p exp(s): p d(Div P)/dp, which is 0
+/// where p is. A parameter that the density takes as a number only, such as an exponent, has none.
 fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
-    let model = &compiled.model;
-    let count = model.parameters.len();
-    let share = |k: usize| Symbol::Parameter(count + k);
-    let scaled: Vec<Expr> = (model.arguments.iter().enumerate())
-        .map(|(k, value)| {
-            let leaf = graph.symbol(share(k));
-            let term = graph.mul(*value, leaf);
-            graph.add(*value, term)
-        })
-        .collect();
-    let Some(energy) = energy_with(graph, &compiled.field, &compiled.material, &scaled) else {
-        return Vec::new();
-    };
-    let model = Model { energy, ..model.clone() };
-    let relations = Relations::find(graph, &model.displacement);
-    let reduced = graph.attempt(|graph| derive(graph, &model, &relations));
-    let derivation = match reduced {
-        Some(Ok(derivation)) => Ok(derivation),
-        _ => derive(graph, &model, &Relations::default()),
-    };
-    let Ok(derivation) = derivation else { return Vec::new() };
-    let divergence = &derivation.quantities[&Quantity::DivP];
-    let zero = graph.number(0);
-    let at_rest: BTreeMap<Symbol, Expr> = (0..scaled.len()).map(|k| (share(k), zero)).collect();
-    let names = compiled.field.material.arguments.iter().enumerate();
-    let term = |(k, (name, _)): (usize, &(crate::source::Spanned<String>, _))| {
-        let slopes = differentiate(graph, divergence, share(k));
+    let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
+    let share = |k: usize| Symbol::Parameter(model.parameters.len() + k);
+    let mut varied = model.arguments.clone();
+    let mut is_varied = Vec::new();
+    for (k, value) in model.arguments.iter().enumerate() {
+        let leaf = graph.symbol(share(k));
+        let factor = graph.call(Function::Exp, &[leaf]);
+        varied[k] = graph.mul(*value, factor);
+        is_varied.push(energy_with(graph, field, material, &varied).is_some());
+        if !is_varied[k] {
+            varied[k] = *value;
+        }
+    }
+    let energy = energy_with(graph, field, material, &varied).unwrap_or(model.energy);
+    let divergence = divergence(graph, &Model { energy, ..model.clone() });
+    let (zero, count) = (graph.number(0), model.arguments.len());
+    let at_rest: BTreeMap<Symbol, Expr> = (0..count).map(|k| (share(k), zero)).collect();
+    let undefined = graph.call(Function::Ln, &[zero]);
+    let term = |(k, (name, _)): (usize, &(Spanned<String>, Formula))| {
+        let slopes = match is_varied[k] {
+            true => differentiate(graph, &divergence, share(k)),
+            false => vec![undefined],
+        };
         (Term::Parameter(name.value.clone()), substitute(graph, &slopes, &at_rest))
     };
-    names.map(term).collect()
+    field.material.arguments.iter().enumerate().map(term).collect()
+}
+
+/// Div P of a model, with what it can be reduced to; that of a rotation has no ln J then.
+fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
+    let relations = Relations::find(graph, &model.displacement);
+    let reduced = graph.attempt(|graph| derive(graph, model, &relations));
+    let derivation = match reduced {
+        Some(Ok(derivation)) => Ok(derivation),
+        _ => derive(graph, model, &Relations::default()),
+    };
+    // Where the graph is full, what is in it is not looked at.
+    derivation.map_or_else(
+        |TooLarge(_)| Vec::new(),
+        |mut derivation| derivation.quantities.remove(&Quantity::DivP).unwrap_or_default(),
+    )
 }
 
 fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
