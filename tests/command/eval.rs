@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::mms::{BAR, Folder, assert_close, keys, numbers};
 
-const IDENTIFIERS: [&str; 15] = [
+const IDENTIFIERS: [&str; 22] = [
     "at",
     "displacement",
     "position",
@@ -235,7 +235,7 @@ fn unknown_names_are_refused_with_a_suggestion() {
     refused("bar_1d --at 1 --time 0 --quantity u,jacobain", "did you mean `jacobian`?");
     refused("bar_1d --at 1 --time 0 --set yuong=1", "did you mean `young`?");
     refused("bar_2d --at 1 --time 0", "did you mean `bar_1d`?");
-    refused("bar_1d --at 1 --time 0 --quantity zzz", "the quantities are displacement, velocity");
+    refused("bar_1d --at 1 --time 0 --quantity zzz", "the quantities are displacement, position");
     refused("bar_1d --at 1 --time 0 --set zzz=1", "the field has length, young, rho0, amplitude");
     refused("zzz --at 1 --time 0", "a file of your own is given by its path, ending in .toml");
 }
