@@ -48,11 +48,11 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
             (of(Quantity::Displacement), of(Quantity::CauchyStress))
         };
         let (ahead, behind) = (beside(1.0), beside(-1.0));
-        for row in 0..dimension {
+        for (row, divergence) in divergence.iter_mut().enumerate() {
             let k = row * dimension + axis;
             gradient[k] = (ahead.0[row] - behind.0[row]) / (2.0 * step);
             let slope = (ahead.1[k] - behind.1[k]) / (2.0 * step);
-            divergence[row] += slope;
+            *divergence += slope;
             parts.push(slope);
         }
     }
