@@ -5,6 +5,10 @@ use mms_codegen::quantity::Quantity;
 use super::largest;
 use super::support::kernel::{Kernel, compiled, sample};
 
+/// A correction of this part of the size of the body is the last: rounding, enlarged by F^-1, may
+/// leave no smaller one, and the next would be its square.
+const NEGLIGIBLE: f64 = 1e-12;
+
 /// How often Newton's method may go on.
 const ITERATIONS: usize = 50;
 
@@ -20,7 +24,7 @@ pub fn both_frames<K: Kernel>() {
             [0, 1].map(|what| [0, 1].map(|k| worst[what][k].max(found[what][k])))
         })
     };
-    let (coarse, fine) = (errors(size / 256.0), errors(size / 512.0));
+    let (coarse, fine) = (errors(size / 1024.0), errors(size / 2048.0));
     for (what, name) in ["F = (I - grad_x u)^-1", "div sigma = Div P / J"].iter().enumerate() {
         let ([coarse, scale], [fine, _]) = (coarse[what], fine[what]);
         // Rounding of the differences and of Newton's method is left where they are exact.
@@ -83,7 +87,7 @@ fn invert<K: Kernel>(place: &[f64], start: &[f64], time: f64) -> Vec<f64> {
         let gradient = K::quantity(Quantity::DeformationGradient, time, &reference);
         let correction = solve(gradient, missing);
         let size = largest(place.iter().copied());
-        let is_found = largest(correction.iter().copied()) <= 4.0 * f64::EPSILON * size;
+        let is_found = largest(correction.iter().copied()) <= NEGLIGIBLE * size;
         for (coordinate, correction) in reference.iter_mut().zip(correction) {
             *coordinate += correction;
         }
