@@ -4,11 +4,14 @@
 mod current;
 mod support;
 
+use std::collections::BTreeSet;
+
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Method, Verdict};
@@ -354,6 +357,30 @@ fn closed_forms<K: Kernel>() {
     for comparison in compare(&compiled(K::NAME)) {
         assert!(matches!(comparison.finding, Finding::Agrees), "{comparison:?}");
     }
+}
+
+/// Every kind of term is there in some field, and so is every parameter of a material and every
+/// face that some field has.
+#[test]
+fn the_gallery_leaves_no_term_unseen() {
+    let mut asked: BTreeSet<String> = Term::KINDS.iter().map(|kind| kind.to_string()).collect();
+    let mut seen = BTreeSet::new();
+    for entry in mms::gallery::FIELDS {
+        let compiled = compiled(entry.name);
+        let visibility = Visibility::of(&compiled).expect("the gallery is within the bound");
+        for (term, status) in &visibility.findings {
+            let name = match term {
+                Term::Parameter(name) => format!("{}.{name}", compiled.material.name),
+                _ => term.name(),
+            };
+            if *status == Status::Present {
+                seen.extend([name.clone(), term.kind().to_string()]);
+            }
+            asked.insert(name);
+        }
+    }
+    let unseen: Vec<_> = asked.difference(&seen).collect();
+    assert!(unseen.is_empty(), "no field of the gallery sees {unseen:?}");
 }
 
 /// Every `[[study]]` of the file whose method the solver has.
