@@ -5,6 +5,21 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
+use mms_codegen::spec::field_name::validate;
+
+/// Modules beside those of the fields, and crates that these files use by name.
+const TAKEN: &[&str] = &[
+    "core",
+    "current",
+    "mms",
+    "mms_codegen",
+    "mms_macros",
+    "mms_math",
+    "mms_runtime",
+    "std",
+    "support",
+];
+
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by Cargo"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
@@ -20,15 +35,24 @@ fn main() -> io::Result<()> {
     }
     stems.sort();
     for stem in &stems {
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !stem.starts_with(|c: char| c.is_ascii_lowercase()) || !stem.chars().all(plain) {
-            return Err(io::Error::other(format!(
-                "fields/{stem}.toml: the name of a field file is a module name: lower-case letters, digits and underscores, a letter first"
-            )));
+        if let Err(mistake) = name(stem) {
+            // An error that `main` returned would be shown as Rust writes values down.
+            eprintln!("error: fields/{stem}.toml: {mistake}");
+            std::process::exit(1);
         }
     }
     fs::write(out.join("gallery.rs"), gallery(&root, &stems))?;
     fs::write(out.join("field_tests.rs"), field_tests(&stems))
+}
+
+/// Refuses what cannot be the name of a module in `src/gallery.rs` and `tests/fields.rs`.
+fn name(stem: &str) -> Result<(), String> {
+    if TAKEN.contains(&stem) {
+        return Err(format!(
+            "`{stem}` is the name of a module that others use: try `{stem}_field`"
+        ));
+    }
+    validate(stem)
 }
 
 /// One module per field, and the catalogue.

@@ -1,17 +1,22 @@
 //! Properties that hold for every field. The build script finds the files in `fields/` and calls
 //! `field_tests!` once for each.
 
+mod current;
 mod support;
+
+use std::collections::BTreeSet;
 
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Method, Verdict};
 
+use current::both_frames;
 use support::dual::Dual;
 use support::kernel::{Kernel, compiled, kernel, sample};
 
@@ -38,6 +43,16 @@ macro_rules! field_tests {
             #[test]
             fn stress_measures_agree() {
                 crate::stress_measures::<Field>();
+            }
+
+            #[test]
+            fn strains_and_densities_agree() {
+                crate::strains_and_densities::<Field>();
+            }
+
+            #[test]
+            fn both_frames_agree_by_finite_differences() {
+                crate::both_frames::<Field>();
             }
 
             #[test]
@@ -235,6 +250,63 @@ fn stress_measures<K: Kernel>() {
     }
 }
 
+/// x - X = u, C = F^T F, B = F F^T, 2 E = C - I, rho J = rho0, J div sigma = Div P and
+/// J (rho b) = rho0 b.
+fn strains_and_densities<K: Kernel>() {
+    let dimension = K::DIMENSION;
+    let close = |what: &str, a: f64, b: f64, scale: f64| {
+        let bound = 64.0 * f64::EPSILON * scale;
+        assert!((a - b).abs() <= bound, "{what}: {a:e} and {b:e}");
+    };
+    let gradients = gradients::<K>(64);
+    // What is reduced by relations rounds like the largest values, not like those at the point.
+    let strain = largest(gradients.iter().flat_map(|(_, _, gradient)| gradient).copied());
+    let stretch = (1.0 + strain) * (1.0 + strain);
+    let [divergence, force] = [Quantity::DivP, Quantity::BodyForceDensity].map(|quantity| {
+        let values = gradients.iter().map(|(point, time, _)| K::quantity(quantity, *time, point));
+        largest(values.flatten())
+    });
+    for (point, time, gradient) in gradients {
+        let of = |quantity| K::quantity(quantity, time, &point);
+        let (displacement, position) = (of(Quantity::Displacement), of(Quantity::Position));
+        for axis in 0..dimension {
+            let size = largest([position[axis], point[axis]]);
+            close("x - X = u", position[axis] - point[axis], displacement[axis], size);
+        }
+        let deformation = of(Quantity::DeformationGradient);
+        let (right, left) = (of(Quantity::RightCauchyGreen), of(Quantity::LeftCauchyGreen));
+        let lagrange = of(Quantity::GreenLagrange);
+        for k in 0..dimension * dimension {
+            let (row, column) = (k / dimension, k % dimension);
+            let at = |row: usize, column: usize| row * dimension + column;
+            let product =
+                |first: &dyn Fn(usize) -> usize, second: &dyn Fn(usize) -> usize| -> f64 {
+                    (0..dimension).map(|j| deformation[first(j)] * deformation[second(j)]).sum()
+                };
+            let columns = product(&|j| at(j, row), &|j| at(j, column));
+            let rows = product(&|j| at(row, j), &|j| at(column, j));
+            close("C = F^T F", right[k], columns, stretch);
+            close("B = F F^T", left[k], rows, stretch);
+            let slope: f64 =
+                (0..dimension).map(|j| gradient[at(j, row)] * gradient[at(j, column)]).sum();
+            let twice = gradient[k] + gradient[at(column, row)] + slope;
+            close("2 E = H + H^T + H^T H", 2.0 * lagrange[k], twice, strain * (1.0 + strain));
+        }
+        let jacobian = of(Quantity::Jacobian)[0];
+        let density = K::density(&point);
+        close("rho J = rho0", of(Quantity::MassDensity)[0] * jacobian, density, density);
+        for (current, reference, size) in [
+            (Quantity::DivSigma, Quantity::DivP, divergence),
+            (Quantity::CurrentBodyForceDensity, Quantity::BodyForceDensity, force),
+        ] {
+            let (current, reference) = (of(current), of(reference));
+            for (current, reference) in current.into_iter().zip(reference) {
+                close("J times what is per current volume", current * jacobian, reference, size);
+            }
+        }
+    }
+}
+
 /// rho0 a - Div P - rho0 b with Div P from central differences of P: the residual must vanish
 /// like the square of the step.
 fn balance_by_finite_differences<K: Kernel>() {
@@ -340,6 +412,30 @@ fn closed_forms<K: Kernel>() {
     for comparison in compare(&compiled(K::NAME)) {
         assert!(matches!(comparison.finding, Finding::Agrees), "{comparison:?}");
     }
+}
+
+/// Every kind of term is there in some field, and so is every parameter of a material and every
+/// face that some field has.
+#[test]
+fn the_gallery_leaves_no_term_unseen() {
+    let mut asked: BTreeSet<String> = Term::KINDS.iter().map(|kind| kind.to_string()).collect();
+    let mut seen = BTreeSet::new();
+    for entry in mms::gallery::FIELDS {
+        let compiled = compiled(entry.name);
+        let visibility = Visibility::of(&compiled).expect("the gallery is within the bound");
+        for (term, status) in &visibility.findings {
+            let name = match term {
+                Term::Parameter(name) => format!("{}.{name}", compiled.material.name),
+                _ => term.name(),
+            };
+            if *status == Status::Present {
+                seen.extend([name.clone(), term.kind().to_string()]);
+            }
+            asked.insert(name);
+        }
+    }
+    let unseen: Vec<_> = asked.difference(&seen).collect();
+    assert!(unseen.is_empty(), "no field of the gallery sees {unseen:?}");
 }
 
 /// Every `[[study]]` of the file whose method the solver has.

@@ -227,6 +227,11 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
             let density = inner.response(Response::Density, &at.coordinates, &[]).remove(0);
             plus(&applied(q, &value), &scaled(&apparent(), &density))
         }
+        Quantity::CurrentBodyForceDensity => {
+            let density = of(Quantity::MassDensity).remove(0);
+            plus(&applied(q, &value), &scaled(&apparent(), &density))
+        }
+        Quantity::Position => plus(&applied(q, &x()), d),
         Quantity::DisplacementGradient => {
             let f = turned(&of(Quantity::DeformationGradient));
             let identity = times(q, &back, dimension);
@@ -234,11 +239,15 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
         }
         Quantity::DeformationGradient | Quantity::FirstPiolaKirchhoff => turned(&value),
         Quantity::NominalStress => times(&value, &back, dimension),
-        Quantity::CauchyStress | Quantity::KirchhoffStress => {
+        Quantity::LeftCauchyGreen | Quantity::CauchyStress | Quantity::KirchhoffStress => {
             times(&turned(&value), &back, dimension)
         }
-        Quantity::DivP | Quantity::Traction => applied(q, &value),
-        Quantity::Jacobian | Quantity::StrainEnergy => value,
+        Quantity::DivP | Quantity::DivSigma | Quantity::Traction => applied(q, &value),
+        Quantity::Jacobian
+        | Quantity::RightCauchyGreen
+        | Quantity::GreenLagrange
+        | Quantity::MassDensity
+        | Quantity::StrainEnergy => value,
     }
 }
 

@@ -45,7 +45,7 @@ pub struct Compiled {
     pub model: Model,
     /// What follows from them, as it was derived.
     pub derived: Derivation,
-    /// The same in the forms that are cheapest to compute.
+    /// The same; what is wanted in the forms that are cheapest to compute.
     pub derivation: Derivation,
     /// What of it was wanted.
     pub selection: Selection,
@@ -170,7 +170,9 @@ fn phases(
     let derived = derive(&mut graph, &model, &Relations::default())
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
-    let derivation = simplify(&mut graph, &model, &derived);
+    // The force of a twin needs the motion of the field.
+    let needed = |quantity| model.rigid.is_some() || selection.wants(quantity);
+    let derivation = simplify(&mut graph, &model, &derived, needed);
     let (derived, derivation) = match &model.rigid {
         Some(rigid) => twins(&mut graph, rigid, [&derived, &derivation]),
         None => (derived, derivation),

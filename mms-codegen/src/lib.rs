@@ -26,6 +26,7 @@ pub mod suggest;
 pub mod syntax;
 pub mod twin;
 pub mod units;
+pub mod visibility;
 
 pub use compile::{Compiled, Options, compile, compile_with};
 pub use selection::Selection;

@@ -64,19 +64,26 @@ macro_rules! quantities {
 
 quantities! {
     Displacement "displacement" "u" Vector "m" "Displacement u(X, t).",
+    Position "position" "x" Vector "m" "Current position x = X + u.",
     Velocity "velocity" "v" Vector "m/s" "Velocity v = du/dt at fixed X.",
     Acceleration "acceleration" "a" Vector "m/s^2" "Acceleration a = d2u/dt2 at fixed X.",
     DisplacementGradient "displacement_gradient" "H" Tensor "1" "Displacement gradient H_iJ = du_i/dX_J.",
     DeformationGradient "deformation_gradient" "F" Tensor "1" "Deformation gradient F = I + H.",
     Jacobian "jacobian" "J" Scalar "1" "Jacobian J = det F.",
+    RightCauchyGreen "right_cauchy_green" "C" Tensor "1" "Right Cauchy-Green tensor C = F^T F.",
+    LeftCauchyGreen "left_cauchy_green" "B" Tensor "1" "Left Cauchy-Green tensor B = F F^T.",
+    GreenLagrange "green_lagrange" "E" Tensor "1" "Green-Lagrange strain E = (C - I)/2.",
+    MassDensity "mass_density" "rho" Scalar "kg/m^3" "Mass per unit current volume rho = rho0/J.",
     StrainEnergy "strain_energy" "W" Scalar "Pa" "Strain-energy density W per unit reference volume.",
     FirstPiolaKirchhoff "first_piola_kirchhoff" "P" Tensor "Pa" "First Piola-Kirchhoff stress P_iJ = dW/dF_iJ.",
     NominalStress "nominal_stress" "PT" Tensor "Pa" "Nominal stress P^T = J F^-1 sigma.",
     CauchyStress "cauchy_stress" "sigma" Tensor "Pa" "Cauchy stress sigma = P F^T / J.",
     KirchhoffStress "kirchhoff_stress" "tau" Tensor "Pa" "Kirchhoff stress tau = P F^T.",
     DivP "div_p" "div_p" Vector "Pa/m" "Material divergence (Div P)_i = dP_iJ/dX_J.",
+    DivSigma "div_sigma" "div_sigma" Vector "Pa/m" "Spatial divergence (div sigma)_i = dsigma_ij/dx_j = (Div P)_i / J.",
     BodyForce "body_force" "b" Vector "m/s^2" "Body force per unit mass b = a - Div P / rho0.",
     BodyForceDensity "body_force_density" "rho0_b" Vector "N/m^3" "Body force per unit reference volume rho0 b.",
+    CurrentBodyForceDensity "current_body_force_density" "rho_b" Vector "N/m^3" "Body force per unit current volume rho b = rho0 b / J.",
     Traction "traction" "T" Vector "Pa" "Traction P N on reference area, for the reference unit normal N.",
 }
 
@@ -86,10 +93,11 @@ impl Quantity {
         Self::ALL.iter().copied().filter(|quantity| *quantity != Quantity::Traction)
     }
 
-    /// The quantity of that identifier, or of one of the accepted aliases `u v a H F J P sigma b W`
-    /// (`div_p` is both).
+    /// The quantity of that identifier, or of one of the accepted aliases
+    /// `u x v a H F J C B E P sigma b W` (`div_p` and `div_sigma` are both).
     pub fn from_name(name: &str) -> Option<Quantity> {
-        const ALIASED: &[&str] = &["u", "v", "a", "H", "F", "J", "P", "sigma", "b", "W"];
+        const ALIASED: &[&str] =
+            &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "P", "sigma", "b", "W"];
         Self::ALL.iter().copied().find(|quantity| {
             quantity.name() == name || (ALIASED.contains(&name) && quantity.symbol() == name)
         })

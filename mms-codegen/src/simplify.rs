@@ -13,18 +13,31 @@ use crate::pass::nest::nest;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::{Relations, lateness};
 use crate::program::schedule::{Cost, cost};
+use crate::quantity::Quantity;
 
-/// Simplifies the components of every quantity and response of a derivation without relations.
-pub fn simplify(graph: &mut Graph, model: &Model, plain: &Derivation) -> Derivation {
+/// Simplifies those quantities of a derivation without relations that are wanted, and its
+/// responses; other quantities stay as they are.
+pub fn simplify(
+    graph: &mut Graph,
+    model: &Model,
+    plain: &Derivation,
+    wanted: impl Fn(Quantity) -> bool,
+) -> Derivation {
     let relations = Relations::find(graph, &model.displacement);
-    let mut quantities = vec![plain.quantities.clone()];
+    let of_wanted = |mut quantities: BTreeMap<Quantity, Vec<Expr>>| {
+        quantities.retain(|quantity, _| wanted(*quantity));
+        quantities
+    };
+    let mut forms = vec![of_wanted(plain.quantities.clone())];
     if !relations.is_empty() {
         // Relations that are used early keep the motion short, and all that follows from it.
         let reduced = graph.attempt(|graph| derive(graph, model, &relations));
-        quantities.extend(reduced.and_then(Result::ok).map(|reduced| reduced.quantities));
+        forms.extend(reduced.and_then(Result::ok).map(|reduced| of_wanted(reduced.quantities)));
     }
+    let mut quantities = plain.quantities.clone();
+    quantities.extend(cheapest(graph, forms, &relations));
     Derivation {
-        quantities: cheapest(graph, quantities, &relations),
+        quantities,
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
     }
 }

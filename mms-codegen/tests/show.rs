@@ -16,7 +16,8 @@ use mms_codegen::show::language::Language;
 use mms_codegen::show::{Document, Line, latex, mathml, text};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::Formula;
-use mms_codegen::{Compiled, compile, syntax};
+use mms_codegen::visibility::Visibility;
+use mms_codegen::{Compiled, Selection, compile, compile_with, syntax};
 
 /// Lines of text are about a hundred characters long, and no longer.
 const LINE: usize = 105;
@@ -90,6 +91,13 @@ fn fields() -> Vec<Compiled> {
 
 fn document(field: &Compiled) -> Document {
     Document::new(field, Quantity::ALL).expect("a derivation of usual size")
+}
+
+/// The same with what the field sees.
+fn whole(field: &Compiled) -> Document {
+    let mut document = document(field);
+    document.visibility = Some(Visibility::of(field).expect("terms of usual size"));
+    document
 }
 
 /// Reads formulas one after the other; each name stands for a further parameter.
@@ -230,7 +238,7 @@ fn what_is_asked_for_alone_comes_with_all_that_it_uses() {
 #[test]
 fn lines_of_text_are_short() {
     for field in fields() {
-        for line in text::page(&document(&field)).lines() {
+        for line in text::page(&whole(&field)).lines() {
             // A line with a name of a hundred letters cannot be short.
             let is_name = |letter: char| letter.is_alphanumeric() || letter == '_';
             let words = line.split(|letter: char| !is_name(letter));
@@ -242,6 +250,9 @@ fn lines_of_text_are_short() {
         }
     }
 }
+
+/// What is derived of a heavy field.
+const WANTED: [Quantity; 3] = [Quantity::Displacement, Quantity::Velocity, Quantity::BodyForce];
 
 /// A displacement of many terms, deep nesting, and long numbers.
 fn heavy(displacement: &str) -> Compiled {
@@ -264,7 +275,9 @@ fn heavy(displacement: &str) -> Compiled {
         time = ["0", "1"]
         "#
     );
-    compiled("heavy", &text)
+    let selection = Selection { quantities: Some(WANTED.into()), ..Selection::default() };
+    compile_with("heavy", "heavy.toml", &text, &|path| Err(path.into()), &selection.into())
+        .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
 #[test]
@@ -274,8 +287,7 @@ fn a_wall_is_broken_into_lines() {
     let product: Vec<_> = (1..40).map(|k| format!("(2 + sin(X/{k} + t))/3")).collect();
     for displacement in [terms.join(" + "), nested, product.join("*")] {
         let field = heavy(&displacement);
-        let quantities = [Quantity::Displacement, Quantity::Velocity, Quantity::BodyForce];
-        let document = Document::new(&field, &quantities).expect("within the bound");
+        let document = Document::new(&field, &WANTED).expect("within the bound");
         for line in text::page(&document).lines() {
             let length = line.chars().count();
             assert!(length <= LINE, "{length} characters: {line}");
@@ -347,7 +359,7 @@ fn latex_is_balanced_and_escaped() {
     let mut fields = fields();
     fields[0].field.title = r"50% of $A_1 & {B}^2 ~ \input{x} #".into();
     for field in &fields {
-        assert_balanced(&latex::page(&document(field)));
+        assert_balanced(&latex::page(&whole(field)));
     }
 }
 
@@ -357,7 +369,7 @@ fn mathml_is_well_formed() {
     let title = "a < b && \"c\" > </title> \u{1} <script>";
     fields[0].field.title = title.into();
     for field in &fields {
-        let page = mathml::page(&document(field));
+        let page = mathml::page(&whole(field));
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
         let parsed = roxmltree::Document::parse_with_options(&page, options)
             .unwrap_or_else(|error| panic!("{error}\n{page}"));

@@ -10,13 +10,14 @@ use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::show::language::Language;
 use mms_codegen::show::{Document, Line, Section, latex, mathml, sympy, text};
+use mms_codegen::visibility::{POINTS, Span, Status, Term, Visibility};
 use serde_json::{Map, Value, json};
 
 use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json};
 
-/// Show what follows from a field: its derivation with every step named, its claims, and how many
-/// operations each quantity takes.
+/// Show what follows from a field: its derivation with every step named, its claims, how many
+/// operations each quantity takes, and which terms of the equations it can and cannot see.
 ///
 /// A comma means a derivative: F_11,X is that of F_11 by X. Long formulas are put together from
 /// parts k1, k2, ..., which are listed before they are used.
@@ -78,9 +79,14 @@ impl Show {
             [] => Quantity::ALL.to_vec(),
             named => quantities(named)?,
         };
-        let document = Document::new(&input.compiled, &quantities).map_err(|TooLarge(what)| {
+        let too_large = |TooLarge(what): TooLarge| {
             anyhow!("the {what} of `{}` has too many terms; ask for one --quantity", input.name)
-        })?;
+        };
+        let mut document = Document::new(&input.compiled, &quantities).map_err(too_large)?;
+        // The whole page ends with what the field as a whole is good for.
+        if self.quantity.is_empty() {
+            document.visibility = Some(Visibility::of(&input.compiled).map_err(too_large)?);
+        }
         match self.format {
             _ if self.json => print_json(&json(&input.compiled, &document))?,
             Format::Text => print(&text::page(&document))?,
@@ -116,6 +122,27 @@ fn json(compiled: &Compiled, document: &Document) -> Value {
         "boundary": claims,
         "quantities": quantities,
         "operations": together(compiled, document),
+        "visibility": document.visibility.as_ref().map(visibility),
+    })
+}
+
+fn visibility(visibility: &Visibility) -> Value {
+    let names = |status| -> Vec<String> { visibility.with(status).map(Term::name).collect() };
+    let how = |status| if status == Status::Zero { "zero" } else { "negligible" };
+    let absent = visibility.findings.iter().filter(|(_, status)| status.is_absent());
+    let absent: Vec<_> = absent
+        .map(|(term, status)| {
+            json!({ "term": term.name(), "how": how(*status), "means": term.absence() })
+        })
+        .collect();
+    json!({
+        "present": names(Status::Present),
+        "absent": absent,
+        "undecided": names(Status::Undecided),
+        "points": POINTS,
+        "span": visibility.span().map(Span::name),
+        "exact_in_time": visibility.is_exact_in_time(),
+        "symmetric_gradient": visibility.has_symmetric_gradient(),
     })
 }
 

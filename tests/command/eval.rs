@@ -5,22 +5,29 @@ use serde_json::{Value, json};
 
 use super::mms::{BAR, Folder, assert_close, keys, numbers};
 
-const IDENTIFIERS: [&str; 15] = [
+const IDENTIFIERS: [&str; 22] = [
     "at",
     "displacement",
+    "position",
     "velocity",
     "acceleration",
     "displacement_gradient",
     "deformation_gradient",
     "jacobian",
+    "right_cauchy_green",
+    "left_cauchy_green",
+    "green_lagrange",
+    "mass_density",
     "strain_energy",
     "first_piola_kirchhoff",
     "nominal_stress",
     "cauchy_stress",
     "kirchhoff_stress",
     "div_p",
+    "div_sigma",
     "body_force",
     "body_force_density",
+    "current_body_force_density",
 ];
 
 /// The document of one evaluation of the gallery's bar.
@@ -228,7 +235,7 @@ fn unknown_names_are_refused_with_a_suggestion() {
     refused("bar_1d --at 1 --time 0 --quantity u,jacobain", "did you mean `jacobian`?");
     refused("bar_1d --at 1 --time 0 --set yuong=1", "did you mean `young`?");
     refused("bar_2d --at 1 --time 0", "did you mean `bar_1d`?");
-    refused("bar_1d --at 1 --time 0 --quantity zzz", "the quantities are displacement, velocity");
+    refused("bar_1d --at 1 --time 0 --quantity zzz", "the quantities are displacement, position");
     refused("bar_1d --at 1 --time 0 --set zzz=1", "the field has length, young, rho0, amplitude");
     refused("zzz --at 1 --time 0", "a file of your own is given by its path, ending in .toml");
 }

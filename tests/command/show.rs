@@ -57,12 +57,39 @@ fn show_as_a_document_has_its_keys() {
         "boundary",
         "quantities",
         "operations",
+        "visibility",
     ];
     assert_eq!(keys(&document), expected);
     let quantities = Quantity::ALL.iter().map(|quantity| quantity.name());
     assert_eq!(keys(&document["quantities"]), quantities.collect::<Vec<_>>());
     assert_eq!(document["material_parameters"], json!({ "lambda": "0", "mu": "young/2" }));
     assert_eq!(keys(&document["definitions"]), ["c", "A"]);
+}
+
+#[test]
+fn the_bar_says_what_it_does_not_see() {
+    let run = Folder::new().mms("show bar_1d").exits(0);
+    run.prints("not seen, since it is zero:\n");
+    run.prints("    initial velocity: v = 0 at the first time");
+    run.prints("    parameter lambda: b does not depend on it");
+    run.prints("    traction on x_max: P N = 0 there");
+    let visibility = Folder::new().mms("show bar_1d --json").exits(0).json()["visibility"].clone();
+    assert_eq!(visibility["span"], "quadratic");
+    assert_eq!(visibility["exact_in_time"], false);
+    assert_eq!(visibility["symmetric_gradient"], true);
+    let absent: Vec<_> = visibility["absent"].as_array().expect("a list").clone();
+    let lambda = absent.iter().find(|found| found["term"] == "parameter.lambda");
+    assert_eq!(lambda.expect("lambda")["how"], "zero");
+    let present: Vec<_> = visibility["present"].as_array().expect("a list").clone();
+    for term in ["acceleration", "volume_change", "parameter.mu", "traction.x_min"] {
+        assert!(present.contains(&json!(term)), "{term} in {present:?}");
+    }
+}
+
+#[test]
+fn one_quantity_comes_without_what_the_field_sees() {
+    let document = Folder::new().mms("show bar_1d --quantity b --json").exits(0).json();
+    assert_eq!(document["visibility"], json!(null));
 }
 
 #[test]

@@ -44,19 +44,26 @@ macro_rules! kernel {
                     (field.at_time(time), point.try_into().expect("DIMENSION components"));
                 match quantity {
                     Quantity::Displacement => at.displacement(x).to_vec(),
+                    Quantity::Position => at.position(x).to_vec(),
                     Quantity::Velocity => at.velocity(x).to_vec(),
                     Quantity::Acceleration => at.acceleration(x).to_vec(),
                     Quantity::DisplacementGradient => at.displacement_gradient(x).concat(),
                     Quantity::DeformationGradient => at.deformation_gradient(x).concat(),
                     Quantity::Jacobian => vec![at.jacobian(x)],
+                    Quantity::RightCauchyGreen => at.right_cauchy_green(x).concat(),
+                    Quantity::LeftCauchyGreen => at.left_cauchy_green(x).concat(),
+                    Quantity::GreenLagrange => at.green_lagrange(x).concat(),
+                    Quantity::MassDensity => vec![at.mass_density(x)],
                     Quantity::StrainEnergy => vec![at.strain_energy(x)],
                     Quantity::FirstPiolaKirchhoff => at.first_piola_kirchhoff(x).concat(),
                     Quantity::NominalStress => at.nominal_stress(x).concat(),
                     Quantity::CauchyStress => at.cauchy_stress(x).concat(),
                     Quantity::KirchhoffStress => at.kirchhoff_stress(x).concat(),
                     Quantity::DivP => at.div_p(x).to_vec(),
+                    Quantity::DivSigma => at.div_sigma(x).to_vec(),
                     Quantity::BodyForce => at.body_force(x).to_vec(),
                     Quantity::BodyForceDensity => at.body_force_density(x).to_vec(),
+                    Quantity::CurrentBodyForceDensity => at.current_body_force_density(x).to_vec(),
                     Quantity::Traction => {
                         let mut normal = [T::from_f64(0.0); Self::DIMENSION];
                         normal[0] = T::from_f64(1.0);

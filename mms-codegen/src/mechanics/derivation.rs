@@ -49,7 +49,8 @@ pub fn derive(
     within_bound(graph, "stress of the material")?;
     let motion = Motion::new(graph, &model.displacement, relations);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
-    let mut quantities = kinematic_quantities(&motion);
+    let mut quantities = kinematic_quantities(graph, &motion);
+    quantities.extend(strain_quantities(graph, &motion.strain));
     quantities.extend(stress_quantities(graph, &law, &motion.strain));
     within_bound(graph, "stress")?;
     let divergence = law.divergence(graph, &motion);
@@ -64,15 +65,38 @@ fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
     if graph.is_exhausted() { Err(TooLarge(what)) } else { Ok(()) }
 }
 
-fn kinematic_quantities(motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {
+/// u, x = X + u, v, a, H, F and J.
+fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {
     let strain = &motion.strain;
+    let displacement = motion.displacement.iter().enumerate();
+    let position = displacement
+        .map(|(axis, component)| {
+            let reference = graph.symbol(Symbol::Coordinate(axis));
+            graph.add(reference, *component)
+        })
+        .collect();
     BTreeMap::from([
         (Quantity::Displacement, motion.displacement.clone()),
+        (Quantity::Position, position),
         (Quantity::Velocity, motion.velocity.clone()),
         (Quantity::Acceleration, motion.acceleration.clone()),
         (Quantity::DisplacementGradient, strain.gradient.components().to_vec()),
         (Quantity::DeformationGradient, strain.deformation.components().to_vec()),
         (Quantity::Jacobian, vec![strain.jacobian]),
+    ])
+}
+
+/// C, B and E = (C - I)/2. E is made of H, so that small strains do not cancel.
+fn strain_quantities(graph: &mut Graph, strain: &Strain) -> BTreeMap<Quantity, Vec<Expr>> {
+    let identity = Tensor::identity(graph, strain.gradient.dimension());
+    let right = identity.add(graph, &strain.right);
+    let left = identity.add(graph, &strain.left);
+    let half = graph.number(Rational::from_parts(1.into(), 2u8.into()));
+    let lagrange = strain.right.scale(graph, half);
+    BTreeMap::from([
+        (Quantity::RightCauchyGreen, right.components().to_vec()),
+        (Quantity::LeftCauchyGreen, left.components().to_vec()),
+        (Quantity::GreenLagrange, lagrange.components().to_vec()),
     ])
 }
 
@@ -106,13 +130,16 @@ fn stress_quantities(
     ])
 }
 
-/// b = a - Div P / rho0 and rho0 b = rho0 a - Div P.
+/// rho = rho0 / J, div sigma = Div P / J by the Piola identity (Bonet & Wood, Nonlinear Continuum
+/// Mechanics for Finite Element Analysis, 2008, chapter 5), b = a - Div P / rho0, rho0 b = rho0 a -
+/// Div P, and rho b = rho0 b / J.
 fn balance_quantities(
     graph: &mut Graph,
     density: Expr,
     motion: &Motion,
     divergence: Vec<Expr>,
 ) -> BTreeMap<Quantity, Vec<Expr>> {
+    let per_volume = graph.power(motion.strain.jacobian, -1);
     let mut body_force = Vec::new();
     let mut body_force_density = Vec::new();
     for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
@@ -121,7 +148,13 @@ fn balance_quantities(
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }
+    let mut current = |reference: &[Expr]| -> Vec<Expr> {
+        reference.iter().map(|component| graph.mul(per_volume, *component)).collect()
+    };
     BTreeMap::from([
+        (Quantity::MassDensity, current(&[density])),
+        (Quantity::DivSigma, current(&divergence)),
+        (Quantity::CurrentBodyForceDensity, current(&body_force_density)),
         (Quantity::DivP, divergence),
         (Quantity::BodyForce, body_force),
         (Quantity::BodyForceDensity, body_force_density),

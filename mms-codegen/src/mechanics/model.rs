@@ -83,6 +83,8 @@ pub struct Model {
     pub displacement: Vec<Expr>,
     /// rho0.
     pub density: Expr,
+    /// The parameters of the material, in the field's terms and in the order of the file.
+    pub arguments: Vec<Expr>,
     /// W, as a function of the material's invariants.
     pub energy: Expr,
     /// The reference body and the time window.
@@ -125,6 +127,7 @@ impl Model {
             names,
             displacement: displacement?,
             density: density?,
+            arguments: arguments.into_iter().collect::<Option<_>>()?,
             energy: energy?,
             domain: domain?,
             checks: checks.into_iter().collect::<Option<_>>()?,
@@ -134,6 +137,19 @@ impl Model {
             },
         })
     }
+}
+
+/// W of a field that has been resolved, for other values of the material's parameters.
+pub fn energy_with(
+    graph: &mut Graph,
+    field: &FieldSpec,
+    material: &MaterialSpec,
+    arguments: &[Expr],
+) -> Option<Expr> {
+    let mut diagnostics = Vec::new();
+    let mut reader = Reader { graph, diagnostics: &mut diagnostics, scope: Scope::default() };
+    let arguments: Vec<_> = arguments.iter().copied().map(Some).collect();
+    reader.energy(field, material, &arguments)
 }
 
 struct Reader<'a> {

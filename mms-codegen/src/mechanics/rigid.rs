@@ -114,6 +114,8 @@ struct Twin<'a> {
     excess: Tensor,
     /// Q.
     rotation: Tensor,
+    /// d.
+    translation: Vec<Expr>,
     /// u* - Q u.
     displacement: Vec<Expr>,
     /// v* - Q v.
@@ -143,6 +145,7 @@ impl<'a> Twin<'a> {
         Twin {
             inner,
             rotation,
+            translation: motion.translation.clone(),
             displacement: sum(graph, [&swung, &motion.translation]),
             velocity: sum(graph, [&carried, &drift]),
             acceleration: sum(graph, [&turned, &coriolis, &pull]),
@@ -153,8 +156,15 @@ impl<'a> Twin<'a> {
     fn quantity(&self, graph: &mut Graph, quantity: Quantity) -> Vec<Expr> {
         let inner = &self.inner.quantities[&quantity];
         match quantity {
-            Quantity::Jacobian | Quantity::StrainEnergy => inner.clone(),
-            Quantity::DivP | Quantity::Traction => self.rotation.apply(graph, inner),
+            Quantity::Jacobian
+            | Quantity::RightCauchyGreen
+            | Quantity::GreenLagrange
+            | Quantity::MassDensity
+            | Quantity::StrainEnergy => inner.clone(),
+            Quantity::DivP | Quantity::DivSigma | Quantity::Traction => {
+                self.rotation.apply(graph, inner)
+            }
+            Quantity::Position => self.turned(graph, inner, &self.translation),
             Quantity::Displacement => self.turned(graph, inner, &self.displacement),
             Quantity::Velocity => self.turned(graph, inner, &self.velocity),
             Quantity::Acceleration | Quantity::BodyForce => {
@@ -162,9 +172,11 @@ impl<'a> Twin<'a> {
             }
             Quantity::BodyForceDensity => {
                 let density = self.inner.responses[&Response::Density][0];
-                let apparent: Vec<Expr> =
-                    self.acceleration.iter().map(|a| graph.mul(density, *a)).collect();
-                self.turned(graph, inner, &apparent)
+                self.forced(graph, inner, density)
+            }
+            Quantity::CurrentBodyForceDensity => {
+                let density = self.inner.quantities[&Quantity::MassDensity][0];
+                self.forced(graph, inner, density)
             }
             Quantity::DeformationGradient | Quantity::FirstPiolaKirchhoff => {
                 let inner = self.tensor(inner);
@@ -178,7 +190,7 @@ impl<'a> Twin<'a> {
                 let inner = self.tensor(inner);
                 inner.mul(graph, &self.rotation.transpose()).components().to_vec()
             }
-            Quantity::CauchyStress | Quantity::KirchhoffStress => {
+            Quantity::LeftCauchyGreen | Quantity::CauchyStress | Quantity::KirchhoffStress => {
                 let turned = self.rotation.mul(graph, &self.tensor(inner));
                 turned.mul(graph, &self.rotation.transpose()).components().to_vec()
             }
@@ -187,6 +199,13 @@ impl<'a> Twin<'a> {
 
     fn tensor(&self, components: &[Expr]) -> Tensor {
         Tensor::from_components(self.rotation.dimension(), components.to_vec())
+    }
+
+    /// Q f + rho (a* - Q a).
+    fn forced(&self, graph: &mut Graph, force: &[Expr], density: Expr) -> Vec<Expr> {
+        let apparent: Vec<Expr> =
+            self.acceleration.iter().map(|a| graph.mul(density, *a)).collect();
+        self.turned(graph, force, &apparent)
     }
 
     /// Q w + c.

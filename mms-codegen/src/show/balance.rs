@@ -1,7 +1,8 @@
-//! What follows from P and Div P: the other measures of stress, the body force, the traction.
+//! What follows from P and Div P: the other measures of stress, the body force, what the present
+//! configuration has per volume, the traction.
 
 use super::abbreviate::LINE;
-use super::motion::{Formulas, Quantities};
+use super::motion::{Formulas, Quantities, transpose};
 use super::name::Name;
 use super::reading::{Reading, Role};
 use super::stress::{dot, matrix_product};
@@ -69,6 +70,27 @@ pub(super) fn balance(
     }
 }
 
+/// rho = rho0/J, div sigma = Div P/J and rho b = rho0 b/J.
+pub(super) fn current(
+    reading: &mut Reading,
+    compiled: &Compiled,
+    quantities: &mut Quantities,
+    density: Expr,
+) {
+    let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
+    let divergence = quantities.components(reading, Quantity::DivP);
+    let force = quantities.components(reading, Quantity::BodyForceDensity);
+    for (quantity, reference) in [
+        (Quantity::MassDensity, vec![density]),
+        (Quantity::DivSigma, divergence),
+        (Quantity::CurrentBodyForceDensity, force),
+    ] {
+        let values: Vec<Expr> =
+            reference.into_iter().map(|value| reading.graph.div(value, jacobian)).collect();
+        quantities.add(reading, compiled, quantity, &values);
+    }
+}
+
 /// T = P N.
 pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
     let dimension = quantities.dimension;
@@ -87,8 +109,4 @@ pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &
         .map(|row| dot(reading, row.iter().copied().zip(normal.iter().copied()).collect()))
         .collect();
     quantities.add(reading, compiled, Quantity::Traction, &traction);
-}
-
-fn transpose(matrix: &[Expr], dimension: usize) -> Vec<Expr> {
-    (0..matrix.len()).map(|k| matrix[k % dimension * dimension + k / dimension]).collect()
 }

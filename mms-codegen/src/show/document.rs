@@ -15,6 +15,7 @@ use crate::mechanics::TooLarge;
 use crate::program::{Output, Stage};
 use crate::quantity::Quantity;
 use crate::spec::Formula;
+use crate::visibility::Visibility;
 
 /// Names that stand for one value.
 #[derive(Clone, Debug)]
@@ -76,6 +77,8 @@ pub struct Document {
     pub sections: Vec<Section>,
     /// Faces with what is claimed there.
     pub claims: Vec<(&'static str, &'static str)>,
+    /// What the field can see of the equations, where that is to be shown.
+    pub visibility: Option<Visibility>,
     reading: Reading,
 }
 
@@ -119,6 +122,7 @@ impl Document {
             definitions,
             sections,
             claims: field.boundary.iter().map(claim).collect(),
+            visibility: None,
             reading,
         })
     }

@@ -181,8 +181,10 @@ impl Setting for Latex {
 fn stem(name: &Name) -> (String, &str) {
     match name.quantity.filter(|quantity| quantity.symbol() == name.stem) {
         Some(Quantity::DivP) => return ("(\\operatorname{Div} P)".into(), ""),
+        Some(Quantity::DivSigma) => return ("(\\operatorname{div} \\sigma)".into(), ""),
         Some(Quantity::NominalStress) => return ("P^{\\mathsf{T}}".into(), ""),
         Some(Quantity::BodyForceDensity) => return ("(\\rho_0 b)".into(), ""),
+        Some(Quantity::CurrentBodyForceDensity) => return ("(\\rho b)".into(), ""),
         _ => {}
     }
     let (letters, digits) = name.split_digits();

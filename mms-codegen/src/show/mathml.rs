@@ -163,6 +163,7 @@ impl Setting for MathMl {
     fn letter(&self, word: &str, is_bold: bool) -> String {
         let name = Name::plain(word);
         match is_bold {
+            false if word.bytes().all(|byte| byte.is_ascii_digit()) => number(word),
             true => {
                 let letter =
                     greek(word).map_or_else(|| word.into(), |word| word.letter.to_string());
@@ -235,16 +236,20 @@ fn superscript(base: &str, exponent: &str) -> String {
 
 /// The stem and the digits that belong below it.
 fn stem(name: &Name) -> (String, &str) {
-    match name.quantity.filter(|quantity| quantity.symbol() == name.stem) {
-        Some(Quantity::DivP) => return (row("<mo>(</mo><mi>Div</mi><mi>P</mi><mo>)</mo>"), ""),
+    let inside = match name.quantity.filter(|quantity| quantity.symbol() == name.stem) {
         Some(Quantity::NominalStress) => {
             return (superscript("<mi>P</mi>", "<mi mathvariant=\"normal\">T</mi>"), "");
         }
+        Some(Quantity::DivP) => Some("<mi>Div</mi><mi>P</mi>"),
+        Some(Quantity::DivSigma) => Some("<mi>div</mi><mi>\u{3c3}</mi>"),
         Some(Quantity::BodyForceDensity) => {
-            let rho = "<msub><mi>\u{3c1}</mi><mn>0</mn></msub>";
-            return (row(&format!("<mo>(</mo>{rho}<mi>b</mi><mo>)</mo>")), "");
+            Some("<msub><mi>\u{3c1}</mi><mn>0</mn></msub><mi>b</mi>")
         }
-        _ => {}
+        Some(Quantity::CurrentBodyForceDensity) => Some("<mi>\u{3c1}</mi><mi>b</mi>"),
+        _ => None,
+    };
+    if let Some(inside) = inside {
+        return (row(&format!("<mo>(</mo>{inside}<mo>)</mo>")), "");
     }
     let (letters, digits) = name.split_digits();
     match greek(letters) {

@@ -1,7 +1,8 @@
 //! The derivation as a person would write it, in several notations.
 //!
 //! A [`Document`] is what there is to show: the material, the definitions of the field, and for each
-//! quantity its definition and its components in terms of names that have been listed before. It is
+//! quantity its definition and its components in terms of names that have been listed before; what
+//! the field sees of the equations, where that was asked for. It is
 //! derived anew with F, J, P, ... as leaves, so that formulas stay as short as on paper; what is
 //! compiled is another, expanded derivation of the same quantities, and tests compare the two.
 //! No right-hand side is longer than a line: larger ones are put together from parts `k1`, `k2`, ...

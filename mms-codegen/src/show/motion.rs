@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
 use super::rigid::moved;
+use super::stress::matrix_product;
 use crate::compile::Compiled;
 use crate::expr::resolve::Scope;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Rational, Symbol};
 use crate::pass::substitute::substitute;
 use crate::quantity::Quantity;
 use crate::spec::{Formula, LetSpec};
@@ -109,7 +110,7 @@ pub(super) struct Quantities {
 }
 
 impl Quantities {
-    /// u, v, a, H, F and J.
+    /// u, x, v, a, H, F, C, B and E.
     pub fn motion(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
         let dimension = compiled.field.dimension;
         let mut quantities = Quantities { dimension, ids: BTreeMap::new() };
@@ -119,6 +120,14 @@ impl Quantities {
             .collect();
         let displacement = moved(reading, compiled, formulas, displacement);
         quantities.add(reading, compiled, Quantity::Displacement, &displacement);
+        let position: Vec<Expr> = (0..dimension)
+            .map(|axis| {
+                let reference = reading.graph.symbol(Symbol::Coordinate(axis));
+                let name = quantities.component(reading, Quantity::Displacement, axis);
+                reading.graph.add(reference, name)
+            })
+            .collect();
+        quantities.add(reading, compiled, Quantity::Position, &position);
         let velocity = derivatives(reading, &displacement, Along::Time);
         quantities.add(reading, compiled, Quantity::Velocity, &velocity);
         let acceleration = derivatives(reading, &velocity, Along::Time);
@@ -132,7 +141,28 @@ impl Quantities {
             .collect();
         quantities.add(reading, compiled, Quantity::DisplacementGradient, &gradient);
         quantities.deformation(reading, compiled, &gradient);
+        quantities.strain(reading, compiled);
         quantities
+    }
+
+    /// C = F^T F, B = F F^T and E = (C - I)/2, in terms of the names of F and C.
+    fn strain(&mut self, reading: &mut Reading, compiled: &Compiled) {
+        let dimension = self.dimension;
+        let deformation = self.components(reading, Quantity::DeformationGradient);
+        let transposed = transpose(&deformation, dimension);
+        let right = matrix_product(reading, &transposed, &deformation, dimension);
+        self.add(reading, compiled, Quantity::RightCauchyGreen, &right);
+        let left = matrix_product(reading, &deformation, &transposed, dimension);
+        self.add(reading, compiled, Quantity::LeftCauchyGreen, &left);
+        let half = Rational::from_parts(1.into(), 2u8.into());
+        let right = self.symmetric(reading, Quantity::RightCauchyGreen);
+        let lagrange: Vec<Expr> = (right.into_iter().enumerate())
+            .map(|(k, component)| {
+                let identity = reading.graph.number(i32::from(k / dimension == k % dimension));
+                reading.graph.sum([(component, half.clone()), (identity, -half.clone())])
+            })
+            .collect();
+        self.add(reading, compiled, Quantity::GreenLagrange, &lagrange);
     }
 
     fn deformation(&mut self, reading: &mut Reading, compiled: &Compiled, gradient: &[Expr]) {
@@ -194,10 +224,27 @@ impl Quantities {
         if reading.is_leaf(value) { value } else { reading.leaf(id) }
     }
 
+    /// The names of all components of a symmetric tensor, each above the diagonal also for its
+    /// mirror image.
+    pub fn symmetric(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
+        let names = self.components(reading, quantity);
+        let dimension = self.dimension;
+        let above = |k: usize| {
+            let (row, column) = (k / dimension, k % dimension);
+            row.min(column) * dimension + row.max(column)
+        };
+        (0..names.len()).map(|k| names[above(k)]).collect()
+    }
+
     /// The names of all components of a quantity.
     pub fn components(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
         (0..self.ids(quantity).len()).map(|k| self.component(reading, quantity, k)).collect()
     }
+}
+
+/// The transpose of a square matrix, row-major.
+pub(super) fn transpose(matrix: &[Expr], dimension: usize) -> Vec<Expr> {
+    (0..matrix.len()).map(|k| matrix[k % dimension * dimension + k / dimension]).collect()
 }
 
 fn derivatives(reading: &mut Reading, values: &[Expr], along: Along) -> Vec<Expr> {

@@ -6,6 +6,7 @@ use super::document::{Document, Line};
 use super::name::Name;
 use super::relation::{Part, Setting, relation};
 use super::walk::Notation;
+use crate::visibility::{NEGLIGIBLE, POINTS, Status, Visibility};
 
 /// A part of a page, from top to bottom.
 pub(super) enum Block<'a> {
@@ -71,8 +72,32 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
         let claims = document.claims.iter();
         blocks.extend(claims.map(|(face, claim)| Block::Note(format!("{face}: {claim}"))));
     }
+    blocks.extend(document.visibility.iter().flat_map(visibility));
     blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
     blocks
+}
+
+/// What a field sees, and what it does not, the latter by how that is known.
+fn visibility(visibility: &Visibility) -> Vec<Block<'_>> {
+    let negligible = format!("no more than {NEGLIGIBLE:e} of its size at {POINTS} points");
+    let absent = |status, why: &str| {
+        let found = visibility.telling().filter(move |(_, found)| *found == status);
+        let lines = found.map(|(term, _)| format!("  {}: {}", term.words(), term.absence()));
+        let lines: Vec<_> = lines.collect();
+        let head = (!lines.is_empty()).then(|| format!("not seen, since {why}:"));
+        head.into_iter().chain(lines)
+    };
+    let named = |status, head: &str| {
+        let words: Vec<_> = visibility.with(status).map(|term| term.words()).collect();
+        (!words.is_empty()).then(|| format!("{head}: {}", words.join(", ")))
+    };
+    let notes = (named(Status::Present, "seen").into_iter())
+        .chain(absent(Status::Zero, "it is zero"))
+        .chain(absent(Status::Negligible, &negligible))
+        .chain(named(Status::Undecided, "without a value where it could be seen"));
+    let note = Some("what a field does not see, a solver may do wrong".to_string());
+    let head = Block::Heading { name: "visibility", relation: None, note, operations: None };
+    [head].into_iter().chain(notes.map(Block::Note)).collect()
 }
 
 fn heading(name: &str) -> Block<'_> {

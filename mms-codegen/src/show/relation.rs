@@ -29,6 +29,7 @@ use Part::{Component, Function, Over, Partial, Raised, Scalar, Sign, Tensor, Wor
 
 const EQUALS: Part = Sign("=");
 const MINUS: Part = Sign("-");
+const RHO: Part = Scalar("rho");
 const RHO0: Part = Scalar("rho0");
 
 /// The definition of a quantity.
@@ -38,6 +39,7 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
             &[Tensor("u"), EQUALS, Function("u", ARGUMENTS)]
         }
+        Quantity::Position => &[Tensor("x"), EQUALS, Tensor("X"), Sign("+"), Tensor("u")],
         Quantity::Velocity => &[Tensor("v"), EQUALS, Partial(&Tensor("u"), &Scalar("t"))],
         Quantity::Acceleration => &[Tensor("a"), EQUALS, Partial(&Tensor("v"), &Scalar("t"))],
         Quantity::DisplacementGradient => {
@@ -47,6 +49,12 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             &[Tensor("F"), EQUALS, Tensor("I"), Sign("+"), Tensor("H")]
         }
         Quantity::Jacobian => &[Scalar("J"), EQUALS, Word("det"), Tensor("F")],
+        Quantity::RightCauchyGreen => &[Tensor("C"), EQUALS, Raised("F", "T"), Tensor("F")],
+        Quantity::LeftCauchyGreen => &[Tensor("B"), EQUALS, Tensor("F"), Raised("F", "T")],
+        Quantity::GreenLagrange => {
+            &[Scalar("2"), Tensor("E"), EQUALS, Tensor("C"), MINUS, Tensor("I")]
+        }
+        Quantity::MassDensity => &[RHO, EQUALS, Over(&[RHO0], &[Scalar("J")])],
         Quantity::StrainEnergy => {
             const ARGUMENTS: &[Part] =
                 &[Scalar("I1"), Sign(","), Scalar("I2"), Sign(","), Scalar("J")];
@@ -68,11 +76,20 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             EQUALS,
             Partial(&Component("P", "iJ"), &Component("X", "J")),
         ],
+        Quantity::DivSigma => &[
+            Word("div"),
+            Tensor("sigma"),
+            EQUALS,
+            Over(&[Word("Div"), Tensor("P")], &[Scalar("J")]),
+        ],
         Quantity::BodyForce => {
             &[Tensor("b"), EQUALS, Tensor("a"), MINUS, Over(&[Word("Div"), Tensor("P")], &[RHO0])]
         }
         Quantity::BodyForceDensity => {
             &[RHO0, Tensor("b"), EQUALS, RHO0, Tensor("a"), MINUS, Word("Div"), Tensor("P")]
+        }
+        Quantity::CurrentBodyForceDensity => {
+            &[RHO, Tensor("b"), EQUALS, Over(&[RHO0, Tensor("b")], &[Scalar("J")])]
         }
         Quantity::Traction => &[Tensor("T"), EQUALS, Tensor("P"), Tensor("N")],
     }

@@ -10,7 +10,7 @@
 //! See Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6. In
 //! one dimension W is a function of F alone, and P its derivative.
 
-use super::balance::{balance, density, measures, traction};
+use super::balance::{balance, current, density, measures, traction};
 use super::energy::Energy;
 use super::motion::{Formulas, Quantities};
 use super::name::{Along, Name};
@@ -35,6 +35,7 @@ pub(super) fn derive(
     measures(reading, compiled, quantities);
     quantities.add(reading, compiled, Quantity::DivP, &solid);
     balance(reading, compiled, quantities, density);
+    current(reading, compiled, quantities, density);
     traction(reading, compiled, quantities);
 }
 
@@ -87,8 +88,8 @@ fn space(
     let cofactors = cofactors(reading, &deformation, dimension);
     let jacobian = jacobian(reading, compiled, quantities, &deformation, &cofactors);
     let slopes = energy.slopes(reading);
-    let right =
-        (!reading.graph.is_zero(slopes[1])).then(|| right(reading, &deformation, dimension));
+    let right = (!reading.graph.is_zero(slopes[1]))
+        .then(|| quantities.symmetric(reading, Quantity::RightCauchyGreen));
     let values = invariants(reading, &deformation, right.as_deref(), jacobian, dimension);
     let whole = energy.at(reading, energy.value, values);
     quantities.add(reading, compiled, Quantity::StrainEnergy, &[whole]);
@@ -216,25 +217,6 @@ fn jacobian(
         }
     }
     leaf
-}
-
-/// C = F^T F, row-major, by name.
-fn right(reading: &mut Reading, deformation: &[Expr], dimension: usize) -> Vec<Expr> {
-    let mut right = Vec::new();
-    for k in 0..dimension * dimension {
-        let (row, column) = (k / dimension, k % dimension);
-        if column < row {
-            right.push(right[column * dimension + row]);
-            continue;
-        }
-        let pairs: Vec<_> = (0..dimension)
-            .map(|i| (deformation[i * dimension + row], deformation[i * dimension + column]))
-            .collect();
-        let value = dot(reading, pairs);
-        let name = Name::indexed("C", format!("{}{}", row + 1, column + 1));
-        right.push(reading.named(name, value, "derived"));
-    }
-    right
 }
 
 /// I1 and I2 by name, where the dimensions that a plane lacks contribute stretches of one, and J.

@@ -16,7 +16,7 @@ pub fn page(document: &Document) -> String {
     for block in blocks(document) {
         match block {
             Block::Title(name, title) => lines.push(format!("{name}: {}", plain(title))),
-            Block::Note(note) => lines.push(format!("  {}", plain(&note))),
+            Block::Note(note) => lines.extend(wrapped(&plain(&note))),
             Block::Heading { name, relation, note, operations } => {
                 lines.push(String::new());
                 let relation = relation.map(|parts| format!("  {}", Text.relation(parts)));
@@ -37,10 +37,31 @@ pub fn page(document: &Document) -> String {
     lines.join("\n")
 }
 
+/// A sentence in lines of at most [`WIDTH`] characters, as far as its words allow; those that follow
+/// the first are indented further than it is.
+fn wrapped(note: &str) -> Vec<String> {
+    let indent = note.len() - note.trim_start().len() + "  ".len();
+    let mut lines = vec![" ".repeat(indent)];
+    for word in note.split_whitespace() {
+        let line = lines.last_mut().expect("it starts with one");
+        let is_first = line.ends_with(' ');
+        if !is_first && line.chars().count() + word.chars().count() >= WIDTH {
+            lines.push(format!("{}{word}", " ".repeat(indent + 4)));
+        } else {
+            line.push_str(if is_first { "" } else { " " });
+            line.push_str(word);
+        }
+    }
+    lines
+}
+
 /// A text on one line: what steers a terminal becomes a blank.
 fn plain(text: &str) -> String {
     text.chars().map(|character| if character.is_control() { ' ' } else { character }).collect()
 }
+
+/// The length of a line of prose.
+const WIDTH: usize = 96;
 
 /// Formulas on one line of Unicode.
 pub struct Text;
@@ -185,28 +206,15 @@ impl Setting for Text {
 
 impl Text {
     fn stem(&self, name: &Name) -> String {
-        let rho = "\u{3c1}\u{2080}";
-        match name.quantity {
-            Some(Quantity::DivP) if name.stem == Quantity::DivP.symbol() => {
-                if name.index.is_empty() { "Div P".into() } else { "(Div P)".into() }
-            }
-            Some(Quantity::NominalStress) if name.stem == Quantity::NominalStress.symbol() => {
-                "P\u{1d40}".into()
-            }
-            Some(Quantity::BodyForceDensity)
-                if name.stem == Quantity::BodyForceDensity.symbol() =>
-            {
-                if name.index.is_empty() {
-                    format!("{rho} b")
-                } else {
-                    format!("({rho} b)")
-                }
-            }
-            _ => {
-                let (letters, digits) = name.split_digits();
-                self.word(letters) + &lowered(digits)
-            }
-        }
+        let words = match name.quantity.filter(|quantity| quantity.symbol() == name.stem) {
+            Some(Quantity::NominalStress) => return "P\u{1d40}".into(),
+            Some(Quantity::DivP) => "Div P",
+            Some(Quantity::DivSigma) => "div \u{3c3}",
+            Some(Quantity::BodyForceDensity) => "\u{3c1}\u{2080} b",
+            Some(Quantity::CurrentBodyForceDensity) => "\u{3c1} b",
+            _ => return self.label(&name.stem),
+        };
+        if name.index.is_empty() { words.into() } else { format!("({words})") }
     }
 
     fn label(&self, word: &str) -> String {

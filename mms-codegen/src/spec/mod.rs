@@ -14,6 +14,7 @@ mod check;
 mod document;
 mod domain;
 mod field;
+pub mod field_name;
 pub mod format;
 mod formula;
 mod material;

@@ -1,14 +1,14 @@
 //! `mms new`: a field file to start from.
 
-mod name;
 mod template;
 
 use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_codegen::spec::field_name;
 
 use self::template::{Body, Template};
 use super::{Outcome, print};
@@ -44,7 +44,7 @@ pub struct New {
 
 impl New {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        name::validate(&self.name)?;
+        field_name::validate(&self.name).map_err(|mistake| anyhow!(mistake))?;
         let dimension = usize::from(self.dimension);
         if self.shape == Body::Annulus && dimension != 2 {
             bail!("`--shape annulus` is 2-dimensional: it needs `--dimension 2`");

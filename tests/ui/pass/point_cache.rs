@@ -28,14 +28,20 @@ macro_rules! every_quantity {
                     displacement_gradient displacement_gradient_at,
                     deformation_gradient deformation_gradient_at,
                     jacobian jacobian_at,
+                    right_cauchy_green right_cauchy_green_at,
+                    left_cauchy_green left_cauchy_green_at,
+                    green_lagrange green_lagrange_at,
+                    mass_density mass_density_at,
                     strain_energy strain_energy_at,
                     first_piola_kirchhoff first_piola_kirchhoff_at,
                     nominal_stress nominal_stress_at,
                     cauchy_stress cauchy_stress_at,
                     kirchhoff_stress kirchhoff_stress_at,
                     div_p div_p_at,
+                    div_sigma div_sigma_at,
                     body_force body_force_at,
                     body_force_density body_force_density_at,
+                    current_body_force_density current_body_force_density_at,
                 );
                 assert_eq!(now.traction(at, $normal), now.traction_at(&point, $normal));
             }

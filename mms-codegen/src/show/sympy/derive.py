@@ -23,7 +23,7 @@ def determinant(F):
 
 
 def response(X, arguments):
-    """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_J as functions of X and F.
+    """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_K as functions of X and F.
 
     W is that of a body in space. The diagonal entries of F that the field lacks are 1.
     """
@@ -38,7 +38,7 @@ def response(X, arguments):
     P = [[diff(W, entry) for entry in row] for row in F]
     tangent = [[[[diff(P[i][j], entry) for entry in row] for row in F] for j in range(D)]
                for i in range(D)]
-    explicit = [sum(diff(P[i][j], X[j]) for j in range(D)) for i in range(D)]
+    explicit = [[[diff(entry, x) for x in X] for entry in row] for row in P]
     return number([J, W, P, tangent, explicit], [*X, *sum(F, [])])
 
 
@@ -53,26 +53,41 @@ def derived(dimension):
         D = range(len(X))
         u, v, a, H, second, density = motion_at(*X, t)
         F = [[H[i][j] + (i == j) for j in D] for i in D]
+        C = [[sum(F[k][i] * F[k][j] for k in D) for j in D] for i in D]
         J, W, P, tangent, explicit = response_at(*X, *sum(F, []))
         tau = [[sum(P[i][k] * F[j][k] for k in D) for j in D] for i in D]
-        # dP_iJ/dX_J = dP_iJ/dF_kL u_k,LJ, and what depends on X by itself.
-        div_p = [explicit[i] + sum(tangent[i][j][k][m] * second[k][m][j]
-                                   for j in D for k in D for m in D) for i in D]
+        # dP_iJ/dX_K = dP_iJ/dF_mN u_m,NK, and what depends on X by itself.
+        slope = [[[explicit[i][j][k] + sum(tangent[i][j][m][n] * second[m][n][k]
+                                           for m in D for n in D) for k in D] for j in D] for i in D]
+        div_p = [sum(slope[i][j][j] for j in D) for i in D]
+        # dsigma_ij/dx_j = dsigma_ij/dX_K F^-1_Kj of sigma = P F^T/J: without the Piola identity.
+        inverse = mpmath.matrix(F) ** -1
+        log_slope = [sum(inverse[n, m] * second[m][n][k] for m in D for n in D) for k in D]
+        div_sigma = [sum((sum(slope[i][m][k] * F[j][m] + P[i][m] * second[j][m][k] for m in D)
+                          - tau[i][j] * log_slope[k]) / J * inverse[k, j]
+                         for j in D for k in D) for i in D]
         return {
             "displacement": u,
+            "position": [X[i] + u[i] for i in D],
             "velocity": v,
             "acceleration": a,
             "displacement_gradient": sum(H, []),
             "deformation_gradient": sum(F, []),
             "jacobian": [J],
+            "right_cauchy_green": [C[i][j] for i in D for j in D],
+            "left_cauchy_green": [sum(F[i][k] * F[j][k] for k in D) for i in D for j in D],
+            "green_lagrange": [(C[i][j] - (i == j)) / 2 for i in D for j in D],
+            "mass_density": [density / J],
             "strain_energy": [W],
             "first_piola_kirchhoff": sum(P, []),
             "nominal_stress": [P[j][i] for i in D for j in D],
             "cauchy_stress": [tau[i][j] / J for i in D for j in D],
             "kirchhoff_stress": sum(tau, []),
             "div_p": div_p,
+            "div_sigma": div_sigma,
             "body_force": [a[i] - div_p[i] / density for i in D],
             "body_force_density": [density * a[i] - div_p[i] for i in D],
+            "current_body_force_density": [density / J * a[i] - div_sigma[i] for i in D],
             "traction": [sum(P[i][j] * N[j] for j in D) for i in D],
         }
 

@@ -4,6 +4,8 @@
 #
 #     v = du/dt    a = dv/dt    H = du/dX    F = I + H    J = det F    P = dW/dF
 #     sigma = P F^T/J    tau = P F^T    (Div P)_i = dP_iJ/dX_J    b = a - Div P/rho0    T = P N
+#     x = X + u    C = F^T F    B = F F^T    2 E = C - I    rho = rho0/J
+#     (div sigma)_i = dsigma_ij/dx_j    rho b = rho a - div sigma
 #
 # and mpmath evaluates them with 50 digits. At the end they are compared with the numbers that mms
 # computes in double precision. Usage: python3 FILE, with Python 3.10 or later, and SymPy. The exit

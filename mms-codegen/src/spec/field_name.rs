@@ -1,29 +1,30 @@
 //! Which names a field may have: its file's stem becomes a module of generated code.
 
-use anyhow::bail;
-use mms_codegen::emit::rust::is_keyword;
-use mms_codegen::spec::names::{MAX_NAME, is_identifier};
+use super::names::{MAX_NAME, is_identifier};
+use crate::emit::rust::is_keyword;
 
 /// Says what is wrong with a field's name, and which one is near.
-pub fn validate(name: &str) -> anyhow::Result<()> {
+pub fn validate(name: &str) -> Result<(), String> {
     if is_keyword(name) {
-        bail!("`{name}` is a word of Rust, and a field becomes a module: try `{name}_field`");
+        return Err(format!(
+            "`{name}` is a word of Rust, and a field becomes a module: try `{name}_field`"
+        ));
     }
     if is_plain(name) {
         return Ok(());
     }
     if name.len() > MAX_NAME {
-        bail!("the name has {} characters, expected at most {MAX_NAME}", name.len());
+        return Err(format!("the name has {} characters, expected at most {MAX_NAME}", name.len()));
     }
     let rule = "a field's name is lower-case letters, digits and underscores, a letter first";
     let near = near(name);
     if name.contains(['/', '\\']) {
-        bail!("`{name}` is not a name: {rule}; the folder is given by `--output`");
+        return Err(format!("`{name}` is not a name: {rule}; the folder is given by `--output`"));
     }
     if !is_plain(&near) || is_keyword(&near) {
-        bail!("`{name}` is not a name: {rule}");
+        return Err(format!("`{name}` is not a name: {rule}"));
     }
-    bail!("`{name}` is not a name: {rule}; try `{near}`")
+    Err(format!("`{name}` is not a name: {rule}; try `{near}`"))
 }
 
 /// The rule of field files, which is that of names and one more: no capital letters, so that files
@@ -51,7 +52,7 @@ mod tests {
     use super::*;
 
     fn complaint(name: &str) -> String {
-        validate(name).expect_err(name).to_string()
+        validate(name).expect_err(name)
     }
 
     #[test]

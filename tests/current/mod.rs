@@ -1,0 +1,124 @@
+//! The current frame: x is the independent variable, and X is found from it.
+
+use mms_codegen::quantity::Quantity;
+
+use super::largest;
+use super::support::kernel::{Kernel, compiled, sample};
+
+/// A correction of this part of the size of the body is the last: rounding, enlarged by F^-1, may
+/// leave no smaller one, and the next would be its square.
+const NEGLIGIBLE: f64 = 1e-12;
+
+/// How often Newton's method may go on.
+const ITERATIONS: usize = 50;
+
+/// F = (I - grad_x u)^-1 and div sigma = dsigma_ij/dx_j, with central differences at fixed x of
+/// what is at the place X that moves to x: both must agree with the derivation like the square of
+/// the step.
+pub fn both_frames<K: Kernel>() {
+    let points = sample(&compiled(K::NAME), 16);
+    let size = largest(points.iter().flat_map(|point| &point.coordinates).copied());
+    let errors = |step: f64| {
+        let at = points.iter().map(|point| differences::<K>(&point.coordinates, point.time, step));
+        at.fold([[0.0_f64; 2]; 2], |worst, found| {
+            [0, 1].map(|what| [0, 1].map(|k| worst[what][k].max(found[what][k])))
+        })
+    };
+    let (coarse, fine) = (errors(size / 1024.0), errors(size / 2048.0));
+    for (what, name) in ["F = (I - grad_x u)^-1", "div sigma = Div P / J"].iter().enumerate() {
+        let ([coarse, scale], [fine, _]) = (coarse[what], fine[what]);
+        // Rounding of the differences and of Newton's method is left where they are exact.
+        if coarse > 1e-9 * scale {
+            let order = (coarse / fine).log2();
+            assert!((order - 2.0).abs() < 0.3, "{name}: {coarse:e}, then {fine:e}: order {order}");
+        }
+        assert!(fine < 0.02 * scale, "{name}: the error is {fine:e}, the terms are {scale:e}");
+    }
+}
+
+/// The error and the size of F, and of div sigma, at one point.
+fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
+    let dimension = K::DIMENSION;
+    let place = K::quantity(Quantity::Position, time, at);
+    let mut gradient = vec![0.0; dimension * dimension];
+    let mut divergence = vec![0.0; dimension];
+    let mut parts = Vec::new();
+    for axis in 0..dimension {
+        let beside = |sign: f64| {
+            let mut shifted = place.clone();
+            shifted[axis] += sign * step;
+            let reference = invert::<K>(&shifted, at, time);
+            let of = |quantity| K::quantity(quantity, time, &reference);
+            (of(Quantity::Displacement), of(Quantity::CauchyStress))
+        };
+        let (ahead, behind) = (beside(1.0), beside(-1.0));
+        for (row, divergence) in divergence.iter_mut().enumerate() {
+            let k = row * dimension + axis;
+            gradient[k] = (ahead.0[row] - behind.0[row]) / (2.0 * step);
+            let slope = (ahead.1[k] - behind.1[k]) / (2.0 * step);
+            *divergence += slope;
+            parts.push(slope);
+        }
+    }
+    let deformation = K::quantity(Quantity::DeformationGradient, time, at);
+    // F (I - grad_x u) - I, so that nothing needs to be inverted.
+    let residual = (0..dimension * dimension).map(|k| {
+        let (row, column) = (k / dimension, k % dimension);
+        let product: f64 = (0..dimension)
+            .map(|j| {
+                let inner = f64::from(j == column) - gradient[j * dimension + column];
+                deformation[row * dimension + j] * inner
+            })
+            .sum();
+        product - f64::from(row == column)
+    });
+    let derived = K::quantity(Quantity::DivSigma, time, at);
+    let errors = derived.iter().zip(&divergence).map(|(derived, found)| derived - found);
+    let scale = largest(parts.into_iter().chain(derived.clone()));
+    [[largest(residual), largest(deformation.clone())], [largest(errors), scale]]
+}
+
+/// X with X + u(X, t) = x, by Newton's method from `start`.
+fn invert<K: Kernel>(place: &[f64], start: &[f64], time: f64) -> Vec<f64> {
+    let mut reference = start.to_vec();
+    for _ in 0..ITERATIONS {
+        let reached = K::quantity(Quantity::Position, time, &reference);
+        let missing: Vec<f64> = place.iter().zip(&reached).map(|(x, found)| x - found).collect();
+        let gradient = K::quantity(Quantity::DeformationGradient, time, &reference);
+        let correction = solve(gradient, missing);
+        let size = largest(place.iter().copied());
+        let is_found = largest(correction.iter().copied()) <= NEGLIGIBLE * size;
+        for (coordinate, correction) in reference.iter_mut().zip(correction) {
+            *coordinate += correction;
+        }
+        if is_found {
+            return reference;
+        }
+    }
+    panic!("no X moves to {place:?} at t = {time}: {reference:?}");
+}
+
+/// The solution of a few linear equations, by Gauss-Jordan elimination with pivots.
+fn solve(mut matrix: Vec<f64>, mut right: Vec<f64>) -> Vec<f64> {
+    let count = right.len();
+    for column in 0..count {
+        let pivot = (column..count)
+            .max_by(|a, b| {
+                let size = |row: usize| matrix[row * count + column].abs();
+                size(*a).total_cmp(&size(*b))
+            })
+            .expect("a row");
+        for k in 0..count {
+            matrix.swap(pivot * count + k, column * count + k);
+        }
+        right.swap(pivot, column);
+        for row in (0..count).filter(|row| *row != column) {
+            let factor = matrix[row * count + column] / matrix[column * count + column];
+            for k in column..count {
+                matrix[row * count + k] -= factor * matrix[column * count + k];
+            }
+            right[row] -= factor * right[column];
+        }
+    }
+    (0..count).map(|row| right[row] / matrix[row * count + row]).collect()
+}
