@@ -7,6 +7,7 @@ mod axis_aligned_1d;
 mod axis_aligned_2d;
 mod axis_aligned_3d;
 mod bar_1d;
+mod conformal_sector_2d;
 mod cyclic_shear_3d;
 mod expanding_ring;
 mod generalized_vortex;
