@@ -74,6 +74,18 @@ impl Tensor {
         })
     }
 
+    /// `A v`.
+    pub fn apply(&self, graph: &mut Graph, vector: &[Expr]) -> Vec<Expr> {
+        (0..self.dimension)
+            .map(|row| dot(graph, vector.iter().enumerate().map(|(k, v)| (self.at(row, k), *v))))
+            .collect()
+    }
+
+    /// The outer product of two vectors, whose components are `v_row w_column`.
+    pub fn outer(graph: &mut Graph, v: &[Expr], w: &[Expr]) -> Self {
+        Self::from_fn(v.len(), |row, column| graph.mul(v[row], w[column]))
+    }
+
     /// The trace.
     pub fn trace(&self, graph: &mut Graph) -> Expr {
         graph.sum((0..self.dimension).map(|k| (self.at(k, k), Rational::ONE)))

@@ -1,5 +1,6 @@
 //! What each quantity is, as a person writes it: declared once, set by every notation.
 
+use crate::mechanics::invariant::Kind;
 use crate::quantity::Quantity;
 
 /// A part of a relation between vectors and tensors.
@@ -30,9 +31,14 @@ use Part::{Component, Function, Over, Partial, Raised, Scalar, Sign, Tensor, Wor
 const EQUALS: Part = Sign("=");
 const MINUS: Part = Sign("-");
 const RHO0: Part = Scalar("rho0");
+const COMMA: Part = Sign(",");
+const INVARIANTS: &[Part] = &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J")];
+const OF_FIBRES: &[Part] =
+    &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J"), COMMA, Scalar("I4")];
+const SMALL: &[Part] = &[Scalar("eps_trace"), COMMA, Scalar("eps_squared")];
 
-/// The definition of a quantity.
-pub fn relation(quantity: Quantity) -> &'static [Part] {
+/// The definition of a quantity, for a density of that kind.
+pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
     match quantity {
         Quantity::Displacement => {
             const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
@@ -47,11 +53,11 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             &[Tensor("F"), EQUALS, Tensor("I"), Sign("+"), Tensor("H")]
         }
         Quantity::Jacobian => &[Scalar("J"), EQUALS, Word("det"), Tensor("F")],
-        Quantity::StrainEnergy => {
-            const ARGUMENTS: &[Part] =
-                &[Scalar("I1"), Sign(","), Scalar("I2"), Sign(","), Scalar("J")];
-            &[Scalar("W"), EQUALS, Function("W", ARGUMENTS)]
-        }
+        Quantity::StrainEnergy => match kind {
+            Kind::Isotropic => &[Scalar("W"), EQUALS, Function("W", INVARIANTS)],
+            Kind::Fibrous(_) => &[Scalar("W"), EQUALS, Function("W", OF_FIBRES)],
+            Kind::SmallStrain => &[Scalar("W"), EQUALS, Function("W", SMALL)],
+        },
         Quantity::FirstPiolaKirchhoff => {
             &[Tensor("P"), EQUALS, Partial(&Scalar("W"), &Tensor("F"))]
         }

@@ -17,6 +17,7 @@ mod field;
 pub mod format;
 mod formula;
 mod material;
+pub mod moduli;
 pub mod names;
 mod study;
 mod symbols;
