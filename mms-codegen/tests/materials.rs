@@ -259,7 +259,7 @@ fn no_wave_is_faster_than_the_wave_speed() {
         assert!(speed.to_f64() > 0.0, "{}: {:e}", spec.name, speed.to_f64());
         let tangent: Vec<f64> = tangent(compiled, &rest).iter().map(Precise::to_f64).collect();
         let mut largest: f64 = 0.0;
-        for index in 1..200 {
+        for index in 2..200 {
             let normal: Vec<f64> = halton::<f64>(index).into_iter().map(|x| x - 0.5).collect();
             let acoustic = acoustic(&tangent, &normal[..dimension]);
             assert!(positive(&acoustic, dimension), "{}: {acoustic:?}", spec.name);
@@ -392,7 +392,8 @@ fn small_strains_lose_nothing() {
                 let largest = expected.iter().fold(0.0, |a: f64, b| a.max(b.to_f64().abs()));
                 for (found, expected) in found.iter().zip(&expected) {
                     let error = (found - expected.to_f64()).abs();
-                    assert!(error <= 64.0 * f64::EPSILON * largest, "{}: {error:e}", spec.name);
+                    let bound = 64.0 * f64::EPSILON * largest;
+                    assert!(error <= bound, "{}: {error:e}, {bound:e}", spec.name);
                 }
             }
         }

@@ -38,9 +38,10 @@ fn expanded(graph: &mut Graph, root: Expr, symbols: &[Symbol]) -> Option<Expr> {
     Some(graph.sum(terms))
 }
 
-/// The position of a factor that is a sum to a whole positive power.
+/// The position of a factor that is a sum to a whole positive power: the last one, since it may be
+/// made of the others, whose powers then meet.
 fn sum_among(graph: &Graph, factors: &[(Expr, Rational)], symbols: &[Symbol]) -> Option<usize> {
-    factors.iter().position(|(base, exponent)| {
+    factors.iter().rposition(|(base, exponent)| {
         let is_sum = matches!(graph.node(*base), Node::Sum(..));
         let is_whole = exponent.is_int() && *exponent > Rational::ZERO;
         is_sum && is_whole && symbols.iter().any(|symbol| graph.symbols(*base).contains(symbol))
