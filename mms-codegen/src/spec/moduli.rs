@@ -103,7 +103,7 @@ fn mistake(
 ) -> Diagnostic {
     let shown = |names: &[&str]| -> String {
         let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-        names.join(" and ")
+        names.join(if names.len() > 2 { ", " } else { " and " })
     };
     let names: Vec<&str> = given.iter().map(|name| name.value.as_str()).collect();
     let found = match names.as_slice() {
