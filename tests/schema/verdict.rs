@@ -84,6 +84,9 @@ fn material_is_right(text: &str) -> bool {
         let is_missing = message.starts_with("material parameter") && message.ends_with("missing");
         is_missing
             || message.starts_with("unknown material")
+            || message.starts_with("the moduli of")
+            || message.ends_with("has no fibres")
+            || message.ends_with("needs the direction of its fibres")
             || message.contains("is not a parameter of `")
     })
 }
