@@ -35,7 +35,7 @@ const COMMA: Part = Sign(",");
 const INVARIANTS: &[Part] = &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J")];
 const OF_FIBRES: &[Part] =
     &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J"), COMMA, Scalar("I4")];
-const SMALL: &[Part] = &[Scalar("eps_trace"), COMMA, Scalar("eps_squared")];
+const SMALL: &[Part] = &[Tensor("epsilon")];
 
 /// The definition of a quantity, for a density of that kind.
 pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
