@@ -48,8 +48,8 @@ fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
     let along = 2.0 * (present[0] * bent[0] + present[1] * bent[1]);
     for i in 0..2 {
         let pull = 2.0 * p.reinforcement;
-        for j in 0..2 {
-            solid.stress[i][j] += pull * stretch * present[i] * fibre[j];
+        for (stress, fibre) in solid.stress[i].iter_mut().zip(fibre) {
+            *stress += pull * stretch * present[i] * fibre;
         }
         solid.divergence[i] += pull * (present[i] * along + stretch * bent[i]);
     }
