@@ -10,7 +10,7 @@ use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
 use crate::mechanics::boundary::{Datum, data};
 use crate::mechanics::face;
 use crate::mechanics::model::Body;
-use crate::mechanics::{Derivation, Model, TooLarge, derive};
+use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
@@ -19,7 +19,7 @@ use crate::program::{Bound, Op, Output, Program};
 use crate::selection::Selection;
 use crate::simplify::{simplify, twins};
 use crate::source::{SourceId, Sources};
-use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec};
+use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
 use crate::suggest::did_you_mean;
 use crate::syntax;
 use crate::units;
@@ -158,7 +158,10 @@ fn phases(
     let source = sources.add(path, text);
     let mut field = spec::read_field(sources, source, name, diagnostics)?;
     selection.apply(sources, &mut field, diagnostics);
-    let material = read_material(sources, &field, load, diagnostics);
+    let mut material = read_material(sources, &field, load, diagnostics);
+    if let Some(material) = &mut material {
+        moduli::convert(sources, &field, material, diagnostics);
+    }
     diagnostics.extend(units::check(sources, &field, material.as_ref()));
     let reported = diagnostics.len();
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
@@ -398,8 +401,18 @@ impl Compiled {
     pub fn own_material(&self) -> Option<(&str, &str)> {
         let model = self.field.material.model.value.as_str();
         let shipped = MATERIALS.iter().any(|(stem, _)| *stem == model);
-        let text = self.sources.texts().last().filter(|_| !shipped)?;
-        Some((model, text))
+        let source = self.material.strain_energy.span.source;
+        (!shipped).then(|| (model, self.sources.get(source).text.as_str()))
+    }
+
+    /// dP/dF as a function of a displacement gradient, as [`Response::Tangent`]: a program of its
+    /// own, which costs nothing where it is not asked for. An error where it is too large.
+    pub fn tangent(&self) -> Result<Program, TooLarge> {
+        let mut graph = self.graph.clone();
+        graph.make_room();
+        let components = tangent(&mut graph, &self.model)?;
+        let output = Output::Response(Response::Tangent);
+        Ok(schedule(&graph, &BTreeMap::from([(output, components)])))
     }
 
     /// The outward reference unit normal of a face, as a program of its own.

@@ -81,7 +81,7 @@ fn definitions_keep_the_order_of_the_file() {
     assert_eq!(lets, ["R", "A"]);
     let arguments: Vec<_> =
         spec.material.arguments.iter().map(|(name, _)| name.value.as_str()).collect();
-    assert_eq!(arguments, ["lambda", "mu"]);
+    assert_eq!(arguments, ["lambda", "mu", "reinforcement"]);
 }
 
 #[test]

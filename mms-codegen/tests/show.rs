@@ -51,15 +51,29 @@ fn pass(name: &str) -> String {
     fs::read_to_string(folder.join(name)).expect("a file of tests/data/pass")
 }
 
-fn with_mooney(text: &str, moduli: [&str; 3]) -> String {
+/// The field with another material in the place of its neo-Hookean one.
+fn with_material(text: &str, material: &str) -> String {
     let replaced = |line: &str| !line.starts_with("lambda  =") && !line.starts_with("mu      =");
     let lines: Vec<_> = text.lines().filter(|line| replaced(line)).collect();
-    let [c1, c2, bulk] = moduli;
-    lines.join("\n").replace(
-        "model   = \"neo_hookean\"",
-        &format!("model = \"./mooney.toml\"\nc1 = \"{c1}\"\nc2 = \"{c2}\"\nbulk = \"{bulk}\""),
-    )
+    lines.join("\n").replace("model   = \"neo_hookean\"", material)
 }
+
+fn with_mooney(text: &str, moduli: [&str; 3]) -> String {
+    let [c1, c2, bulk] = moduli;
+    let material =
+        format!("model = \"./mooney.toml\"\nc1 = \"{c1}\"\nc2 = \"{c2}\"\nbulk = \"{bulk}\"");
+    with_material(text, &material)
+}
+
+/// Materials that are more than functions of I1, I2 and J.
+const OTHERS: [(&str, &str); 2] = [
+    (
+        "fibres",
+        "model = \"transversely_isotropic\"\nyoung = \"young\"\nnu = 0.3\n\
+         reinforcement = \"young\"\nfibre = [\"4/5*cos(X/length)\", \"4/5*sin(X/length)\", 0.6]",
+    ),
+    ("linear", "model = \"linear_elastic\"\nyoung = \"young*(1 + X/length)\"\nnu = 0.3"),
+];
 
 /// Fields of every dimension and kind, each with its name.
 fn fields() -> Vec<Compiled> {
@@ -85,6 +99,11 @@ fn fields() -> Vec<Compiled> {
     let moduli = ["young/8", "young/20*(1 + X/length)", "young"];
     let bar = bar.replace("lambda  = \"0\"\nmu      = \"young/2\"\n", "");
     fields.push(compiled("mooney_1d", &with_mooney(&bar, moduli)));
+    for (name, material) in OTHERS {
+        for text in [pass("sines_3d.toml"), bar.clone()] {
+            fields.push(compiled(name, &with_material(&text, material)));
+        }
+    }
     fields.push(compiled("odd_names", include_str!("../../tests/ui/pass/odd_names.toml")));
     fields
 }

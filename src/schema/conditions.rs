@@ -2,8 +2,9 @@
 //! which parameters of a material.
 
 use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::Face;
 use mms_codegen::spec::format::{self, MATERIAL};
+use mms_codegen::spec::moduli::{self, Pair};
+use mms_codegen::spec::{Face, MaterialSpec};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};
@@ -132,15 +133,36 @@ fn rigid() -> Value {
     at("rigid", json!({ "minProperties": 1 }))
 }
 
-/// The parameters of each shipped material.
+/// The parameters of each shipped material, with one of the pairs of moduli that it takes, and the
+/// fibres of those that have them.
 fn materials() -> Vec<Value> {
     let condition = |stem: &str| has(&[("material.model", json!({ "const": stem }))]);
-    let shipped = gallery::materials().into_iter().map(|material| {
-        let parameters: Vec<_> =
-            material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
-        let keys: Vec<_> = format::names(MATERIAL).into_iter().chain(parameters.clone()).collect();
-        let asked = json!({ "required": parameters, "propertyNames": { "enum": keys } });
-        if_then(condition(&material.name), at("material", asked))
-    });
-    shipped.collect()
+    let shipped = gallery::materials();
+    shipped.iter().map(|spec| if_then(condition(&spec.name), at("material", keys(spec)))).collect()
+}
+
+/// The keys of `[material]` for a material.
+fn keys(spec: &MaterialSpec) -> Value {
+    let pairs: Vec<Pair> = match moduli::pairs(spec) {
+        Some((own, others)) => [own].into_iter().chain(others).collect(),
+        None => Vec::new(),
+    };
+    let moduli: Vec<&str> = pairs.iter().flatten().copied().collect();
+    let parameters = spec.parameters.iter().map(|parameter| parameter.name.value.as_str());
+    let parameters: Vec<&str> = parameters.filter(|name| !moduli.contains(name)).collect();
+    let mut known = format::names(MATERIAL);
+    known.retain(|key| *key != "fibre" || spec.has_fibres());
+    known.extend(parameters.iter().chain(&moduli).copied());
+    let mut required = parameters;
+    required.extend(spec.has_fibres().then_some("fibre"));
+    let mut asked = json!({ "required": required, "propertyNames": { "enum": known } });
+    if !pairs.is_empty() {
+        let one = pairs.iter().map(|pair| {
+            let others = moduli.iter().filter(|name| !pair.contains(name));
+            let refused: Map<_, _> = others.map(|name| (name.to_string(), json!(false))).collect();
+            json!({ "required": pair, "properties": refused })
+        });
+        extend(&mut asked, json!({ "anyOf": one.collect::<Vec<_>>() }));
+    }
+    asked
 }

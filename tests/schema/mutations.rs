@@ -10,6 +10,7 @@ const FULL: &[(Kind, &str)] = &[
     (Kind::Field, include_str!("../../mms-codegen/tests/data/pass/every_key_3d.toml")),
     (Kind::Field, include_str!("../../fields/bar_1d.toml")),
     (Kind::Material, include_str!("../../mms-codegen/tests/data/pass/material_every_key.toml")),
+    (Kind::Field, include_str!("../../fields/plane_strain_gent.toml")),
     (Kind::Material, include_str!("../../mms-codegen/materials/neo_hookean.toml")),
 ];
 
@@ -51,7 +52,7 @@ fn values() -> Vec<Value> {
 }
 
 const KEYS: &[&str] =
-    &["zzz", "a b", "", "X", "sin", "I1", "lambda", "outer", "let", "x_min", "z_min"];
+    &["zzz", "a b", "", "X", "sin", "I1", "lambda", "nu", "outer", "let", "x_min", "z_min"];
 
 /// Every place in a file, the whole included.
 fn places(file: &Value) -> Vec<Vec<Step>> {

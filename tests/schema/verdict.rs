@@ -84,12 +84,15 @@ fn material_is_right(text: &str) -> bool {
         let is_missing = message.starts_with("material parameter") && message.ends_with("missing");
         is_missing
             || message.starts_with("unknown material")
+            || message.starts_with("the moduli of")
+            || message.ends_with("has no fibres")
+            || message.ends_with("needs the direction of its fibres")
             || message.contains("is not a parameter of `")
     })
 }
 
-/// A material of the user's own. It has the parameters that the field gives it, as far as there can
-/// be such: more the schema of the field cannot know of it.
+/// A material of the user's own. It has the fibres and parameters that the field gives it, as far as
+/// there can be such: more the schema of the field cannot know of it.
 fn own_material(text: &str) -> String {
     let field = json_of(text).unwrap_or_default();
     let given = field["material"].as_object().into_iter().flatten().map(|(name, _)| name.as_str());
@@ -100,7 +103,8 @@ fn own_material(text: &str) -> String {
     };
     let parameters = given.filter(is_parameter).map(|name| format!("{name} = {{}}\n"));
     let parameters: String = parameters.collect();
+    let invariant = if field["material"].get("fibre").is_some() { "I4" } else { "J" };
     format!(
-        "[material]\ntitle = \"own\"\nstrain_energy = \"(J - 1)^2\"\n[parameters]\n{parameters}"
+        "[material]\ntitle = \"own\"\nstrain_energy = \"({invariant} - 1)^2\"\n[parameters]\n{parameters}"
     )
 }

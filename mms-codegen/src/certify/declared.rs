@@ -1,26 +1,24 @@
-//! What a field declares about its parameters, its body, its time window and its density, in
+//! What a field declares about its parameters, its body, its time window and its material, in
 //! numbers: with the defaults when it is compiled, and with the values that a user sets.
+
+mod material;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use mms_math::Scalar as _;
 
-use super::sample::{Extent, halton};
+use super::sample::Extent;
 use crate::compile::{Compiled, Failure, parameter_values};
 use crate::diagnostic::{Diagnostic, MAX_RENDERED};
 use crate::expr::{Expr, Graph, Rational, Symbol};
-use crate::mechanics::Response;
 use crate::mechanics::model::{Body, Model};
 use crate::program::Output;
-use crate::program::interpret::{Interpreter, Point};
+use crate::program::interpret::Interpreter;
 use crate::program::precise::Precise;
 use crate::program::schedule::schedule;
 use crate::source::Span;
 use crate::spec::{self, Face, FieldSpec, Formula};
-
-/// At how many points of the domain the density is evaluated, beside its corners.
-pub const POINTS: usize = 128;
 
 /// Messages say no more than so many values of parameters.
 const MAX_SHOWN: usize = 6;
@@ -148,6 +146,8 @@ impl<'a> Declared<'a> {
         // A body that is wrong has no points to look at.
         if let Some(extent) = extent.filter(|_| self.diagnostics.len() == reported) {
             self.density(&extent);
+            self.fibre(&extent);
+            self.poisson(&extent);
         }
         let time = self.bounds(self.field.domain.time.each_ref(), self.model.domain.time);
         if let Some([first, last]) = time {
@@ -294,46 +294,6 @@ impl<'a> Declared<'a> {
         }
     }
 
-    /// Looks for a point where the density is not positive.
-    fn density(&mut self, extent: &Extent<Precise>) {
-        let density = self.model.density;
-        let symbols = self.graph.symbols(density);
-        // A number is judged where it is read, and so is a density that changes in time.
-        if self.graph.as_number(density).is_some() || symbols.contains(&Symbol::Time) {
-            return;
-        }
-        let output = Output::Response(Response::Density);
-        let program = schedule(&self.graph, &BTreeMap::from([(output, vec![density])]));
-        let mut interpreter = Interpreter::new(&program, &self.parameters);
-        let plan = interpreter.plan(&[output]);
-        let zero = Precise::from_f64(0.0);
-        let varies = symbols.iter().any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
-        let count = if varies { usize::MAX } else { 1 };
-        let found = points(extent).take(count).find_map(|point| {
-            interpreter.set_point(&plan, Point::at(&point));
-            let density = interpreter.output(output).remove(0);
-            let is_positive = density.is_defined() && !density.at_most(&zero);
-            (!is_positive).then_some((point, density))
-        });
-        let Some((point, value)) = found else { return };
-        let mut label = match value.is_defined() {
-            true => format!("this is {}", digits(&value)),
-            false => "this is not defined".to_string(),
-        };
-        if varies {
-            let place: Vec<_> = AXES
-                .iter()
-                .zip(&point)
-                .map(|(axis, value)| format!("{axis} = {}", digits(value)))
-                .collect();
-            label.push_str(&format!(" at {}", place.join(", ")));
-        }
-        let span = self.field.material.density.span;
-        let diagnostic = Diagnostic::error(span, "the density must be positive").label(label);
-        let diagnostic = self.with_parameters(diagnostic, &[density]);
-        self.report(diagnostic.help("the body force is per unit mass: b = a - Div P/rho0"));
-    }
-
     /// Adds the values of the parameters that expressions depend on.
     fn with_parameters(&self, diagnostic: Diagnostic, exprs: &[Expr]) -> Diagnostic {
         let mut indices: Vec<usize> = Vec::new();
@@ -384,17 +344,6 @@ fn range_mistake(
     }
     let message = format!("`{name}` is {}, outside its range", digits(value));
     Some(Diagnostic::error(span, message).label(format!("expected {shown}")))
-}
-
-/// The corners of a body, and points spread over it.
-fn points(extent: &Extent<Precise>) -> impl Iterator<Item = Vec<Precise>> {
-    let dimension = extent.dimension();
-    let corners = (0..1usize << dimension).map(move |corner| {
-        let end = |axis: usize| Precise::from_f64(f64::from(u8::from(corner >> axis & 1 == 1)));
-        (0..dimension).map(end).collect::<Vec<_>>()
-    });
-    let inside = (1..=POINTS).map(|index| halton(index).to_vec());
-    corners.chain(inside).map(|fractions| extent.point(&fractions))
 }
 
 /// A number in a message: short, whatever its size.

@@ -24,6 +24,8 @@ pub enum Response {
     FirstPiolaKirchhoff,
     /// tau(H) = P F^T.
     KirchhoffStress,
+    /// dP_iJ/dF_kL at H, the last index fastest. Derived where it is asked for, by [`tangent`].
+    Tangent,
 }
 
 /// All quantities of a field as expressions.
@@ -45,9 +47,9 @@ pub fn derive(
     model: &Model,
     relations: &Relations,
 ) -> Result<Derivation, TooLarge> {
-    let law = Law::new(graph, model.energy);
+    let law = Law::new(graph, model.energy, &model.kind);
     within_bound(graph, "stress of the material")?;
-    let motion = Motion::new(graph, &model.displacement, relations);
+    let motion = Motion::new(graph, &model.displacement, &model.kind, relations);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
     let mut quantities = kinematic_quantities(graph, &motion);
     quantities.extend(strain_quantities(graph, &motion.strain));
@@ -161,12 +163,17 @@ fn balance_quantities(
     ])
 }
 
-fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, Vec<Expr>> {
+/// The strain of a displacement gradient that the caller supplies.
+fn supplied(graph: &mut Graph, model: &Model) -> Strain {
     let dimension = model.displacement.len();
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
-    let strain = Strain::new(graph, gradient, &Relations::default());
-    let modulus = law.longitudinal_modulus(graph);
+    Strain::new(graph, gradient, &model.kind, &Relations::default())
+}
+
+fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, Vec<Expr>> {
+    let strain = supplied(graph, model);
+    let modulus = law.fastest_modulus(graph, &model.kind);
     let squared_speed = graph.div(modulus, model.density);
     let speed = graph.power(squared_speed, Rational::from_parts(1.into(), 2u8.into()));
     BTreeMap::from([
@@ -179,4 +186,13 @@ fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, 
         ),
         (Response::KirchhoffStress, law.kirchhoff(graph, &strain).components().to_vec()),
     ])
+}
+
+/// The components of [`Response::Tangent`].
+pub fn tangent(graph: &mut Graph, model: &Model) -> Result<Vec<Expr>, TooLarge> {
+    let law = Law::new(graph, model.energy, &model.kind);
+    let strain = supplied(graph, model);
+    let tangent = law.tangent(graph, &strain);
+    within_bound(graph, "tangent of the stress")?;
+    Ok(tangent)
 }

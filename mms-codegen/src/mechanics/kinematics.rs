@@ -1,5 +1,8 @@
 //! Kinematics: what follows from a displacement, or from its gradient alone.
 
+use std::collections::BTreeMap;
+
+use super::invariant::{FIBRE, FIRST, Kind, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME};
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
@@ -22,13 +25,25 @@ pub struct Strain {
     pub right: Tensor,
     /// B - I = H + H^T + H H^T.
     pub left: Tensor,
-    /// I1 - 3, I2 - 3 and J - 1.
-    pub invariants: [Expr; 3],
+    /// What the density is a function of, by symbol.
+    pub invariants: BTreeMap<Symbol, Expr>,
+    /// The fibres, where the density is a function of I4.
+    pub fibre: Option<Fibre>,
+}
+
+/// The direction of fibres at one point, one component per dimension of the field.
+#[derive(Clone, Debug)]
+pub struct Fibre {
+    /// a0, a unit vector in space.
+    pub reference: Vec<Expr>,
+    /// F a0, as long as the fibre is stretched.
+    pub present: Vec<Expr>,
 }
 
 impl Strain {
-    /// From the displacement gradient, every part reduced modulo `relations`.
-    pub fn new(graph: &mut Graph, gradient: Tensor, relations: &Relations) -> Self {
+    /// From the displacement gradient, every part reduced modulo `relations`; the invariants are
+    /// those of a density of that kind.
+    pub fn new(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         let gradient = gradient.reduce(graph, relations);
         let deformation = identity.add(graph, &gradient);
@@ -39,26 +54,68 @@ impl Strain {
         let square = gradient.mul(graph, &transposed);
         let left = symmetric.add(graph, &square).reduce(graph, relations);
         let volume = gradient.determinant_less_one(graph);
-        let (first, second) = first_invariants(graph, &right);
-        let reduced = reduce(graph, &[first, second, volume], relations);
-        let invariants = [reduced[0], reduced[1], reduced[2]];
+        let mut invariants: Vec<Expr> = match kind {
+            Kind::Isotropic | Kind::Fibrous(_) => first_invariants(graph, &right).into(),
+            Kind::SmallStrain => small_invariants(graph, &gradient).into(),
+        };
+        let fibre = match kind {
+            Kind::Fibrous(reference) => Some(Fibre::new(graph, reference, &deformation)),
+            Kind::Isotropic | Kind::SmallStrain => None,
+        };
+        invariants.push(volume);
+        invariants.extend(fibre.as_ref().map(|fibre| fibre.stretch(graph, &right)));
+        let invariants = reduce(graph, &invariants, relations);
         let one = graph.number(1);
         let jacobian = graph.add(one, invariants[2]);
+        let symbols = match kind {
+            Kind::Isotropic | Kind::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
+            Kind::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
+        };
+        let invariants = symbols.into_iter().zip(invariants).collect();
         let reciprocal = graph.power(jacobian, -1);
         let adjugate = deformation.adjugate(graph).reduce(graph, relations);
         let inverse = adjugate.scale(graph, reciprocal);
-        Strain { gradient, deformation, jacobian, inverse, right, left, invariants }
+        Strain { gradient, deformation, jacobian, inverse, right, left, invariants, fibre }
+    }
+
+    /// The small strain eps = (H + H^T)/2.
+    pub fn small(&self, graph: &mut Graph) -> Tensor {
+        small_strain(graph, &self.gradient)
     }
 }
 
+impl Fibre {
+    fn new(graph: &mut Graph, reference: &[Expr], deformation: &Tensor) -> Self {
+        Fibre { reference: reference.to_vec(), present: deformation.apply(graph, reference) }
+    }
+
+    /// I4 - 1 = a0.(C - I) a0, from C - I.
+    fn stretch(&self, graph: &mut Graph, right: &Tensor) -> Expr {
+        let image = right.apply(graph, &self.reference);
+        dot(graph, self.reference.iter().copied().zip(image))
+    }
+}
+
+fn small_strain(graph: &mut Graph, gradient: &Tensor) -> Tensor {
+    let half = graph.number(Rational::from_parts(1.into(), 2u8.into()));
+    let transposed = gradient.transpose();
+    gradient.add(graph, &transposed).scale(graph, half)
+}
+
+/// tr eps and eps:eps, from H.
+fn small_invariants(graph: &mut Graph, gradient: &Tensor) -> [Expr; 2] {
+    let strain = small_strain(graph, gradient);
+    [gradient.trace(graph), strain.contract(graph, &strain)]
+}
+
 /// I1 - 3 = tr (C - I) and I2 - 3 = 2 i1 + (i1^2 - tr (C - I)^2)/2, from C - I.
-fn first_invariants(graph: &mut Graph, right: &Tensor) -> (Expr, Expr) {
+fn first_invariants(graph: &mut Graph, right: &Tensor) -> [Expr; 2] {
     let first = right.trace(graph);
     let square = graph.power(first, 2);
     let contracted = right.contract(graph, right);
     let half = Rational::from_parts(1.into(), 2u8.into());
     let terms = [(first, Rational::from(2)), (square, half.clone()), (contracted, -half)];
-    (first, graph.sum(terms))
+    [first, graph.sum(terms)]
 }
 
 /// What follows from a displacement u(X, t).
@@ -76,8 +133,10 @@ pub struct Motion {
     pub second_gradient: Vec<Tensor>,
     /// (ln J),J = F^-1_Kk u_k,KJ.
     pub log_volume_gradient: Vec<Expr>,
-    /// The gradients of I1, I2 and J.
-    pub invariant_gradients: [Vec<Expr>; 3],
+    /// The gradients of what the density is a function of, by symbol.
+    pub invariant_gradients: BTreeMap<Symbol, Vec<Expr>>,
+    /// a0_K,J, where there are fibres.
+    pub fibre_gradient: Option<Tensor>,
 }
 
 impl Motion {
@@ -85,7 +144,12 @@ impl Motion {
     ///
     /// Where there are any, the invariants have become short, and their gradients are the
     /// derivatives of that; else they are tensor algebra, which shares the second gradient of u.
-    pub fn new(graph: &mut Graph, displacement: &[Expr], relations: &Relations) -> Self {
+    pub fn new(
+        graph: &mut Graph,
+        displacement: &[Expr],
+        kind: &Kind,
+        relations: &Relations,
+    ) -> Self {
         let dimension = displacement.len();
         let displacement = factor(graph, displacement);
         let velocity = derivative(graph, &displacement, Symbol::Time);
@@ -103,7 +167,11 @@ impl Motion {
                 Tensor::from_fn(dimension, |j, k| second[k][j])
             })
             .collect();
-        let strain = Strain::new(graph, gradient, relations);
+        let strain = Strain::new(graph, gradient, kind, relations);
+        let fibre_gradient = match kind {
+            Kind::Fibrous(direction) => Some(gradient_of(graph, direction)),
+            Kind::Isotropic | Kind::SmallStrain => None,
+        };
         let mut motion = Motion {
             displacement,
             velocity,
@@ -111,30 +179,37 @@ impl Motion {
             strain,
             second_gradient,
             log_volume_gradient: Vec::new(),
-            invariant_gradients: Default::default(),
+            invariant_gradients: BTreeMap::new(),
+            fibre_gradient,
         };
-        if relations.is_empty() {
-            motion.contract_invariants(graph);
-        } else {
+        if !relations.is_empty() {
             motion.differentiate_invariants(graph, relations);
+        } else if *kind == Kind::SmallStrain {
+            motion.contract_small_strain(graph);
+        } else {
+            motion.contract_invariants(graph);
+            motion.contract_fibre(graph);
         }
         motion
     }
 
     fn differentiate_invariants(&mut self, graph: &mut Graph, relations: &Relations) {
         let dimension = self.displacement.len();
-        let invariants = self.strain.invariants;
+        let (symbols, invariants): (Vec<Symbol>, Vec<Expr>) =
+            self.strain.invariants.iter().map(|(symbol, value)| (*symbol, *value)).unzip();
         let slopes: Vec<Vec<Expr>> = (0..dimension)
             .map(|axis| {
                 let slopes = derivative(graph, &invariants, Symbol::Coordinate(axis));
                 reduce(graph, &slopes, relations)
             })
             .collect();
-        self.invariant_gradients =
-            [0, 1, 2].map(|invariant| slopes.iter().map(|slope| slope[invariant]).collect());
+        let gradients = symbols.into_iter().enumerate().map(|(invariant, symbol)| {
+            (symbol, slopes.iter().map(|slope| slope[invariant]).collect())
+        });
+        self.invariant_gradients = gradients.collect();
         let jacobian = self.strain.jacobian;
-        self.log_volume_gradient =
-            slopes.iter().map(|slope| graph.div(slope[2], jacobian)).collect();
+        let volume = &self.invariant_gradients[&VOLUME];
+        self.log_volume_gradient = volume.iter().map(|slope| graph.div(*slope, jacobian)).collect();
     }
 
     /// I1,J = 2 F : F,J;  I2,J = 2 (I1 F - F C) : F,J;  J,J = J F^-T : F,J.
@@ -144,7 +219,7 @@ impl Motion {
         let right = identity.add(graph, &strain.right);
         let cubic = strain.deformation.mul(graph, &right);
         let (three, minus_one) = (graph.number(3), graph.number(-1));
-        let first = graph.add(strain.invariants[0], three);
+        let first = graph.add(strain.invariants[&FIRST], three);
         let scaled = strain.deformation.scale(graph, first);
         let second = cubic.scale(graph, minus_one).add(graph, &scaled);
         let mut twice = |with: &Tensor| -> Vec<Expr> {
@@ -156,7 +231,39 @@ impl Motion {
         let log_volume = self.contract_second_gradient(graph, &transposed);
         let volume = log_volume.iter().map(|slope| graph.mul(strain.jacobian, *slope)).collect();
         self.log_volume_gradient = log_volume;
-        self.invariant_gradients = [first, second, volume];
+        self.invariant_gradients =
+            BTreeMap::from([(FIRST, first), (SECOND, second), (VOLUME, volume)]);
+    }
+
+    /// I4,J = 2 (F a0)_m a0_K u_m,KJ + 2 ((C - I) a0)_K a0_K,J.
+    fn contract_fibre(&mut self, graph: &mut Graph) {
+        let (Some(fibre), Some(turning)) = (&self.strain.fibre, &self.fibre_gradient) else {
+            return;
+        };
+        let dimension = fibre.reference.len();
+        let stretching = Tensor::outer(graph, &fibre.present, &fibre.reference);
+        let stretching = self.contract_second_gradient(graph, &stretching);
+        let image = self.strain.right.apply(graph, &fibre.reference);
+        let gradient = (0..dimension)
+            .map(|axis| {
+                let pairs =
+                    image.iter().enumerate().map(|(k, image)| (*image, turning.at(k, axis)));
+                let turned = dot(graph, pairs);
+                let half = graph.add(stretching[axis], turned);
+                graph.scale(half, 2)
+            })
+            .collect();
+        self.invariant_gradients.insert(FIBRE, gradient);
+    }
+
+    /// (tr eps),J = u_K,KJ and (eps:eps),J = 2 eps_mK u_m,KJ.
+    fn contract_small_strain(&mut self, graph: &mut Graph) {
+        let identity = Tensor::identity(graph, self.displacement.len());
+        let trace = self.contract_second_gradient(graph, &identity);
+        let strain = self.strain.small(graph);
+        let half = self.contract_second_gradient(graph, &strain);
+        let square = half.into_iter().map(|component| graph.scale(component, 2)).collect();
+        self.invariant_gradients = BTreeMap::from([(SMALL_TRACE, trace), (SMALL_SQUARE, square)]);
     }
 
     /// d2u_i / dX_J dX_J.
@@ -177,6 +284,13 @@ impl Motion {
             })
             .collect()
     }
+}
+
+/// A_K,J of a vector field A.
+fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
+    let columns: Vec<Vec<Expr>> =
+        (0..vector.len()).map(|axis| derivative(graph, vector, Symbol::Coordinate(axis))).collect();
+    Tensor::from_fn(vector.len(), |row, column| columns[column][row])
 }
 
 fn derivative(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {

@@ -1,19 +1,15 @@
-//! Isotropic hyperelasticity: stress and its divergence from a strain-energy density W(I1, I2, J).
+//! Hyperelasticity: everything about stress follows from a strain-energy density W.
 //!
-//! With C = F^T F and the 3-D invariants I1 = tr C, I2 = ((tr C)^2 - tr C^2)/2, J = det F,
-//!
-//! ```text
-//! P = dW/dF = alpha F + beta F C + gamma F^-T,
-//! alpha = 2 (W_1 + I1 W_2),  beta = -2 W_2,  gamma = J W_J
-//! ```
-//!
-//! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6; the
-//! dimensions that a field lacks contribute a stretch of one). W is held as a function of
-//! i1 = I1 - 3, i2 = I2 - 3 and j = J - 1, which are formed from H without cancellation.
+//! What the two kinds of strain have in common stands here; [`finite`] has the algebra of F, and
+//! [`small_strain`] that of eps = (H + H^T)/2. The dimensions that a field lacks contribute a
+//! stretch of one.
 
 use std::collections::BTreeMap;
 
-use super::kinematics::{Motion, Strain, total};
+use super::finite::{self, Finite};
+use super::invariant::Kind;
+use super::kinematics::{Motion, Strain};
+use super::small_strain::{self, SmallStrain};
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
@@ -21,187 +17,194 @@ use crate::pass::factor::factor;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 
-/// i1 = I1 - 3.
-pub const FIRST: Symbol = Symbol::Invariant(0);
-/// i2 = I2 - 3.
-pub const SECOND: Symbol = Symbol::Invariant(1);
-/// j = J - 1.
-pub const VOLUME: Symbol = Symbol::Invariant(2);
-const INVARIANTS: [Symbol; 3] = [FIRST, SECOND, VOLUME];
-
-/// A strain-energy density and the coefficients of its stress, as functions of i1, i2 and j.
+/// A strain-energy density and the coefficients of its stress, as functions of the invariants.
 #[derive(Clone, Debug)]
 pub struct Law {
     /// W.
     energy: Expr,
-    /// The coefficient of F.
-    alpha: Expr,
-    /// The coefficient of F C.
-    beta: Expr,
-    /// The coefficient of F^-T.
-    gamma: Expr,
-    /// The coefficients of I, C - I and (C - I)^2 in F^T P.
-    strain_form: [Expr; 3],
+    stress: Stress,
+}
+
+#[derive(Clone, Debug)]
+enum Stress {
+    Finite(Finite),
+    SmallStrain(SmallStrain),
 }
 
 impl Law {
-    /// From W.
-    pub fn new(graph: &mut Graph, energy: Expr) -> Self {
-        let slopes = INVARIANTS.map(|invariant| differentiate(graph, &[energy], invariant)[0]);
-        let [w1, w2, wj] = [0, 1, 2].map(|k| factor(graph, &[slopes[k]])[0]);
-        let [first, jacobian] = [(FIRST, 3), (VOLUME, 1)].map(|(invariant, at_identity)| {
-            let (shift, value) = (graph.symbol(invariant), graph.number(at_identity));
-            graph.add(shift, value)
-        });
-        let first_w2 = graph.mul(first, w2);
-        let alpha = graph.add(w1, first_w2);
-        let alpha = graph.scale(alpha, 2);
-        let beta = graph.scale(w2, -2);
-        let gamma = graph.mul(jacobian, wj);
-        // F^T P = alpha C + beta C^2 + gamma I, rearranged in powers of C - I.
-        let constant = total(graph, &[alpha, beta, gamma]);
-        let linear = graph.sum([(alpha, Rational::ONE), (beta, Rational::from(2))]);
-        let coefficients = factor(graph, &[alpha, beta, gamma, constant, linear]);
-        let [alpha, beta, gamma, constant, linear] = coefficients[..] else {
-            unreachable!("as many roots as were given")
+    /// From W, a density of that kind.
+    pub fn new(graph: &mut Graph, energy: Expr, kind: &Kind) -> Self {
+        let stress = match kind {
+            Kind::Isotropic | Kind::Fibrous(_) => {
+                Stress::Finite(Finite::new(graph, energy, kind.symbols()))
+            }
+            Kind::SmallStrain => Stress::SmallStrain(SmallStrain::new(graph, energy)),
         };
-        Law { energy, alpha, beta, gamma, strain_form: [constant, linear, beta] }
+        Law { energy, stress }
     }
 
     /// W at a strain.
     pub fn energy(&self, graph: &mut Graph, strain: &Strain) -> Expr {
-        self.at(graph, strain, &[self.energy])[0]
+        at(graph, strain, &[self.energy])[0]
     }
 
-    /// P = F^-T (s0 I + s1 (C - I) + s2 (C - I)^2): each term is small where the strain is.
+    /// P = dW/dF.
     pub fn first_piola_kirchhoff(&self, graph: &mut Graph, strain: &Strain) -> Tensor {
-        let stress = self.polynomial(graph, strain, &strain.right);
-        strain.inverse.transpose().mul(graph, &stress)
-    }
-
-    /// tau = s0 I + s1 (B - I) + s2 (B - I)^2 with B = F F^T: P F^T needs no inverse.
-    pub fn kirchhoff(&self, graph: &mut Graph, strain: &Strain) -> Tensor {
-        self.polynomial(graph, strain, &strain.left)
-    }
-
-    fn polynomial(&self, graph: &mut Graph, strain: &Strain, base: &Tensor) -> Tensor {
-        let coefficients = self.at(graph, strain, &self.strain_form);
-        let identity = Tensor::identity(graph, base.dimension());
-        let square = base.mul(graph, base);
-        let mut stress = identity.scale(graph, coefficients[0]);
-        for (power, coefficient) in [(base, coefficients[1]), (&square, coefficients[2])] {
-            let term = power.scale(graph, coefficient);
-            stress = stress.add(graph, &term);
+        match &self.stress {
+            Stress::Finite(law) => law.first_piola_kirchhoff(graph, strain),
+            Stress::SmallStrain(law) => law.first_piola_kirchhoff(graph, strain),
         }
-        stress
     }
 
-    /// Div P, linear in the second gradient of u, so that small strains lose nothing:
+    /// tau = P F^T.
+    pub fn kirchhoff(&self, graph: &mut Graph, strain: &Strain) -> Tensor {
+        match &self.stress {
+            Stress::Finite(law) => law.kirchhoff(graph, strain),
+            Stress::SmallStrain(law) => {
+                let stress = law.first_piola_kirchhoff(graph, strain);
+                stress.mul(graph, &strain.deformation.transpose())
+            }
+        }
+    }
+
+    /// Div P, linear in the second gradient of u, so that small strains lose nothing.
+    pub fn divergence(&self, graph: &mut Graph, motion: &Motion) -> Vec<Expr> {
+        match &self.stress {
+            Stress::Finite(law) => law.divergence(graph, motion),
+            Stress::SmallStrain(law) => law.divergence(graph, motion),
+        }
+    }
+
+    /// dP_iJ/dF_kL, in the order of the indices i, J, k, L, the last one fastest. With the
+    /// invariants I_a and their derivatives G_a = dI_a/dF it is
     ///
     /// ```text
-    /// (Div P)_i = alpha Lap u_i + F_iJ alpha,J + beta (F C)_iJ,J + (F C)_iJ beta,J
-    ///           + (gamma,J - gamma g_J) F^-1_Ji,      g_J = F^-1_Kk u_k,KJ = (ln J),J
+    /// dP_iJ/dF_kL = W_ab (G_a)_iJ (G_b)_kL + W_a d(G_a)_iJ/dF_kL
     /// ```
-    pub fn divergence(&self, graph: &mut Graph, motion: &Motion) -> Vec<Expr> {
-        let dimension = motion.displacement.len();
-        let strain = &motion.strain;
-        let laplacian = motion.laplacian(graph);
-        let log_volume = &motion.log_volume_gradient;
-        let right = {
-            let identity = Tensor::identity(graph, dimension);
-            identity.add(graph, &strain.right)
-        };
-        let cubic = strain.deformation.mul(graph, &right);
-        let invariants = &motion.invariant_gradients;
-        let roots = [self.alpha, self.beta, self.gamma];
-        let [alpha_slope, beta_slope, gamma_slope] =
-            roots.map(|root| self.gradient(graph, strain, root, invariants));
-        let values = self.at(graph, strain, &roots);
-        let (alpha, beta, gamma) = (values[0], values[1], values[2]);
-        let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
-        let pressure: Vec<Expr> = (0..dimension)
-            .map(|axis| {
-                let product = graph.mul(gamma, log_volume[axis]);
-                graph.sub(gamma_slope[axis], product)
+    pub fn tangent(&self, graph: &mut Graph, strain: &Strain) -> Vec<Expr> {
+        let (symbols, gradients): (Vec<Symbol>, Vec<_>) = match &self.stress {
+            Stress::Finite(_) => finite::gradients(graph, strain),
+            Stress::SmallStrain(_) => small_strain::gradients(graph, strain),
+        }
+        .into_iter()
+        .unzip();
+        let slopes = symbols.iter().map(|a| differentiate(graph, &[self.energy], *a)[0]);
+        let slopes: Vec<Expr> = slopes.collect();
+        let first = at(graph, strain, &slopes);
+        let second: Vec<Vec<Expr>> = symbols
+            .iter()
+            .map(|b| {
+                let curvatures = differentiate(graph, &slopes, *b);
+                at(graph, strain, &curvatures)
             })
             .collect();
-        (0..dimension)
-            .map(|row| {
-                let mut pairs = vec![(alpha, laplacian[row]), (beta, cubic_divergence[row])];
-                for axis in 0..dimension {
-                    pairs.push((strain.deformation.at(row, axis), alpha_slope[axis]));
-                    pairs.push((cubic.at(row, axis), beta_slope[axis]));
-                    pairs.push((strain.inverse.at(axis, row), pressure[axis]));
+        let dimension = strain.gradient.dimension();
+        let components = dimension * dimension;
+        (0..components * components)
+            .map(|place| {
+                let (row, column) = (place / components, place % components);
+                let mut terms = Vec::new();
+                for (a, gradient) in gradients.iter().enumerate() {
+                    terms.push((graph.mul(first[a], gradient.slopes[place]), Rational::ONE));
+                    let by_row = gradient.value.components()[row];
+                    for (b, other) in gradients.iter().enumerate() {
+                        let factors = [second[b][a], by_row, other.value.components()[column]];
+                        let term = graph.product(factors.map(|factor| (factor, Rational::ONE)));
+                        terms.push((term, Rational::ONE));
+                    }
                 }
-                dot(graph, pairs)
+                graph.sum(terms)
             })
             .collect()
     }
 
-    /// dP_11/dF_11 at F = I: rho0 times the square of the speed of a longitudinal wave, the
-    /// fastest in an isotropic solid.
-    pub fn longitudinal_modulus(&self, graph: &mut Graph) -> Expr {
+    /// rho0 times the square of the speed of the fastest wave at F = I: n.Q(n) n of the acoustic
+    /// tensor Q, for a longitudinal wave along n.
+    ///
+    /// In an isotropic solid no wave is faster. With fibres it is the greater of two, along the
+    /// fibres and across them. It is assumed that W is stiffest in one of these directions, and
+    /// against stretch rather than shear.
+    pub fn fastest_modulus(&self, graph: &mut Graph, kind: &Kind) -> Expr {
+        let Kind::Fibrous(_) = kind else { return self.longitudinal_modulus(graph, kind) };
+        let [along, across] = [1, 0].map(|component| {
+            let direction = vec![graph.number(component)];
+            self.longitudinal_modulus(graph, &Kind::Fibrous(direction))
+        });
+        // The greater of a and b is half of a + b + |a - b|.
+        let difference = graph.sub(along, across);
+        let square = graph.power(difference, 2);
+        let distance = graph.power(square, half());
+        graph.sum([along, across, distance].map(|term| (term, half())))
+    }
+
+    /// dP_11/dF_11 at F = I, of a stretch along the first axis.
+    fn longitudinal_modulus(&self, graph: &mut Graph, kind: &Kind) -> Expr {
         let stretch = Symbol::Gradient(0, 0);
         let component = graph.symbol(stretch);
         let gradient = Tensor::from_components(1, vec![component]);
-        let strain = Strain::new(graph, gradient, &Relations::default());
+        let strain = Strain::new(graph, gradient, kind, &Relations::default());
         let stress = self.first_piola_kirchhoff(graph, &strain).at(0, 0);
         let slope = differentiate(graph, &[stress], stretch);
         let zero = graph.number(0);
         substitute(graph, &slope, &BTreeMap::from([(stretch, zero)]))[0]
     }
+}
 
-    /// Functions of the invariants at a strain.
-    fn at(&self, graph: &mut Graph, strain: &Strain, roots: &[Expr]) -> Vec<Expr> {
-        let [first, second, volume] = strain.invariants;
-        let values = BTreeMap::from([(FIRST, first), (SECOND, second), (VOLUME, volume)]);
-        substitute(graph, roots, &values)
-    }
+fn half() -> Rational {
+    Rational::from_parts(1.into(), 2u8.into())
+}
 
-    /// The total gradient of a function of the invariants and, through graded parameters, of X.
-    fn gradient(
-        &self,
+/// The derivative of an invariant by F.
+pub(super) struct Gradient {
+    /// dI/dF_iJ.
+    pub value: Tensor,
+    /// d2I/dF_iJ dF_kL, in the order of the indices.
+    pub slopes: Vec<Expr>,
+}
+
+impl Gradient {
+    /// From the derivative and its own, `slope(i, J, k, L)`.
+    pub fn new(
         graph: &mut Graph,
-        strain: &Strain,
-        root: Expr,
-        invariants: &[Vec<Expr>; 3],
-    ) -> Vec<Expr> {
-        let slopes = INVARIANTS.map(|invariant| differentiate(graph, &[root], invariant)[0]);
-        let slopes = factor(graph, &slopes);
-        let slopes = self.at(graph, strain, &slopes);
-        (0..strain.gradient.dimension())
-            .map(|axis| {
-                let explicit = differentiate(graph, &[root], Symbol::Coordinate(axis))[0];
-                let explicit = self.at(graph, strain, &[explicit])[0];
-                let chained = dot(graph, (0..3).map(|k| (slopes[k], invariants[k][axis])));
-                graph.add(explicit, chained)
-            })
-            .collect()
+        value: Tensor,
+        mut slope: impl FnMut(&mut Graph, [usize; 4]) -> Expr,
+    ) -> Self {
+        let dimension = value.dimension();
+        let places = 0..dimension.pow(4);
+        let digit = |place: usize, position: u32| place / dimension.pow(position) % dimension;
+        let slopes = places
+            .map(|place| slope(graph, [3, 2, 1, 0].map(|position| digit(place, position))))
+            .collect();
+        Gradient { value, slopes }
     }
 }
 
-/// (F C)_iJ,J = u_i,JK C_KJ + F_iK (u_m,KJ F_mJ + F_mK Lap u_m).
-fn cubic_divergence(
+/// Functions of the invariants at a strain.
+pub(super) fn at(graph: &mut Graph, strain: &Strain, roots: &[Expr]) -> Vec<Expr> {
+    substitute(graph, roots, &strain.invariants)
+}
+
+/// The total gradient of a function of the invariants and, through graded parameters, of X.
+pub(super) fn gradient(
     graph: &mut Graph,
     motion: &Motion,
-    right: &Tensor,
-    laplacian: &[Expr],
+    root: Expr,
+    symbols: &[Symbol],
 ) -> Vec<Expr> {
-    let dimension = laplacian.len();
-    let deformation = &motion.strain.deformation;
-    let first = motion.contract_second_gradient(graph, deformation);
-    let transposed = deformation.transpose();
-    let inner: Vec<Expr> = (0..dimension)
-        .map(|k| {
-            let second = dot(graph, (0..dimension).map(|m| (transposed.at(k, m), laplacian[m])));
-            graph.add(first[k], second)
-        })
-        .collect();
-    (0..dimension)
-        .map(|i| {
-            let direct = motion.second_gradient[i].contract(graph, right);
-            let rotated = dot(graph, (0..dimension).map(|k| (deformation.at(i, k), inner[k])));
-            graph.add(direct, rotated)
+    let strain = &motion.strain;
+    let slopes: Vec<Expr> =
+        symbols.iter().map(|symbol| differentiate(graph, &[root], *symbol)[0]).collect();
+    let slopes = factor(graph, &slopes);
+    let slopes = at(graph, strain, &slopes);
+    (0..strain.gradient.dimension())
+        .map(|axis| {
+            let explicit = differentiate(graph, &[root], Symbol::Coordinate(axis))[0];
+            let explicit = at(graph, strain, &[explicit])[0];
+            let chained = symbols.iter().zip(&slopes);
+            let chained =
+                chained.map(|(symbol, slope)| (*slope, motion.invariant_gradients[symbol][axis]));
+            let chained = dot(graph, chained);
+            graph.add(explicit, chained)
         })
         .collect()
 }

@@ -1,5 +1,8 @@
 //! A field file with its names resolved: expressions instead of text.
 
+pub mod energy;
+
+use super::invariant::Kind;
 use super::rigid::{RigidMotion, Rotation};
 use crate::diagnostic::Diagnostic;
 use crate::expr::print::Names;
@@ -7,9 +10,8 @@ use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::quantity::Quantity;
 use crate::selection::Meanings;
-use crate::source::{Span, Spanned};
+use crate::source::Span;
 use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
-use crate::suggest::did_you_mean;
 use crate::syntax;
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
@@ -87,6 +89,12 @@ pub struct Model {
     pub arguments: Vec<Expr>,
     /// W, as a function of the material's invariants.
     pub energy: Expr,
+    /// Which invariants W is a function of, and the direction of the fibres.
+    pub kind: Kind,
+    /// a0 in space, where W is a function of I4.
+    pub fibre: Option<Vec<Expr>>,
+    /// Poisson's ratio, where the field gives it in place of the material's own moduli.
+    pub poisson: Option<Expr>,
     /// The reference body and the time window.
     pub domain: Domain,
     /// Closed forms from paper.
@@ -116,8 +124,11 @@ impl Model {
         let density = reader.formula(&field.material.density);
         reader.independent_of_time(density, &field.material.density, "density");
         reader.positive(density, &field.material.density);
-        let arguments = reader.arguments(field);
+        let mut arguments = reader.arguments(field);
+        let poisson = material.and_then(|material| reader.poisson(field, material, &mut arguments));
         let energy = material.and_then(|material| reader.energy(field, material, &arguments));
+        let fibre = reader.fibre(field, material);
+        let kind = material.and_then(|material| reader.kind(field, material, fibre.as_deref()));
         let domain = reader.domain(&field.domain);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
@@ -129,6 +140,9 @@ impl Model {
             density: density?,
             arguments: arguments.into_iter().collect::<Option<_>>()?,
             energy: energy?,
+            kind: kind?,
+            fibre: fibre.filter(|_| material.is_some_and(MaterialSpec::has_fibres)),
+            poisson,
             domain: domain?,
             checks: checks.into_iter().collect::<Option<_>>()?,
             rigid: match rigid {
@@ -260,107 +274,6 @@ impl Reader<'_> {
         }
     }
 
-    /// The arguments of the material, in the field's terms.
-    fn arguments(&mut self, field: &FieldSpec) -> Vec<Option<Expr>> {
-        let arguments = field.material.arguments.iter();
-        arguments
-            .map(|(name, formula)| {
-                let value = self.formula(formula);
-                let what = format!("material parameter `{}`", name.value);
-                self.independent_of_time(value, formula, &what);
-                value
-            })
-            .collect()
-    }
-
-    /// The density of the material, in terms of the invariants and of the arguments.
-    fn energy(
-        &mut self,
-        field: &FieldSpec,
-        material: &MaterialSpec,
-        arguments: &[Option<Expr>],
-    ) -> Option<Expr> {
-        let mut inner = Scope::default();
-        if material.incomplete {
-            inner.tolerate_unknown_names();
-        }
-        let pi = self.graph.pi();
-        inner.define("pi", Some(pi));
-        self.invariants(&mut inner);
-        let known: Vec<&str> =
-            material.parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
-        let mut complete = true;
-        for ((name, _), value) in field.material.arguments.iter().zip(arguments) {
-            complete &= value.is_some();
-            if known.contains(&name.value.as_str()) {
-                inner.define(&name.value, *value);
-            } else if !material.incomplete {
-                complete = false;
-                self.unknown_argument(field, name, &known);
-            }
-        }
-        for parameter in &material.parameters {
-            let name = &parameter.name.value;
-            if field.material.arguments.iter().any(|(given, _)| given.value == *name) {
-                continue;
-            }
-            complete = false;
-            inner.define(name, None);
-            if field.incomplete {
-                continue;
-            }
-            let model = &field.material.model;
-            let what = parameter.doc.as_deref().unwrap_or("no description");
-            let message = format!("material parameter `{name}` of `{}` is missing", model.value);
-            self.diagnostics.push(
-                Diagnostic::error(model.span, message)
-                    .label(format!("needs `{name}`: {what}"))
-                    .help(format!("add `{name} = \"...\"` under [material]")),
-            );
-        }
-        let outer = std::mem::replace(&mut self.scope, inner);
-        for definition in &material.lets {
-            self.scope.announce(&definition.name);
-        }
-        self.definitions(&material.lets, &mut Names::default());
-        let energy = self.formula(&material.strain_energy);
-        for stray in &material.stray {
-            syntax::parse(stray, self.diagnostics);
-        }
-        self.scope = outer;
-        energy.filter(|_| complete)
-    }
-
-    fn unknown_argument(&mut self, field: &FieldSpec, name: &Spanned<String>, known: &[&str]) {
-        let model = &field.material.model.value;
-        let message = format!("`{}` is not a parameter of `{model}`", name.value);
-        let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
-        self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
-        });
-    }
-
-    /// I1, I2, I3 and J in terms of their departures from the undeformed state.
-    fn invariants(&mut self, scope: &mut Scope) {
-        use super::material::{FIRST, SECOND, VOLUME};
-        for (name, symbol, at_identity) in [("I1", FIRST, 3), ("I2", SECOND, 3), ("J", VOLUME, 1)] {
-            let (shift, constant) = (self.graph.symbol(symbol), self.graph.number(at_identity));
-            let invariant = self.graph.add(constant, shift);
-            scope.define(name, Some(invariant));
-            if name == "J" {
-                let square = self.graph.power(invariant, 2);
-                scope.define("I3", Some(square));
-            }
-        }
-        for name in ["I4", "eps_trace", "eps_squared"] {
-            scope.withhold(name, "densities are functions of I1, I2, I3 and J");
-        }
-        for name in AXES.iter().chain(&["t"]) {
-            scope.withhold(name, "a material knows no place and no time; a field's parameters may");
-        }
-    }
-
     fn domain(&mut self, domain: &spec::DomainSpec) -> Option<Domain> {
         // Everything is resolved before anything may be missing: each formula reports its mistakes.
         let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
@@ -453,9 +366,8 @@ impl Reader<'_> {
         components.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
     }
 
-    /// Formulas that no quantity depends on: a fibre, extremes, and those of keys that were refused.
+    /// Formulas that no quantity depends on: extremes, and those of keys that were refused.
     fn variations(&mut self, field: &FieldSpec) {
-        self.formulas(field.material.fibre.as_deref().unwrap_or_default());
         for (_, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
             self.constant(value);
         }

@@ -76,8 +76,14 @@ impl Tensor {
 
     /// `A v`.
     pub fn apply(&self, graph: &mut Graph, vector: &[Expr]) -> Vec<Expr> {
-        let row = |row: usize| vector.iter().enumerate().map(move |(k, v)| (self.at(row, k), *v));
-        (0..self.dimension).map(|i| dot(graph, row(i))).collect()
+        (0..self.dimension)
+            .map(|row| dot(graph, vector.iter().enumerate().map(|(k, v)| (self.at(row, k), *v))))
+            .collect()
+    }
+
+    /// The outer product of two vectors, whose components are `v_row w_column`.
+    pub fn outer(graph: &mut Graph, v: &[Expr], w: &[Expr]) -> Self {
+        Self::from_fn(v.len(), |row, column| graph.mul(v[row], w[column]))
     }
 
     /// The trace.

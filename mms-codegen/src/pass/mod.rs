@@ -2,6 +2,7 @@
 //! first; none recurses.
 
 pub mod differentiate;
+pub mod expand;
 pub mod factor;
 pub mod nest;
 mod polynomial;

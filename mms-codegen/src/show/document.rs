@@ -12,6 +12,7 @@ use super::walk::{Notation, write};
 use crate::compile::Compiled;
 use crate::expr::{Expr, Graph};
 use crate::mechanics::TooLarge;
+use crate::mechanics::invariant::Kind;
 use crate::program::{Output, Stage};
 use crate::quantity::Quantity;
 use crate::spec::Formula;
@@ -48,7 +49,9 @@ pub struct Material {
     pub name: String,
     /// What it is, in a few words.
     pub title: String,
-    /// W in the parameters of the material and in I1, I2 and J, after the parts that it is put
+    /// Which invariants W is a function of.
+    pub kind: Kind,
+    /// W in the parameters of the material and in the invariants, after the parts that it is put
     /// together from.
     pub energy: Vec<Line>,
     /// What the arguments and the density use that is no definition of the field.
@@ -171,6 +174,7 @@ impl Listing {
         Material {
             name: spec.model.value.clone(),
             title: compiled.material.title.clone(),
+            kind: compiled.model.kind.clone(),
             energy: energy.map(|energy| self.alone("W", energy)).unwrap_or_default(),
             whereby,
             arguments,

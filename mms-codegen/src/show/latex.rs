@@ -199,9 +199,15 @@ fn stem(name: &Name) -> (String, &str) {
 
 fn label(along: Along) -> &'static str {
     match along {
-        Along::FirstInvariant => "I_1",
-        Along::SecondInvariant => "I_2",
-        Along::Coordinate(_) | Along::Time | Along::Jacobian => along.label(),
+        Along::Coordinate(_) | Along::Time => along.label(),
+        Along::Invariant(_) => match along.label() {
+            "I1" => "I_1",
+            "I2" => "I_2",
+            "I4" => "I_4",
+            "eps_trace" => r"\mathrm{tr}\,\varepsilon",
+            "eps_squared" => r"\varepsilon:\varepsilon",
+            other => other,
+        },
     }
 }
 

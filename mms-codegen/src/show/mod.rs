@@ -14,9 +14,11 @@ mod abbreviate;
 mod balance;
 mod document;
 mod energy;
+mod fibres;
 mod motion;
 mod page;
 mod reading;
+mod small_strain;
 mod stress;
 
 pub mod language;

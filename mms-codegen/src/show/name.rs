@@ -3,17 +3,14 @@
 use std::collections::BTreeSet;
 
 use crate::expr::Symbol;
+use crate::mechanics::invariant::INVARIANTS;
 use crate::quantity::{Quantity, Shape};
 
 /// What a derivative is taken by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Along {
-    /// The first invariant of C.
-    FirstInvariant,
-    /// The second invariant of C.
-    SecondInvariant,
-    /// The Jacobian.
-    Jacobian,
+    /// The invariant of that position in [`INVARIANTS`].
+    Invariant(usize),
     /// A reference coordinate: 0 is X.
     Coordinate(usize),
     /// The time.
@@ -28,9 +25,7 @@ impl Along {
             Along::Coordinate(1) => "Y",
             Along::Coordinate(_) => "Z",
             Along::Time => "t",
-            Along::FirstInvariant => "I1",
-            Along::SecondInvariant => "I2",
-            Along::Jacobian => "J",
+            Along::Invariant(position) => INVARIANTS[position].name,
         }
     }
 
@@ -39,7 +34,7 @@ impl Along {
         match self {
             Along::Coordinate(axis) => Some(Symbol::Coordinate(axis)),
             Along::Time => Some(Symbol::Time),
-            Along::FirstInvariant | Along::SecondInvariant | Along::Jacobian => None,
+            Along::Invariant(_) => None,
         }
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     for section in &document.sections {
         blocks.push(Block::Heading {
             name: section.quantity.name(),
-            relation: Some(relation(section.quantity)),
+            relation: Some(relation(section.quantity, &document.material.kind)),
             note: None,
             operations: Some(operations(section)),
         });

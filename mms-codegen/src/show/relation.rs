@@ -1,5 +1,6 @@
 //! What each quantity is, as a person writes it: declared once, set by every notation.
 
+use crate::mechanics::invariant::Kind;
 use crate::quantity::Quantity;
 
 /// A part of a relation between vectors and tensors.
@@ -31,9 +32,14 @@ const EQUALS: Part = Sign("=");
 const MINUS: Part = Sign("-");
 const RHO: Part = Scalar("rho");
 const RHO0: Part = Scalar("rho0");
+const COMMA: Part = Sign(",");
+const INVARIANTS: &[Part] = &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J")];
+const OF_FIBRES: &[Part] =
+    &[Scalar("I1"), COMMA, Scalar("I2"), COMMA, Scalar("J"), COMMA, Scalar("I4")];
+const SMALL: &[Part] = &[Tensor("epsilon")];
 
-/// The definition of a quantity.
-pub fn relation(quantity: Quantity) -> &'static [Part] {
+/// The definition of a quantity, for a density of that kind.
+pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
     match quantity {
         Quantity::Displacement => {
             const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
@@ -55,11 +61,11 @@ pub fn relation(quantity: Quantity) -> &'static [Part] {
             &[Scalar("2"), Tensor("E"), EQUALS, Tensor("C"), MINUS, Tensor("I")]
         }
         Quantity::MassDensity => &[RHO, EQUALS, Over(&[RHO0], &[Scalar("J")])],
-        Quantity::StrainEnergy => {
-            const ARGUMENTS: &[Part] =
-                &[Scalar("I1"), Sign(","), Scalar("I2"), Sign(","), Scalar("J")];
-            &[Scalar("W"), EQUALS, Function("W", ARGUMENTS)]
-        }
+        Quantity::StrainEnergy => match kind {
+            Kind::Isotropic => &[Scalar("W"), EQUALS, Function("W", INVARIANTS)],
+            Kind::Fibrous(_) => &[Scalar("W"), EQUALS, Function("W", OF_FIBRES)],
+            Kind::SmallStrain => &[Scalar("W"), EQUALS, Function("W", SMALL)],
+        },
         Quantity::FirstPiolaKirchhoff => {
             &[Tensor("P"), EQUALS, Partial(&Scalar("W"), &Tensor("F"))]
         }

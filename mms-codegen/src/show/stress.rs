@@ -1,10 +1,10 @@
 //! Stress, its divergence and the body force, in terms of the named components of F.
 //!
-//! With P = alpha F + beta F C + W,J cof F, alpha = 2 (W,I1 + I1 W,I2) and beta = -2 W,I2, and since
-//! the divergence of cof F vanishes (the Piola identity),
+//! With P = alpha F + beta F C + W,J cof F + 2 W,I4 (F a0) x a0, alpha = 2 (W,I1 + I1 W,I2) and
+//! beta = -2 W,I2, and since the divergence of cof F vanishes (the Piola identity),
 //!
 //! ```text
-//! (Div P)_i = (alpha F_iJ + beta (F C)_iJ),J + cof F_iJ (W,J),J
+//! (Div P)_i = (alpha F_iJ + beta (F C)_iJ + 2 W,I4 (F a0)_i a0_J),J + cof F_iJ (W,J),J
 //! ```
 //!
 //! See Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6. In
@@ -12,12 +12,21 @@
 
 use super::balance::{balance, current, density, measures, traction};
 use super::energy::Energy;
+use super::fibres::Fibres;
 use super::motion::{Formulas, Quantities};
 use super::name::{Along, Name};
 use super::reading::Reading;
+use super::small_strain;
 use crate::compile::Compiled;
 use crate::expr::{Expr, Rational};
+use crate::mechanics::invariant::Kind;
 use crate::quantity::Quantity;
+
+/// The positions of the invariants in their list.
+pub(super) const I1: usize = 0;
+pub(super) const I2: usize = 1;
+pub(super) const J: usize = 2;
+pub(super) const I4: usize = 3;
 
 /// Adds J and everything that follows from W and the density.
 pub(super) fn derive(
@@ -28,9 +37,11 @@ pub(super) fn derive(
 ) {
     let density = density(reading, compiled, formulas);
     let energy = Energy::read(reading, compiled, formulas);
-    let solid = match quantities.dimension {
-        1 => line(reading, compiled, quantities, &energy),
-        _ => space(reading, compiled, quantities, &energy),
+    let fibres = Fibres::read(reading, compiled, formulas, quantities);
+    let solid = match (&compiled.model.kind, quantities.dimension) {
+        (Kind::SmallStrain, _) => small_strain::derive(reading, compiled, quantities, &energy),
+        (_, 1) => line(reading, compiled, quantities, &energy, fibres.as_ref()),
+        _ => space(reading, compiled, quantities, &energy, fibres.as_ref()),
     };
     measures(reading, compiled, quantities);
     quantities.add(reading, compiled, Quantity::DivP, &solid);
@@ -45,6 +56,7 @@ fn line(
     compiled: &Compiled,
     quantities: &mut Quantities,
     energy: &Energy,
+    fibres: Option<&Fibres>,
 ) -> Vec<Expr> {
     let stretch = quantities.component(reading, Quantity::DeformationGradient, 0);
     quantities.add(reading, compiled, Quantity::Jacobian, &[stretch]);
@@ -54,21 +66,27 @@ fn line(
     let first = graph.add(square, two);
     let double = graph.scale(square, 2);
     let second = graph.add(double, one);
-    // dI1/dF = 2 F, dI2/dF = 4 F, dJ/dF = 1.
+    // dI1/dF = 2 F, dI2/dF = 4 F, dJ/dF = 1, dI4/dF = 2 F a0_1^2.
     let (twice, fourfold) = (graph.scale(stretch, 2), graph.scale(stretch, 4));
-    let values = [first, second, stretch];
-    let slopes = energy.slopes(reading);
-    let chained: Vec<_> = slopes
-        .into_iter()
-        .zip([twice, fourfold, one])
-        .map(|(slope, inner)| {
-            let slope = energy.at(reading, slope, values);
+    let mut values = vec![(I1, first), (I2, second), (J, stretch)];
+    let mut inner = vec![twice, fourfold, one];
+    if let Some(fibres) = fibres {
+        let along = reading.graph.power(fibres.direction[0], 2);
+        values.push((I4, fibres.stretch));
+        inner.push(reading.graph.mul(twice, along));
+    }
+    let chained: Vec<_> = values
+        .iter()
+        .zip(inner)
+        .map(|((invariant, _), inner)| {
+            let slope = energy.slope(reading, *invariant);
+            let slope = energy.at(reading, slope, &values);
             (reading.graph.mul(slope, inner), Rational::ONE)
         })
         .collect();
     let stress = reading.graph.sum(chained);
     let stress = reading.tidy(stress);
-    let energy = energy.at(reading, energy.value, values);
+    let energy = energy.at(reading, energy.value, &values);
     quantities.add(reading, compiled, Quantity::StrainEnergy, &[energy]);
     quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, &[stress]);
     let divergence = reading.derivative(stress, Along::Coordinate(0));
@@ -81,45 +99,40 @@ fn space(
     compiled: &Compiled,
     quantities: &mut Quantities,
     energy: &Energy,
+    fibres: Option<&Fibres>,
 ) -> Vec<Expr> {
     let dimension = quantities.dimension;
     let deformation = quantities.components(reading, Quantity::DeformationGradient);
-    second_gradient(reading, quantities, &deformation);
-    let cofactors = cofactors(reading, &deformation, dimension);
-    let jacobian = jacobian(reading, compiled, quantities, &deformation, &cofactors);
-    let slopes = energy.slopes(reading);
-    let right = (!reading.graph.is_zero(slopes[1]))
+    let (cofactors, jacobian) = volume(reading, compiled, quantities, &deformation);
+    let by_second = energy.slope(reading, I2);
+    let right = (!reading.graph.is_zero(by_second))
         .then(|| quantities.symmetric(reading, Quantity::RightCauchyGreen));
-    let values = invariants(reading, &deformation, right.as_deref(), jacobian, dimension);
-    let whole = energy.at(reading, energy.value, values);
+    let mut values = invariants(reading, &deformation, right.as_deref(), jacobian, dimension);
+    values.extend(fibres.map(|fibres| (I4, fibres.stretch)));
+    let whole = energy.at(reading, energy.value, &values);
     quantities.add(reading, compiled, Quantity::StrainEnergy, &[whole]);
-    let alongs = [Along::FirstInvariant, Along::SecondInvariant, Along::Jacobian];
-    let [w1, w2, wj] = [0, 1, 2].map(|k| {
-        let slope = energy.at(reading, slopes[k], values);
-        let name = Name::plain("W").derivative(alongs[k]);
-        match alongs[k] {
-            // It stands beside a cofactor in every component, and is differentiated.
-            Along::Jacobian if !reading.is_leaf(slope) => reading.helper(name, slope, "derived"),
-            _ => reading.named(name, slope, "derived"),
-        }
-    });
+    let [w1, w2, wj] = [I1, I2, J].map(|invariant| slope(reading, energy, invariant, &values));
     let graph = &mut reading.graph;
-    let scaled = graph.mul(values[0], w2);
+    let scaled = graph.mul(values[0].1, w2);
     let alpha = graph.add(w1, scaled);
     let alpha = graph.scale(alpha, 2);
     let beta = graph.scale(w2, -2);
     let cubic = right.map(|right| matrix_product(reading, &deformation, &right, dimension));
+    let pull = fibres.map(|fibres| {
+        let slope = slope(reading, energy, I4, &values);
+        (fibres, reading.graph.scale(slope, 2))
+    });
     let shear: Vec<Expr> = (0..deformation.len())
         .map(|k| {
             let graph = &mut reading.graph;
-            let linear = graph.mul(alpha, deformation[k]);
-            match &cubic {
-                Some(cubic) => {
-                    let term = graph.mul(beta, cubic[k]);
-                    graph.add(linear, term)
-                }
-                None => linear,
-            }
+            let mut terms = vec![graph.mul(alpha, deformation[k])];
+            terms.extend(cubic.as_ref().map(|cubic| graph.mul(beta, cubic[k])));
+            terms.extend(pull.map(|(fibres, pull)| {
+                let (present, direction) =
+                    (fibres.present[k / dimension], fibres.direction[k % dimension]);
+                graph.product([pull, present, direction].map(|factor| (factor, Rational::ONE)))
+            }));
+            graph.sum(terms.into_iter().map(|term| (term, Rational::ONE)))
         })
         .collect();
     let stress: Vec<Expr> = (0..deformation.len())
@@ -131,6 +144,36 @@ fn space(
         .collect();
     quantities.add(reading, compiled, Quantity::FirstPiolaKirchhoff, &stress);
     divergence(reading, &shear, &cofactors, wj, dimension)
+}
+
+/// The derivative of W by an invariant, by name where that is shorter.
+pub(super) fn slope(
+    reading: &mut Reading,
+    energy: &Energy,
+    invariant: usize,
+    values: &[(usize, Expr)],
+) -> Expr {
+    let slope = energy.slope(reading, invariant);
+    let slope = energy.at(reading, slope, values);
+    let name = Name::plain("W").derivative(Along::Invariant(invariant));
+    // W_J stands beside a cofactor in every component, and is differentiated.
+    if invariant == J && !reading.is_leaf(slope) {
+        return reading.helper(name, slope, "derived");
+    }
+    reading.named(name, slope, "derived")
+}
+
+/// cof F, and J by name, of a plane or of space.
+pub(super) fn volume(
+    reading: &mut Reading,
+    compiled: &Compiled,
+    quantities: &mut Quantities,
+    deformation: &[Expr],
+) -> (Vec<Expr>, Expr) {
+    second_gradient(reading, quantities, deformation);
+    let cofactors = cofactors(reading, deformation, quantities.dimension);
+    let jacobian = jacobian(reading, compiled, quantities, deformation, &cofactors);
+    (cofactors, jacobian)
 }
 
 fn divergence(
@@ -219,20 +262,21 @@ fn jacobian(
     leaf
 }
 
-/// I1 and I2 by name, where the dimensions that a plane lacks contribute stretches of one, and J.
+/// I1 and I2 by name, where the dimensions that a plane lacks contribute stretches of one, and J. I2
+/// is left out where W is no function of it.
 fn invariants(
     reading: &mut Reading,
     deformation: &[Expr],
     right: Option<&[Expr]>,
     jacobian: Expr,
     dimension: usize,
-) -> [Expr; 3] {
+) -> Vec<(usize, Expr)> {
     let squares: Vec<_> = deformation.iter().map(|component| (*component, *component)).collect();
     let sum = dot(reading, squares);
     let missing = reading.graph.number(i32::from(dimension == 2));
     let first = reading.graph.add(sum, missing);
     let first = reading.named(Name::plain("I1"), first, "derived");
-    let Some(right) = right else { return [first, first, jacobian] };
+    let Some(right) = right else { return vec![(I1, first), (J, jacobian)] };
     // I2 = ((tr C)^2 - tr C^2)/2.
     let squares: Vec<_> = right.iter().map(|component| (*component, *component)).collect();
     let contracted = dot(reading, squares);
@@ -242,7 +286,7 @@ fn invariants(
     let half = Rational::from_parts(1.into(), 2u8.into());
     let second = graph.sum([(square, half.clone()), (contracted, -half)]);
     let second = reading.named(Name::plain("I2"), second, "derived");
-    [first, second, jacobian]
+    vec![(I1, first), (I2, second), (J, jacobian)]
 }
 
 /// The sum of products.

@@ -182,7 +182,7 @@ pub const MATERIAL: &[Key] = &[
     optional(
         "fibre",
         Holds::Formulas(Length::Exactly(3)),
-        "The unit reference direction of the fibres of a material that uses I4.",
+        "The unit reference direction, in space, of the fibres of a material that uses I4.",
     ),
 ];
 
@@ -317,7 +317,7 @@ pub const MATERIAL_HEADER: &[Key] = &[
     required(
         "strain_energy",
         Holds::Formula,
-        "The strain-energy density W per reference volume, in I1, I2, I3, J and the parameters.",
+        "W per reference volume, in I1, I2, I3, J and I4, or in eps_trace and eps_squared.",
     ),
     optional(
         "frame_indifferent",

@@ -3,12 +3,14 @@
 use super::document::Document;
 use super::format::{self, MATERIAL, MATERIAL_FILE, MATERIAL_HEADER};
 use super::formula::Formula;
+use super::moduli::Pair;
 use super::names::{Keeper, Names};
 use super::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
 use super::table::{Entry, Reader, Table};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::did_you_mean;
+use crate::syntax::{self, Kind};
 
 /// Which material a field uses, and with what in the place of its parameters.
 #[derive(Clone, Debug)]
@@ -43,6 +45,8 @@ pub struct MaterialSpec {
     pub parameters: Vec<MaterialParameter>,
     /// The definitions, in order.
     pub lets: Vec<LetSpec>,
+    /// The pair of moduli that the field gives in place of the file's own.
+    pub moduli: Option<Pair>,
     /// Formulas that have lost their place to a reported mistake.
     pub stray: Vec<Formula>,
     /// Whether TOML lost part of the file: an unknown name may be a consequence of that.
@@ -54,6 +58,24 @@ impl MaterialSpec {
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         let lets = self.lets.iter().map(|definition| &definition.value);
         lets.chain([&self.strain_energy]).chain(&self.stray)
+    }
+
+    /// Where the file uses one of some names first.
+    pub fn first_use(&self, names: &[&str]) -> Option<Spanned<String>> {
+        self.formulas().find_map(|formula| {
+            let ast = syntax::parse(formula, &mut Vec::new())?;
+            ast.nodes.iter().find_map(|node| match &node.kind {
+                Kind::Name(name) if names.contains(&name.as_str()) => {
+                    Some(Spanned { value: name.clone(), span: node.span })
+                }
+                _ => None,
+            })
+        })
+    }
+
+    /// Whether W is a function of I4: then the field gives the direction of the fibres.
+    pub fn has_fibres(&self) -> bool {
+        self.first_use(&["I4"]).is_some()
     }
 }
 
@@ -157,6 +179,7 @@ pub fn read_material(
         frame_indifferent: true,
         parameters: parameters.unwrap_or_default(),
         lets: definitions.unwrap_or_default(),
+        moduli: None,
         stray: Vec::new(),
         incomplete: document.incomplete,
     };

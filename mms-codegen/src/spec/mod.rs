@@ -18,6 +18,7 @@ pub mod field_name;
 pub mod format;
 mod formula;
 mod material;
+pub mod moduli;
 pub mod names;
 mod rigid;
 mod study;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use mms_codegen::expr::Graph;
+use mms_codegen::pass::expand::expand;
 use mms_codegen::pass::factor::factor;
 use mms_codegen::pass::nest::nest;
 use mms_codegen::pass::reduce::reduce;
@@ -21,10 +22,12 @@ proptest! {
         let mut graph = Graph::default();
         let root = built(&mut graph, &recipe)?;
         let relations = Relations::find(&mut graph, &[root]);
+        let symbols: Vec<_> = graph.symbols(root).into_iter().collect();
         let mut written = vec![
             factor(&mut graph, &[root]),
             nest(&mut graph, &[root], &lateness),
             reduce(&mut graph, &[root], &relations),
+            expand(&mut graph, &[root], &symbols),
         ];
         if let Some(thorough) = relations.thorough() {
             written.push(reduce(&mut graph, &[root], &thorough));

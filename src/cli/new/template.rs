@@ -131,7 +131,7 @@ impl Template<'_> {
             "parameters" => self.parameters(),
             "arguments" => self.arguments(),
             "model" => self.material.name.clone(),
-            "materials" => MATERIALS.iter().map(|(stem, _)| *stem).collect::<Vec<_>>().join(", "),
+            "materials" => materials(),
             "shapes" => SHAPES.join(" "),
             "integrators" => INTEGRATORS.join(" "),
             "formulations" => FORMULATIONS.join(" "),
@@ -157,8 +157,9 @@ impl Template<'_> {
     fn parameters(&self) -> String {
         let lines = self.material.parameters.iter().map(|parameter| {
             let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
-            // Any positive number will do: the user knows the body, the template does not.
-            let value = if unit == Some("Pa") { "1e6" } else { "1" };
+            // Any positive number will do, if it is no limit of strain that the motion would reach:
+            // the user knows the body, the template does not.
+            let value = if unit == Some("Pa") { "1e6" } else { "10" };
             let mut line = format!("{:<9} = {{ value = {value}", renamed(&parameter.name.value));
             for (key, text) in [("unit", unit), ("doc", parameter.doc.as_deref())] {
                 if let Some(text) = text {
@@ -175,8 +176,17 @@ impl Template<'_> {
             let name = &parameter.name.value;
             format!("{name:<7} = \"{}\"", renamed(name))
         });
-        lines.collect::<Vec<_>>().join("\n")
+        let fibre = self.material.has_fibres().then(|| "fibre   = [1, 0, 0]".to_string());
+        lines.chain(fibre).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// The shipped materials, in lines of a comment.
+fn materials() -> String {
+    let stems: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
+    let lines: Vec<_> =
+        stems.chunks(4).map(|stems| format!("#     {}", stems.join(", "))).collect();
+    lines.join("\n")
 }
 
 /// The tags of a line, and the line without them.

@@ -5,12 +5,12 @@ def number(expression, arguments):
 
 def motion(X, t):
     """u, v, a, H and the second derivatives u_i,JK as functions of X and t."""
-    u, density, arguments = field(*X, t)
+    u, density, arguments, fibre = field(*X, t)
     v = [diff(component, t) for component in u]
     a = [diff(component, t) for component in v]
     H = [[diff(component, x) for x in X] for component in u]
     second = [[[diff(slope, x) for x in X] for slope in row] for row in H]
-    return number([u, v, a, H, second, density], [*X, t]), arguments
+    return number([u, v, a, H, second, density], [*X, t]), arguments, fibre
 
 
 def determinant(F):
@@ -22,7 +22,7 @@ def determinant(F):
     return sum(F[0, j] * cofactor(j) for j in range(3))
 
 
-def response(X, arguments):
+def response(X, arguments, fibre):
     """J, W, P = dW/dF, dP/dF and the explicit dP_iJ/dX_K as functions of X and F.
 
     W is that of a body in space. The diagonal entries of F that the field lacks are 1.
@@ -34,7 +34,11 @@ def response(X, arguments):
     I1 = C.trace()
     I2 = (I1**2 - (C * C).trace()) / 2
     J = determinant(space)
-    W = strain_energy(I1, I2, J**2, J, **arguments)
+    stretched = space * Matrix(fibre)
+    I4 = stretched.dot(stretched)
+    H = space - eye(3)
+    small = (H + H.T) / 2
+    W = strain_energy(I1, I2, J**2, J, I4, small.trace(), (small * small).trace(), **arguments)
     P = [[diff(W, entry) for entry in row] for row in F]
     tangent = [[[[diff(P[i][j], entry) for entry in row] for row in F] for j in range(D)]
                for i in range(D)]
@@ -46,8 +50,8 @@ def derived(dimension):
     """A function from X and t to every quantity, a list of components each, rows first."""
     X = [Symbol(name, real=True) for name in "XYZ"[:dimension]]
     t = Symbol("t", real=True)
-    motion_at, arguments = motion(X, t)
-    response_at = response(X, arguments)
+    motion_at, arguments, fibre = motion(X, t)
+    response_at = response(X, arguments, fibre)
 
     def at(X, t, N):
         D = range(len(X))

@@ -79,7 +79,8 @@ fn field(compiled: &Compiled) -> String {
     let axes = ["X", "Y", "Z"][..field.dimension].join(", ");
     let mut lines = vec![format!("def field({axes}, t):")];
     lines.push(
-        "    \"\"\"The field file: u, rho0, and the parameters of the material.\"\"\"".into(),
+        "    \"\"\"The field file: u, rho0, the parameters of the material, the fibres.\"\"\""
+            .into(),
     );
     for parameter in &field.parameters {
         let (name, value) =
@@ -109,6 +110,12 @@ fn field(compiled: &Compiled) -> String {
         format!("            \"{}\": {},", inner.name(&name.value), translated(value, &names))
     }));
     lines.push("        },".into());
+    // A material without fibres does not look at their direction.
+    let fibre = match &field.material.fibre {
+        Some(fibre) => fibre.iter().map(|component| translated(component, &names)).collect(),
+        None => vec!["Integer(0)".to_string(); 3],
+    };
+    lines.push(format!("        [{}],", fibre.join(", ")));
     lines.push("    )\n".into());
     lines.join("\n")
 }
@@ -146,7 +153,8 @@ fn strain_energy(compiled: &Compiled) -> String {
     let parameters = material.parameters.iter();
     let parameters: String =
         parameters.map(|parameter| format!(", {}", names.name(&parameter.name.value))).collect();
-    let mut lines = vec![format!("def strain_energy(I1, I2, I3, J{parameters}):")];
+    let invariants = "I1, I2, I3, J, I4, eps_trace, eps_squared";
+    let mut lines = vec![format!("def strain_energy({invariants}{parameters}):")];
     lines.push(format!("    # {}: {}", comment(&material.name), comment(&material.title)));
     for definition in &material.lets {
         let value = translated(&definition.value, &names);

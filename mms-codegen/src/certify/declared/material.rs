@@ -1,0 +1,153 @@
+//! What a field declares about its material: looked at in points of the body, which is no proof.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::{AXES, Declared, digits};
+use crate::certify::sample::{Extent, halton};
+use crate::diagnostic::Diagnostic;
+use crate::expr::{Expr, Rational, Symbol};
+use crate::mechanics::model::energy::{INCOMPRESSIBLE, POISSON};
+use crate::mechanics::tensor::dot;
+use crate::pass::reduce::reduce;
+use crate::pass::relations::Relations;
+use crate::program::Output;
+use crate::program::interpret::{Interpreter, Point};
+use crate::program::precise::Precise;
+use crate::program::schedule::schedule;
+use crate::source::Span;
+
+/// At how many points of the body a material is looked at, beside the corners.
+pub const POINTS: usize = 128;
+
+/// A value that is not what it must be, and the point where it is not.
+struct Counterexample {
+    expr: Expr,
+    value: Precise,
+    /// Empty where the value is the same everywhere.
+    point: Vec<Precise>,
+}
+
+impl Declared<'_> {
+    /// Reports a density that is not positive.
+    pub(super) fn density(&mut self, extent: &Extent<Precise>) {
+        let density = self.model.density;
+        // A number is judged where it is read, and so is a density that changes in time.
+        if self.is_judged(density) {
+            return;
+        }
+        let zero = Precise::from_f64(0.0);
+        if let Some(found) = self.sought(extent, density, |value| !value.at_most(&zero)) {
+            let span = self.field.material.density.span;
+            let help = "the body force is per unit mass: b = a - Div P/rho0";
+            let diagnostic = Diagnostic::error(span, "the density must be positive");
+            self.refute(diagnostic, "this is", &found, help);
+        }
+    }
+
+    /// Reports a direction of fibres that is not a unit vector.
+    pub(super) fn fibre(&mut self, extent: &Extent<Precise>) {
+        let (Some(direction), Some(formulas)) = (&self.model.fibre, &self.field.material.fibre)
+        else {
+            return;
+        };
+        let graph = &mut self.graph;
+        let relations = Relations::find(graph, direction);
+        let pairs = direction.iter().map(|component| (*component, *component));
+        let square = dot(graph, pairs);
+        let square = reduce(graph, &[square], &relations)[0];
+        let is_one = graph.as_number(square).is_some_and(Rational::is_one);
+        if is_one || graph.symbols(square).contains(&Symbol::Time) {
+            return;
+        }
+        let length = graph.power(square, Rational::from_parts(1.into(), 2u8.into()));
+        let [one, rounding] = [1.0, 1e-60].map(Precise::from_f64);
+        let is_unit =
+            |value: &Precise| (value.clone() - one.clone()).magnitude().at_most(&rounding);
+        if let Some(found) = self.sought(extent, length, is_unit)
+            && let [first, .., last] = formulas.as_slice()
+        {
+            let span = Span { end: last.span.end, ..first.span };
+            let divisor = self.graph.print(length, &self.model.names);
+            let help = format!("divide each component by `{divisor}`");
+            let message = "the direction of the fibres must have the length 1";
+            self.refute(Diagnostic::error(span, message), "its length is", &found, &help);
+        }
+    }
+
+    /// Reports a ratio of Poisson's that no solid has, where the moduli are made of it.
+    pub(super) fn poisson(&mut self, extent: &Extent<Precise>) {
+        let Some(ratio) = self.model.poisson.filter(|ratio| !self.is_judged(*ratio)) else {
+            return;
+        };
+        let mut arguments = self.field.material.arguments.iter();
+        let Some((_, formula)) = arguments.find(|(name, _)| name.value == "nu") else { return };
+        let [least, greatest] = [-1.0, 0.5].map(Precise::from_f64);
+        let is_right = |value: &Precise| !value.at_most(&least) && !greatest.at_most(value);
+        if let Some(found) = self.sought(extent, ratio, is_right) {
+            self.refute(
+                Diagnostic::error(formula.span, POISSON),
+                "this is",
+                &found,
+                INCOMPRESSIBLE,
+            );
+        }
+    }
+
+    /// Whether an expression was judged where it was read: a number, or what changes in time.
+    fn is_judged(&self, expr: Expr) -> bool {
+        let is_number = self.graph.as_number(expr).is_some();
+        is_number || self.graph.symbols(expr).contains(&Symbol::Time)
+    }
+
+    /// Looks for a point where a value is not defined, or not what it must be.
+    fn sought(
+        &self,
+        extent: &Extent<Precise>,
+        expr: Expr,
+        is_right: impl Fn(&Precise) -> bool,
+    ) -> Option<Counterexample> {
+        let output = Output::Expected(0);
+        let program = schedule(&self.graph, &BTreeMap::from([(output, vec![expr])]));
+        let mut interpreter = Interpreter::new(&program, &self.parameters);
+        let plan = interpreter.plan(&[output]);
+        let symbols = self.graph.symbols(expr);
+        let varies = symbols.iter().any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
+        let count = if varies { usize::MAX } else { 1 };
+        points(extent).take(count).find_map(|point| {
+            interpreter.set_point(&plan, Point::at(&point));
+            let value = interpreter.output(output).remove(0);
+            let is_right = value.is_defined() && is_right(&value);
+            let point = if varies { point } else { Vec::new() };
+            (!is_right).then_some(Counterexample { expr, value, point })
+        })
+    }
+
+    /// Reports a value that is not what it must be, and where.
+    fn refute(&mut self, diagnostic: Diagnostic, is: &str, found: &Counterexample, help: &str) {
+        let mut label = match found.value.is_defined() {
+            true => format!("{is} {}", digits(&found.value)),
+            false => "this is not defined".to_string(),
+        };
+        if !found.point.is_empty() {
+            let coordinates = AXES.iter().zip(&found.point);
+            let place: Vec<_> =
+                coordinates.map(|(axis, value)| format!("{axis} = {}", digits(value))).collect();
+            label.push_str(&format!(" at {}", place.join(", ")));
+        }
+        let diagnostic = self.with_parameters(diagnostic.label(label), &[found.expr]);
+        self.report(diagnostic.help(help));
+    }
+}
+
+/// The corners of a body, and points spread over it.
+fn points(extent: &Extent<Precise>) -> impl Iterator<Item = Vec<Precise>> {
+    let dimension = extent.dimension();
+    let corners = (0..1usize << dimension).map(move |corner| {
+        let end = |axis: usize| Precise::from_f64(f64::from(u8::from(corner >> axis & 1 == 1)));
+        (0..dimension).map(end).collect::<Vec<_>>()
+    });
+    let inside = (1..=POINTS).map(|index| halton(index).to_vec());
+    corners.chain(inside).map(|fractions| extent.point(&fractions))
+}
