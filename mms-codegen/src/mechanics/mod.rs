@@ -6,6 +6,7 @@
 //! from F lose eps/strain.
 
 pub mod derivation;
+pub mod face;
 pub mod kinematics;
 pub mod material;
 pub mod model;

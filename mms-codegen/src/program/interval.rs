@@ -7,6 +7,7 @@
 //! directed rounding in arbitrary precision at their bounds (`functions.rs`).
 
 mod functions;
+mod quick;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -68,6 +69,23 @@ impl Interval {
     /// Whether some number lies within the bounds of both.
     pub fn meets(self, other: Interval) -> bool {
         self.lower <= other.upper && other.lower <= self.upper
+    }
+
+    /// The numbers within the bounds of both, which enclose the same value.
+    pub fn meet(self, other: Interval) -> Self {
+        let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
+        // Two enclosures of one value that do not meet enclose no value at all.
+        Interval::new(lower, upper).only_if(self.defined || other.defined)
+    }
+
+    /// The largest magnitude within the bounds.
+    pub fn farthest(self) -> f64 {
+        self.lower.abs().max(self.upper.abs())
+    }
+
+    /// The number halfway between the bounds, or near it.
+    pub fn middle(self) -> f64 {
+        (self.lower / 2.0 + self.upper / 2.0).clamp(self.lower, self.upper)
     }
 
     /// The distance of the bounds.

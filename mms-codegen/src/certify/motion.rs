@@ -1,0 +1,68 @@
+//! What proofs are about, in the variables of a chart: H, C - I and its rate, J, the density, and
+//! the stress as a function of H.
+
+use super::chart::Chart;
+use crate::compile::Compiled;
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::Response;
+use crate::mechanics::kinematics::Strain;
+use crate::mechanics::tensor::Tensor;
+use crate::pass::differentiate::differentiate;
+use crate::pass::relations::Relations;
+use crate::quantity::Quantity;
+
+/// The motion of a field in the variables of a chart.
+///
+/// Strains are reduced, so that rotations cancel in them: what does not depend on a rotation is
+/// bounded as sharply with it as without.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    dimension: usize,
+    /// H.
+    pub gradient: Vec<Expr>,
+    /// C - I.
+    pub right: Vec<Expr>,
+    /// dC/dt.
+    pub right_rate: Vec<Expr>,
+    /// J.
+    pub jacobian: Expr,
+    /// rho0.
+    pub density: Expr,
+    /// P at a gradient that is supplied.
+    pub stress: Vec<Expr>,
+}
+
+impl Motion {
+    /// The motion of a compiled field.
+    pub fn new(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
+        let derived = &compiled.derived;
+        let dimension = compiled.field.dimension;
+        let gradient =
+            chart.pull_back(graph, &derived.quantities[&Quantity::DisplacementGradient]);
+        let strain = strain(graph, &gradient);
+        let right = strain.right.components().to_vec();
+        let right_rate = differentiate(graph, &right, Symbol::Time);
+        let density = chart.pull_back(graph, &[compiled.model.density])[0];
+        let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
+        let gradient = strain.gradient.components().to_vec();
+        Motion { dimension, gradient, right, right_rate, jacobian: strain.jacobian, density, stress }
+    }
+
+    /// How many components X has.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+}
+
+/// What follows from a gradient, reduced as far as the graph has room for it.
+fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
+    let dimension = gradient.len().isqrt();
+    let tensor = |components: &[Expr]| {
+        Tensor::from_fn(dimension, |row, column| components[row * dimension + column])
+    };
+    let reduced = graph.attempt(|graph| {
+        let relations = Relations::find(graph, gradient);
+        Strain::new(graph, tensor(gradient), &relations)
+    });
+    reduced.unwrap_or_else(|| Strain::new(graph, tensor(gradient), &Relations::default()))
+}
