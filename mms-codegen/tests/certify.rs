@@ -36,3 +36,12 @@ fn probe() {
         }
     }
 }
+
+#[test]
+fn functions() {
+    use mms_codegen::program::interval::Interval;
+    use mms_math::Scalar as _;
+    let x = Interval::new(0.6, 0.61);
+    println!("{:?} {:?} {:?} {:?} {:?} {:?} {:?}", x.tan(), x.asin(), x.acos(), x.atan(), x.cbrt(), x.sinh(), x.tanh());
+    println!("{:?} {:?} {:?}", x.powf(Interval::new(1.0, 1.0)), x.atan2(x), x.cosh());
+}

@@ -8,9 +8,11 @@ use super::jacobian::{self, Jacobian};
 use super::message;
 use super::motion::Motion;
 use super::rates::{self, Rates};
+use super::witness::Witness;
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::expr::Graph;
+use crate::quantity::Quantity;
 use crate::spec::BoundarySpec;
 
 /// How many cells each bound may take.
@@ -47,11 +49,15 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     let motion = Motion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
-    let (jacobian, mut boxes) = jacobian::bound(&chart, &formulas, CELLS);
+    // What a compilation finds is found first, so that both say the same.
+    let (jacobian, mut boxes) = match inversion(&mut graph, &chart, compiled) {
+        Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
+        None => jacobian::bound(&chart, &formulas, CELLS),
+    };
     let mut rates = None;
     let mut least = 0.0;
     if let Jacobian::Positive([lower, _]) = jacobian {
-        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, CELLS_OF_RATES);
+        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, lower, CELLS_OF_RATES);
         (rates, boxes, least) = (Some(bound), boxes + cells, lower);
     }
     let limit = if rates.is_some() { CELLS } else { 0 };
@@ -112,14 +118,8 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     let mut graph = room(compiled);
     let mut found = Vec::new();
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
-    let jacobian = &compiled.derived.quantities[&crate::quantity::Quantity::Jacobian];
-    if graph.as_number(jacobian[0]).is_none() {
-        let motion = Motion::new(&mut graph, &chart, compiled);
-        let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
-        let cells = (QUICK_OPERATIONS / formulas.size().max(1)).clamp(1, QUICK_CELLS);
-        if let Some((witness, value)) = jacobian::inversion(&chart, &formulas, cells) {
-            found.push(message::inverted(compiled, &witness, value));
-        }
+    if let Some((witness, value)) = inversion(&mut graph, &chart, compiled) {
+        found.push(message::inverted(compiled, &witness, value));
     }
     for claim in &compiled.field.boundary {
         if let Some(Finding::Refuted(witness, value)) =
@@ -129,6 +129,15 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
         }
     }
     found
+}
+
+/// A point where J <= 0, if a short search finds one.
+fn inversion(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Option<(Witness, f64)> {
+    let jacobian = &compiled.derived.quantities[&Quantity::Jacobian];
+    let jacobian = chart.pull_back(graph, jacobian);
+    let formulas = Formulas::new(graph, chart, &jacobian);
+    let cells = (QUICK_OPERATIONS / formulas.size().max(1)).clamp(1, QUICK_CELLS);
+    jacobian::inversion(chart, &formulas, cells)
 }
 
 /// The field's graph, with room for proofs.

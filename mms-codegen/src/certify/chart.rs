@@ -6,13 +6,16 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Graph, Node, Rational, Symbol};
-use crate::mechanics::face::{self, RADIUS};
+use super::search::Cell;
+use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::mechanics::face::{self, ANGLE, RADIUS};
 use crate::mechanics::model::Model;
+use crate::mechanics::tensor::Tensor;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::{rebuild, substitute};
 use crate::program::interpret::{Interpreter, Number, Point};
+use crate::program::interval::Interval;
 use crate::program::schedule::schedule_plainly;
 use crate::program::{Output, Program};
 use crate::spec::{Face, FieldSpec};
@@ -100,6 +103,59 @@ impl Chart {
     pub fn pull_back(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let general = straightened(graph, formulas, &self.polar);
         self.fix(graph, &general)
+    }
+
+    /// The components of a pulled-back tensor in the basis of the coordinates: Q^T A Q with the
+    /// directions of growing radius and angle as the columns of Q.
+    pub fn in_local_basis(&self, graph: &mut Graph, tensor: &[Expr]) -> Vec<Expr> {
+        if self.polar.is_empty() {
+            return tensor.to_vec();
+        }
+        let angle = graph.symbol(ANGLE);
+        let angle = self.fix(graph, &[angle])[0];
+        let [sine, cosine] =
+            [Function::Sin, Function::Cos].map(|function| graph.call(function, &[angle]));
+        let minus = graph.scale(sine, -1);
+        let basis = Tensor::from_components(2, vec![cosine, minus, sine, cosine]);
+        let tensor = Tensor::from_components(2, tensor.to_vec());
+        let rotated = basis.transpose().mul(graph, &tensor).mul(graph, &basis);
+        let reduced = graph.attempt(|graph| {
+            let relations = Relations::find(graph, rotated.components());
+            reduce(graph, rotated.components(), &relations)
+        });
+        reduced.unwrap_or_else(|| rotated.components().to_vec())
+    }
+
+    /// By how much each fraction alone moves each variable in a cell, and by how much the parameters
+    /// move it along with their own range.
+    fn widths(&self, cell: &Cell, place: &[Interval]) -> Vec<[f64; 2]> {
+        let total = || place.iter().map(|side| side.width());
+        if self.ranged().next().is_none() {
+            return total().map(|width| [width, 0.0]).collect();
+        }
+        let centre = cell.centre();
+        let at = self.place(&centre);
+        let own = |(variable, side): (usize, &Interval)| {
+            let mut moved = centre.clone();
+            moved[variable] = side.upper();
+            2.0 * (self.place(&moved)[variable] - at[variable]).abs()
+        };
+        let own = cell.0.iter().enumerate().map(own);
+        own.zip(total()).map(|(own, total)| [own, (total - own).max(0.0)]).collect()
+    }
+
+    /// How much each variable changes formulas with these slopes over a cell, all of them together.
+    pub fn changes(&self, cell: &Cell, place: &[Interval], slopes: &[Vec<Interval>]) -> Vec<f64> {
+        let widths = self.widths(cell, place);
+        let slopes = slopes.iter().map(|by| by.iter().map(|slope| slope.farthest()).sum::<f64>());
+        let slopes: Vec<f64> = slopes.collect();
+        let along: f64 = slopes.iter().zip(&widths).map(|(slope, width)| slope * width[1]).sum();
+        let mut changes: Vec<f64> =
+            slopes.iter().zip(&widths).map(|(slope, width)| slope * width[0]).collect();
+        for variable in self.ranged() {
+            changes[variable] += along;
+        }
+        changes
     }
 
     /// Formulas in all parameters in terms of the variables: the others have their defaults.

@@ -3,7 +3,7 @@
 
 use mms_math::Scalar as _;
 
-use super::chart::Chart;
+use super::chart::{Chart, straightened};
 use super::enclosure::Formulas;
 use super::sample::spread;
 use super::search::{Measure, largest};
@@ -13,7 +13,7 @@ use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::face::normal;
 use crate::mechanics::model::Body;
 use crate::mechanics::tensor::dot;
-use crate::mechanics::{Model, Response, face};
+use crate::mechanics::{Response, face};
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
@@ -68,11 +68,8 @@ struct Subject {
 /// A field on one of its faces.
 struct OnFace<'a> {
     compiled: &'a Compiled,
+    face: Face,
     chart: Chart,
-    /// u and P N as functions of what varies on the face, for any parameters.
-    displacement: Vec<Expr>,
-    traction: Vec<Expr>,
-    normal: Vec<Expr>,
 }
 
 /// Proves or refutes a claim; the cells that it took come second.
@@ -116,49 +113,73 @@ pub fn refute(
 
 impl<'a> OnFace<'a> {
     fn new(graph: &mut Graph, compiled: &'a Compiled, face: Face) -> Self {
-        let Compiled { field, model, derived, .. } = compiled;
-        let chart = Chart::new(graph, field, model, Some(face));
-        let bare = |graph: &mut Graph, formulas: &[Expr]| on_face(graph, model, face, formulas);
-        let displacement = bare(graph, &derived.quantities[&Quantity::Displacement]);
-        let gradient = bare(graph, &derived.quantities[&Quantity::DisplacementGradient]);
-        let normal = normal(graph, &model.domain.body, field.dimension, face);
-        let normal = bare(graph, &normal);
-        let stress = bare(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
-        let relations = Relations::find(graph, &gradient);
-        let gradient = reduced(graph, &gradient, &relations);
+        let chart = Chart::new(graph, &compiled.field, &compiled.model, Some(face));
+        OnFace { compiled, face, chart }
+    }
+
+    /// Formulas in X in terms of the coordinates that vary on the face, for any parameters.
+    fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+        let body = &self.compiled.model.domain.body;
+        let polar = face::polar(graph, body);
+        let general = straightened(graph, formulas, &polar);
+        let (axis, is_upper) = face::fixed_coordinate(self.face);
+        let bound = face::bounds(body)[axis][usize::from(is_upper)];
+        substitute(graph, &general, &[(Symbol::Coordinate(axis), bound)].into())
+    }
+
+    fn displacement(&self, graph: &mut Graph) -> Vec<Expr> {
+        let displacement = &self.compiled.derived.quantities[&Quantity::Displacement];
+        self.restrict(graph, displacement)
+    }
+
+    fn normal(&self, graph: &mut Graph) -> Vec<Expr> {
+        let body = &self.compiled.model.domain.body;
+        let normal = normal(graph, body, self.compiled.field.dimension, self.face);
+        self.restrict(graph, &normal)
+    }
+
+    /// P N, from the reduced H on the face: what vanishes in H or in C - I there vanishes in P.
+    fn traction(&self, graph: &mut Graph) -> Vec<Expr> {
+        let Compiled { field, derived, .. } = self.compiled;
         let dimension = field.dimension;
+        let gradient = self.restrict(graph, &derived.quantities[&Quantity::DisplacementGradient]);
+        let gradient = reduced(graph, &gradient);
         let supplied = gradient.iter().enumerate().map(|(at, entry)| {
             (Symbol::Gradient(at / dimension, at % dimension), *entry)
         });
+        let stress = self.restrict(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         let stress = substitute(graph, &stress, &supplied.collect());
-        let traction = stress
-            .chunks_exact(dimension)
-            .map(|row| dot(graph, row.iter().copied().zip(normal.iter().copied())))
-            .collect();
-        OnFace { compiled, chart, displacement, traction, normal }
+        let normal = self.normal(graph);
+        let component =
+            |row: &[Expr]| dot(graph, row.iter().copied().zip(normal.iter().copied()));
+        stress.chunks_exact(dimension).map(component).collect()
     }
 
     /// What a claim is about, for any parameters.
     fn subject(&self, graph: &mut Graph, claim: Claim) -> Subject {
-        let (size, modulus) = (size(self.compiled), modulus(self.compiled));
         let with = |components: Vec<Expr>, scale: f64| Subject {
             scales: vec![scale; components.len()],
             components,
         };
         match claim {
-            Claim::Fixed | Claim::Prescribed => with(self.displacement.clone(), size),
-            Claim::Free | Claim::Traction => with(self.traction.clone(), modulus),
+            Claim::Fixed | Claim::Prescribed => {
+                with(self.displacement(graph), size(self.compiled))
+            }
+            Claim::Free | Claim::Traction => with(self.traction(graph), modulus(self.compiled)),
             Claim::Roller => {
-                let pairs = |vector: &[Expr]| -> Vec<(Expr, Expr)> {
-                    vector.iter().copied().zip(self.normal.iter().copied()).collect()
+                let normal = self.normal(graph);
+                let pairs = |vector: Vec<Expr>| -> Vec<(Expr, Expr)> {
+                    vector.into_iter().zip(normal.iter().copied()).collect()
                 };
-                let across = dot(graph, pairs(&self.displacement));
-                let pull = dot(graph, pairs(&self.traction));
-                let mut subject = with(vec![across], size);
-                for (component, normal) in pairs(&self.traction) {
+                let displacement = self.displacement(graph);
+                let across = dot(graph, pairs(displacement));
+                let mut subject = with(vec![across], size(self.compiled));
+                let traction = self.traction(graph);
+                let pull = dot(graph, pairs(traction.clone()));
+                for (component, normal) in pairs(traction) {
                     let along = graph.mul(pull, normal);
                     subject.components.push(graph.sub(component, along));
-                    subject.scales.push(modulus);
+                    subject.scales.push(modulus(self.compiled));
                 }
                 subject
             }
@@ -236,7 +257,7 @@ impl<'a> OnFace<'a> {
                 bound: relative.fold(0.0, f64::max),
                 attained: 0.0,
                 at: cell.centre(),
-                split: cell.steepest(&enclosure.changes(&place)),
+                split: cell.steepest(&self.chart.changes(cell, &place, &enclosure.slopes)),
             }
         });
         let scale = scales.iter().copied().fold(0.0, f64::max);
@@ -250,18 +271,12 @@ impl<'a> OnFace<'a> {
     }
 }
 
-/// Formulas in X on a face, in terms of the coordinates that vary there.
-fn on_face(graph: &mut Graph, model: &Model, face: Face, formulas: &[Expr]) -> Vec<Expr> {
-    let body = &model.domain.body;
-    let polar = face::polar(graph, body);
-    let general = super::chart::straightened(graph, formulas, &polar);
-    let (axis, is_upper) = face::fixed_coordinate(face);
-    let bound = face::bounds(body)[axis][usize::from(is_upper)];
-    substitute(graph, &general, &[(Symbol::Coordinate(axis), bound)].into())
-}
-
-fn reduced(graph: &mut Graph, formulas: &[Expr], relations: &Relations) -> Vec<Expr> {
-    let reduced = graph.attempt(|graph| reduce(graph, formulas, relations));
+/// Formulas reduced modulo their own relations, as far as the graph has room for it.
+fn reduced(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+    let reduced = graph.attempt(|graph| {
+        let relations = Relations::find(graph, formulas);
+        reduce(graph, formulas, &relations)
+    });
     reduced.unwrap_or_else(|| formulas.to_vec())
 }
 

@@ -73,14 +73,6 @@ pub struct Enclosure {
     pub slopes: Vec<Vec<Interval>>,
 }
 
-impl Enclosure {
-    /// How much each variable changes the formulas over the box, all of them together.
-    pub fn changes(&self, place: &[Interval]) -> Vec<f64> {
-        let of = |slopes: &Vec<Interval>| -> f64 { slopes.iter().map(|it| it.farthest()).sum() };
-        self.slopes.iter().zip(place).map(|(slopes, side)| of(slopes) * side.width()).collect()
-    }
-}
-
 impl Evaluation<'_, Interval> {
     /// Bounds over a box: those of interval arithmetic, and within them those of the mean-value
     /// form f(c) + f'(box) (box - c), whose excess shrinks with the square of the box (Moore,

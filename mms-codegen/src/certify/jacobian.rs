@@ -10,7 +10,7 @@ use crate::program::interval::Interval;
 use crate::program::precise::Precise;
 
 /// How near a bound of J must be to a value of J, relative to that.
-const SHARPNESS: f64 = 0.1;
+const SHARPNESS: f64 = 0.2;
 
 /// Where J is so small, its sign is taken from 77 digits.
 const DOUBTFUL: f64 = 1e-6;
@@ -80,6 +80,7 @@ fn extremum(
     largest(chart.variables().len(), limit, enough, |cell| {
         let mut place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
+        let split = cell.steepest(&chart.changes(cell, &place, &enclosure.slopes));
         let mut bound = upper(enclosure.values[0] * signed);
         // Where J only grows or only falls along a variable, the extremum is at one end.
         let mut at = cell.centre();
@@ -100,7 +101,6 @@ fn extremum(
             bound = bound.min(upper(bounds.enclose(&place).values[0] * signed));
         }
         let attained = values.at(&at).map_or(f64::NEG_INFINITY, |value| sign * value);
-        let split = cell.steepest(&enclosure.changes(&chart.place(&cell.0)));
         Measure { bound, attained, at, split }
     })
 }

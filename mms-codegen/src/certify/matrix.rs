@@ -54,6 +54,89 @@ pub fn largest_eigenvalue(entries: &[Interval]) -> f64 {
     if radius.is_finite() { spectral_radius(&middles) + radius } else { f64::INFINITY }
 }
 
+/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds.
+pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
+    let (middles, radius) = split(entries);
+    let scale = spectral_radius(&middles);
+    if !radius.is_finite() || !scale.is_finite() {
+        return vec![Interval::UNDEFINED; entries.len().isqrt()];
+    }
+    let radius = radius + scale * ROUNDING;
+    let around = |value: f64| Interval::new(value - radius, value + radius);
+    diagonal(middles).into_iter().map(around).collect()
+}
+
+/// The eigenvalues of a symmetric matrix of numbers, by rotations that make one entry after the
+/// other vanish (Jacobi 1846; Golub & Van Loan, Matrix Computations, 2013, section 8.5).
+fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
+    const SWEEPS: usize = 12;
+    let order = matrix.len().isqrt();
+    for _ in 0..SWEEPS {
+        for (p, q) in (0..order).flat_map(|p| (p + 1..order).map(move |q| (p, q))) {
+            let off = matrix[p * order + q];
+            if off == 0.0 {
+                continue;
+            }
+            let angle = 0.5 * (2.0 * off).atan2(matrix[q * order + q] - matrix[p * order + p]);
+            let (sine, cosine) = angle.sin_cos();
+            for k in 0..order {
+                let (a, b) = (matrix[k * order + p], matrix[k * order + q]);
+                matrix[k * order + p] = cosine * a - sine * b;
+                matrix[k * order + q] = sine * a + cosine * b;
+            }
+            for k in 0..order {
+                let (a, b) = (matrix[p * order + k], matrix[q * order + k]);
+                matrix[p * order + k] = cosine * a - sine * b;
+                matrix[q * order + k] = sine * a + cosine * b;
+            }
+        }
+    }
+    (0..order).map(|k| matrix[k * order + k]).collect()
+}
+
+/// No sqrt(tr (C^-1 A C^-1 A)) with symmetric C and A within these bounds is greater, where no
+/// eigenvalue of C is less than `floor` > 0.
+///
+/// Let the eigenvalues of C differ from those of its midpoint M by r at most, and m be the least of
+/// these. Then C >= (1 - r/m) M in the order of forms, so that the value falls short of
+/// (|M^-1/2 B M^-1/2| + |A - B|/m)/(1 - r/m) with the midpoint B of A; and of |A|/floor.
+pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
+    let order = form.len().isqrt();
+    let ((form, spread), (rate, change)) = (split(form), split(rate));
+    if !spread.is_finite() || !change.is_finite() {
+        return f64::INFINITY;
+    }
+    let norm = rate.iter().map(|entry| entry * entry).sum::<f64>().sqrt() + change;
+    let coarse = norm / floor * (1.0 + ROUNDING);
+    let eigenvalues = diagonal(form.clone());
+    let least = eigenvalues.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - ROUNDING);
+    let share = 1.0 - spread / least;
+    if least <= 0.0 || share <= 0.0 {
+        return coarse;
+    }
+    let relative = inverse_times(&form, &rate, order);
+    let square = product(&relative, &relative, order);
+    let trace: f64 = (0..order).map(|k| square[k * order + k]).sum();
+    let sharp = (trace.max(0.0).sqrt() + change / least) / share * (1.0 + ROUNDING);
+    sharp.min(coarse)
+}
+
+/// A^-1 B of symmetric positive A, by elimination.
+fn inverse_times(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
+    let (mut a, mut b) = (a.to_vec(), b.to_vec());
+    for pivot in 0..order {
+        let divisor = a[pivot * order + pivot];
+        for row in (0..order).filter(|row| *row != pivot) {
+            let share = a[row * order + pivot] / divisor;
+            for column in 0..order {
+                a[row * order + column] -= share * a[pivot * order + column];
+                b[row * order + column] -= share * b[pivot * order + column];
+            }
+        }
+    }
+    (0..order * order).map(|at| b[at] / a[at / order * (order + 1)]).collect()
+}
+
 /// No m_i N_J A_iJkL m_k N_L with unit vectors m and N is greater, where A, row-major in (i, J) and
 /// (k, L), lies within these bounds: the largest eigenvalue of the acoustic tensors.
 ///

@@ -6,6 +6,7 @@ use crate::compile::Compiled;
 use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::Response;
 use crate::mechanics::kinematics::Strain;
+use crate::mechanics::material::{FIRST, SECOND, VOLUME};
 use crate::mechanics::tensor::Tensor;
 use crate::pass::differentiate::differentiate;
 use crate::pass::relations::Relations;
@@ -13,14 +14,15 @@ use crate::quantity::Quantity;
 
 /// The motion of a field in the variables of a chart.
 ///
-/// Strains are reduced, so that rotations cancel in them: what does not depend on a rotation is
-/// bounded as sharply with it as without.
+/// Strains are reduced, so that rotations cancel in them, and on an annulus they are those in the
+/// basis of radius and angle: what does not depend on a rotation is bounded as sharply with it as
+/// without.
 #[derive(Clone, Debug)]
 pub struct Motion {
     dimension: usize,
-    /// H.
-    pub gradient: Vec<Expr>,
-    /// C - I.
+    /// H, of a material whose stress does not follow from C alone.
+    pub gradient: Option<Vec<Expr>>,
+    /// C - I, in the basis of the chart's coordinates.
     pub right: Vec<Expr>,
     /// dC/dt.
     pub right_rate: Vec<Expr>,
@@ -37,14 +39,15 @@ impl Motion {
     pub fn new(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
         let derived = &compiled.derived;
         let dimension = compiled.field.dimension;
-        let gradient =
+        let cartesian =
             chart.pull_back(graph, &derived.quantities[&Quantity::DisplacementGradient]);
+        let gradient = chart.in_local_basis(graph, &cartesian);
         let strain = strain(graph, &gradient);
         let right = strain.right.components().to_vec();
         let right_rate = differentiate(graph, &right, Symbol::Time);
         let density = chart.pull_back(graph, &[compiled.model.density])[0];
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
-        let gradient = strain.gradient.components().to_vec();
+        let gradient = (!is_isotropic(graph, compiled.model.energy)).then_some(cartesian);
         Motion { dimension, gradient, right, right_rate, jacobian: strain.jacobian, density, stress }
     }
 
@@ -52,6 +55,15 @@ impl Motion {
     pub fn dimension(&self) -> usize {
         self.dimension
     }
+}
+
+/// Whether W is a function of I1, I2 and J. Then rotations of the deformed and of the reference body
+/// rotate the stress and nothing else, and all that matters of F is C, in whatever basis.
+fn is_isotropic(graph: &Graph, energy: Expr) -> bool {
+    graph.symbols(energy).into_iter().all(|symbol| match symbol {
+        Symbol::Invariant(_) => [FIRST, SECOND, VOLUME].contains(&symbol),
+        _ => true,
+    })
 }
 
 /// What follows from a gradient, reduced as far as the graph has room for it.

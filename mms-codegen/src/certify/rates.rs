@@ -7,7 +7,7 @@ use mms_math::Scalar as _;
 
 use super::chart::{Chart, Run};
 use super::enclosure::Formulas;
-use super::matrix::{largest_acoustic, largest_eigenvalue};
+use super::matrix::{eigenvalues, largest_acoustic, largest_eigenvalue, largest_relative_rate};
 use super::motion::Motion;
 use super::search::{Found, Measure, largest};
 use crate::expr::Graph;
@@ -45,24 +45,46 @@ impl Rates {
     }
 }
 
-/// Bounds all three, with at most `limit` cells each, and says how many there were.
-pub fn bound(graph: &mut Graph, chart: &Chart, motion: &Motion, limit: usize) -> (Rates, usize) {
+/// Bounds all three where J is at least `jacobian`, with at most `limit` cells each, and says how
+/// many there were.
+pub fn bound(
+    graph: &mut Graph,
+    chart: &Chart,
+    motion: &Motion,
+    jacobian: f64,
+    limit: usize,
+) -> (Rates, usize) {
     let dimension = motion.dimension();
     let right = &motion.right;
     let stretch = Formulas::new(graph, chart, right);
     let stretch = search(chart, &stretch, limit, |values, _| {
         largest_eigenvalue(&with_identity(values, dimension)).sqrt()
     });
-    let rate = [right.as_slice(), &motion.right_rate, &[motion.jacobian]].concat();
+    let rate = [right.as_slice(), &motion.right_rate].concat();
     let rate = Formulas::new(graph, chart, &rate);
-    let rate = search(chart, &rate, limit, |values, _| strain_rate(values, dimension));
-    let state = [motion.gradient.as_slice(), &[motion.density]].concat();
+    // J is the product of the principal stretches.
+    let least = jacobian / stretch.bound.powi(dimension as i32 - 1) * (1.0 - 1e-9);
+    let stretches = Interval::new(least, stretch.bound);
+    let rate = search(chart, &rate, limit, |values, _| {
+        let (right, rate) = values.split_at(dimension * dimension);
+        let right = with_identity(right, dimension);
+        // D : D = tr (C^-1 dC/dt)^2 / 4 (Holzapfel, Nonlinear Solid Mechanics, 2000, section 2.7).
+        largest_relative_rate(&right, rate, stretches.square().lower()) / 2.0
+    });
+    let state = motion.gradient.as_ref().unwrap_or(right);
+    let state = [state.as_slice(), &[motion.density]].concat();
     let state = Formulas::new(graph, chart, &state);
     let stress = BTreeMap::from([(STRESS, motion.stress.clone())]);
     let stress = schedule_plainly(graph, &stress);
-    let mut stress = chart.run(&stress);
-    let speed =
-        search(chart, &state, limit, |values, place| wave_speed(&mut stress, values, place));
+    let mut tangent = Tangent { first: chart.run(&stress), second: chart.run(&stress) };
+    let speed = search(chart, &state, limit, |values, place| {
+        let Some((density, state)) = values.split_last() else { return f64::INFINITY };
+        let gradient = match motion.gradient {
+            Some(_) => state.to_vec(),
+            None => principal_gradient(&with_identity(state, dimension), stretches),
+        };
+        wave_speed(&tangent.enclose(&gradient, place), *density)
+    });
     // The dimensions that a field lacks are not stretched.
     let missing = if dimension < 3 { 1.0 } else { 0.0 };
     let rates = Rates {
@@ -96,7 +118,7 @@ fn search(
         Measure {
             bound: if bound.is_nan() { f64::INFINITY } else { bound },
             attained: if attained.is_finite() { attained } else { f64::NEG_INFINITY },
-            split: cell.steepest(&enclosure.changes(&place)),
+            split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
             at,
         }
     })
@@ -112,72 +134,103 @@ fn with_identity(right: &[Interval], dimension: usize) -> Vec<Interval> {
     right
 }
 
-/// |D| from C - I, dC/dt and J: with M = C^-1 dC/dt, D = F^-T (dC/dt) F^-1 / 2 and
-/// D : D = tr (M M)/4 (Holzapfel, Nonlinear Solid Mechanics, 2000, section 2.7).
-fn strain_rate(values: &[Interval], dimension: usize) -> f64 {
-    let order = dimension * dimension;
-    let right = with_identity(&values[..order], dimension);
-    let (rate, jacobian) = (&values[order..2 * order], values[2 * order]);
-    let adjugate = adjugate(&right, dimension);
-    let zero = Interval::from_f64(0.0);
-    let mut trace = zero;
-    let product: Vec<Interval> = (0..order)
-        .map(|at| {
-            let (row, column) = (at / dimension, at % dimension);
-            (0..dimension).fold(zero, |sum, k| {
-                sum + adjugate[row * dimension + k] * rate[k * dimension + column]
-            })
-        })
-        .collect();
-    for row in 0..dimension {
-        for column in 0..dimension {
-            let (here, there) = (row * dimension + column, column * dimension + row);
-            let term = if here == there {
-                product[here].square()
-            } else {
-                product[here] * product[there]
-            };
-            trace = trace + term;
-        }
+/// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a
+/// state in its principal axes.
+fn principal_gradient(right: &[Interval], stretches: Interval) -> Vec<Interval> {
+    let dimension = right.len().isqrt();
+    let mut gradient = vec![Interval::from_f64(0.0); right.len()];
+    for (axis, square) in eigenvalues(right).into_iter().enumerate() {
+        let stretch = square.meet(stretches.square()).sqrt().meet(stretches);
+        gradient[axis * dimension + axis] = stretch - Interval::from_f64(1.0);
     }
-    let squared = trace / jacobian.square().square() / Interval::from_f64(4.0);
-    if squared.is_defined() { squared.upper().max(0.0).sqrt().next_up() } else { f64::INFINITY }
+    gradient
 }
 
-/// The matrix of cofactors of a symmetric matrix.
-fn adjugate(matrix: &[Interval], dimension: usize) -> Vec<Interval> {
-    let at = |row: usize, column: usize| matrix[row % dimension * dimension + column % dimension];
-    let entry = |row: usize, column: usize| match dimension {
-        1 => Interval::from_f64(1.0),
-        2 if row == column => at(row + 1, column + 1),
-        2 => -at(row, column),
-        _ => {
-            at(row + 1, column + 1) * at(row + 2, column + 2)
-                - at(row + 1, column + 2) * at(row + 2, column + 1)
-        }
-    };
-    (0..matrix.len()).map(|k| entry(k / dimension, k % dimension)).collect()
-}
-
-/// The fastest wave from H and rho0: the largest eigenvalue of all acoustic tensors over rho0, with
-/// dP/dF from dual numbers.
-fn wave_speed(stress: &mut Run<'_, Dual<Interval>>, values: &[Interval], place: &[Interval]) -> f64 {
-    let Some((density, gradient)) = values.split_last() else { return f64::INFINITY };
-    let order = gradient.len();
-    let place: Vec<_> = place.iter().map(|side| Dual::constant(*side)).collect();
-    let mut gradient: Vec<_> = gradient.iter().map(|entry| Dual::constant(*entry)).collect();
-    let mut tangent = vec![Interval::UNDEFINED; order * order];
-    for column in 0..order {
-        gradient[column].slope = Interval::from_f64(1.0);
-        let components = stress.at(&place, &gradient, &[STRESS]).swap_remove(0);
-        for (row, component) in components.iter().enumerate() {
-            tangent[row * order + column] = component.slope;
-        }
-        gradient[column].slope = Interval::from_f64(0.0);
-    }
+/// The fastest wave: the largest eigenvalue of all acoustic tensors, over rho0.
+fn wave_speed(tangent: &[Interval], density: Interval) -> f64 {
     if !density.is_defined() || density.lower() <= 0.0 {
         return f64::INFINITY;
     }
-    let modulus = largest_acoustic(&tangent).max(0.0);
+    let modulus = largest_acoustic(tangent).max(0.0);
     (modulus / density.lower()).sqrt() * (1.0 + f64::EPSILON)
+}
+
+/// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
+struct Tangent<'a> {
+    first: Run<'a, Dual<Interval>>,
+    second: Run<'a, Dual<Dual<Interval>>>,
+}
+
+/// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
+const DIRECTIONS: usize = 4;
+
+impl Tangent<'_> {
+    /// dP_iJ/dH_kL, row-major in (i, J) and (k, L), over a box: the bounds of interval arithmetic,
+    /// and within them those of the mean-value form.
+    fn enclose(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
+        let mut tangent = self.natural(gradient, place);
+        let varies = |entry: &usize| gradient[*entry].width() > 0.0;
+        let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
+        let whole = tangent.iter().all(|entry| entry.is_defined());
+        if directions.is_empty() || directions.len() > DIRECTIONS || !whole {
+            return tangent;
+        }
+        let middle = |entry: &Interval| Interval::from_f64(entry.middle());
+        let centre: Vec<Interval> = gradient.iter().map(middle).collect();
+        let mut form = self.natural(&centre, place);
+        for direction in directions {
+            let slopes = self.slopes(gradient, place, direction);
+            let side = gradient[direction] - centre[direction];
+            for (entry, slope) in form.iter_mut().zip(slopes) {
+                *entry = *entry + slope * side;
+            }
+        }
+        tangent.iter_mut().zip(form).for_each(|(entry, form)| *entry = entry.meet(form));
+        tangent
+    }
+
+    fn natural(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
+        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
+        columns(gradient.len(), |column| {
+            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
+            let gradient = gradient.iter().enumerate();
+            let gradient: Vec<_> =
+                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
+            let stress = self.first.at(&place, &gradient, &[STRESS]).swap_remove(0);
+            stress.into_iter().map(|component| component.slope).collect()
+        })
+    }
+
+    /// The derivative of dP/dH by one entry of H.
+    fn slopes(
+        &mut self,
+        gradient: &[Interval],
+        place: &[Interval],
+        direction: usize,
+    ) -> Vec<Interval> {
+        let place: Vec<_> =
+            place.iter().map(|side| Dual::constant(Dual::constant(*side))).collect();
+        columns(gradient.len(), |column| {
+            let unit =
+                |entry: usize, at: usize| Interval::from_f64(f64::from(u8::from(entry == at)));
+            let gradient = gradient.iter().enumerate().map(|(entry, value)| Dual {
+                value: Dual { value: *value, slope: unit(entry, direction) },
+                slope: Dual::constant(unit(entry, column)),
+            });
+            let gradient: Vec<_> = gradient.collect();
+            let stress = self.second.at(&place, &gradient, &[STRESS]).swap_remove(0);
+            stress.into_iter().map(|component| component.slope.slope).collect()
+        })
+    }
+}
+
+/// A square matrix from its columns.
+fn columns(order: usize, mut column: impl FnMut(usize) -> Vec<Interval>) -> Vec<Interval> {
+    let mut matrix = vec![Interval::UNDEFINED; order * order];
+    for at in 0..order {
+        for (row, entry) in column(at).into_iter().enumerate() {
+            matrix[row * order + at] = entry;
+        }
+    }
+    matrix
 }

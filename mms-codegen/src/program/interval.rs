@@ -145,6 +145,11 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        if self.lower >= 0.0 && other.lower >= 0.0 {
+            let lower = product_below(self.lower, other.lower);
+            let upper = -product_below(-self.upper, other.upper);
+            return Interval::new(lower, upper).only_if(self.defined && other.defined);
+        }
         self.corners(other, product_below, |a, b| -product_below(-a, b))
     }
 }

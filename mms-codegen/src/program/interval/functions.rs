@@ -98,14 +98,28 @@ fn positions(interval: Interval, shift: i32) -> (bool, bool) {
     if interval.width() >= 7.0 {
         return (true, true);
     }
+    if let (Some([_, first]), Some([last, _])) =
+        (quick::quarters(interval.lower), quick::quarters(interval.upper))
+    {
+        // (n + shift/2) pi is quarter turn 2 n + shift.
+        let shift = i64::from(shift);
+        let (first, last) = ((first - shift + 1).div_euclid(2), (last - shift).div_euclid(2));
+        return parities(first.rem_euclid(2) == 0, last - first);
+    }
     let first: IBig = half_turns(interval.lower, shift).ceil().to_int().value();
     let last: IBig = half_turns(interval.upper, shift).floor().to_int().value();
-    if first > last {
-        return (false, false);
-    }
     let even = (&first % IBig::from(2)).is_zero();
-    let several = first < last;
-    (even || several, !even || several)
+    parities(even, i64::try_from(last - first).unwrap_or(i64::MAX))
+}
+
+/// Whether an even and whether an odd number is among `more + 1` numbers from one on that is even
+/// or not.
+fn parities(even: bool, more: i64) -> (bool, bool) {
+    match more {
+        ..0 => (false, false),
+        0 => (even, !even),
+        1.. => (true, true),
+    }
 }
 
 impl Interval {

@@ -125,7 +125,7 @@ pub fn ln_1p(x: f64) -> Option<(f64, f64)> {
     logarithm(sum(1.0, x), x.ln_1p())
 }
 
-/// An angle less its quarter turns, and how many these are, modulo 4.
+/// An angle less its quarter turns, and how many these are.
 fn reduced(x: f64) -> Option<(Double, i64)> {
     if x.is_nan() || x.abs() > LARGEST_ANGLE {
         return None;
@@ -134,7 +134,18 @@ fn reduced(x: f64) -> Option<(Double, i64)> {
     let rest = QUARTER
         .iter()
         .fold(Double(x, 0.0), |rest, part| rest.minus(product(turns, *part)));
-    Some((rest, (turns as i64).rem_euclid(4)))
+    Some((rest, turns as i64))
+}
+
+/// The greatest number of quarter turns that is at most an angle, and the least that is at least it.
+pub fn quarters(x: f64) -> Option<[i64; 2]> {
+    let (rest, turns) = reduced(x)?;
+    match rest.0 {
+        _ if x == 0.0 => Some([0, 0]),
+        rest if rest > ERROR => Some([turns, turns + 1]),
+        rest if rest < -ERROR => Some([turns - 1, turns]),
+        _ => None,
+    }
 }
 
 /// The series of x^n/n! with alternating signs, from n = 0 or 1 in steps of 2.
@@ -151,7 +162,7 @@ fn alternating(x: Double, first: u32) -> Double {
 /// sin(x + shift pi/2).
 fn circular(x: f64, shift: i64) -> Option<(f64, f64)> {
     let (rest, turns) = reduced(x)?;
-    let value = match (turns + shift) % 4 {
+    let value = match (turns + shift).rem_euclid(4) {
         0 => alternating(rest, 1),
         1 => alternating(rest, 0),
         2 => Double(0.0, 0.0).minus(alternating(rest, 1)),
