@@ -19,10 +19,10 @@ use crate::spec::BoundarySpec;
 pub const CELLS: usize = 2000;
 
 /// How many cells a rate may take: its bound holds however many there were.
-const CELLS_OF_RATES: usize = 400;
+const CELLS_OF_RATES: usize = 300;
 
 /// How many operations a compilation spends on looking for J <= 0, and cells at most.
-const QUICK_OPERATIONS: usize = 200_000;
+const QUICK_OPERATIONS: usize = 100_000;
 const QUICK_CELLS: usize = 128;
 
 /// At how many points of each face a compilation evaluates a claim.

@@ -259,14 +259,19 @@ impl<T: Number> Run<'_, T> {
     /// All parameters, t and X at values of the variables; for [`Chart::points`].
     pub fn point(&mut self, values: &[T]) -> Spot<T> {
         let [parameters, coordinates] = self
-            .at(values, &[], &[PARAMETERS, PLACE])
+            .at(values, [&[], &[]], &[PARAMETERS, PLACE])
             .try_into()
             .unwrap_or_else(|_| unreachable!("two outputs were asked for"));
         Spot { parameters, time: self.chart.split(values).0, coordinates }
     }
 
-    /// Some outputs at values of the variables; `gradient` is what stands for H.
-    pub fn at(&mut self, values: &[T], gradient: &[T], outputs: &[Output]) -> Vec<Vec<T>> {
+    /// Some outputs at values of the variables, and of N and H where they are left open.
+    pub fn at(
+        &mut self,
+        values: &[T],
+        [normal, gradient]: [&[T]; 2],
+        outputs: &[Output],
+    ) -> Vec<Vec<T>> {
         let mut own;
         let interpreter = match &mut self.ready {
             Some(ready) => ready,
@@ -278,7 +283,7 @@ impl<T: Number> Run<'_, T> {
         let (time, coordinates) = self.chart.split(values);
         interpreter.set_time(&time);
         let plan = interpreter.plan(outputs);
-        interpreter.set_point(&plan, Point { coordinates: &coordinates, normal: &[], gradient });
+        interpreter.set_point(&plan, Point { coordinates: &coordinates, normal, gradient });
         outputs.iter().map(|output| interpreter.output(*output)).collect()
     }
 }

@@ -60,7 +60,7 @@ pub struct Evaluation<'a, T> {
 impl<T: Number> Evaluation<'_, T> {
     /// The values.
     pub fn values(&mut self, place: &[T]) -> Vec<T> {
-        self.run.at(place, &[], &self.outputs[..1]).swap_remove(0)
+        self.run.at(place, [&[], &[]], &self.outputs[..1]).swap_remove(0)
     }
 }
 
@@ -78,7 +78,7 @@ impl Evaluation<'_, Interval> {
     /// form f(c) + f'(box) (box - c), whose excess shrinks with the square of the box (Moore,
     /// Kearfott & Cloud, Introduction to Interval Analysis, 2009, section 6.3).
     pub fn enclose(&mut self, place: &[Interval]) -> Enclosure {
-        let mut outputs = self.run.at(place, &[], &self.outputs);
+        let mut outputs = self.run.at(place, [&[], &[]], &self.outputs);
         let slopes = outputs.split_off(1);
         let mut values = outputs.swap_remove(0);
         let centre: Vec<Interval> =

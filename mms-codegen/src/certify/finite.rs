@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::chart::{Chart, Spot};
 use super::enclosure::Formulas;
-use super::motion::Motion;
+use super::motion::{Motion, without_volume};
 use super::search::{Cell, Measure, largest};
 use super::witness::Witness;
 use crate::compile::Compiled;
-use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::expr::{Graph, Symbol};
 use crate::pass::substitute::replace;
 use crate::program::interpret::{Interpreter, Number, Point};
 use crate::program::interval::Interval;
@@ -124,7 +124,7 @@ impl Quantities {
         }
         let whole = schedule_plainly(graph, &outputs);
         let jacobian = compiled.derived.quantities[&Quantity::Jacobian][0];
-        let values = volume(graph, jacobian);
+        let values = without_volume(graph, jacobian, VOLUME);
         for (output, components) in &mut outputs {
             if *output != Output::Quantity(Quantity::Jacobian) {
                 *components = replace(graph, components, &values);
@@ -153,18 +153,4 @@ impl Quantities {
         };
         Quantity::ALL.iter().copied().find(lacks)
     }
-}
-
-/// What J, J - 1 and what J is a multiple of are in terms of J - 1.
-fn volume(graph: &mut Graph, jacobian: Expr) -> BTreeMap<Expr, Expr> {
-    if graph.as_number(jacobian).is_some() {
-        return BTreeMap::new();
-    }
-    let one = graph.number(1);
-    let change = graph.symbol(VOLUME);
-    let whole = graph.add(one, change);
-    let less_one = graph.sub(jacobian, one);
-    let (content, primitive) = graph.split_content(jacobian);
-    let scaled = graph.scale(whole, Rational::ONE / content);
-    BTreeMap::from([(less_one, change), (primitive, scaled), (jacobian, whole)])
 }

@@ -1,15 +1,18 @@
 //! What proofs are about, in the variables of a chart: H, C - I and its rate, J, the density, and
 //! the stress as a function of H.
 
+use std::collections::BTreeMap;
+
 use super::chart::Chart;
 use crate::compile::Compiled;
-use crate::expr::{Expr, Graph, Symbol};
+use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::mechanics::Response;
 use crate::mechanics::kinematics::Strain;
 use crate::mechanics::material::{FIRST, SECOND, VOLUME};
 use crate::mechanics::tensor::Tensor;
 use crate::pass::differentiate::differentiate;
 use crate::pass::relations::Relations;
+use crate::pass::substitute::replace;
 use crate::quantity::Quantity;
 
 /// The motion of a field in the variables of a chart.
@@ -30,7 +33,8 @@ pub struct Motion {
     pub jacobian: Expr,
     /// rho0.
     pub density: Expr,
-    /// P at a gradient that is supplied.
+    /// P at a gradient H that is supplied; for isotropic materials, with [`PRINCIPAL_VOLUME`] for
+    /// J - 1.
     pub stress: Vec<Expr>,
 }
 
@@ -47,6 +51,10 @@ impl Motion {
         let right_rate = differentiate(graph, &right, Symbol::Time);
         let density = chart.pull_back(graph, &[compiled.model.density])[0];
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
+        let stress = match is_isotropic(graph, compiled.model.energy) {
+            true => principal(graph, &stress, dimension),
+            false => stress,
+        };
         let gradient = (!is_isotropic(graph, compiled.model.energy)).then_some(cartesian);
         Motion { dimension, gradient, right, right_rate, jacobian: strain.jacobian, density, stress }
     }
@@ -55,6 +63,18 @@ impl Motion {
     pub fn dimension(&self) -> usize {
         self.dimension
     }
+}
+
+/// What stands for J - 1 in the stress of isotropic materials.
+pub const PRINCIPAL_VOLUME: Symbol = Symbol::Normal(0);
+
+/// A stress with the symbol for J - 1.
+fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> {
+    let gradient =
+        Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
+    let jacobian = Strain::new(graph, gradient, &Relations::default()).jacobian;
+    let values = without_volume(graph, jacobian, PRINCIPAL_VOLUME);
+    replace(graph, stress, &values)
 }
 
 /// Whether W is a function of I1, I2 and J. Then rotations of the deformed and of the reference body
@@ -77,4 +97,19 @@ fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
         Strain::new(graph, tensor(gradient), &relations)
     });
     reduced.unwrap_or_else(|| Strain::new(graph, tensor(gradient), &Relations::default()))
+}
+
+/// What J, J - 1 and what J is a multiple of are in terms of a symbol for J - 1. Interval arithmetic
+/// alone would not know that J is positive where it is small.
+pub fn without_volume(graph: &mut Graph, jacobian: Expr, change: Symbol) -> BTreeMap<Expr, Expr> {
+    if graph.as_number(jacobian).is_some() {
+        return BTreeMap::new();
+    }
+    let one = graph.number(1);
+    let change = graph.symbol(change);
+    let whole = graph.add(one, change);
+    let less_one = graph.sub(jacobian, one);
+    let (content, primitive) = graph.split_content(jacobian);
+    let scaled = graph.scale(whole, Rational::ONE / content);
+    BTreeMap::from([(less_one, change), (primitive, scaled), (jacobian, whole)])
 }

@@ -14,7 +14,7 @@ use crate::expr::Graph;
 use crate::mechanics::Response;
 use crate::program::Output;
 use crate::program::dual::Dual;
-use crate::program::interpret::Number as _;
+use crate::program::interpret::Number;
 use crate::program::interval::Interval;
 use crate::program::schedule::schedule_plainly;
 
@@ -196,7 +196,7 @@ impl Tangent<'_> {
             let gradient = gradient.iter().enumerate();
             let gradient: Vec<_> =
                 gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
-            let stress = self.first.at(&place, &gradient, &[STRESS]).swap_remove(0);
+            let stress = self.first.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
             stress.into_iter().map(|component| component.slope).collect()
         })
     }
@@ -218,10 +218,18 @@ impl Tangent<'_> {
                 slope: Dual::constant(unit(entry, column)),
             });
             let gradient: Vec<_> = gradient.collect();
-            let stress = self.second.at(&place, &gradient, &[STRESS]).swap_remove(0);
+            let stress = self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
             stress.into_iter().map(|component| component.slope.slope).collect()
         })
     }
+}
+
+/// J - 1 of a gradient that is diagonal but for what derivatives are taken by.
+fn volume<T: Number>(gradient: &[T]) -> T {
+    let one = T::from_f64(1.0);
+    let stretches = gradient.iter().step_by(gradient.len().isqrt() + 1);
+    let stretches = stretches.map(|entry| one.clone() + entry.clone());
+    stretches.fold(one.clone(), |product, stretch| product * stretch) - one.clone()
 }
 
 /// A square matrix from its columns.
