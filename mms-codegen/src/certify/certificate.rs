@@ -93,6 +93,9 @@ impl Certificate {
                 objections.push(message::inverted(compiled, witness, *value));
             }
             Jacobian::Unproved(..) if matches!(self.finite, Finite::Undefined(..)) => {}
+            Jacobian::Unproved(witness, value) if value.is_infinite() => {
+                objections.push(message::not_finite(compiled, Quantity::Jacobian, witness));
+            }
             Jacobian::Unproved(witness, value) => {
                 objections.push(message::not_positive(compiled, witness, *value));
             }
@@ -104,7 +107,7 @@ impl Certificate {
                     objections.push(message::refuted(compiled, claim, witness, *value));
                 }
                 Finding::Unproved(interval) => {
-                    objections.push(message::unproved(compiled, claim, *interval));
+                    objections.push(message::unproved(claim, *interval));
                 }
             }
         }

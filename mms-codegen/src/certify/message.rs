@@ -56,19 +56,20 @@ pub fn refuted(
     value: f64,
 ) -> Diagnostic {
     let (face, word) = (claim.face.value.name(), claim.claim.value);
-    let message = format!("`{face}` is not {}: {} does not hold", word.name(), word.meaning());
+    let message =
+        format!("`{face}` is no `{}` face: not everywhere is {}", word.name(), word.meaning());
     Diagnostic::error(claim.claim.span, message)
         .label(format!("{} instead of 0 at {}", digits(value), place(compiled, witness)))
         .help("`prescribed` and `traction` claim nothing about the values")
 }
 
 /// A claim is not proved.
-pub fn unproved(compiled: &Compiled, claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
+pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
     let (face, word) = (claim.face.value.name(), claim.claim.value);
-    let _ = compiled;
-    let message = format!("`{face}` is not proved to be {}: {}", word.name(), word.meaning());
+    let message =
+        format!("`{face}` is not proved to be a `{}` face: {}", word.name(), word.meaning());
     Diagnostic::error(claim.claim.span, message)
-        .label(format!("only that it lies in [{}, {}]", digits(interval[0]), digits(interval[1])))
+        .label(format!("what should be 0 lies in [{}, {}]", digits(interval[0]), digits(interval[1])))
         .help("write u so that the claim follows term by term, or claim `prescribed` or `traction`")
 }
 

@@ -86,17 +86,24 @@ fn is_isotropic(graph: &Graph, energy: Expr) -> bool {
     })
 }
 
-/// What follows from a gradient, reduced as far as the graph has room for it.
+/// What follows from a gradient, reduced where that makes it shorter.
 fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     let dimension = gradient.len().isqrt();
-    let tensor = |components: &[Expr]| {
-        Tensor::from_fn(dimension, |row, column| components[row * dimension + column])
+    let tensor = || {
+        Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column])
     };
+    let plain = Strain::new(graph, tensor(), &Relations::default());
     let reduced = graph.attempt(|graph| {
         let relations = Relations::find(graph, gradient);
-        Strain::new(graph, tensor(gradient), &relations)
+        Strain::new(graph, tensor(), &relations)
     });
-    reduced.unwrap_or_else(|| Strain::new(graph, tensor(gradient), &Relations::default()))
+    let length = |strain: &Strain| {
+        graph.reachable(&[strain.right.components(), &[strain.jacobian]].concat()).len()
+    };
+    match reduced {
+        Some(reduced) if length(&reduced) <= length(&plain) => reduced,
+        _ => plain,
+    }
 }
 
 /// What J, J - 1 and what J is a multiple of are in terms of a symbol for J - 1. Interval arithmetic

@@ -57,17 +57,25 @@ pub fn bound(
     let dimension = motion.dimension();
     let right = &motion.right;
     let stretch = Formulas::new(graph, chart, right);
-    let stretch = search(chart, &stretch, limit, |values, _| {
-        largest_eigenvalue(&with_identity(values, dimension)).sqrt()
+    let shape = |values: &[Interval]| with_identity(values, dimension);
+    let squeeze = search(chart, &stretch, limit, |values, _| {
+        let least = eigenvalues(&shape(values)).into_iter().map(Interval::lower);
+        match least.fold(f64::INFINITY, f64::min) {
+            least if least > 0.0 => 1.0 / least.sqrt().next_down(),
+            _ => f64::INFINITY,
+        }
     });
+    let stretch =
+        search(chart, &stretch, limit, |values, _| largest_eigenvalue(&shape(values)).sqrt());
     let rate = [right.as_slice(), &motion.right_rate].concat();
     let rate = Formulas::new(graph, chart, &rate);
     // J is the product of the principal stretches.
-    let least = jacobian / stretch.bound.powi(dimension as i32 - 1) * (1.0 - 1e-9);
+    let least = jacobian / stretch.bound.powi(dimension as i32 - 1);
+    let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
     let stretches = Interval::new(least, stretch.bound);
     let rate = search(chart, &rate, limit, |values, _| {
         let (right, rate) = values.split_at(dimension * dimension);
-        let right = with_identity(right, dimension);
+        let right = shape(right);
         // D : D = tr (C^-1 dC/dt)^2 / 4 (Holzapfel, Nonlinear Solid Mechanics, 2000, section 2.7).
         largest_relative_rate(&right, rate, stretches.square().lower()) / 2.0
     });
@@ -81,7 +89,7 @@ pub fn bound(
         let Some((density, state)) = values.split_last() else { return f64::INFINITY };
         let gradient = match motion.gradient {
             Some(_) => state.to_vec(),
-            None => principal_gradient(&with_identity(state, dimension), stretches),
+            None => principal_gradient(&shape(state), stretches),
         };
         wave_speed(&tangent.enclose(&gradient, place), *density)
     });
@@ -92,7 +100,7 @@ pub fn bound(
         strain_rate: rate.bound,
         reference_wave_speed: speed.bound,
     };
-    (rates, stretch.cells + rate.cells + speed.cells)
+    (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
 }
 
 const STRESS: Output = Output::Response(Response::FirstPiolaKirchhoff);
