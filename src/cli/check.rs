@@ -85,8 +85,7 @@ impl Check {
         let gaps = gaps(compiled);
         let certificate = certify(compiled);
         let objections = certificate.objections(compiled);
-        let refuted =
-            !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
+        let refuted = !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
         if !self.json {
             if !objections.is_empty() {
                 anstream::eprintln!("{}", render_styled(&compiled.sources, &objections));

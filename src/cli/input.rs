@@ -157,8 +157,7 @@ pub fn read(path: &Path, bound: Bound) -> anyhow::Result<Result<Compiled, Failur
 }
 
 /// One of the ways to compile.
-type Compile =
-    fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
+type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
 
 fn read_with(
     path: &Path,

@@ -167,7 +167,8 @@ fn what_is_proved_is_told_with_its_bounds() {
     let run = Folder::with_bar("bar.toml").mms("check bar.toml").exits(0);
     run.prints("proof  J > 0: 0.6 <= J <= 1.4").prints("every quantity is finite everywhere");
     run.prints("claim  x_min is fixed (u = 0): proved").prints("x_max is free (P N = 0): proved");
-    let file = &Folder::with_bar("bar.toml").mms("check bar.toml --json").exits(0).json()["files"][0];
+    let file =
+        &Folder::with_bar("bar.toml").mms("check bar.toml --json").exits(0).json()["files"][0];
     assert_eq!(file["claims"][1]["status"], "proved", "{file}");
     let certificate = &file["certificate"];
     let number = |key: &str| certificate[key].as_f64().unwrap_or_else(|| panic!("{certificate}"));

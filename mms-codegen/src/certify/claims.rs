@@ -144,14 +144,14 @@ impl<'a> OnFace<'a> {
         let dimension = field.dimension;
         let gradient = self.restrict(graph, &derived.quantities[&Quantity::DisplacementGradient]);
         let gradient = reduced(graph, &gradient);
-        let supplied = gradient.iter().enumerate().map(|(at, entry)| {
-            (Symbol::Gradient(at / dimension, at % dimension), *entry)
-        });
+        let supplied = gradient
+            .iter()
+            .enumerate()
+            .map(|(at, entry)| (Symbol::Gradient(at / dimension, at % dimension), *entry));
         let stress = self.restrict(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         let stress = substitute(graph, &stress, &supplied.collect());
         let normal = self.normal(graph);
-        let component =
-            |row: &[Expr]| dot(graph, row.iter().copied().zip(normal.iter().copied()));
+        let component = |row: &[Expr]| dot(graph, row.iter().copied().zip(normal.iter().copied()));
         stress.chunks_exact(dimension).map(component).collect()
     }
 
@@ -162,9 +162,7 @@ impl<'a> OnFace<'a> {
             components,
         };
         match claim {
-            Claim::Fixed | Claim::Prescribed => {
-                with(self.displacement(graph), size(self.compiled))
-            }
+            Claim::Fixed | Claim::Prescribed => with(self.displacement(graph), size(self.compiled)),
             Claim::Free | Claim::Traction => with(self.traction(graph), modulus(self.compiled)),
             Claim::Roller => {
                 let normal = self.normal(graph);
@@ -250,9 +248,8 @@ impl<'a> OnFace<'a> {
         let found = largest(dimension, limit, enough, |cell| {
             let place = self.chart.place(&cell.0);
             let enclosure = bounds.enclose(&place);
-            let relative = enclosure.values.iter().zip(scales).map(|(value, scale)| {
-                farthest(value) / scale
-            });
+            let relative =
+                enclosure.values.iter().zip(scales).map(|(value, scale)| farthest(value) / scale);
             Measure {
                 bound: relative.fold(0.0, f64::max),
                 attained: 0.0,

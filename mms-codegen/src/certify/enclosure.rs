@@ -32,10 +32,7 @@ impl Formulas {
         for (index, symbol) in chart.variables().iter().enumerate() {
             outputs.insert(slopes_by(index), differentiate(graph, formulas, *symbol));
         }
-        Formulas {
-            program: schedule_plainly(graph, &outputs),
-            variables: chart.variables().len(),
-        }
+        Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
     }
 
     /// How many operations one evaluation takes.

@@ -52,18 +52,23 @@ pub fn bound(
         quantities.without_value(&spot, None, |value: &f64| value.is_finite()).is_some()
     };
     candidates.retain(|fractions| suspicious(fractions));
-    let found = largest(dimension, limit, |bound, _| bound <= 0.0, |cell| {
-        let place = chart.place(&cell.0);
-        let jacobian = ratios.enclose(&place).values[0].meet(positive);
-        let spot = spots.point(&place);
-        let gap = quantities.without_value(&spot, Some(jacobian), is_bounded);
-        let at = cell.centre();
-        if gap.is_some() && suspicious(&at) {
-            candidates.push(at.clone());
-        }
-        let bound = if gap.is_some() { f64::INFINITY } else { 0.0 };
-        Measure { bound, attained: 0.0, at, split: cell.widest() }
-    });
+    let found = largest(
+        dimension,
+        limit,
+        |bound, _| bound <= 0.0,
+        |cell| {
+            let place = chart.place(&cell.0);
+            let jacobian = ratios.enclose(&place).values[0].meet(positive);
+            let spot = spots.point(&place);
+            let gap = quantities.without_value(&spot, Some(jacobian), is_bounded);
+            let at = cell.centre();
+            if gap.is_some() && suspicious(&at) {
+                candidates.push(at.clone());
+            }
+            let bound = if gap.is_some() { f64::INFINITY } else { 0.0 };
+            Measure { bound, attained: 0.0, at, split: cell.widest() }
+        },
+    );
     if found.bound <= 0.0 {
         return (Finite::Proved, found.cells);
     }

@@ -180,7 +180,9 @@ fn acoustic(tensor: &[f64], normal: &[f64]) -> Vec<f64> {
         sum
     };
     (0..order)
-        .map(|at| (entry(at / dimension, at % dimension) + entry(at % dimension, at / dimension)) / 2.0)
+        .map(|at| {
+            (entry(at / dimension, at % dimension) + entry(at % dimension, at / dimension)) / 2.0
+        })
         .collect()
 }
 

@@ -69,7 +69,11 @@ pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
     let message =
         format!("`{face}` is not proved to be a `{}` face: {}", word.name(), word.meaning());
     Diagnostic::error(claim.claim.span, message)
-        .label(format!("what should be 0 lies in [{}, {}]", digits(interval[0]), digits(interval[1])))
+        .label(format!(
+            "what should be 0 lies in [{}, {}]",
+            digits(interval[0]),
+            digits(interval[1])
+        ))
         .help("write u so that the claim follows term by term, or claim `prescribed` or `traction`")
 }
 
@@ -98,9 +102,10 @@ fn culprit(compiled: &Compiled, witness: &Witness) -> Option<(Span, String)> {
     let defaults = compiled.parameters::<f64>(&Default::default());
     let coordinates = compiled.model.domain.body.coordinates(&witness.coordinates);
     let place = |reset: usize| -> Vec<f64> {
-        let parameters = witness.parameters.iter().map(|(index, value)| {
-            if *index == reset { defaults[*index] } else { *value }
-        });
+        let parameters = witness
+            .parameters
+            .iter()
+            .map(|(index, value)| if *index == reset { defaults[*index] } else { *value });
         parameters.chain([witness.time]).chain(coordinates.iter().copied()).collect()
     };
     let to_blame = |index: &usize| values.values(&place(*index))[0] > 0.0;

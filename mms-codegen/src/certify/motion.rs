@@ -56,7 +56,15 @@ impl Motion {
             false => stress,
         };
         let gradient = (!is_isotropic(graph, compiled.model.energy)).then_some(cartesian);
-        Motion { dimension, gradient, right, right_rate, jacobian: strain.jacobian, density, stress }
+        Motion {
+            dimension,
+            gradient,
+            right,
+            right_rate,
+            jacobian: strain.jacobian,
+            density,
+            stress,
+        }
     }
 
     /// How many components X has.
@@ -89,9 +97,7 @@ fn is_isotropic(graph: &Graph, energy: Expr) -> bool {
 /// What follows from a gradient, reduced where that makes it shorter.
 fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     let dimension = gradient.len().isqrt();
-    let tensor = || {
-        Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column])
-    };
+    let tensor = || Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column]);
     let plain = Strain::new(graph, tensor(), &Relations::default());
     let reduced = graph.attempt(|graph| {
         let relations = Relations::find(graph, gradient);

@@ -204,7 +204,8 @@ impl Tangent<'_> {
             let gradient = gradient.iter().enumerate();
             let gradient: Vec<_> =
                 gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
-            let stress = self.first.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
+            let stress =
+                self.first.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
             stress.into_iter().map(|component| component.slope).collect()
         })
     }
@@ -226,7 +227,8 @@ impl Tangent<'_> {
                 slope: Dual::constant(unit(entry, column)),
             });
             let gradient: Vec<_> = gradient.collect();
-            let stress = self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
+            let stress =
+                self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
             stress.into_iter().map(|component| component.slope.slope).collect()
         })
     }

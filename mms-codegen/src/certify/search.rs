@@ -142,12 +142,8 @@ pub fn largest(
         worst: whole.clone(),
         cells: 1,
     };
-    let mut open = BinaryHeap::from([Open {
-        cell: whole,
-        bound: first.bound,
-        split: first.split,
-        number: 0,
-    }]);
+    let mut open =
+        BinaryHeap::from([Open { cell: whole, bound: first.bound, split: first.split, number: 0 }]);
     while let Some(top) = open.peek() {
         (found.bound, found.worst) = (top.bound, top.cell.clone());
         if enough(found.bound, found.attained) || found.cells + 2 > limit {

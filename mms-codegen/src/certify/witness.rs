@@ -41,7 +41,9 @@ impl Witness {
         let axes = AXES.iter().zip(&self.coordinates).map(|(axis, x)| (axis.to_string(), *x));
         let parameters = self.parameters.iter().map(|(index, x)| (names[*index].clone(), *x));
         let all = axes.chain([("t".to_string(), self.time)]).chain(parameters);
-        all.map(|(name, value)| format!("{name} = {}", digits(value))).collect::<Vec<_>>().join(", ")
+        all.map(|(name, value)| format!("{name} = {}", digits(value)))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }
 

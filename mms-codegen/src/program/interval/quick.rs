@@ -17,11 +17,8 @@ const LARGEST_EXPONENT: f64 = 600.0;
 
 /// ln 2 and pi/2 as sums of doubles that do not overlap.
 const LN_2: [f64; 2] = [core::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
-const QUARTER: [f64; 3] = [
-    core::f64::consts::FRAC_PI_2,
-    6.123_233_995_736_766e-17,
-    -1.497_384_904_859_169_8e-33,
-];
+const QUARTER: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
 /// A number as the sum of two doubles, of which the second is less than the last digit of the first.
 #[derive(Clone, Copy)]
@@ -131,9 +128,7 @@ fn reduced(x: f64) -> Option<(Double, i64)> {
         return None;
     }
     let turns = (x / QUARTER[0]).round();
-    let rest = QUARTER
-        .iter()
-        .fold(Double(x, 0.0), |rest, part| rest.minus(product(turns, *part)));
+    let rest = QUARTER.iter().fold(Double(x, 0.0), |rest, part| rest.minus(product(turns, *part)));
     Some((rest, turns as i64))
 }
 
