@@ -381,9 +381,7 @@ fn points(extent: &Extent<Precise>) -> impl Iterator<Item = Vec<Precise>> {
     corners.chain(inside).map(|fractions| extent.point(&fractions))
 }
 
-/// A number in a message: short, whatever its size.
+/// A number in a message.
 fn digits(value: &Precise) -> String {
-    let value = value.to_f64();
-    let plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
-    if plain { value.to_string() } else { format!("{value:e}") }
+    super::witness::digits(value.to_f64())
 }

@@ -77,7 +77,8 @@ fn rounded(value: f64, direction: f64) -> String {
     }
     let short = |value: f64| -> f64 { format!("{value:.3e}").parse().unwrap_or(value) };
     let mut rounded = short(value);
-    if (value - rounded) * direction > 0.0 {
+    // The last digits of a double are no reason for another digit: JSON has them.
+    if (value - rounded) * direction > 1e-12 * value.abs() {
         let unit = 10f64.powi(value.abs().log10().floor() as i32 - 3);
         rounded = short(rounded + direction * unit);
     }
