@@ -135,10 +135,8 @@ proptest! {
         let certificate = certify(&compiled);
         prop_assert_eq!(&certificate.finite, &Finite::Proved);
         let (jacobian, rates) = bounds(&certificate);
-        let set = [(0, (value.into(), 1000_u64))].map(|(index, (n, d)): (usize, (u64, u64))| {
-            (index, mms_codegen::expr::Rational::from_parts(n.into(), d.into()))
-        });
-        let set = set.into();
+        let value = mms_codegen::expr::Rational::from_parts(value.into(), 1000_u64.into());
+        let set = [(0, value)].into();
         let parameters = compiled.parameters::<Precise>(&set);
         for point in samples(&compiled, &parameters, 12) {
             let mut interpreter = Interpreter::new(&compiled.program, &parameters);
@@ -159,10 +157,10 @@ proptest! {
                 let stretch = stretched[0].hypot(stretched[1]);
                 prop_assert!(stretch <= rates.principal_stretch, "{stretch} {rates:?}");
                 let mut modulus = 0.0;
-                for entry in 0..16 {
+                for (entry, component) in tangent.iter().enumerate() {
                     let (row, column) = (entry / 4, entry % 4);
                     let pair = m[row / 2] * n[row % 2] * m[column / 2] * n[column % 2];
-                    modulus += tangent[entry] * pair;
+                    modulus += component * pair;
                 }
                 let speed = (modulus.max(0.0) / (1.0 + at[0] / 4.0)).sqrt();
                 prop_assert!(speed <= rates.reference_wave_speed, "{speed} {rates:?}");

@@ -62,7 +62,7 @@ pub fn halton<T: Number>(index: usize) -> [T; 4] {
 
 /// The point of that index, from 1 on, of the Halton sequence in the unit cube of any dimension.
 pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
-    let is_prime = |n: &usize| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(*d));
+    let is_prime = |n: &usize| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
     let primes = (2..).filter(is_prime).take(dimension);
     primes.map(|base| radical_inverse(index, base)).collect()
 }
