@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::certify::certificate::contradictions;
 use crate::certify::declared;
 use crate::culprit::culprit;
 use crate::diagnostic::{self, Diagnostic};
@@ -108,8 +109,25 @@ pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<C
 
 /// Compiles a part of a field, the field with some parameters fixed, or within other limits.
 ///
-/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart.
+/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart. So is
+/// what a short search finds to contradict the field: see [`contradictions`].
 pub fn compile_with(
+    name: &str,
+    path: &str,
+    text: &str,
+    load: Loader<'_>,
+    options: &Options,
+) -> Result<Compiled, Failure> {
+    let compiled = compile_unproved(name, path, text, load, options)?;
+    match contradictions(&compiled) {
+        found if found.is_empty() => Ok(compiled),
+        diagnostics => Err(Failure { sources: compiled.sources, diagnostics }),
+    }
+}
+
+/// The same without a look at what the field claims: for [`crate::certify::certificate::certify`],
+/// which looks longer.
+pub fn compile_unproved(
     name: &str,
     path: &str,
     text: &str,

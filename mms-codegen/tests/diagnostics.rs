@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use mms_codegen::certify::certificate::certify;
 use mms_codegen::compile::{Failure, constant};
 use mms_codegen::diagnostic::{Diagnostic, render};
 use mms_codegen::selection::{Freeze, Selection};
@@ -49,7 +50,8 @@ fn mistakes(name: &str, text: &str) -> (Sources, Vec<Diagnostic>) {
         fs::read_to_string(folder().join(material)).map_err(missing)
     };
     match compile(name, &path, text, &load) {
-        Ok(_) => (Sources::default(), Vec::new()),
+        // What a compilation does not look for is found by `mms check`.
+        Ok(compiled) => (compiled.sources.clone(), certify(&compiled).objections(&compiled)),
         Err(failure) => (failure.sources, failure.diagnostics),
     }
 }

@@ -1,19 +1,30 @@
 //! `mms check`: every mistake of a file, and every claim it makes.
 
+mod proof;
+
 use std::path::PathBuf;
 
 use clap::Args;
 use mms_codegen::Compiled;
+use mms_codegen::certify::certificate::certify;
 use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS, compare};
 use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
-use mms_codegen::diagnostic::Diagnostic;
+use mms_codegen::diagnostic::{Diagnostic, render_styled};
+use mms_codegen::source::Sources;
 use serde_json::{Value, json};
 
 use super::input::{Variant, read};
 use super::{Outcome, print, print_json};
 
-/// Check field files: mistakes, boundary claims and closed forms.
+/// Check field files: mistakes, boundary claims, J > 0, and closed forms.
+///
+/// What holds over the whole body, time window and parameter ranges is proved: symbolically, or with
+/// intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
+/// 1e-12 of what it should be, relative to the size of the body or the modulus; `refuted` at a point
+/// that is named; or `unproved`. The last two exit 1, as do J <= 0, a quantity without a finite
+/// value, and a closed form that differs. Bounds are given of J, the principal stretch, the strain
+/// rate, the wave speed, and the time step that waves allow.
 #[derive(Args)]
 pub struct Check {
     /// Field files.
@@ -63,7 +74,7 @@ impl Check {
             print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
         }
         let diagnostics: Vec<_> =
-            failure.diagnostics.iter().map(|it| located(failure, it)).collect();
+            failure.diagnostics.iter().map(|it| located(&failure.sources, it)).collect();
         let document = json!({ "file": path, "diagnostics": diagnostics });
         Ok((Outcome::BadInput, document))
     }
@@ -72,36 +83,40 @@ impl Check {
         let comparisons = compare(compiled);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
-        let refuted = !gaps.is_empty() || !comparisons.iter().all(agrees);
+        let certificate = certify(compiled);
+        let objections = certificate.objections(compiled);
+        let refuted = !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
         if !self.json {
-            print(&text(path, compiled, &gaps, &comparisons))?;
+            if !objections.is_empty() {
+                anstream::eprintln!("{}", render_styled(&compiled.sources, &objections));
+            }
+            let proofs = proof::text(&certificate);
+            print(&text(path, compiled, proofs, &gaps, &comparisons))?;
         }
-        let claims: Vec<_> = compiled
-            .field
-            .boundary
-            .iter()
-            .map(|claim| {
-                json!({
-                    "face": claim.face.value.name(),
-                    "claim": claim.claim.value.name(),
-                    "status": "not yet proved",
-                })
-            })
-            .collect();
+        let claims: Vec<_> = certificate.claims.iter().map(proof::claim).collect();
+        let objections: Vec<_> =
+            objections.iter().map(|it| located(&compiled.sources, it)).collect();
         let checks: Vec<_> = comparisons.iter().map(comparison_document).collect();
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
         let gaps: Vec<_> = gaps.iter().map(|gap| gap_document(compiled, gap)).collect();
         Ok((
             outcome,
-            json!({ "file": path, "claims": claims, "checks": checks, "undefined": gaps }),
+            json!({
+                "file": path,
+                "claims": claims,
+                "certificate": proof::document(&certificate),
+                "objections": objections,
+                "checks": checks,
+                "undefined": gaps,
+            }),
         ))
     }
 }
 
-fn located(failure: &Failure, diagnostic: &Diagnostic) -> Value {
-    let (line, column) = failure.sources.location(diagnostic.span);
+fn located(sources: &Sources, diagnostic: &Diagnostic) -> Value {
+    let (line, column) = sources.location(diagnostic.span);
     json!({
-        "path": failure.sources.get(diagnostic.span.source).path,
+        "path": sources.get(diagnostic.span.source).path,
         "line": line,
         "column": column,
         "message": diagnostic.message,
@@ -149,12 +164,15 @@ fn comparison_document(comparison: &Comparison) -> Value {
     })
 }
 
-fn text(path: &str, compiled: &Compiled, gaps: &[Gap], comparisons: &[Comparison]) -> String {
+fn text(
+    path: &str,
+    compiled: &Compiled,
+    proofs: Vec<String>,
+    gaps: &[Gap],
+    comparisons: &[Comparison],
+) -> String {
     let mut lines = vec![format!("{path}: {}", compiled.field.title)];
-    for claim in &compiled.field.boundary {
-        let (face, claim) = (claim.face.value.name(), claim.claim.value.name());
-        lines.push(format!("  claim  {face} is {claim}: not yet proved"));
-    }
+    lines.extend(proofs);
     for gap in gaps {
         let (at, time) = &gap.first;
         let what = match gap.component {

@@ -9,7 +9,7 @@ use anyhow::{Context as _, Error, anyhow, bail};
 use clap::Args;
 use dashu_ratio::RBig;
 use mms_codegen::certify::declared::accepts;
-use mms_codegen::compile::Failure;
+use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::quantity;
 use mms_codegen::suggest::did_you_mean;
@@ -105,7 +105,7 @@ impl Input {
 
     fn from_file(path: &Path, options: &Options) -> anyhow::Result<Input> {
         let whole = "the field file has mistakes";
-        let compiled = read_with(path, options)?
+        let compiled = read_with(path, options, compile_with)?
             .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
     }
@@ -173,12 +173,20 @@ fn what_failed(options: &Options, whole: &'static str) -> &'static str {
     if options.selection == Selection::default() { whole } else { SELECTED }
 }
 
-/// Reads and compiles a field file: an error if it cannot be read, a failure if it is wrong.
+/// Reads a field file and derives what follows from it, whether or not it is what it claims to be:
+/// an error if it cannot be read, a failure if it is wrong.
 pub fn read(path: &Path, variant: &Variant) -> anyhow::Result<Result<Compiled, Failure>> {
-    read_with(path, &variant.options(Selection::default()))
+    read_with(path, &variant.options(Selection::default()), compile_unproved)
 }
 
-fn read_with(path: &Path, options: &Options) -> anyhow::Result<Result<Compiled, Failure>> {
+/// One of the ways to compile.
+type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
+
+fn read_with(
+    path: &Path,
+    options: &Options,
+    compile: Compile,
+) -> anyhow::Result<Result<Compiled, Failure>> {
     let shown = path.display().to_string();
     let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -186,5 +194,5 @@ fn read_with(path: &Path, options: &Options) -> anyhow::Result<Result<Compiled, 
     let load = |material: &str| {
         fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
     };
-    Ok(compile_with(&name, &shown, &text, &load, options))
+    Ok(compile(&name, &shown, &text, &load, options))
 }

@@ -100,7 +100,8 @@ fn the_document_of_a_wrong_file_names_each_place() {
 /// The bar, with a displacement and one closed form of it.
 fn with_displacement(u: &str, closed_form: &str) -> Folder {
     let folder = Folder::new();
-    let before = &BAR[..BAR.find("[[check]]").expect("a check")];
+    // What is claimed of the bar does not hold for every displacement.
+    let before = &BAR[..BAR.find("[boundary]").expect("claims")];
     let text = before.replace("X*(2*length - X)/length^2 * A", u);
     assert_ne!(text, before);
     let check = format!("[[check]]\nquantity = \"displacement\"\nequals = [\"{closed_form}\"]\n");
@@ -110,9 +111,9 @@ fn with_displacement(u: &str, closed_form: &str) -> Folder {
 
 #[test]
 fn a_closed_form_of_values_far_below_double_precision_holds() {
-    let folder = with_displacement("A*exp(-1e7*X/length)", "A/exp(X/length)^10000000");
+    let folder = with_displacement("1e-9*A*exp(-1e7*X/length)", "1e-9*A/exp(X/length)^10000000");
     folder.mms("check bar.toml").exits(0).prints("displacement agrees to 1e-20 at 128 points");
-    let wrong = with_displacement("A*exp(-1e7*X/length)", "A/exp(X/length)^10000001");
+    let wrong = with_displacement("1e-9*A*exp(-1e7*X/length)", "1e-9*A/exp(X/length)^10000001");
     wrong.mms("check bar.toml").exits(1).prints("displacement FAILED");
 }
 
@@ -157,6 +158,49 @@ fn what_cancels_is_evaluated_as_it_is_written() {
     assert_eq!((&found[0]["component"], &found[0]["points"]), (&1.into(), &16.into()));
     assert_eq!((&found[0]["line"], &found[0]["column"]), (&17.into(), &9.into()));
     // Powers, definitions and functions of two arguments, all of them defined.
-    let defined = "A*(X/length - 2)^3*(X/length - 2)^-2*hypot(X/length, 1)*cbrt(-X/length)";
+    let defined = "A*(X/length - 2)^3*(X/length - 2)^-2*hypot(X/length, 1)*cbrt(-1 - X/length)";
     with_displacement(defined, defined).mms("check bar.toml").exits(0);
+}
+
+#[test]
+fn what_is_proved_is_told_with_its_bounds() {
+    let run = Folder::with_bar("bar.toml").mms("check bar.toml").exits(0);
+    run.prints("proof  J > 0: 0.6 <= J <= 1.4").prints("every quantity is finite everywhere");
+    run.prints("claim  x_min is fixed (u = 0): proved").prints("x_max is free (P N = 0): proved");
+    let file =
+        &Folder::with_bar("bar.toml").mms("check bar.toml --json").exits(0).json()["files"][0];
+    assert_eq!(file["claims"][1]["status"], "proved", "{file}");
+    let certificate = &file["certificate"];
+    let number = |key: &str| certificate[key].as_f64().unwrap_or_else(|| panic!("{certificate}"));
+    assert_eq!(certificate["finite"], true);
+    // F = 1 + 0.4 cos, and the fastest wave is where F is least: c^2 = E/(2 rho0) (1 + F^-2).
+    let fastest = (500.0_f64 * (1.0 + 0.6_f64.powi(-2))).sqrt();
+    assert!((1.4..1.4 * 1.1).contains(&number("principal_stretch")));
+    assert!((fastest..fastest * 1.1).contains(&number("reference_wave_speed")));
+    let step = number("time_step_per_cell_size");
+    assert!((1.0 / (fastest * 1.4 * 1.21)..=1.0 / fastest).contains(&step), "{step}");
+}
+
+#[test]
+fn a_refuted_claim_exits_1_and_is_refused_elsewhere_with_the_same_text() {
+    let folder = changed("x_max = \"free\"", "x_max = \"fixed\"");
+    let run = folder.mms("check bar.toml").exits(1);
+    run.prints("claim  x_max is fixed (u = 0): REFUTED").complains("`x_max` is no `fixed` face");
+    let at = run.stderr.find(&format!("bar.toml:{}", place("\"free\""))).is_some();
+    assert!(at, "{run}");
+    let expected = run.stderr.trim_end().to_string();
+    for command in ["show bar.toml", "eval bar.toml --at 1 --time 0"] {
+        folder.mms(command).exits(2).complains(&expected).prints_nothing();
+    }
+    let claim = &folder.mms("check bar.toml --json").exits(1).json()["files"][0]["claims"][1];
+    assert_eq!(claim["status"], "refuted");
+    assert!(claim["at"][0] == 1.0 && claim["value"].is_number(), "{claim}");
+}
+
+#[test]
+fn matter_that_is_turned_inside_out_exits_1() {
+    let folder = changed("amplitude = { value = 0.2,", "amplitude = { value = 0.6,");
+    let run = folder.mms("check bar.toml").exits(1);
+    run.complains("J = det F is not positive").complains("J is ").prints("J > 0 is REFUTED");
+    folder.mms("eval bar.toml --at 1 --time 0").exits(2).complains("J = det F is not positive");
 }

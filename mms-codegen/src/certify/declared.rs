@@ -67,6 +67,14 @@ fn evaluate(graph: &Graph, parameters: &[Precise], exprs: &[Expr]) -> Vec<Precis
     Interpreter::new(&program, parameters).output(output)
 }
 
+/// The values of expressions in the parameters at the defaults of these.
+pub(super) fn values(graph: &Graph, model: &Model, exprs: &[Expr]) -> Vec<f64> {
+    let mut graph = graph.clone();
+    let defaults = parameter_values(&mut graph, model, &BTreeMap::new());
+    let parameters = evaluate(&graph, &[], &defaults);
+    evaluate(&graph, &parameters, exprs).iter().map(Precise::to_f64).collect()
+}
+
 /// A part of the domain, as written and in numbers.
 struct Bound<'a> {
     formula: &'a Formula,
@@ -348,7 +356,5 @@ fn range_mistake(
 
 /// A number in a message: short, whatever its size.
 fn digits(value: &Precise) -> String {
-    let value = value.to_f64();
-    let plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
-    if plain { value.to_string() } else { format!("{value:e}") }
+    super::witness::digits(value.to_f64())
 }

@@ -1,6 +1,18 @@
 //! What a field file claims, tested against what follows from it.
 
+pub mod certificate;
+pub mod chart;
+pub mod claims;
 pub mod closed_form;
 pub mod declared;
+pub mod enclosure;
+pub mod finite;
+pub mod jacobian;
+pub mod matrix;
+pub mod message;
+pub mod motion;
+pub mod rates;
 pub mod sample;
+pub mod search;
+pub mod witness;
 pub mod written;

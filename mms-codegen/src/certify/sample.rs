@@ -60,6 +60,13 @@ pub fn halton<T: Number>(index: usize) -> [T; 4] {
     [2, 3, 5, 7].map(|base| T::from_rational(&radical_inverse(index, base)))
 }
 
+/// The point of that index, from 1 on, of the Halton sequence in the unit cube of any dimension.
+pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
+    let is_prime = |n: &usize| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
+    let primes = (2..).filter(is_prime).take(dimension);
+    primes.map(|base| radical_inverse(index, base)).collect()
+}
+
 /// The first `count` points of the Halton sequence, mapped to the domain of a field with these
 /// parameters.
 pub fn samples<T: Number>(compiled: &Compiled, parameters: &[T], count: usize) -> Vec<Sample<T>> {

@@ -52,6 +52,16 @@ pub enum Body {
     },
 }
 
+impl Body {
+    /// The coordinates between whose bounds the body is a box: X itself, or radius and angle.
+    pub fn coordinates(&self, reference: &[f64]) -> Vec<f64> {
+        match (self, reference) {
+            (Body::Annulus { .. }, [x, y]) => vec![x.hypot(*y), y.atan2(*x)],
+            _ => reference.to_vec(),
+        }
+    }
+}
+
 /// The body and the time window that a field's claims are about, in terms of the parameters.
 #[derive(Clone, Debug)]
 pub struct Domain {

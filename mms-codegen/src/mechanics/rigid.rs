@@ -94,6 +94,12 @@ impl RigidMotion {
         }
     }
 
+    /// Q.
+    pub fn turn(&self, graph: &mut Graph) -> Tensor {
+        let excess = self.excess(graph);
+        Tensor::identity(graph, excess.dimension()).add(graph, &excess)
+    }
+
     /// Every quantity of the twin, from those of the field. What the material answers to a
     /// displacement gradient stays as it is.
     pub fn compose(&self, graph: &mut Graph, inner: &Derivation) -> Derivation {
@@ -126,8 +132,7 @@ struct Twin<'a> {
 
 impl<'a> Twin<'a> {
     fn new(graph: &mut Graph, motion: &RigidMotion, inner: &'a Derivation) -> Self {
-        let excess = motion.excess(graph);
-        let rotation = Tensor::identity(graph, excess.dimension()).add(graph, &excess);
+        let (excess, rotation) = (motion.excess(graph), motion.turn(graph));
         let [first, second] = rates(graph, excess.components())
             .map(|rate| Tensor::from_components(excess.dimension(), rate));
         let [drift, pull] = rates(graph, &motion.translation);

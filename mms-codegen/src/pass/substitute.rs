@@ -15,6 +15,23 @@ pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, E
     })
 }
 
+/// `roots` with whole sub-expressions replaced, wherever they stand as operands.
+pub fn replace(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Expr, Expr>) -> Vec<Expr> {
+    let mut replaced = BTreeMap::<Expr, Expr>::new();
+    for expr in graph.reachable(roots) {
+        let made = match values.get(&expr) {
+            Some(value) => *value,
+            None => {
+                let mut node = graph.node(expr).clone();
+                node.map_children(|child| replaced[&child]);
+                graph.remake(node)
+            }
+        };
+        replaced.insert(expr, made);
+    }
+    roots.iter().map(|root| replaced[root]).collect()
+}
+
 /// Rebuilds `roots` from their leaves up; `make` receives each node with rebuilt operands.
 pub(crate) fn rebuild(
     graph: &mut Graph,

@@ -7,6 +7,7 @@
 //! directed rounding in arbitrary precision at their bounds (`functions.rs`).
 
 mod functions;
+mod quick;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -70,6 +71,23 @@ impl Interval {
         self.lower <= other.upper && other.lower <= self.upper
     }
 
+    /// The numbers within the bounds of both, which enclose the same value.
+    pub fn meet(self, other: Interval) -> Self {
+        let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
+        // Two enclosures of one value that do not meet enclose no value at all.
+        Interval::new(lower, upper).only_if(self.defined || other.defined)
+    }
+
+    /// The largest magnitude within the bounds.
+    pub fn farthest(self) -> f64 {
+        self.lower.abs().max(self.upper.abs())
+    }
+
+    /// The number halfway between the bounds, or near it.
+    pub fn middle(self) -> f64 {
+        (self.lower / 2.0 + self.upper / 2.0).clamp(self.lower, self.upper)
+    }
+
     /// The distance of the bounds.
     pub fn width(self) -> f64 {
         self.upper - self.lower
@@ -127,6 +145,11 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
+        if self.lower >= 0.0 && other.lower >= 0.0 {
+            let lower = product_below(self.lower, other.lower);
+            let upper = -product_below(-self.upper, other.upper);
+            return Interval::new(lower, upper).only_if(self.defined && other.defined);
+        }
         self.corners(other, product_below, |a, b| -product_below(-a, b))
     }
 }

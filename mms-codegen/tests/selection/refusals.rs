@@ -62,7 +62,7 @@ fn a_field_without_parameters_says_so() {
     let mut text = moving();
     text.replace_range(parameters..end, "");
     let text = text
-        .replace("size*", "")
+        .replace("size*", "0.1*")
         .replace("\"lambda\"", "0")
         .replace("\"twice/2\"", "1")
         .replace("\"rho0\"", "1");
@@ -116,8 +116,9 @@ fn a_value_that_leaves_a_quantity_undefined_is_refused() {
     let failure = refusal(&text, &collapse(&[Quantity::BodyForce, Quantity::CauchyStress]));
     assert!(failure.contains("is not defined with these values\n --> freeze:1:1"), "{failure}");
     assert!(failure.contains("choose other values, or freeze fewer parameters"), "{failure}");
-    // What is defined may be asked for.
-    compiled(&text, &collapse(&[Quantity::Displacement, Quantity::Jacobian]));
+    // J is defined, but not positive: whatever of the field is asked for.
+    let failure = refusal(&text, &collapse(&[Quantity::Displacement, Quantity::Jacobian]));
+    assert!(failure.contains("J = det F is not positive"), "{failure}");
     // A modulus that makes the wave speed the root of a negative number.
     let negative = |quantities: &[Quantity]| selection(quantities, &[("lambda", "-1e7")], &["*"]);
     let failure = refusal(&moving(), &negative(&[]));

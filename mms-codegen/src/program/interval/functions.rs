@@ -7,7 +7,7 @@ use dashu_int::IBig;
 use dashu_int::ops::CubicRoot as _;
 use mms_math::Scalar;
 
-use super::Interval;
+use super::{Interval, quick};
 
 /// Precision of what is computed at a bound before it is rounded outward to double.
 const BITS: usize = 64;
@@ -19,6 +19,13 @@ type Above = FBig<Up, 2>;
 macro_rules! around {
     ($x:expr, $function:ident) => {
         (below(exact_below($x).$function()), above(exact_above($x).$function()))
+    };
+}
+
+/// The same for a function that can mostly do without arbitrary precision.
+macro_rules! quickly_around {
+    ($x:expr, $function:ident) => {
+        quick::$function($x).unwrap_or_else(|| around!($x, $function))
     };
 }
 
@@ -91,14 +98,28 @@ fn positions(interval: Interval, shift: i32) -> (bool, bool) {
     if interval.width() >= 7.0 {
         return (true, true);
     }
+    if let (Some([_, first]), Some([last, _])) =
+        (quick::quarters(interval.lower), quick::quarters(interval.upper))
+    {
+        // (n + shift/2) pi is quarter turn 2 n + shift.
+        let shift = i64::from(shift);
+        let (first, last) = ((first - shift + 1).div_euclid(2), (last - shift).div_euclid(2));
+        return parities(first.rem_euclid(2) == 0, last - first);
+    }
     let first: IBig = half_turns(interval.lower, shift).ceil().to_int().value();
     let last: IBig = half_turns(interval.upper, shift).floor().to_int().value();
-    if first > last {
-        return (false, false);
-    }
     let even = (&first % IBig::from(2)).is_zero();
-    let several = first < last;
-    (even || several, !even || several)
+    parities(even, i64::try_from(last - first).unwrap_or(i64::MAX))
+}
+
+/// Whether an even and whether an odd number is among `more + 1` numbers from one on that is even
+/// or not.
+fn parities(even: bool, more: i64) -> (bool, bool) {
+    match more {
+        ..0 => (false, false),
+        0 => (even, !even),
+        1.. => (true, true),
+    }
 }
 
 impl Interval {
@@ -199,7 +220,7 @@ impl Scalar for Interval {
 
     fn exp(self) -> Self {
         let tails = Tails { from: -746.0, left: TINY, to: 710.0, right: LARGE };
-        self.rising(&tails, |x| around!(x, exp))
+        self.rising(&tails, |x| quickly_around!(x, exp))
     }
 
     fn exp_m1(self) -> Self {
@@ -211,21 +232,21 @@ impl Scalar for Interval {
         let Some(part) = self.within(0.0, f64::INFINITY) else { return Interval::UNDEFINED };
         let tails =
             Tails { from: f64::from_bits(1), left: minus(LARGE), to: f64::MAX, right: LARGE };
-        part.rising(&tails, |x| around!(x, ln)).only_if(part.lower > 0.0)
+        part.rising(&tails, |x| quickly_around!(x, ln)).only_if(part.lower > 0.0)
     }
 
     fn ln_1p(self) -> Self {
         let Some(part) = self.within(-1.0, f64::INFINITY) else { return Interval::UNDEFINED };
         let tails = Tails { from: -UNIT.0, left: minus(LARGE), to: f64::MAX, right: LARGE };
-        part.rising(&tails, |x| around!(x, ln_1p)).only_if(part.lower > -1.0)
+        part.rising(&tails, |x| quickly_around!(x, ln_1p)).only_if(part.lower > -1.0)
     }
 
     fn sin(self) -> Self {
-        self.wave(1, |x| around!(x, sin))
+        self.wave(1, |x| quickly_around!(x, sin))
     }
 
     fn cos(self) -> Self {
-        self.wave(0, |x| around!(x, cos))
+        self.wave(0, |x| quickly_around!(x, cos))
     }
 
     fn tan(self) -> Self {

@@ -1,0 +1,159 @@
+//! Everything that is proved of a field, and the cheaper search for what contradicts it.
+
+use super::chart::Chart;
+use super::claims::{self, Finding};
+use super::enclosure::Formulas;
+use super::finite::{self, Finite};
+use super::jacobian::{self, Jacobian};
+use super::message;
+use super::motion::Motion;
+use super::rates::{self, Rates};
+use super::witness::Witness;
+use crate::compile::Compiled;
+use crate::diagnostic::Diagnostic;
+use crate::expr::Graph;
+use crate::quantity::Quantity;
+use crate::spec::BoundarySpec;
+
+/// How many cells each bound may take.
+pub const CELLS: usize = 2000;
+
+/// How many cells a rate may take: its bound holds however many there were.
+const CELLS_OF_RATES: usize = 300;
+
+/// How many operations a compilation spends on looking for J <= 0, and cells at most.
+const QUICK_OPERATIONS: usize = 100_000;
+const QUICK_CELLS: usize = 128;
+
+/// What a compilation looks at has no more nodes than this: other fields are left to [`certify`].
+const QUICK_NODES: usize = 2_000;
+
+/// At how many points of each face a compilation evaluates a claim.
+const QUICK_POINTS: usize = 4;
+
+/// What is known of a field, and what is not.
+#[derive(Clone, Debug)]
+pub struct Certificate {
+    /// Every claim of the file, in its order.
+    pub claims: Vec<(BoundarySpec, Finding)>,
+    /// Whether J > 0.
+    pub jacobian: Jacobian,
+    /// Whether all quantities exist.
+    pub finite: Finite,
+    /// The largest stretch, strain rate and wave speed; only of a field with J > 0.
+    pub rates: Option<Rates>,
+    /// How many cells it took.
+    pub boxes: usize,
+}
+
+/// Proves what it can of a compiled field.
+pub fn certify(compiled: &Compiled) -> Certificate {
+    let mut graph = room(compiled);
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let motion = Motion::new(&mut graph, &chart, compiled);
+    let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
+    // What a compilation finds is found first, so that both say the same.
+    let (jacobian, mut boxes) = match inversion(&mut graph, &chart, compiled) {
+        Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
+        None => jacobian::bound(&chart, &formulas, CELLS),
+    };
+    let mut rates = None;
+    let mut least = 0.0;
+    if let Jacobian::Positive([lower, _]) = jacobian {
+        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, lower, CELLS_OF_RATES);
+        (rates, boxes, least) = (Some(bound), boxes + cells, lower);
+    }
+    let limit = if rates.is_some() { CELLS } else { 0 };
+    let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);
+    boxes += cells;
+    let mut claims = Vec::new();
+    for claim in &compiled.field.boundary {
+        let (finding, cells) = claims::judge(&mut graph, compiled, claim, CELLS);
+        claims.push((claim.clone(), finding));
+        boxes += cells;
+    }
+    Certificate { claims, jacobian, finite, rates, boxes }
+}
+
+impl Certificate {
+    /// What is refuted or not proved, each at its place in the file.
+    pub fn objections(&self, compiled: &Compiled) -> Vec<Diagnostic> {
+        let mut objections = Vec::new();
+        match &self.finite {
+            Finite::Proved => {}
+            // Where J is not proved, neither is what it divides.
+            Finite::Unproved(..) if !matches!(self.jacobian, Jacobian::Positive(_)) => {}
+            Finite::Undefined(quantity, witness) => {
+                objections.push(message::undefined(compiled, *quantity, witness));
+            }
+            Finite::Unproved(quantity, witness) => {
+                objections.push(message::not_finite(compiled, *quantity, witness));
+            }
+        }
+        match &self.jacobian {
+            Jacobian::Positive(_) => {}
+            Jacobian::Inverted(witness, value) => {
+                objections.push(message::inverted(compiled, witness, *value));
+            }
+            Jacobian::Unproved(..) if matches!(self.finite, Finite::Undefined(..)) => {}
+            Jacobian::Unproved(witness, value) if value.is_infinite() => {
+                objections.push(message::not_finite(compiled, Quantity::Jacobian, witness));
+            }
+            Jacobian::Unproved(witness, value) => {
+                objections.push(message::not_positive(compiled, witness, *value));
+            }
+        }
+        for (claim, finding) in &self.claims {
+            match finding {
+                Finding::Proved | Finding::Enclosed(_) => {}
+                Finding::Refuted(witness, value) => {
+                    objections.push(message::refuted(compiled, claim, witness, *value));
+                }
+                Finding::Unproved(interval) => {
+                    objections.push(message::unproved(claim, *interval));
+                }
+            }
+        }
+        objections
+    }
+}
+
+/// What contradicts a compiled field, as far as a short search finds it: a claim that does not hold
+/// at one of a few points, and J <= 0 within a few cells. It proves nothing.
+pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
+    let quantities = &compiled.derived.quantities;
+    let gradient = &quantities[&Quantity::DisplacementGradient];
+    if compiled.graph.reachable(gradient).len() > QUICK_NODES {
+        return Vec::new();
+    }
+    let mut graph = room(compiled);
+    let mut found = Vec::new();
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    if let Some((witness, value)) = inversion(&mut graph, &chart, compiled) {
+        found.push(message::inverted(compiled, &witness, value));
+    }
+    for claim in &compiled.field.boundary {
+        if let Some(Finding::Refuted(witness, value)) =
+            claims::refute(&mut graph, compiled, claim, QUICK_POINTS)
+        {
+            found.push(message::refuted(compiled, claim, &witness, value));
+        }
+    }
+    found
+}
+
+/// A point where J <= 0, if a short search finds one.
+fn inversion(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Option<(Witness, f64)> {
+    let jacobian = &compiled.derived.quantities[&Quantity::Jacobian];
+    let jacobian = chart.pull_back(graph, jacobian);
+    let formulas = Formulas::new(graph, chart, &jacobian);
+    let cells = (QUICK_OPERATIONS / formulas.size().max(1)).clamp(1, QUICK_CELLS);
+    jacobian::inversion(chart, &formulas, cells)
+}
+
+/// The field's graph, with room for proofs.
+fn room(compiled: &Compiled) -> Graph {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    graph
+}

@@ -1,0 +1,313 @@
+//! What a file claims on the faces of its body: proved as an identity where that is possible, else
+//! enclosed, or refuted at a point.
+
+use mms_math::Scalar as _;
+
+use super::chart::{Chart, straightened};
+use super::enclosure::Formulas;
+use super::motion::gradient;
+use super::sample::spread;
+use super::search::{Measure, largest};
+use super::witness::Witness;
+use crate::compile::Compiled;
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::face::normal;
+use crate::mechanics::model::Body;
+use crate::mechanics::tensor::dot;
+use crate::mechanics::{Response, face};
+use crate::pass::reduce::reduce;
+use crate::pass::relations::Relations;
+use crate::pass::substitute::substitute;
+use crate::program::interpret::Number as _;
+use crate::program::interval::Interval;
+use crate::program::precise::Precise;
+use crate::quantity::Quantity;
+use crate::spec::{BoundarySpec, Claim, Face};
+
+/// At how many points of a face a claim is evaluated in 77 digits.
+pub const POINTS: usize = 32;
+
+/// What is less than this part of its natural scale may be what 77 digits round.
+const DOUBT: f64 = 1e-40;
+
+/// What is enclosed more narrowly than this, relative to its natural scale, passes for 0.
+const NARROW: f64 = 1e-12;
+
+/// What is known of a claim.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// It holds identically.
+    Proved,
+    /// What should be 0 lies between these numbers, which are near enough.
+    Enclosed([f64; 2]),
+    /// What should be 0 has this value here.
+    Refuted(Witness, f64),
+    /// What should be 0, or exist, lies between these numbers: not near enough.
+    Unproved([f64; 2]),
+}
+
+impl Finding {
+    /// The word for it in reports.
+    pub fn status(&self) -> &'static str {
+        match self {
+            Finding::Proved => "proved",
+            Finding::Enclosed(_) => "enclosed",
+            Finding::Refuted(..) => "refuted",
+            Finding::Unproved(_) => "unproved",
+        }
+    }
+}
+
+/// What a claim is about.
+struct Subject {
+    /// What must be 0; for `prescribed` and `traction`, what must exist.
+    components: Vec<Expr>,
+    /// What is 0 if the claim holds, component by component: the scale of each.
+    scales: Vec<f64>,
+}
+
+/// A field on one of its faces.
+struct OnFace<'a> {
+    compiled: &'a Compiled,
+    face: Face,
+    chart: Chart,
+}
+
+/// Proves or refutes a claim; the cells that it took come second.
+pub fn judge(
+    graph: &mut Graph,
+    compiled: &Compiled,
+    claim: &BoundarySpec,
+    limit: usize,
+) -> (Finding, usize) {
+    let on_face = OnFace::new(graph, compiled, claim.face.value);
+    let subject = on_face.subject(graph, claim.claim.value);
+    let must_vanish = !matches!(claim.claim.value, Claim::Prescribed | Claim::Traction);
+    if must_vanish && on_face.vanishes(graph, &subject.components) {
+        return (Finding::Proved, 0);
+    }
+    let formulas = on_face.formulas(graph, &subject.components);
+    if must_vanish && let Some(found) = on_face.refute(&formulas, &subject.scales, POINTS) {
+        return (found, 0);
+    }
+    on_face.enclose(&formulas, &subject.scales, must_vanish, limit)
+}
+
+/// A point where a claim does not hold, if one of `points` points shows it.
+pub fn refute(
+    graph: &mut Graph,
+    compiled: &Compiled,
+    claim: &BoundarySpec,
+    points: usize,
+) -> Option<Finding> {
+    if matches!(claim.claim.value, Claim::Prescribed | Claim::Traction) {
+        return None;
+    }
+    let on_face = OnFace::new(graph, compiled, claim.face.value);
+    let subject = on_face.subject(graph, claim.claim.value);
+    if subject.components.iter().all(|component| graph.is_zero(*component)) {
+        return None;
+    }
+    let formulas = on_face.formulas(graph, &subject.components);
+    on_face.refute(&formulas, &subject.scales, points)
+}
+
+impl<'a> OnFace<'a> {
+    fn new(graph: &mut Graph, compiled: &'a Compiled, face: Face) -> Self {
+        let chart = Chart::new(graph, &compiled.field, &compiled.model, Some(face));
+        OnFace { compiled, face, chart }
+    }
+
+    /// Formulas in X in terms of the coordinates that vary on the face, for any parameters.
+    fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+        let body = &self.compiled.model.domain.body;
+        let polar = face::polar(graph, body);
+        let general = straightened(graph, formulas, &polar);
+        let (axis, is_upper) = face::fixed_coordinate(self.face);
+        let bound = face::bounds(body)[axis][usize::from(is_upper)];
+        substitute(graph, &general, &[(Symbol::Coordinate(axis), bound)].into())
+    }
+
+    fn displacement(&self, graph: &mut Graph) -> Vec<Expr> {
+        let displacement = &self.compiled.derived.quantities[&Quantity::Displacement];
+        self.restrict(graph, displacement)
+    }
+
+    fn normal(&self, graph: &mut Graph) -> Vec<Expr> {
+        let body = &self.compiled.model.domain.body;
+        let normal = normal(graph, body, self.compiled.field.dimension, self.face);
+        self.restrict(graph, &normal)
+    }
+
+    /// P N, from the reduced H on the face: what vanishes in H or in C - I there vanishes in P.
+    fn traction(&self, graph: &mut Graph) -> Vec<Expr> {
+        let Compiled { field, derived, .. } = self.compiled;
+        let dimension = field.dimension;
+        let gradient = gradient(graph, self.compiled);
+        let gradient = self.restrict(graph, &gradient);
+        let gradient = reduced(graph, &gradient);
+        let supplied = gradient
+            .iter()
+            .enumerate()
+            .map(|(at, entry)| (Symbol::Gradient(at / dimension, at % dimension), *entry));
+        let stress = self.restrict(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
+        let stress = substitute(graph, &stress, &supplied.collect());
+        let normal = self.normal(graph);
+        let component = |row: &[Expr]| dot(graph, row.iter().copied().zip(normal.iter().copied()));
+        let traction: Vec<Expr> = stress.chunks_exact(dimension).map(component).collect();
+        match &self.compiled.model.rigid {
+            Some(rigid) => rigid.turn(graph).apply(graph, &traction),
+            None => traction,
+        }
+    }
+
+    /// What a claim is about, for any parameters.
+    fn subject(&self, graph: &mut Graph, claim: Claim) -> Subject {
+        let with = |components: Vec<Expr>, scale: f64| Subject {
+            scales: vec![scale; components.len()],
+            components,
+        };
+        match claim {
+            Claim::Fixed | Claim::Prescribed => with(self.displacement(graph), size(self.compiled)),
+            Claim::Free | Claim::Traction => with(self.traction(graph), modulus(self.compiled)),
+            Claim::Roller => {
+                let normal = self.normal(graph);
+                let pairs = |vector: Vec<Expr>| -> Vec<(Expr, Expr)> {
+                    vector.into_iter().zip(normal.iter().copied()).collect()
+                };
+                let displacement = self.displacement(graph);
+                let across = dot(graph, pairs(displacement));
+                let mut subject = with(vec![across], size(self.compiled));
+                let traction = self.traction(graph);
+                let pull = dot(graph, pairs(traction.clone()));
+                for (component, normal) in pairs(traction) {
+                    let along = graph.mul(pull, normal);
+                    subject.components.push(graph.sub(component, along));
+                    subject.scales.push(modulus(self.compiled));
+                }
+                subject
+            }
+        }
+    }
+
+    /// Whether formulas are 0 identically: for any parameters, or for those that are declared.
+    fn vanishes(&self, graph: &mut Graph, components: &[Expr]) -> bool {
+        let zero = |graph: &mut Graph, components: &[Expr]| {
+            graph.attempt(|graph| {
+                let relations = Relations::find(graph, components);
+                let thorough = relations.thorough().unwrap_or(relations);
+                let reduced = reduce(graph, components, &thorough);
+                // Lower powers may show what cancels.
+                let relations = Relations::find(graph, &reduced);
+                let reduced = reduce(graph, &reduced, &relations);
+                reduced.iter().all(|component| graph.is_zero(*component))
+            }) == Some(true)
+        };
+        if zero(graph, components) {
+            return true;
+        }
+        let declared = self.chart.fix(graph, components);
+        zero(graph, &declared)
+    }
+
+    /// Formulas in the variables of the face, ready to be evaluated.
+    fn formulas(&self, graph: &mut Graph, components: &[Expr]) -> Formulas {
+        let declared = self.chart.fix(graph, components);
+        Formulas::new(graph, &self.chart, &declared)
+    }
+
+    fn refute(&self, formulas: &Formulas, scales: &[f64], points: usize) -> Option<Finding> {
+        let mut values = formulas.run::<Precise>(&self.chart);
+        let dimension = self.chart.variables().len();
+        (1..=points).find_map(|index| {
+            let fractions: Vec<Precise> =
+                spread(index, dimension).iter().map(Precise::from_rational).collect();
+            let found = values.values(&self.chart.place(&fractions));
+            let beyond_doubt = |(value, scale): (&Precise, &f64)| {
+                let doubt = Precise::from_f64(scale * DOUBT);
+                (value.is_defined() && !value.clone().magnitude().at_most(&doubt))
+                    .then(|| value.to_f64())
+            };
+            let value = found.iter().zip(scales).find_map(beyond_doubt)?;
+            Some(Finding::Refuted(Witness::at_precise(&self.chart, &fractions).0, value))
+        })
+    }
+
+    /// Bounds what should be 0, each component in units of its scale.
+    fn enclose(
+        &self,
+        formulas: &Formulas,
+        scales: &[f64],
+        must_vanish: bool,
+        limit: usize,
+    ) -> (Finding, usize) {
+        let mut bounds = formulas.run::<Interval>(&self.chart);
+        let dimension = self.chart.variables().len();
+        let farthest = |value: &Interval| match value.is_defined() {
+            true => value.farthest(),
+            false => f64::INFINITY,
+        };
+        let enough = |bound: f64, _: f64| match must_vanish {
+            true => bound <= NARROW / 2.0,
+            false => bound.is_finite(),
+        };
+        let found = largest(dimension, limit, enough, |cell| {
+            let place = self.chart.place(&cell.0);
+            let enclosure = bounds.enclose(&place);
+            let relative =
+                enclosure.values.iter().zip(scales).map(|(value, scale)| farthest(value) / scale);
+            Measure {
+                bound: relative.fold(0.0, f64::max),
+                attained: 0.0,
+                at: cell.centre(),
+                split: cell.steepest(&self.chart.changes(cell, &place, &enclosure.slopes)),
+            }
+        });
+        let scale = scales.iter().copied().fold(0.0, f64::max);
+        let interval = [-found.bound * scale, found.bound * scale];
+        let finding = match enough(found.bound, 0.0) {
+            true if must_vanish => Finding::Enclosed(interval),
+            true => Finding::Proved,
+            false => Finding::Unproved(interval),
+        };
+        (finding, found.cells)
+    }
+}
+
+/// Formulas reduced modulo their own relations, as far as the graph has room for it.
+fn reduced(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
+    let reduced = graph.attempt(|graph| {
+        let relations = Relations::find(graph, formulas);
+        reduce(graph, formulas, &relations)
+    });
+    reduced.unwrap_or_else(|| formulas.to_vec())
+}
+
+/// The size of the body: its longest edge, or its outer diameter.
+fn size(compiled: &Compiled) -> f64 {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    let body = &compiled.model.domain.body;
+    let lengths: Vec<Expr> = match body {
+        Body::Box { lower, upper } => {
+            upper.iter().zip(lower).map(|(upper, lower)| graph.sub(*upper, *lower)).collect()
+        }
+        Body::Annulus { outer, .. } => vec![graph.scale(*outer, 2)],
+    };
+    let values = super::declared::values(&graph, &compiled.model, &lengths);
+    values.into_iter().fold(0.0, f64::max)
+}
+
+/// The longitudinal modulus at F = I, in the middle of the body.
+fn modulus(compiled: &Compiled) -> f64 {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let responses = &compiled.derived.responses;
+    let parts = [Response::WaveSpeed, Response::Density].map(|response| responses[&response][0]);
+    let parts = chart.pull_back(&mut graph, &parts);
+    let formulas = Formulas::new(&mut graph, &chart, &parts);
+    let centre = vec![0.5; chart.variables().len()];
+    let values = formulas.run::<f64>(&chart).values(&chart.place(&centre));
+    values[0] * values[0] * values[1]
+}

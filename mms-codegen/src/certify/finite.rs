@@ -1,0 +1,161 @@
+//! Whether every quantity has a finite value everywhere, its derivatives included.
+
+use std::collections::BTreeMap;
+
+use super::chart::{Chart, Spot};
+use super::enclosure::Formulas;
+use super::motion::{Motion, without_volume};
+use super::search::{Cell, Measure, largest};
+use super::witness::Witness;
+use crate::compile::Compiled;
+use crate::expr::{Graph, Symbol};
+use crate::pass::substitute::replace;
+use crate::program::interpret::{Interpreter, Number, Point};
+use crate::program::interval::Interval;
+use crate::program::precise::Precise;
+use crate::program::schedule::schedule_plainly;
+use crate::program::{Output, Program};
+use crate::quantity::Quantity;
+
+/// What is known of the values of all quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finite {
+    /// All exist everywhere.
+    Proved,
+    /// This one has no value here.
+    Undefined(Quantity, Witness),
+    /// All that were evaluated exist, but near here this one is not proved to.
+    Unproved(Quantity, Witness),
+}
+
+/// Proves that all quantities exist where J lies within bounds, with at most `limit` cells, and says
+/// how many there were.
+pub fn bound(
+    graph: &mut Graph,
+    chart: &Chart,
+    compiled: &Compiled,
+    motion: &Motion,
+    least_jacobian: f64,
+    limit: usize,
+) -> (Finite, usize) {
+    let jacobian = Formulas::new(graph, chart, &[motion.jacobian]);
+    let quantities = Quantities::new(graph, compiled);
+    let positive = Interval::new(least_jacobian.max(0.0), f64::INFINITY);
+    let dimension = chart.variables().len();
+    // A singularity often lies where a body or its time window ends, or in the middle.
+    let mut candidates: Vec<Vec<f64>> = corners(&Cell::whole(dimension));
+    let mut ratios = jacobian.run::<Interval>(chart);
+    let mut spots = chart.points::<Interval>();
+    let mut doubles = chart.points::<f64>();
+    let mut suspicious = |fractions: &[f64]| {
+        let spot = doubles.point(&chart.place(fractions));
+        quantities.without_value(&spot, None, |value: &f64| value.is_finite()).is_some()
+    };
+    candidates.retain(|fractions| suspicious(fractions));
+    let found = largest(
+        dimension,
+        limit,
+        |bound, _| bound <= 0.0,
+        |cell| {
+            let place = chart.place(&cell.0);
+            let jacobian = ratios.enclose(&place).values[0].meet(positive);
+            let spot = spots.point(&place);
+            let gap = quantities.without_value(&spot, Some(jacobian), is_bounded);
+            let at = cell.centre();
+            if gap.is_some() && suspicious(&at) {
+                candidates.push(at.clone());
+            }
+            let bound = if gap.is_some() { f64::INFINITY } else { 0.0 };
+            Measure { bound, attained: 0.0, at, split: cell.widest() }
+        },
+    );
+    if found.bound <= 0.0 {
+        return (Finite::Proved, found.cells);
+    }
+    candidates.extend(corners(&found.worst));
+    for fractions in candidates {
+        let (witness, spot) = Witness::at(chart, &fractions);
+        if let Some(quantity) = quantities.without_value(&spot, None, Precise::is_defined) {
+            return (Finite::Undefined(quantity, witness), found.cells);
+        }
+    }
+    let place = chart.place(&found.worst.0);
+    let spot = spots.point(&place);
+    let quantity = quantities.without_value(&spot, None, is_bounded);
+    let witness = Witness::at(chart, &found.worst.centre()).0;
+    (Finite::Unproved(quantity.unwrap_or(Quantity::Displacement), witness), found.cells)
+}
+
+fn is_bounded(value: &Interval) -> bool {
+    value.is_defined() && value.farthest().is_finite()
+}
+
+fn corners(cell: &Cell) -> Vec<Vec<f64>> {
+    let sides = &cell.0;
+    // Beyond a few parameters with a range their corners are too many to look at.
+    let count = sides.len().min(6);
+    (0..1usize << count)
+        .map(|corner| {
+            let end = |(axis, side): (usize, &Interval)| match corner >> axis & 1 {
+                0 => side.lower(),
+                _ => side.upper(),
+            };
+            sides.iter().enumerate().map(end).collect()
+        })
+        .collect()
+}
+
+/// All quantities, with J taken out of them: interval arithmetic alone would not know that it is
+/// positive where it is small.
+struct Quantities {
+    program: Program,
+    /// The same with J in place.
+    whole: Program,
+}
+
+/// What stands for J - 1.
+const VOLUME: Symbol = Symbol::Gradient(0, 0);
+
+impl Quantities {
+    fn new(graph: &mut Graph, compiled: &Compiled) -> Self {
+        let mut outputs = BTreeMap::new();
+        for (quantity, components) in &compiled.derived.quantities {
+            let mut components = components.clone();
+            if *quantity == Quantity::Traction {
+                // As finite as P, whatever N is.
+                components = compiled.derived.quantities[&Quantity::FirstPiolaKirchhoff].clone();
+            }
+            outputs.insert(Output::Quantity(*quantity), components);
+        }
+        let whole = schedule_plainly(graph, &outputs);
+        let jacobian = compiled.derived.quantities[&Quantity::Jacobian][0];
+        let values = without_volume(graph, jacobian, VOLUME);
+        for (output, components) in &mut outputs {
+            if *output != Output::Quantity(Quantity::Jacobian) {
+                *components = replace(graph, components, &values);
+            }
+        }
+        Quantities { program: schedule_plainly(graph, &outputs), whole }
+    }
+
+    /// The first quantity that is not `well` at a spot, in the order of derivation.
+    fn without_value<T: Number>(
+        &self,
+        spot: &Spot<T>,
+        jacobian: Option<T>,
+        well: impl Fn(&T) -> bool,
+    ) -> Option<Quantity> {
+        let program = if jacobian.is_some() { &self.program } else { &self.whole };
+        let mut interpreter = Interpreter::new(program, &spot.parameters);
+        interpreter.set_time(&spot.time);
+        let volume = jacobian.map(|jacobian| jacobian - T::from_f64(1.0));
+        let all = vec![true; program.instrs.len()];
+        let coordinates = &spot.coordinates;
+        let gradient = volume.as_slice();
+        interpreter.set_point(&all, Point { coordinates, normal: &[], gradient });
+        let lacks = |quantity: &Quantity| {
+            !interpreter.output(Output::Quantity(*quantity)).iter().all(&well)
+        };
+        Quantity::ALL.iter().copied().find(lacks)
+    }
+}

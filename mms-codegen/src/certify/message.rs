@@ -1,0 +1,117 @@
+//! What is said of a field that is not what it claims to be.
+
+use super::chart::Chart;
+use super::enclosure::Formulas;
+use super::witness::{Witness, digits};
+use crate::compile::Compiled;
+use crate::diagnostic::Diagnostic;
+use crate::quantity::Quantity;
+use crate::source::Span;
+use crate::spec::BoundarySpec;
+
+/// J is not positive.
+pub fn inverted(compiled: &Compiled, witness: &Witness, value: f64) -> Diagnostic {
+    let place = place(compiled, witness);
+    let label = format!("J is {} at {place}", digits(value));
+    let message = "the field turns matter inside out: J = det F is not positive";
+    if let Some((span, name)) = culprit(compiled, witness) {
+        return Diagnostic::error(span, message)
+            .label(label)
+            .help(format!("it is positive there for the default of `{name}`: narrow the range"));
+    }
+    Diagnostic::error(displacement(compiled), message)
+        .label(label)
+        .help("reduce the amplitude, or shrink the body or the time window")
+}
+
+/// J is not proved to be positive.
+pub fn not_positive(compiled: &Compiled, witness: &Witness, value: f64) -> Diagnostic {
+    let label = format!("near {}; bounded by {}", place(compiled, witness), digits(value));
+    Diagnostic::error(displacement(compiled), "J = det F is not proved to be positive")
+        .label(label)
+        .help("reduce the amplitude, or write u in a form that bounds itself more sharply")
+}
+
+/// A quantity has no value.
+pub fn undefined(compiled: &Compiled, quantity: Quantity, witness: &Witness) -> Diagnostic {
+    let message = format!("{} has no finite value everywhere", quantity.name());
+    Diagnostic::error(displacement(compiled), message)
+        .label(format!("none at {}", place(compiled, witness)))
+        .help("a division by 0, or a root or logarithm that has no derivative there: shrink the body or the time window, or change u")
+}
+
+/// A quantity is not proved to have a value.
+pub fn not_finite(compiled: &Compiled, quantity: Quantity, witness: &Witness) -> Diagnostic {
+    let message = format!("{} is not proved to be finite everywhere", quantity.name());
+    Diagnostic::error(displacement(compiled), message)
+        .label(format!("near {}", place(compiled, witness)))
+        .help("shrink the body or the time window, or write u in another form")
+}
+
+/// A claim does not hold.
+pub fn refuted(
+    compiled: &Compiled,
+    claim: &BoundarySpec,
+    witness: &Witness,
+    value: f64,
+) -> Diagnostic {
+    let (face, word) = (claim.face.value.name(), claim.claim.value);
+    let message =
+        format!("`{face}` is no `{}` face: not everywhere is {}", word.name(), word.meaning());
+    Diagnostic::error(claim.claim.span, message)
+        .label(format!("{} instead of 0 at {}", digits(value), place(compiled, witness)))
+        .help("`prescribed` and `traction` claim nothing about the values")
+}
+
+/// A claim is not proved.
+pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
+    let (face, word) = (claim.face.value.name(), claim.claim.value);
+    let message =
+        format!("`{face}` is not proved to be a `{}` face: {}", word.name(), word.meaning());
+    Diagnostic::error(claim.claim.span, message)
+        .label(format!(
+            "what should be 0 lies in [{}, {}]",
+            digits(interval[0]),
+            digits(interval[1])
+        ))
+        .help("write u so that the claim follows term by term, or claim `prescribed` or `traction`")
+}
+
+fn place(compiled: &Compiled, witness: &Witness) -> String {
+    let names: Vec<String> =
+        compiled.model.parameters.iter().map(|parameter| parameter.name.clone()).collect();
+    witness.describe(&names)
+}
+
+fn displacement(compiled: &Compiled) -> Span {
+    compiled.field.displacement.first().map_or(compiled.field.material.span, |it| it.span)
+}
+
+/// The parameter whose range is to blame for J <= 0: with its default in its place, J is positive
+/// at the same place and time.
+fn culprit(compiled: &Compiled, witness: &Witness) -> Option<(Span, String)> {
+    if witness.parameters.is_empty() {
+        return None;
+    }
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let jacobian = chart.pull_back(&mut graph, &compiled.derived.quantities[&Quantity::Jacobian]);
+    let formulas = Formulas::new(&mut graph, &chart, &jacobian);
+    let mut values = formulas.run::<f64>(&chart);
+    let defaults = compiled.parameters::<f64>(&Default::default());
+    let coordinates = compiled.model.domain.body.coordinates(&witness.coordinates);
+    let place = |reset: usize| -> Vec<f64> {
+        let parameters = witness
+            .parameters
+            .iter()
+            .map(|(index, value)| if *index == reset { defaults[*index] } else { *value });
+        parameters.chain([witness.time]).chain(coordinates.iter().copied()).collect()
+    };
+    let to_blame = |index: &usize| values.values(&place(*index))[0] > 0.0;
+    let index = witness.parameters.iter().map(|(index, _)| *index).find(to_blame)?;
+    let parameter = &compiled.field.parameters[index];
+    let [first, last] = parameter.range.as_ref()?;
+    let span = Span { end: last.span.end, ..first.span };
+    Some((span, parameter.name.value.clone()))
+}

@@ -1,0 +1,132 @@
+//! What proofs are about, in the variables of a chart: H, C - I and its rate, J, the density, and
+//! the stress as a function of H.
+
+use std::collections::BTreeMap;
+
+use super::chart::Chart;
+use crate::compile::Compiled;
+use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::mechanics::Response;
+use crate::mechanics::invariant::Kind;
+use crate::mechanics::kinematics::Strain;
+use crate::mechanics::tensor::Tensor;
+use crate::pass::differentiate::differentiate;
+use crate::pass::relations::Relations;
+use crate::pass::substitute::replace;
+use crate::quantity::Quantity;
+
+/// The motion of a field in the variables of a chart.
+///
+/// Strains are reduced, so that rotations cancel in them, and on an annulus they are those in the
+/// basis of radius and angle: what does not depend on a rotation is bounded as sharply with it as
+/// without.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    dimension: usize,
+    /// H, of a material whose stress does not follow from C alone.
+    pub gradient: Option<Vec<Expr>>,
+    /// C - I, in the basis of the chart's coordinates.
+    pub right: Vec<Expr>,
+    /// dC/dt.
+    pub right_rate: Vec<Expr>,
+    /// J.
+    pub jacobian: Expr,
+    /// rho0.
+    pub density: Expr,
+    /// P at a gradient H that is supplied; for isotropic materials, with [`PRINCIPAL_VOLUME`] for
+    /// J - 1.
+    pub stress: Vec<Expr>,
+}
+
+impl Motion {
+    /// The motion of a compiled field.
+    pub fn new(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
+        let derived = &compiled.derived;
+        let dimension = compiled.field.dimension;
+        let cartesian = gradient(graph, compiled);
+        let cartesian = chart.pull_back(graph, &cartesian);
+        let gradient = chart.in_local_basis(graph, &cartesian);
+        let strain = strain(graph, &gradient);
+        let right = strain.right.components().to_vec();
+        let right_rate = differentiate(graph, &right, Symbol::Time);
+        let density = chart.pull_back(graph, &[compiled.model.density])[0];
+        let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
+        // Rotations of the deformed and of the reference body then rotate the stress and nothing
+        // else, and all that matters of F is C, in whatever basis.
+        let is_isotropic = compiled.model.kind == Kind::Isotropic;
+        let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
+        let gradient = (!is_isotropic).then_some(cartesian);
+        Motion {
+            dimension,
+            gradient,
+            right,
+            right_rate,
+            jacobian: strain.jacobian,
+            density,
+            stress,
+        }
+    }
+
+    /// How many components X has.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+}
+
+/// What stands for J - 1 in the stress of isotropic materials.
+pub const PRINCIPAL_VOLUME: Symbol = Symbol::Normal(0);
+
+/// A stress with the symbol for J - 1.
+fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> {
+    let gradient =
+        Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
+    let jacobian = Strain::new(graph, gradient, &Kind::Isotropic, &Relations::default()).jacobian;
+    let values = without_volume(graph, jacobian, PRINCIPAL_VOLUME);
+    replace(graph, stress, &values)
+}
+
+/// H; that of the field inside for a rigid twin. Its strain is the same, and so is its stress but for
+/// the rotation, which then need not cancel.
+pub fn gradient(graph: &mut Graph, compiled: &Compiled) -> Vec<Expr> {
+    if compiled.model.rigid.is_none() {
+        return compiled.derived.quantities[&Quantity::DisplacementGradient].clone();
+    }
+    let displacement = &compiled.model.displacement;
+    let columns: Vec<Vec<Expr>> = (0..displacement.len())
+        .map(|axis| differentiate(graph, displacement, Symbol::Coordinate(axis)))
+        .collect();
+    (0..displacement.len()).flat_map(|row| columns.iter().map(move |column| column[row])).collect()
+}
+
+/// What follows from a gradient, reduced where that makes it shorter.
+fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
+    let dimension = gradient.len().isqrt();
+    let tensor = || Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column]);
+    let plain = Strain::new(graph, tensor(), &Kind::Isotropic, &Relations::default());
+    let reduced = graph.attempt(|graph| {
+        let relations = Relations::find(graph, gradient);
+        Strain::new(graph, tensor(), &Kind::Isotropic, &relations)
+    });
+    let length = |strain: &Strain| {
+        graph.reachable(&[strain.right.components(), &[strain.jacobian]].concat()).len()
+    };
+    match reduced {
+        Some(reduced) if length(&reduced) <= length(&plain) => reduced,
+        _ => plain,
+    }
+}
+
+/// What J, J - 1 and what J is a multiple of are in terms of a symbol for J - 1. Interval arithmetic
+/// alone would not know that J is positive where it is small.
+pub fn without_volume(graph: &mut Graph, jacobian: Expr, change: Symbol) -> BTreeMap<Expr, Expr> {
+    if graph.as_number(jacobian).is_some() {
+        return BTreeMap::new();
+    }
+    let one = graph.number(1);
+    let change = graph.symbol(change);
+    let whole = graph.add(one, change);
+    let less_one = graph.sub(jacobian, one);
+    let (content, primitive) = graph.split_content(jacobian);
+    let scaled = graph.scale(whole, Rational::ONE / content);
+    BTreeMap::from([(less_one, change), (primitive, scaled), (jacobian, whole)])
+}
