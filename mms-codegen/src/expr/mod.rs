@@ -22,6 +22,13 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Expr(u32);
 
+impl Expr {
+    /// The position of the node in its graph.
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// What an expression depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Symbol {
@@ -214,12 +221,12 @@ impl Graph {
 
     /// The node behind a handle.
     pub fn node(&self, expr: Expr) -> &Node {
-        &self.nodes[expr.0 as usize]
+        &self.nodes[expr.index()]
     }
 
     /// When the value of an expression is known.
     pub fn stage(&self, expr: Expr) -> Stage {
-        self.stages[expr.0 as usize]
+        self.stages[expr.index()]
     }
 
     /// How many nodes were made so far.

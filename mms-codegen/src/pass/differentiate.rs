@@ -4,21 +4,22 @@
 //! differentiated by k first: dn/dX = (dn/dk) (dk/dX). So the derivative by k stays in one piece,
 //! and is the same in all directions.
 
-use std::collections::BTreeMap;
-
 use super::factor::factored_sum;
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 
 /// The partial derivatives of `roots` by `symbol`, all other symbols held fixed.
 pub fn differentiate(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {
-    let mut slopes = Slopes::default();
+    let mut slopes = Slopes::up_to(roots);
     for expr in graph.reachable(roots) {
+        if graph.is_exhausted() {
+            break;
+        }
         let node = graph.node(expr).clone();
         if node == Node::Symbol(symbol) {
             slopes.root = Some(expr);
         } else if let Some(kernel) = slopes.kernel(&node) {
             let slope = slopes.local(graph, expr, &node, kernel);
-            slopes.of.insert(expr, (kernel, slope));
+            slopes.of[expr.index()] = Some((kernel, slope));
         }
     }
     let zero = graph.number(0);
@@ -35,15 +36,26 @@ pub fn differentiate(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<E
 ///
 /// The kernel of an expression is the last one on all ways from the symbol to it: its immediate
 /// dominator (Lengauer & Tarjan, 1979). The kernel of a kernel stands before it, down to the symbol.
-#[derive(Default)]
 struct Slopes {
     root: Option<Expr>,
-    of: BTreeMap<Expr, (Expr, Expr)>,
+    /// By the position of the expression. Ways to a kernel are long, and each step is a look-up.
+    of: Vec<Option<(Expr, Expr)>>,
 }
 
 impl Slopes {
+    /// Room for everything that `roots` are made of.
+    fn up_to(roots: &[Expr]) -> Self {
+        let last = roots.iter().max().map_or(0, |last| last.index() + 1);
+        Slopes { root: None, of: vec![None; last] }
+    }
+
     fn moves(&self, expr: Expr) -> bool {
-        self.root == Some(expr) || self.of.contains_key(&expr)
+        self.root == Some(expr) || self.of[expr.index()].is_some()
+    }
+
+    /// The kernel of an expression that moves, and the derivative by it.
+    fn step(&self, expr: Expr) -> (Expr, Expr) {
+        self.of[expr.index()].expect("only the symbol has no kernel")
     }
 
     /// What all operands that move have passed through last; `None` if none moves.
@@ -54,7 +66,7 @@ impl Slopes {
             // Kernels have smaller handles than what they are kernels of.
             while a != b {
                 let later = if a > b { &mut a } else { &mut b };
-                *later = self.of[later].0;
+                *later = self.step(*later).0;
             }
             a
         })
@@ -65,7 +77,7 @@ impl Slopes {
         let mut slopes = Vec::new();
         let mut expr = expr;
         while expr != kernel {
-            let (next, slope) = self.of[&expr];
+            let (next, slope) = self.step(expr);
             slopes.push((slope, Rational::ONE));
             expr = next;
         }
@@ -85,7 +97,8 @@ impl Slopes {
             // d(prod b^e) = sum e b^(e-1) db (the other factors).
             Node::Product(factors) => {
                 for (index, (base, exponent)) in factors.iter().enumerate() {
-                    if self.moves(*base) {
+                    // What a full graph answers is void, and each term takes as long as the product.
+                    if self.moves(*base) && !graph.is_exhausted() {
                         let mut term = factors.clone();
                         term[index].1 -= Rational::ONE;
                         term.push((self.chain(graph, *base, kernel), Rational::ONE));
