@@ -7,6 +7,7 @@ fn waves(count: usize) -> Folder {
     let waves: Vec<_> = (1..=count).map(|k| format!("cos({k}*c*pi*t/length + X/length)")).collect();
     let text = BAR.replace("cos(c*pi*t/length)\"", &format!("({})\"", waves.join("*")));
     assert_ne!(text, BAR);
+    let text = text.replace("x_max = \"free\"", "x_max = \"traction\"");
     let folder = Folder::new();
     folder.write("waves.toml", &text[..text.find("[[check]]").expect("a check")]);
     folder

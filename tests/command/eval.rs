@@ -195,7 +195,7 @@ fn the_text_shows_the_numbers_of_the_document() {
 fn traction_needs_the_normal_of_a_boundary() {
     let folder = Folder::new();
     let refused = folder.mms("eval bar_1d --at 0 --time 0 --quantity traction").exits(2);
-    refused.complains("give --normal").prints_nothing();
+    refused.complains("give --face or --normal").prints_nothing();
     let along = |normal: &str| {
         value(&format!("--at 0 --time 0 --quantity traction --normal {normal}"), "traction")
     };

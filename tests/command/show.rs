@@ -131,9 +131,9 @@ fn show_prints_one_thing_at_a_time() {
 #[test]
 fn a_script_needs_points_where_the_field_is_defined() {
     let folder = Folder::with_bar("bar.toml");
-    // A bar that is pulled through itself: J < 0, and W is not defined.
-    let text = folder.read("bar.toml").replace("value = 0.2, ", "value = -9e9,");
-    let text = text.replace("cos(c*pi*t/length)", "(2 + cos(c*pi*t/length))");
+    // A modulus, and so W, that is not defined in the bar.
+    let text = folder.read("bar.toml").replace("\"young/2\"", "\"young*sqrt(X/length - 2)\"");
+    let text = text.replace("x_max = \"free\"", "x_max = \"traction\"");
     folder.write("bar.toml", &text);
     let run = folder.mms("show bar.toml --script sympy").exits(2);
     run.complains("nothing to compare").prints_nothing();

@@ -60,7 +60,7 @@ pub fn bound(
             let place = chart.place(&cell.0);
             let jacobian = ratios.enclose(&place).values[0].meet(positive);
             let spot = spots.point(&place);
-            let gap = quantities.without_value(&spot, Some(jacobian), is_bounded);
+            let gap = quantities.unbounded(&spot, jacobian);
             let at = cell.centre();
             if gap.is_some() && suspicious(&at) {
                 candidates.push(at.clone());
@@ -81,7 +81,8 @@ pub fn bound(
     }
     let place = chart.place(&found.worst.0);
     let spot = spots.point(&place);
-    let quantity = quantities.without_value(&spot, None, is_bounded);
+    let jacobian = ratios.enclose(&place).values[0].meet(positive);
+    let quantity = quantities.unbounded(&spot, jacobian);
     let witness = Witness::at(chart, &found.worst.centre()).0;
     (Finite::Unproved(quantity.unwrap_or(Quantity::Displacement), witness), found.cells)
 }
@@ -136,6 +137,13 @@ impl Quantities {
             }
         }
         Quantities { program: schedule_plainly(graph, &outputs), whole }
+    }
+
+    /// A quantity that is not proved to be bounded in a cell. With J in place of what it is made of
+    /// its other parts may be bounded less well: either way will do.
+    fn unbounded(&self, spot: &Spot<Interval>, jacobian: Interval) -> Option<Quantity> {
+        let gap = self.without_value(spot, Some(jacobian), is_bounded)?;
+        self.without_value(spot, None, is_bounded).map(|_| gap)
     }
 
     /// The first quantity that is not `well` at a spot, in the order of derivation.

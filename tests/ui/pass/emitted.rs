@@ -65,6 +65,7 @@ fn main() {
         quantities: Some([Quantity::BodyForce, Quantity::Velocity].into()),
         set: vec![("lambda".into(), "0".into())],
         freeze: Freeze::Everything,
+        ..Selection::default()
     };
     let part = compiled("examples/fields/standing_wave_3d.toml", &part);
     let field = wave::prepare::<f64>(&wave::Parameters::default());

@@ -11,7 +11,11 @@ mms_macros::field!(
 );
 mms_macros::field!("examples/fields/static_3d.toml", freeze, quantities = [velocity], name = rest);
 mms_macros::field!("examples/fields/static_3d.toml", freeze);
-mms_macros::field!("examples/fields/static_3d.toml", rigid = "translation = [0, 't^2', 0]", name = moved);
+mms_macros::field!(
+    "examples/fields/static_3d.toml",
+    rigid = "translation = [0, 'length*t^2/duration^2', 0]",
+    name = moved,
+);
 
 use mms_math::Scalar;
 
@@ -55,6 +59,6 @@ fn main() {
     let solver = static_3d::prepare::<f64>(&static_3d::Parameters {}).boxed();
     assert_eq!(solver.domain().time, [0.0, 1.0]);
 
-    let moved = moved::prepare::<f64>(&moved::Parameters {});
+    let moved = moved::prepare::<f64>(&moved::Parameters::default());
     assert_eq!(moved.at_time(0.5).velocity([0.1, 0.2, 0.3]), [0.0, 1.0, 0.0]);
 }
