@@ -52,21 +52,26 @@ pub fn bound(
         quantities.without_value(&spot, None, |value: &f64| value.is_finite()).is_some()
     };
     candidates.retain(|fractions| suspicious(fractions));
+    let mut gap = |cell: &Cell| {
+        let place = chart.place(&cell.0);
+        let jacobian = ratios.enclose(&place).values[0].meet(positive);
+        let spot = spots.point(&place);
+        quantities.unbounded(&spot, jacobian)
+    };
     let found = largest(
         dimension,
         limit,
         |bound, _| bound <= 0.0,
         |cell| {
-            let place = chart.place(&cell.0);
-            let jacobian = ratios.enclose(&place).values[0].meet(positive);
-            let spot = spots.point(&place);
-            let gap = quantities.unbounded(&spot, jacobian);
             let at = cell.centre();
-            if gap.is_some() && suspicious(&at) {
+            if gap(cell).is_none() {
+                return Measure { bound: 0.0, attained: 0.0, at, split: 0 };
+            }
+            if suspicious(&at) {
                 candidates.push(at.clone());
             }
-            let bound = if gap.is_some() { f64::INFINITY } else { 0.0 };
-            Measure { bound, attained: 0.0, at, split: cell.widest() }
+            let split = blame(cell, |thin| gap(thin).is_none());
+            Measure { bound: f64::INFINITY, attained: 0.0, at, split }
         },
     );
     if found.bound <= 0.0 {
@@ -79,16 +84,25 @@ pub fn bound(
             return (Finite::Undefined(quantity, witness), found.cells);
         }
     }
-    let place = chart.place(&found.worst.0);
-    let spot = spots.point(&place);
-    let jacobian = ratios.enclose(&place).values[0].meet(positive);
-    let quantity = quantities.unbounded(&spot, jacobian);
+    let quantity = gap(&found.worst);
     let witness = Witness::at(chart, &found.worst.centre()).0;
     (Finite::Unproved(quantity.unwrap_or(Quantity::Displacement), witness), found.cells)
 }
 
 fn is_bounded(value: &Interval) -> bool {
     value.is_defined() && value.farthest().is_finite()
+}
+
+/// The variable across which to split a cell: one whose width alone keeps it from being `well`, else
+/// the widest.
+fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
+    let is_to_blame = |variable: &usize| {
+        let mut thin = cell.clone();
+        let middle = thin.0[*variable].middle();
+        thin.0[*variable] = Interval::new(middle, middle);
+        well(&thin)
+    };
+    (0..cell.0.len()).find(is_to_blame).unwrap_or_else(|| cell.widest())
 }
 
 fn corners(cell: &Cell) -> Vec<Vec<f64>> {
