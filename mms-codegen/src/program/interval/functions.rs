@@ -170,6 +170,9 @@ fn power_around(base: f64, exponent: f64) -> (f64, f64) {
         let grows = (base > 1.0) == (exponent > 0.0);
         return if grows { (f64::MAX, f64::INFINITY) } else { (0.0, f64::from_bits(1)) };
     }
+    if let Some(power) = quick::power(base, exponent) {
+        return power;
+    }
     // exp(exponent ln base), every step rounded one way.
     let logarithm = (exact_below(base).ln(), exact_above(base).ln());
     let (from, to) = if exponent > 0.0 {
@@ -211,11 +214,11 @@ impl Scalar for Interval {
 
     fn sqrt(self) -> Self {
         let Some(part) = self.within(0.0, f64::INFINITY) else { return Interval::UNDEFINED };
-        part.rising(&Tails::at_infinity(LARGE, LARGE), |x| around!(x, sqrt))
+        part.rising(&Tails::at_infinity(LARGE, LARGE), |x| quickly_around!(x, sqrt))
     }
 
     fn cbrt(self) -> Self {
-        self.rising(&Tails::at_infinity(minus(LARGE), LARGE), |x| around!(x, cbrt))
+        self.rising(&Tails::at_infinity(minus(LARGE), LARGE), |x| quickly_around!(x, cbrt))
     }
 
     fn exp(self) -> Self {
