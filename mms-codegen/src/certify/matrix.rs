@@ -4,6 +4,8 @@
 //! Frobenius norm of what is added (Weyl). What some hundred operations round is below 1e-12 of the
 //! norm; a thousand times that is added.
 
+use mms_math::Scalar as _;
+
 use crate::program::interval::Interval;
 
 /// What rounding may have taken from a bound, relative to it.
@@ -48,13 +50,8 @@ fn product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
     (0..order * order).map(|k| entry(k / order, k % order)).collect()
 }
 
-/// No eigenvalue of a symmetric matrix within these bounds is greater in magnitude.
-pub fn largest_eigenvalue(entries: &[Interval]) -> f64 {
-    let (middles, radius) = split(entries);
-    if radius.is_finite() { spectral_radius(&middles) + radius } else { f64::INFINITY }
-}
-
-/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds.
+/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds, in ascending
+/// order.
 pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
     let (middles, radius) = split(entries);
     let scale = spectral_radius(&middles);
@@ -64,6 +61,32 @@ pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
     let radius = radius + scale * ROUNDING;
     let around = |value: f64| Interval::new(value - radius, value + radius);
     diagonal(middles).into_iter().map(around).collect()
+}
+
+/// Intervals that hold the singular values of every square matrix within these bounds, in ascending
+/// order.
+pub fn singular_values(entries: &[Interval]) -> Vec<Interval> {
+    let (middles, radius) = split(entries);
+    let reach = |value: f64| Interval::new((value - radius).max(0.0), value + radius);
+    let around = |square: Interval| {
+        let root = square.meet(Interval::new(0.0, f64::INFINITY)).sqrt();
+        Interval::new(reach(root.lower()).lower(), reach(root.upper()).upper())
+    };
+    eigenvalues(&exactly(&gram(&middles))).into_iter().map(around).collect()
+}
+
+fn exactly(numbers: &[f64]) -> Vec<Interval> {
+    numbers.iter().copied().map(Interval::from_f64).collect()
+}
+
+/// A^T A.
+fn gram(matrix: &[f64]) -> Vec<f64> {
+    product(&transposed(matrix), matrix, matrix.len().isqrt())
+}
+
+fn transposed(matrix: &[f64]) -> Vec<f64> {
+    let order = matrix.len().isqrt();
+    (0..matrix.len()).map(|at| matrix[at % order * order + at / order]).collect()
 }
 
 /// The eigenvalues of a symmetric matrix of numbers, by rotations that make one entry after the
@@ -91,7 +114,9 @@ fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
             }
         }
     }
-    (0..order).map(|k| matrix[k * order + k]).collect()
+    let mut values: Vec<f64> = (0..order).map(|k| matrix[k * order + k]).collect();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 /// No sqrt(tr (C^-1 A C^-1 A)) with symmetric C and A within these bounds is greater, where no
@@ -106,8 +131,7 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
     if !spread.is_finite() || !change.is_finite() {
         return f64::INFINITY;
     }
-    let norm = rate.iter().map(|entry| entry * entry).sum::<f64>().sqrt() + change;
-    let coarse = norm / floor * (1.0 + ROUNDING);
+    let coarse = (norm(&rate) + change) / floor * (1.0 + ROUNDING);
     let eigenvalues = diagonal(form.clone());
     let least = eigenvalues.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - ROUNDING);
     let share = 1.0 - spread / least;
@@ -119,6 +143,42 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
     let trace: f64 = (0..order).map(|k| square[k * order + k]).sum();
     let sharp = (trace.max(0.0).sqrt() + change / least) / share * (1.0 + ROUNDING);
     sharp.min(coarse)
+}
+
+/// No |sym(A F^-1)| with A and F within these bounds is greater, where no singular value of F is less
+/// than `floor` > 0.
+///
+/// With the midpoints B and M, L = A F^-1 is L = (A - L (F - M)) M^-1, so that it differs from
+/// B M^-1 by no more than (|A - B| + |L| |F - M|)/m with the least singular value m of M; and |L| by
+/// the same rule is at most (|B M^-1| + |A - B|/m)/(1 - |F - M|/m), and at most |A|/floor.
+pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
+    let order = form.len().isqrt();
+    let ((form, spread), (rate, change)) = (split(form), split(rate));
+    if !spread.is_finite() || !change.is_finite() {
+        return f64::INFINITY;
+    }
+    let coarse = (norm(&rate) + change) / floor * (1.0 + ROUNDING);
+    let square = gram(&form);
+    let least = eigenvalues(&exactly(&square)).first().map_or(0.0, |square| square.lower());
+    if least <= 0.0 {
+        return coarse;
+    }
+    let least = least.sqrt() * (1.0 - ROUNDING);
+    // (B M^-1)^T = M (M^T M)^-1 B^T.
+    let turned = product(&form, &inverse_times(&square, &transposed(&rate), order), order);
+    let gradient = transposed(&turned);
+    let symmetric: Vec<f64> =
+        gradient.iter().zip(&turned).map(|(a, b)| (a + b) / 2.0).collect();
+    let share = 1.0 - spread / least;
+    let whole = if share > 0.0 { (norm(&gradient) + change / least) / share } else { coarse };
+    let whole = whole.min(coarse);
+    let sharp = (norm(&symmetric) + (change + whole * spread) / least) * (1.0 + ROUNDING);
+    sharp.min(coarse)
+}
+
+/// The Frobenius norm.
+fn norm(matrix: &[f64]) -> f64 {
+    matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// A^-1 B of symmetric positive A, by elimination.

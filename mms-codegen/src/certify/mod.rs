@@ -14,5 +14,6 @@ pub mod motion;
 pub mod rates;
 pub mod sample;
 pub mod search;
+pub mod tangent;
 pub mod witness;
 pub mod written;

@@ -23,8 +23,12 @@ use crate::quantity::Quantity;
 #[derive(Clone, Debug)]
 pub struct Motion {
     dimension: usize,
-    /// H, of a material whose stress does not follow from C alone.
-    pub gradient: Option<Vec<Expr>>,
+    /// H in the basis of space, of a material whose stress does not follow from C alone.
+    pub oriented: Option<Vec<Expr>>,
+    /// H, in the basis of the chart's coordinates.
+    pub gradient: Vec<Expr>,
+    /// dH/dt.
+    pub gradient_rate: Vec<Expr>,
     /// C - I, in the basis of the chart's coordinates.
     pub right: Vec<Expr>,
     /// dC/dt.
@@ -49,16 +53,18 @@ impl Motion {
         let strain = strain(graph, &gradient);
         let right = strain.right.components().to_vec();
         let right_rate = differentiate(graph, &right, Symbol::Time);
+        let gradient_rate = differentiate(graph, &gradient, Symbol::Time);
         let density = chart.pull_back(graph, &[compiled.model.density])[0];
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         // Rotations of the deformed and of the reference body then rotate the stress and nothing
         // else, and all that matters of F is C, in whatever basis.
         let is_isotropic = compiled.model.kind == Kind::Isotropic;
         let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
-        let gradient = (!is_isotropic).then_some(cartesian);
         Motion {
             dimension,
+            oriented: (!is_isotropic).then_some(cartesian),
             gradient,
+            gradient_rate,
             right,
             right_rate,
             jacobian: strain.jacobian,
