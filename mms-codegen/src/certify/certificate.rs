@@ -59,9 +59,9 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     };
     let mut rates = None;
     let mut least = 0.0;
-    if let Jacobian::Positive([lower, _]) = jacobian {
-        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, lower, CELLS_OF_RATES);
-        (rates, boxes, least) = (Some(bound), boxes + cells, lower);
+    if let Jacobian::Positive(bounds) = jacobian {
+        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, bounds, CELLS_OF_RATES);
+        (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
     }
     let limit = if rates.is_some() { CELLS } else { 0 };
     let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::chart::{Chart, Run};
+use super::forms::compact;
 use crate::expr::{Expr, Graph};
 use crate::pass::differentiate::differentiate;
-use crate::pass::factor::factor;
 use crate::program::interpret::Number;
 use crate::program::interval::Interval;
 use crate::program::schedule::schedule_plainly;
@@ -29,11 +29,10 @@ const fn slopes_by(variable: usize) -> Output {
 impl Formulas {
     /// Of formulas that were pulled back to a chart.
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
-        let formulas = factored(graph, formulas);
-        let mut outputs = BTreeMap::from([(VALUES, formulas.clone())]);
+        let mut outputs = BTreeMap::from([(VALUES, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
-            let slopes = differentiate(graph, &formulas, *symbol);
-            outputs.insert(slopes_by(index), factored(graph, &slopes));
+            let slopes = differentiate(graph, formulas, *symbol);
+            outputs.insert(slopes_by(index), compact(graph, &slopes));
         }
         Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
     }
@@ -49,12 +48,6 @@ impl Formulas {
         outputs.extend((0..self.variables).map(slopes_by));
         Evaluation { run: chart.run(&self.program), outputs }
     }
-}
-
-/// Formulas with common factors taken out: in 4 x^3 (1 - x)^4 - 4 x^4 (1 - x)^3 as it stands, intervals
-/// would not see that most of it cancels.
-fn factored(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
-    graph.attempt(|graph| factor(graph, formulas)).unwrap_or_else(|| formulas.to_vec())
 }
 
 /// Formulas that are being evaluated.

@@ -223,7 +223,15 @@ pub fn largest_acoustic(entries: &[Interval]) -> f64 {
     }
     let (near, far) = (1.0 - grid.sine_squared, grid.sine_squared);
     let bound = (greatest * near - least * far) / (near - far);
-    bound * (1.0 + ROUNDING) + radius
+    bound * (1.0 + ROUNDING) + radius.min(largest_change(entries))
+}
+
+/// No v A v with a unit vector v changes by more while A stays within these bounds.
+fn largest_change(entries: &[Interval]) -> f64 {
+    let half = |entry: &Interval| entry.width() / 2.0 * (1.0 + ROUNDING);
+    let radii: Vec<f64> = entries.iter().map(half).collect();
+    let pairs = radii.iter().zip(transposed(&radii));
+    spectral_radius(&pairs.map(|(a, b)| (a + b) / 2.0).collect::<Vec<_>>())
 }
 
 /// The symmetric part of A_iJkL N_J N_L.

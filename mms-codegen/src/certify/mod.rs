@@ -7,6 +7,7 @@ pub mod closed_form;
 pub mod declared;
 pub mod enclosure;
 pub mod finite;
+pub mod forms;
 pub mod jacobian;
 pub mod matrix;
 pub mod message;

@@ -12,6 +12,7 @@ use super::motion::Motion;
 use super::search::{Found, Measure, largest};
 use super::tangent::Tangent;
 use crate::expr::Graph;
+use crate::program::interpret::Number as _;
 use crate::program::interval::Interval;
 
 /// A bound that exceeds a value by no more than this part of it is sharp enough.
@@ -41,41 +42,48 @@ impl Rates {
     }
 }
 
-/// Bounds all three where J is at least `jacobian`, with at most `limit` cells each, and says how
+/// Bounds all three where J lies within `jacobian`, with at most `limit` cells each, and says how
 /// many there were.
 pub fn bound(
     graph: &mut Graph,
     chart: &Chart,
     motion: &Motion,
-    jacobian: f64,
+    jacobian: [f64; 2],
     limit: usize,
 ) -> (Rates, usize) {
     let dimension = motion.dimension();
     let size = dimension * dimension;
-    let strain = [motion.right.as_slice(), &motion.gradient].concat();
+    let strain = [&motion.right, &motion.gradient, &[motion.jacobian][..]].concat();
     let formulas = Formulas::new(graph, chart, &strain);
-    let state = |values: &[Interval]| State::new(&values[..size], &values[size..2 * size]);
-    let squeeze = search(chart, &formulas, limit, |values, _| {
+    let volume = Interval::new(jacobian[0], jacobian[1]);
+    let state = |values: &[Interval]| {
+        let volume = values[2 * size].meet(volume);
+        State::new(&values[..size], &values[size..2 * size], volume)
+    };
+    let squeeze = search(chart, &formulas, limit, |values, _, _| {
         match state(values).stretches.first().map_or(0.0, |least| least.lower()) {
             least if least > 0.0 => 1.0 / least.next_down(),
             _ => f64::INFINITY,
         }
     });
-    let stretch = search(chart, &formulas, limit, |values, _| {
+    let stretch = search(chart, &formulas, limit, |values, _, _| {
         state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
     });
     // J is the product of the principal stretches.
-    let least = jacobian / stretch.bound.powi(dimension as i32 - 1);
+    let least = jacobian[0] / stretch.bound.powi(dimension as i32 - 1);
     let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
     let stretches = Interval::new(least, stretch.bound);
-    let moving = [strain.as_slice(), &motion.right_rate, &motion.gradient_rate].concat();
+    let mut moving = [strain.as_slice(), &motion.right_rate, &motion.gradient_rate].concat();
+    moving.extend(motion.squared_rate);
     let formulas = Formulas::new(graph, chart, &moving);
-    let rate = search(chart, &formulas, limit, |values, _| {
+    let rate = search(chart, &formulas, limit, |values, _, _| {
         let state = state(values);
-        let (right_rate, gradient_rate) = values[2 * size..].split_at(size);
+        let (right_rate, rest) = values[2 * size + 1..].split_at(size);
+        let (gradient_rate, squared) = rest.split_at(size);
         let of_right = largest_relative_rate(&state.right, right_rate, stretches.lower().powi(2));
         let of_gradient = largest_rate(&state.deformation, gradient_rate, stretches.lower());
-        of_gradient.min(of_right / 2.0)
+        let of_both = of_gradient.min(of_right / 2.0);
+        squared.iter().fold(of_both, |rate, squared| rate.min(state.rate(*squared)))
     });
     let mut seen = strain.clone();
     seen.push(motion.density);
@@ -83,12 +91,17 @@ pub fn bound(
     let formulas = Formulas::new(graph, chart, &seen);
     let stress = Tangent::program(graph, &motion.stress);
     let mut tangent = Tangent::new(chart, &stress);
-    let speed = search(chart, &formulas, limit, |values, place| {
-        let gradient = match &values[2 * size + 1..] {
-            [] => state(values).principal_gradient(stretches),
+    let speed = search(chart, &formulas, limit, |values, place, enough| {
+        let (state, density) = (state(values), values[2 * size + 1]);
+        let gradient = match &values[2 * size + 2..] {
+            [] => state.principal_gradient(stretches),
             oriented => oriented.to_vec(),
         };
-        wave_speed(&tangent.enclose(&gradient, place), values[2 * size])
+        let coarse = tangent.enclose(&gradient, state.volume, place);
+        match wave_speed(&coarse, density) {
+            speed if speed <= enough => speed,
+            _ => wave_speed(&tangent.sharpen(coarse, &gradient, place), density),
+        }
     });
     // The dimensions that a field lacks are not stretched.
     let missing = if dimension < 3 { 1.0 } else { 0.0 };
@@ -97,30 +110,34 @@ pub fn bound(
         strain_rate: rate.bound,
         reference_wave_speed: speed.bound,
     };
+    if std::env::var("SHOW").is_ok() { eprintln!("   squeeze {} {:.3} {:.3} stretch {} {:.3} {:.3} rate {} {:.3} {:.3} speed {} {:.3} {:.3}", squeeze.cells, squeeze.bound, squeeze.attained, stretch.cells, stretch.bound, stretch.attained, rate.cells, rate.bound, rate.attained, speed.cells, speed.bound, speed.attained); }
     (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
 }
 
 /// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their
-/// values there.
+/// values there. The measure is told which bound is sharp enough.
 fn search(
     chart: &Chart,
     formulas: &Formulas,
     limit: usize,
-    mut measure: impl FnMut(&[Interval], &[Interval]) -> f64,
+    mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let mut bounds = formulas.run::<Interval>(chart);
     let enough = |bound: f64, value: f64| bound <= value * (1.0 + SHARPNESS);
+    let mut greatest = 0.0_f64;
     largest(chart.variables().len(), limit, enough, |cell| {
         let place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
-        let bound = measure(&enclosure.values, &place);
         let at = cell.centre();
         let centre: Vec<Interval> = at.iter().map(|it| Interval::from_f64(*it)).collect();
         let centre = chart.place(&centre);
-        let attained = measure(&bounds.values(&centre), &centre);
+        let attained = measure(&bounds.values(&centre), &centre, f64::INFINITY);
+        let attained = if attained.is_finite() { attained } else { f64::NEG_INFINITY };
+        greatest = greatest.max(attained);
+        let bound = measure(&enclosure.values, &place, greatest * (1.0 + SHARPNESS));
         Measure {
             bound: if bound.is_nan() { f64::INFINITY } else { bound },
-            attained: if attained.is_finite() { attained } else { f64::NEG_INFINITY },
+            attained,
             split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
             at,
         }
@@ -136,16 +153,31 @@ struct State {
     /// The principal stretches, in ascending order: C bounds them whatever the rotation is, F more
     /// sharply where it is small.
     stretches: Vec<Interval>,
+    /// J.
+    volume: Interval,
 }
 
 impl State {
-    /// From C - I and H.
-    fn new(right: &[Interval], gradient: &[Interval]) -> Self {
+    /// From C - I, H and J.
+    fn new(right: &[Interval], gradient: &[Interval], volume: Interval) -> Self {
         let (right, deformation) = (with_identity(right), with_identity(gradient));
         let roots = eigenvalues(&right).into_iter().map(|square| square.sqrt());
         let stretches = roots.zip(singular_values(&deformation));
-        let stretches = stretches.map(|(root, value)| root.meet(value)).collect();
-        State { right, deformation, stretches }
+        let mut stretches: Vec<_> = stretches.map(|(root, value)| root.meet(value)).collect();
+        // J is the product of all of them.
+        for axis in 0..stretches.len() {
+            let others = stretches.iter().enumerate().filter(|(other, _)| *other != axis);
+            let rest = others.fold(volume, |rest, (_, stretch)| rest / *stretch);
+            stretches[axis] = stretches[axis].meet(rest);
+        }
+        State { right, deformation, stretches, volume }
+    }
+
+    /// |D| from 2 J^2 D : D.
+    fn rate(&self, squared: Interval) -> f64 {
+        let square = squared.meet(Interval::new(0.0, f64::INFINITY)) / self.volume.square();
+        let rate = (square / Interval::from_f64(2.0)).sqrt();
+        if rate.is_defined() { rate.upper() } else { f64::INFINITY }
     }
 
     /// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a

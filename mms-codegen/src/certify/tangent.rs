@@ -35,10 +35,33 @@ impl<'a> Tangent<'a> {
         Tangent { first: chart.run(stress), second: chart.run(stress) }
     }
 
-    /// dP_iJ/dH_kL, row-major in (i, J) and (k, L), over a box: the bounds of interval arithmetic,
-    /// and within them those of the mean-value form.
-    pub fn enclose(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
-        let mut tangent = self.natural(gradient, place);
+    /// dP_iJ/dH_kL, row-major in (i, J) and (k, L), over a box where J lies within bounds.
+    pub fn enclose(
+        &mut self,
+        gradient: &[Interval],
+        jacobian: Interval,
+        place: &[Interval],
+    ) -> Vec<Interval> {
+        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
+        columns(gradient.len(), |column| {
+            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
+            let gradient = gradient.iter().enumerate();
+            let gradient: Vec<_> =
+                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
+            let mut volume = volume(&gradient);
+            volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
+            let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+            stress.into_iter().map(|component| component.slope).collect()
+        })
+    }
+
+    /// The same by the mean-value form, within bounds that are known.
+    pub fn sharpen(
+        &mut self,
+        mut tangent: Vec<Interval>,
+        gradient: &[Interval],
+        place: &[Interval],
+    ) -> Vec<Interval> {
         let varies = |entry: &usize| gradient[*entry].width() > 0.0;
         let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
         let whole = tangent.iter().all(|entry| entry.is_defined());
@@ -47,7 +70,8 @@ impl<'a> Tangent<'a> {
         }
         let middle = |entry: &Interval| Interval::from_f64(entry.middle());
         let centre: Vec<Interval> = gradient.iter().map(middle).collect();
-        let mut form = self.natural(&centre, place);
+        let anywhere = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+        let mut form = self.enclose(&centre, anywhere, place);
         for direction in directions {
             let slopes = self.slopes(gradient, place, direction);
             let side = gradient[direction] - centre[direction];
@@ -57,19 +81,6 @@ impl<'a> Tangent<'a> {
         }
         tangent.iter_mut().zip(form).for_each(|(entry, form)| *entry = entry.meet(form));
         tangent
-    }
-
-    fn natural(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
-        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
-        columns(gradient.len(), |column| {
-            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
-            let gradient = gradient.iter().enumerate();
-            let gradient: Vec<_> =
-                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
-            let stress =
-                self.first.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|component| component.slope).collect()
-        })
     }
 
     /// The derivative of dP/dH by one entry of H.
