@@ -161,6 +161,8 @@ impl State {
     /// From C - I, H and J.
     fn new(right: &[Interval], gradient: &[Interval], volume: Interval) -> Self {
         let (right, deformation) = (with_identity(right), with_identity(gradient));
+        let squares = gram(&deformation);
+        let right: Vec<_> = right.into_iter().zip(squares).map(|(a, b)| a.meet(b)).collect();
         let roots = eigenvalues(&right).into_iter().map(|square| square.sqrt());
         let stretches = roots.zip(singular_values(&deformation));
         let mut stretches: Vec<_> = stretches.map(|(root, value)| root.meet(value)).collect();
@@ -190,6 +192,19 @@ impl State {
         }
         gradient
     }
+}
+
+/// F^T F.
+fn gram(deformation: &[Interval]) -> Vec<Interval> {
+    let order = deformation.len().isqrt();
+    let entry = |row: usize, column: usize| {
+        let terms = (0..order).map(|k| match row == column {
+            true => deformation[k * order + row].square(),
+            false => deformation[k * order + row] * deformation[k * order + column],
+        });
+        terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
+    };
+    (0..order * order).map(|at| entry(at / order, at % order)).collect()
 }
 
 /// A square matrix plus I.
