@@ -24,7 +24,7 @@ const BOXES: usize = 2500;
 
 fn honest_fields() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["tests/data/certify", "../fields", "../examples/fields"].map(|folder| root.join(folder));
+    let folders = ["tests/data/certify", "../fields"].map(|folder| root.join(folder));
     let entries = folders.iter().flat_map(|folder| fs::read_dir(folder).expect("a folder"));
     let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.sort();
@@ -51,23 +51,45 @@ fn bounds(certificate: &Certificate) -> ([f64; 2], Rates) {
 }
 
 #[test]
-fn honest_fields_are_proved_and_cheaply() {
+fn honest_fields_are_proved_cheaply_and_sharply() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     for file in honest_fields() {
         let compiled = compiled(&fs::read_to_string(&file).expect("a readable file"));
-        let start = std::time::Instant::now();
         let certificate = certify(&compiled);
-        let took = start.elapsed();
         let shown = file.display();
         assert!(certificate.objections(&compiled).is_empty(), "{shown}: {certificate:?}");
         assert_eq!(certificate.finite, Finite::Proved, "{shown}");
         for (claim, finding) in &certificate.claims {
             assert_eq!(*finding, Finding::Proved, "{shown}: {}", claim.face.value.name());
         }
-        let most = attained(&compiled);
-        let (jacobian, rates) = bounds(&certificate);
-        let found = [rates.principal_stretch, rates.strain_rate, rates.reference_wave_speed];
-        let ratios = [0, 1, 2].map(|k| found[k] / most[k]);
-        eprintln!("{:40} {took:.2?} {:5} J {jacobian:.3?} ratio {ratios:.3?} of {most:.4?}", file.file_name().unwrap().display(), certificate.boxes);
+        assert!(certificate.boxes <= BOXES, "{shown}: {} boxes", certificate.boxes);
+        if file.starts_with(root.join("../fields")) {
+            assert_sharp(&file, &compiled, &bounds(&certificate).1);
+        }
+    }
+}
+
+/// By how much the stretch, the strain rate and the wave speed of a field of the gallery may exceed
+/// what is attained on a grid: in four variables a search may end early.
+const EXCESS: [f64; 3] = [1.2; 3];
+const LARGER_EXCESS: [(&str, [f64; 3]); 6] = [
+    ("axis_aligned_3d", [1.05, 1.2, 1.65]),
+    ("cyclic_shear_3d", [1.05, 1.75, 1.6]),
+    ("quiet_boundary_2d", [1.15, 2.65, 1.75]),
+    ("static_bulge_3d", [1.1, 1.0, 1.45]),
+    ("travelling_wave_2d", [1.05, 1.6, 1.55]),
+    ("twisted_column", [1.05, 1.55, 1.6]),
+];
+
+fn assert_sharp(file: &Path, compiled: &Compiled, rates: &Rates) {
+    let larger =
+        LARGER_EXCESS.iter().find(|(name, _)| file.file_stem().is_some_and(|it| it == *name));
+    let excess = larger.map_or(EXCESS, |(_, excess)| *excess);
+    let bounds = [rates.principal_stretch, rates.strain_rate, rates.reference_wave_speed];
+    let shown = file.display();
+    for ((bound, most), excess) in bounds.into_iter().zip(attained(compiled)).zip(excess) {
+        assert!(most * (1.0 - 1e-12) <= bound, "{shown}: {bound} is less than {most}");
+        assert!(bound <= excess * most, "{shown}: {bound} exceeds {excess} times {most}");
     }
 }
 

@@ -19,7 +19,7 @@ use crate::spec::BoundarySpec;
 pub const CELLS: usize = 2000;
 
 /// How many cells a rate may take: its bound holds however many there were.
-const CELLS_OF_RATES: usize = 300;
+const CELLS_OF_RATES: usize = 500;
 
 /// How many operations a compilation spends on looking for J <= 0, and cells at most.
 const QUICK_OPERATIONS: usize = 100_000;

@@ -1,6 +1,8 @@
 //! How far, how fast and how stiffly a field deforms: bounds of the principal stretch, of the strain
 //! rate and of the wave speed over the domain.
 
+use std::ops::Range;
+
 use mms_math::Scalar as _;
 
 use super::chart::Chart;
@@ -53,35 +55,35 @@ pub fn bound(
 ) -> (Rates, usize) {
     let dimension = motion.dimension();
     let size = dimension * dimension;
-    let strain = [&motion.right, &motion.gradient, &[motion.jacobian][..]].concat();
+    let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
     let formulas = Formulas::new(graph, chart, &strain);
     let volume = Interval::new(jacobian[0], jacobian[1]);
+    let known = strain.len();
     let state = |values: &[Interval]| {
-        let volume = values[2 * size].meet(volume);
-        State::new(&values[..size], &values[size..2 * size], volume)
+        State::new(values[0].meet(volume), &values[1..=size], &values[1 + size..known])
     };
-    let squeeze = search(chart, &formulas, limit, |values, _, _| {
+    let squeeze = search(chart, &formulas, limit, 0..known, |values, _, _| {
         match state(values).stretches.first().map_or(0.0, |least| least.lower()) {
             least if least > 0.0 => 1.0 / least.next_down(),
             _ => f64::INFINITY,
         }
     });
-    let stretch = search(chart, &formulas, limit, |values, _, _| {
+    let stretch = search(chart, &formulas, limit, 0..known, |values, _, _| {
         state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
     });
     // J is the product of the principal stretches.
     let least = jacobian[0] / stretch.bound.powi(dimension as i32 - 1);
     let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
     let stretches = Interval::new(least, stretch.bound);
-    let mut moving = [strain.as_slice(), &motion.right_rate, &motion.gradient_rate].concat();
+    let mut moving = [strain.as_slice(), &motion.gradient_rate, &motion.right_rate].concat();
     moving.extend(motion.squared_rate);
     let formulas = Formulas::new(graph, chart, &moving);
-    let rate = search(chart, &formulas, limit, |values, _, _| {
+    let rate = search(chart, &formulas, limit, known..known + 2 * size, |values, _, _| {
         let state = state(values);
-        let (right_rate, rest) = values[2 * size + 1..].split_at(size);
-        let (gradient_rate, squared) = rest.split_at(size);
-        let of_right = largest_relative_rate(&state.right, right_rate, stretches.lower().powi(2));
+        let (gradient_rate, rest) = values[known..].split_at(size);
+        let (right_rate, squared) = rest.split_at(size);
         let of_gradient = largest_rate(&state.deformation, gradient_rate, stretches.lower());
+        let of_right = largest_relative_rate(&state.right, right_rate, stretches.lower().powi(2));
         let of_both = of_gradient.min(of_right / 2.0);
         squared.iter().fold(of_both, |rate, squared| rate.min(state.rate(*squared)))
     });
@@ -91,9 +93,9 @@ pub fn bound(
     let formulas = Formulas::new(graph, chart, &seen);
     let stress = Tangent::program(graph, &motion.stress);
     let mut tangent = Tangent::new(chart, &stress);
-    let speed = search(chart, &formulas, limit, |values, place, enough| {
-        let (state, density) = (state(values), values[2 * size + 1]);
-        let gradient = match &values[2 * size + 2..] {
+    let speed = search(chart, &formulas, limit, 0..seen.len(), |values, place, enough| {
+        let (state, density) = (state(values), values[known]);
+        let gradient = match &values[known + 1..] {
             [] => state.principal_gradient(stretches),
             oriented => oriented.to_vec(),
         };
@@ -110,16 +112,17 @@ pub fn bound(
         strain_rate: rate.bound,
         reference_wave_speed: speed.bound,
     };
-    if std::env::var("SHOW").is_ok() { eprintln!("   squeeze {} {:.3} {:.3} stretch {} {:.3} {:.3} rate {} {:.3} {:.3} speed {} {:.3} {:.3}", squeeze.cells, squeeze.bound, squeeze.attained, stretch.cells, stretch.bound, stretch.attained, rate.cells, rate.bound, rate.attained, speed.cells, speed.bound, speed.attained); }
     (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
 }
 
 /// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their
-/// values there. The measure is told which bound is sharp enough.
+/// values there. The measure is told which bound is sharp enough; cells are split where the formulas
+/// that steer change most.
 fn search(
     chart: &Chart,
     formulas: &Formulas,
     limit: usize,
+    steering: Range<usize>,
     mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let mut bounds = formulas.run::<Interval>(chart);
@@ -135,10 +138,12 @@ fn search(
         let attained = if attained.is_finite() { attained } else { f64::NEG_INFINITY };
         greatest = greatest.max(attained);
         let bound = measure(&enclosure.values, &place, greatest * (1.0 + SHARPNESS));
+        let slopes = enclosure.slopes.iter().map(|by| by[steering.clone()].to_vec());
+        let slopes: Vec<_> = slopes.collect();
         Measure {
             bound: if bound.is_nan() { f64::INFINITY } else { bound },
             attained,
-            split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
+            split: cell.steepest(&chart.changes(cell, &place, &slopes)),
             at,
         }
     })
@@ -158,11 +163,11 @@ struct State {
 }
 
 impl State {
-    /// From C - I, H and J.
-    fn new(right: &[Interval], gradient: &[Interval], volume: Interval) -> Self {
-        let (right, deformation) = (with_identity(right), with_identity(gradient));
-        let squares = gram(&deformation);
-        let right: Vec<_> = right.into_iter().zip(squares).map(|(a, b)| a.meet(b)).collect();
+    /// From J, H and C - I.
+    fn new(volume: Interval, gradient: &[Interval], right: &[Interval]) -> Self {
+        let deformation = with_identity(gradient);
+        let both = with_identity(right).into_iter().zip(gram(&deformation));
+        let right: Vec<_> = both.map(|(entry, square)| entry.meet(square)).collect();
         let roots = eigenvalues(&right).into_iter().map(|square| square.sqrt());
         let stretches = roots.zip(singular_values(&deformation));
         let mut stretches: Vec<_> = stretches.map(|(root, value)| root.meet(value)).collect();

@@ -156,8 +156,20 @@ impl Interval {
 
     /// `self^exponent` for a positive base, at the corners: the power is monotone in each operand.
     fn positive_power(self, exponent: Interval) -> Self {
-        let power = |base: f64, exponent: f64| power_around(base, exponent);
-        self.corners(exponent, |a, b| power(a, b).0, |a, b| power(a, b).1)
+        let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
+        for base in self.ends() {
+            for exponent in exponent.ends() {
+                let (below, above) = power_around(base, exponent);
+                (lower, upper) = (lower.min(below), upper.max(above));
+            }
+        }
+        Interval::new(lower, upper).only_if(self.defined && exponent.defined)
+    }
+
+    /// Both bounds, or the number that both are.
+    fn ends(self) -> impl Iterator<Item = f64> + Clone {
+        let other = (self.upper > self.lower).then_some(self.upper);
+        core::iter::once(self.lower).chain(other)
     }
 }
 
