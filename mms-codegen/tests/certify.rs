@@ -247,13 +247,13 @@ fn modulus(tangent: &[f64], dimension: usize) -> f64 {
         let mut vectors: [Vec<f64>; 2] = [unit(start), unit(other)];
         for turn in 0..16 {
             let mut image = vec![0.0; dimension];
-            for at in 0..size * size {
+            for (at, entry) in tangent.iter().enumerate() {
                 let [[i, j], [k, l]] =
                     [at / size, at % size].map(|pair| [pair / dimension, pair % dimension]);
                 let [m, n] = &vectors;
                 match turn % 2 {
-                    0 => image[i] += tangent[at] * n[j] * m[k] * n[l],
-                    _ => image[j] += tangent[at] * m[i] * m[k] * n[l],
+                    0 => image[i] += entry * n[j] * m[k] * n[l],
+                    _ => image[j] += entry * m[i] * m[k] * n[l],
                 }
             }
             let size = image.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
