@@ -78,3 +78,26 @@ fn as_linear(graph: &Graph, base: Expr, exponent: &Rational) -> Option<Linear> {
     };
     Some(Linear { symbol, root: -offset / &slope, slope, exponent: exponent.clone() })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_of_distances_become_squares() {
+        let mut graph = Graph::default();
+        let x = graph.symbol(Symbol::Coordinate(0));
+        let one = graph.number(1);
+        let rest = graph.sub(one, x);
+        let [cube, fourth] = [graph.power(x, 3), graph.power(rest, 4)];
+        let bump = graph.mul(cube, fourth);
+        // x^3 (1 - x)^4 = (1/4 - (x - 1/2)^2)^3 (1 - x).
+        let part = |parts: u8| Rational::from_parts(1.into(), parts.into());
+        let distance = graph.sum([(x, Rational::ONE), (one, -part(2))]);
+        let square = graph.power(distance, 2);
+        let whole = graph.sum([(one, part(4)), (square, -Rational::ONE)]);
+        let cube = graph.power(whole, 3);
+        let expected = graph.mul(cube, rest);
+        assert_eq!(compact(&mut graph, &[bump]), [expected]);
+    }
+}

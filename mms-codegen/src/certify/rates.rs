@@ -13,7 +13,7 @@ use super::matrix::{
 use super::motion::Motion;
 use super::search::{Found, Measure, largest};
 use super::tangent::Tangent;
-use crate::expr::Graph;
+use crate::expr::{Expr, Graph};
 use crate::program::interpret::Number as _;
 use crate::program::interval::Interval;
 
@@ -54,57 +54,15 @@ pub fn bound(
     limit: usize,
 ) -> (Rates, usize) {
     let dimension = motion.dimension();
-    let size = dimension * dimension;
     let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
-    let formulas = Formulas::new(graph, chart, &strain);
     let volume = Interval::new(jacobian[0], jacobian[1]);
-    let known = strain.len();
-    let state = |values: &[Interval]| {
-        State::new(values[0].meet(volume), &values[1..=size], &values[1 + size..known])
-    };
-    let squeeze = search(chart, &formulas, limit, 0..known, |values, _, _| {
-        match state(values).stretches.first().map_or(0.0, |least| least.lower()) {
-            least if least > 0.0 => 1.0 / least.next_down(),
-            _ => f64::INFINITY,
-        }
-    });
-    let stretch = search(chart, &formulas, limit, 0..known, |values, _, _| {
-        state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
-    });
+    let searches = Searches { chart, motion, strain, volume, limit };
+    let [squeeze, stretch] = searches.stretches(graph);
     // J is the product of the principal stretches.
     let least = jacobian[0] / stretch.bound.powi(dimension as i32 - 1);
     let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
-    let stretches = Interval::new(least, stretch.bound);
-    let mut moving = [strain.as_slice(), &motion.gradient_rate, &motion.right_rate].concat();
-    moving.extend(motion.squared_rate);
-    let formulas = Formulas::new(graph, chart, &moving);
-    let rate = search(chart, &formulas, limit, known..known + 2 * size, |values, _, _| {
-        let state = state(values);
-        let (gradient_rate, rest) = values[known..].split_at(size);
-        let (right_rate, squared) = rest.split_at(size);
-        let of_gradient = largest_rate(&state.deformation, gradient_rate, stretches.lower());
-        let of_right = largest_relative_rate(&state.right, right_rate, stretches.lower().powi(2));
-        let of_both = of_gradient.min(of_right / 2.0);
-        squared.iter().fold(of_both, |rate, squared| rate.min(state.rate(*squared)))
-    });
-    let mut seen = strain.clone();
-    seen.push(motion.density);
-    seen.extend(motion.oriented.iter().flatten());
-    let formulas = Formulas::new(graph, chart, &seen);
-    let stress = Tangent::program(graph, &motion.stress);
-    let mut tangent = Tangent::new(chart, &stress);
-    let speed = search(chart, &formulas, limit, 0..seen.len(), |values, place, enough| {
-        let (state, density) = (state(values), values[known]);
-        let gradient = match &values[known + 1..] {
-            [] => state.principal_gradient(stretches),
-            oriented => oriented.to_vec(),
-        };
-        let coarse = tangent.enclose(&gradient, state.volume, place);
-        match wave_speed(&coarse, density) {
-            speed if speed <= enough => speed,
-            _ => wave_speed(&tangent.sharpen(coarse, &gradient, place), density),
-        }
-    });
+    let rate = searches.strain_rate(graph, least);
+    let speed = searches.wave_speed(graph, Interval::new(least, stretch.bound));
     // The dimensions that a field lacks are not stretched.
     let missing = if dimension < 3 { 1.0 } else { 0.0 };
     let rates = Rates {
@@ -113,6 +71,85 @@ pub fn bound(
         reference_wave_speed: speed.bound,
     };
     (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
+}
+
+/// What the search for each rate starts from.
+struct Searches<'a> {
+    chart: &'a Chart,
+    motion: &'a Motion,
+    /// J, H and C - I, with which the formulas of every search begin.
+    strain: Vec<Expr>,
+    /// The bounds of J everywhere.
+    volume: Interval,
+    /// How many cells each may take.
+    limit: usize,
+}
+
+impl Searches<'_> {
+    /// The deformation, from bounds of the formulas.
+    fn state(&self, values: &[Interval]) -> State {
+        let (gradient, right) = values[1..self.strain.len()].split_at(self.motion.gradient.len());
+        State::new(values[0].meet(self.volume), gradient, right)
+    }
+
+    /// The largest reciprocal of a principal stretch, and the largest stretch.
+    fn stretches(&self, graph: &mut Graph) -> [Found; 2] {
+        let formulas = Formulas::new(graph, self.chart, &self.strain);
+        let all = 0..self.strain.len();
+        let squeeze = search(self.chart, &formulas, self.limit, all.clone(), |values, _, _| {
+            match self.state(values).stretches.first().map_or(0.0, |least| least.lower()) {
+                least if least > 0.0 => 1.0 / least.next_down(),
+                _ => f64::INFINITY,
+            }
+        });
+        let stretch = search(self.chart, &formulas, self.limit, all, |values, _, _| {
+            self.state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
+        });
+        [squeeze, stretch]
+    }
+
+    /// The largest |D| where no principal stretch is less than `floor`.
+    fn strain_rate(&self, graph: &mut Graph, floor: f64) -> Found {
+        let (motion, known) = (self.motion, self.strain.len());
+        let size = motion.gradient.len();
+        let mut moving = [&self.strain[..], &motion.gradient_rate, &motion.right_rate].concat();
+        moving.extend(motion.squared_rate);
+        let formulas = Formulas::new(graph, self.chart, &moving);
+        let steering = known..known + 2 * size;
+        search(self.chart, &formulas, self.limit, steering, |values, _, _| {
+            let state = self.state(values);
+            let (gradient_rate, rest) = values[known..].split_at(size);
+            let (right_rate, squared) = rest.split_at(size);
+            let of_gradient = largest_rate(&state.deformation, gradient_rate, floor);
+            let of_right = largest_relative_rate(&state.right, right_rate, floor * floor);
+            let of_both = of_gradient.min(of_right / 2.0);
+            squared.iter().fold(of_both, |rate, squared| rate.min(state.rate(*squared)))
+        })
+    }
+
+    /// The fastest wave where the principal stretches lie within bounds.
+    fn wave_speed(&self, graph: &mut Graph, stretches: Interval) -> Found {
+        let (motion, known) = (self.motion, self.strain.len());
+        let mut seen = self.strain.clone();
+        seen.push(motion.density);
+        seen.extend(motion.oriented.iter().flatten());
+        let formulas = Formulas::new(graph, self.chart, &seen);
+        let stress = Tangent::program(graph, &motion.stress);
+        let mut tangent = Tangent::new(self.chart, &stress);
+        let steering = 0..seen.len();
+        search(self.chart, &formulas, self.limit, steering, |values, place, enough| {
+            let (state, density) = (self.state(values), values[known]);
+            let gradient = match &values[known + 1..] {
+                [] => state.principal_gradient(stretches),
+                oriented => oriented.to_vec(),
+            };
+            let coarse = tangent.enclose(&gradient, state.volume, place);
+            match wave_speed(&coarse, density) {
+                speed if speed <= enough => speed,
+                _ => wave_speed(&tangent.sharpen(coarse, &gradient, place), density),
+            }
+        })
+    }
 }
 
 /// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their
