@@ -19,7 +19,7 @@ use crate::spec::BoundarySpec;
 pub const CELLS: usize = 2000;
 
 /// How many cells a rate may take: its bound holds however many there were.
-const CELLS_OF_RATES: usize = 300;
+const CELLS_OF_RATES: usize = 500;
 
 /// How many operations a compilation spends on looking for J <= 0, and cells at most.
 const QUICK_OPERATIONS: usize = 100_000;
@@ -59,9 +59,9 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     };
     let mut rates = None;
     let mut least = 0.0;
-    if let Jacobian::Positive([lower, _]) = jacobian {
-        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, lower, CELLS_OF_RATES);
-        (rates, boxes, least) = (Some(bound), boxes + cells, lower);
+    if let Jacobian::Positive(bounds) = jacobian {
+        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, bounds, CELLS_OF_RATES);
+        (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
     }
     let limit = if rates.is_some() { CELLS } else { 0 };
     let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);

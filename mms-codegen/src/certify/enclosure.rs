@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::chart::{Chart, Run};
+use super::forms::compact;
 use crate::expr::{Expr, Graph};
 use crate::pass::differentiate::differentiate;
 use crate::program::interpret::Number;
@@ -28,9 +29,10 @@ const fn slopes_by(variable: usize) -> Output {
 impl Formulas {
     /// Of formulas that were pulled back to a chart.
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
-        let mut outputs = BTreeMap::from([(VALUES, formulas.to_vec())]);
+        let mut outputs = BTreeMap::from([(VALUES, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
-            outputs.insert(slopes_by(index), differentiate(graph, formulas, *symbol));
+            let slopes = differentiate(graph, formulas, *symbol);
+            outputs.insert(slopes_by(index), compact(graph, &slopes));
         }
         Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
     }

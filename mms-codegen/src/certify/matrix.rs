@@ -4,6 +4,8 @@
 //! Frobenius norm of what is added (Weyl). What some hundred operations round is below 1e-12 of the
 //! norm; a thousand times that is added.
 
+use mms_math::Scalar as _;
+
 use crate::program::interval::Interval;
 
 /// What rounding may have taken from a bound, relative to it.
@@ -48,22 +50,65 @@ fn product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
     (0..order * order).map(|k| entry(k / order, k % order)).collect()
 }
 
-/// No eigenvalue of a symmetric matrix within these bounds is greater in magnitude.
-pub fn largest_eigenvalue(entries: &[Interval]) -> f64 {
-    let (middles, radius) = split(entries);
-    if radius.is_finite() { spectral_radius(&middles) + radius } else { f64::INFINITY }
-}
-
-/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds.
+/// Intervals that hold the eigenvalues of every symmetric matrix within these bounds, in ascending
+/// order.
+///
+/// With the midpoint M and the radii R, none is greater than the greatest of M + S R S, nor less than the
+/// least of M - S R S, for the diagonal matrices S of signs (Hertz, IEEE Trans. Automat. Control 37,
+/// 1992); what is between follows Weyl.
 pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
     let (middles, radius) = split(entries);
     let scale = spectral_radius(&middles);
+    let order = entries.len().isqrt();
     if !radius.is_finite() || !scale.is_finite() {
-        return vec![Interval::UNDEFINED; entries.len().isqrt()];
+        return vec![Interval::UNDEFINED; order];
     }
-    let radius = radius + scale * ROUNDING;
-    let around = |value: f64| Interval::new(value - radius, value + radius);
-    diagonal(middles).into_iter().map(around).collect()
+    let rounding = (scale + radius) * ROUNDING;
+    let around = |value: f64| Interval::new(value - radius - rounding, value + radius + rounding);
+    let mut bounds: Vec<Interval> = diagonal(middles.clone()).into_iter().map(around).collect();
+    if radius == 0.0 {
+        return bounds;
+    }
+    let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for signs in 0..1_u32 << (order - 1) {
+        let is_opposite = |at: usize| (signs >> (at / order) ^ signs >> (at % order)) & 1 == 1;
+        let moved = |sign: f64| -> Vec<f64> {
+            let halves = entries.iter().map(|entry| entry.width() / 2.0).enumerate();
+            let signed = halves.map(|(at, half)| if is_opposite(at) { -half } else { half });
+            middles.iter().zip(signed).map(|(middle, half)| middle + sign * half).collect()
+        };
+        least = diagonal(moved(-1.0)).into_iter().fold(least, f64::min);
+        greatest = diagonal(moved(1.0)).into_iter().fold(greatest, f64::max);
+    }
+    let all = Interval::new(least - rounding, greatest + rounding);
+    bounds.iter_mut().for_each(|value| *value = value.meet(all));
+    bounds
+}
+
+/// Intervals that hold the singular values of every square matrix within these bounds, in ascending
+/// order.
+pub fn singular_values(entries: &[Interval]) -> Vec<Interval> {
+    let (middles, radius) = split(entries);
+    let reach = |value: f64| Interval::new((value - radius).max(0.0), value + radius);
+    let around = |square: Interval| {
+        let root = square.meet(Interval::new(0.0, f64::INFINITY)).sqrt();
+        Interval::new(reach(root.lower()).lower(), reach(root.upper()).upper())
+    };
+    eigenvalues(&exactly(&gram(&middles))).into_iter().map(around).collect()
+}
+
+fn exactly(numbers: &[f64]) -> Vec<Interval> {
+    numbers.iter().copied().map(Interval::from_f64).collect()
+}
+
+/// A^T A.
+fn gram(matrix: &[f64]) -> Vec<f64> {
+    product(&transposed(matrix), matrix, matrix.len().isqrt())
+}
+
+fn transposed(matrix: &[f64]) -> Vec<f64> {
+    let order = matrix.len().isqrt();
+    (0..matrix.len()).map(|at| matrix[at % order * order + at / order]).collect()
 }
 
 /// The eigenvalues of a symmetric matrix of numbers, by rotations that make one entry after the
@@ -91,7 +136,9 @@ fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
             }
         }
     }
-    (0..order).map(|k| matrix[k * order + k]).collect()
+    let mut values: Vec<f64> = (0..order).map(|k| matrix[k * order + k]).collect();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 /// No sqrt(tr (C^-1 A C^-1 A)) with symmetric C and A within these bounds is greater, where no
@@ -106,8 +153,7 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
     if !spread.is_finite() || !change.is_finite() {
         return f64::INFINITY;
     }
-    let norm = rate.iter().map(|entry| entry * entry).sum::<f64>().sqrt() + change;
-    let coarse = norm / floor * (1.0 + ROUNDING);
+    let coarse = (norm(&rate) + change) / floor * (1.0 + ROUNDING);
     let eigenvalues = diagonal(form.clone());
     let least = eigenvalues.into_iter().fold(f64::INFINITY, f64::min) * (1.0 - ROUNDING);
     let share = 1.0 - spread / least;
@@ -119,6 +165,56 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
     let trace: f64 = (0..order).map(|k| square[k * order + k]).sum();
     let sharp = (trace.max(0.0).sqrt() + change / least) / share * (1.0 + ROUNDING);
     sharp.min(coarse)
+}
+
+/// No |sym(A F^-1)| with A and F within these bounds is greater, where no singular value of F is less
+/// than `floor` > 0.
+///
+/// With the midpoints B and M, L = A F^-1 is L = B M^-1 + ((A - B) - L (F - M)) M^-1, so that it differs
+/// from B M^-1 by no more than (|A - B| + |L| |F - M|)/m with the least singular value m of M; and |L|
+/// by the same rule is at most (|B M^-1| + |A - B|/m)/(1 - |F - M|/m), and at most |A|/floor.
+pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
+    let order = form.len().isqrt();
+    let (form_radii, rate_radii) = (radii(form), radii(rate));
+    let ((form, spread), (rate, change)) = (split(form), split(rate));
+    if !spread.is_finite() || !change.is_finite() {
+        return f64::INFINITY;
+    }
+    let coarse = (norm(&rate) + change) / floor * (1.0 + ROUNDING);
+    let square = gram(&form);
+    let least = eigenvalues(&exactly(&square)).first().map_or(0.0, |square| square.lower());
+    if least <= 0.0 {
+        return coarse;
+    }
+    let least = least.sqrt() * (1.0 - ROUNDING);
+    // M^-1 = (M^T M)^-1 M^T.
+    let inverse = inverse_times(&square, &transposed(&form), order);
+    let gradient = product(&rate, &inverse, order);
+    let share = 1.0 - spread / least;
+    let whole = if share > 0.0 { (norm(&gradient) + change / least) / share } else { coarse };
+    let excess = (change + whole.min(coarse) * spread) / least;
+    // The same by entries, where that of L is at most that of B M^-1 and the excess.
+    let size = |matrix: &[f64]| matrix.iter().map(|entry| entry.abs()).collect::<Vec<_>>();
+    let reach: Vec<f64> = gradient.iter().map(|entry| entry.abs() + excess).collect();
+    let carried = product(&reach, &form_radii, order);
+    let changed: Vec<f64> = rate_radii.iter().zip(carried).map(|(a, b)| a + b).collect();
+    let changed = product(&changed, &size(&inverse), order);
+    let symmetric = |matrix: &[f64]| -> Vec<f64> {
+        matrix.iter().zip(transposed(matrix)).map(|(a, b)| (a + b) / 2.0).collect()
+    };
+    let pairs = size(&symmetric(&gradient)).into_iter().zip(symmetric(&changed));
+    let sharp: Vec<f64> = pairs.map(|(value, change)| value + change).collect();
+    (norm(&sharp) * (1.0 + ROUNDING)).min(coarse)
+}
+
+/// By how much the entries may differ from their midpoints.
+fn radii(entries: &[Interval]) -> Vec<f64> {
+    entries.iter().map(|entry| entry.width() / 2.0 * (1.0 + ROUNDING)).collect()
+}
+
+/// The Frobenius norm.
+fn norm(matrix: &[f64]) -> f64 {
+    matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// A^-1 B of symmetric positive A, by elimination.
@@ -163,7 +259,14 @@ pub fn largest_acoustic(entries: &[Interval]) -> f64 {
     }
     let (near, far) = (1.0 - grid.sine_squared, grid.sine_squared);
     let bound = (greatest * near - least * far) / (near - far);
-    bound * (1.0 + ROUNDING) + radius
+    bound * (1.0 + ROUNDING) + radius.min(largest_change(entries))
+}
+
+/// No v A v with a unit vector v changes by more while A stays within these bounds.
+fn largest_change(entries: &[Interval]) -> f64 {
+    let radii = radii(entries);
+    let pairs = radii.iter().zip(transposed(&radii));
+    spectral_radius(&pairs.map(|(a, b)| (a + b) / 2.0).collect::<Vec<_>>())
 }
 
 /// The symmetric part of A_iJkL N_J N_L.

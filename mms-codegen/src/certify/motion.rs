@@ -23,14 +23,20 @@ use crate::quantity::Quantity;
 #[derive(Clone, Debug)]
 pub struct Motion {
     dimension: usize,
-    /// H, of a material whose stress does not follow from C alone.
-    pub gradient: Option<Vec<Expr>>,
+    /// H in the basis of space, of a material whose stress does not follow from C alone.
+    pub oriented: Option<Vec<Expr>>,
+    /// H, in the basis of the chart's coordinates.
+    pub gradient: Vec<Expr>,
+    /// dH/dt.
+    pub gradient_rate: Vec<Expr>,
     /// C - I, in the basis of the chart's coordinates.
     pub right: Vec<Expr>,
     /// dC/dt.
     pub right_rate: Vec<Expr>,
     /// J.
     pub jacobian: Expr,
+    /// 2 J^2 D : D, in two dimensions.
+    pub squared_rate: Option<Expr>,
     /// rho0.
     pub density: Expr,
     /// P at a gradient H that is supplied; for isotropic materials, with [`PRINCIPAL_VOLUME`] for
@@ -49,19 +55,23 @@ impl Motion {
         let strain = strain(graph, &gradient);
         let right = strain.right.components().to_vec();
         let right_rate = differentiate(graph, &right, Symbol::Time);
+        let squared_rate = squared_rate(graph, strain.jacobian, &right_rate);
+        let gradient_rate = differentiate(graph, &gradient, Symbol::Time);
         let density = chart.pull_back(graph, &[compiled.model.density])[0];
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         // Rotations of the deformed and of the reference body then rotate the stress and nothing
         // else, and all that matters of F is C, in whatever basis.
         let is_isotropic = compiled.model.kind == Kind::Isotropic;
         let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
-        let gradient = (!is_isotropic).then_some(cartesian);
         Motion {
             dimension,
+            oriented: (!is_isotropic).then_some(cartesian),
             gradient,
+            gradient_rate,
             right,
             right_rate,
             jacobian: strain.jacobian,
+            squared_rate,
             density,
             stress,
         }
@@ -71,6 +81,17 @@ impl Motion {
     pub fn dimension(&self) -> usize {
         self.dimension
     }
+}
+
+/// 2 J^2 D : D = 2 (dJ/dt)^2 - det dC/dt in two dimensions, where tr A^2 = (tr A)^2 - 2 det A for
+/// A = C^-1 dC/dt, and tr A = 2 dJ/dt/J.
+fn squared_rate(graph: &mut Graph, jacobian: Expr, right_rate: &[Expr]) -> Option<Expr> {
+    let [first, shear, _, second] = right_rate else { return None };
+    let rate = differentiate(graph, &[jacobian], Symbol::Time)[0];
+    let [rate, shear] = [rate, *shear].map(|factor| graph.power(factor, 2));
+    let product = graph.mul(*first, *second);
+    let one = Rational::ONE;
+    Some(graph.sum([(rate, Rational::from(2)), (shear, one.clone()), (product, -one)]))
 }
 
 /// What stands for J - 1 in the stress of isotropic materials.

@@ -1,22 +1,21 @@
 //! How far, how fast and how stiffly a field deforms: bounds of the principal stretch, of the strain
 //! rate and of the wave speed over the domain.
 
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 use mms_math::Scalar as _;
 
-use super::chart::{Chart, Run};
+use super::chart::Chart;
 use super::enclosure::Formulas;
-use super::matrix::{eigenvalues, largest_acoustic, largest_eigenvalue, largest_relative_rate};
+use super::matrix::{
+    eigenvalues, largest_acoustic, largest_rate, largest_relative_rate, singular_values,
+};
 use super::motion::Motion;
 use super::search::{Found, Measure, largest};
-use crate::expr::Graph;
-use crate::mechanics::Response;
-use crate::program::Output;
-use crate::program::dual::Dual;
-use crate::program::interpret::Number;
+use super::tangent::Tangent;
+use crate::expr::{Expr, Graph};
+use crate::program::interpret::Number as _;
 use crate::program::interval::Interval;
-use crate::program::schedule::schedule_plainly;
 
 /// A bound that exceeds a value by no more than this part of it is sharp enough.
 const SHARPNESS: f64 = 0.1;
@@ -45,54 +44,25 @@ impl Rates {
     }
 }
 
-/// Bounds all three where J is at least `jacobian`, with at most `limit` cells each, and says how
+/// Bounds all three where J lies within `jacobian`, with at most `limit` cells each, and says how
 /// many there were.
 pub fn bound(
     graph: &mut Graph,
     chart: &Chart,
     motion: &Motion,
-    jacobian: f64,
+    jacobian: [f64; 2],
     limit: usize,
 ) -> (Rates, usize) {
     let dimension = motion.dimension();
-    let right = &motion.right;
-    let stretch = Formulas::new(graph, chart, right);
-    let shape = |values: &[Interval]| with_identity(values, dimension);
-    let squeeze = search(chart, &stretch, limit, |values, _| {
-        let least = eigenvalues(&shape(values)).into_iter().map(Interval::lower);
-        match least.fold(f64::INFINITY, f64::min) {
-            least if least > 0.0 => 1.0 / least.sqrt().next_down(),
-            _ => f64::INFINITY,
-        }
-    });
-    let stretch =
-        search(chart, &stretch, limit, |values, _| largest_eigenvalue(&shape(values)).sqrt());
-    let rate = [right.as_slice(), &motion.right_rate].concat();
-    let rate = Formulas::new(graph, chart, &rate);
+    let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
+    let volume = Interval::new(jacobian[0], jacobian[1]);
+    let searches = Searches { chart, motion, strain, volume, limit };
+    let [squeeze, stretch] = searches.stretches(graph);
     // J is the product of the principal stretches.
-    let least = jacobian / stretch.bound.powi(dimension as i32 - 1);
+    let least = jacobian[0] / stretch.bound.powi(dimension as i32 - 1);
     let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
-    let stretches = Interval::new(least, stretch.bound);
-    let rate = search(chart, &rate, limit, |values, _| {
-        let (right, rate) = values.split_at(dimension * dimension);
-        let right = shape(right);
-        // D : D = tr (C^-1 dC/dt)^2 / 4 (Holzapfel, Nonlinear Solid Mechanics, 2000, section 2.7).
-        largest_relative_rate(&right, rate, stretches.square().lower()) / 2.0
-    });
-    let state = motion.gradient.as_ref().unwrap_or(right);
-    let state = [state.as_slice(), &[motion.density]].concat();
-    let state = Formulas::new(graph, chart, &state);
-    let stress = BTreeMap::from([(STRESS, motion.stress.clone())]);
-    let stress = schedule_plainly(graph, &stress);
-    let mut tangent = Tangent { first: chart.run(&stress), second: chart.run(&stress) };
-    let speed = search(chart, &state, limit, |values, place| {
-        let Some((density, state)) = values.split_last() else { return f64::INFINITY };
-        let gradient = match motion.gradient {
-            Some(_) => state.to_vec(),
-            None => principal_gradient(&shape(state), stretches),
-        };
-        wave_speed(&tangent.enclose(&gradient, place), *density)
-    });
+    let rate = searches.strain_rate(graph, least);
+    let speed = searches.wave_speed(graph, Interval::new(least, stretch.bound));
     // The dimensions that a field lacks are not stretched.
     let missing = if dimension < 3 { 1.0 } else { 0.0 };
     let rates = Rates {
@@ -103,55 +73,189 @@ pub fn bound(
     (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
 }
 
-const STRESS: Output = Output::Response(Response::FirstPiolaKirchhoff);
+/// What the search for each rate starts from.
+struct Searches<'a> {
+    chart: &'a Chart,
+    motion: &'a Motion,
+    /// J, H and C - I, with which the formulas of every search begin.
+    strain: Vec<Expr>,
+    /// The bounds of J everywhere.
+    volume: Interval,
+    /// How many cells each may take.
+    limit: usize,
+}
+
+impl Searches<'_> {
+    /// The deformation, from bounds of the formulas.
+    fn state(&self, values: &[Interval]) -> State {
+        let (gradient, right) = values[1..self.strain.len()].split_at(self.motion.gradient.len());
+        State::new(values[0].meet(self.volume), gradient, right)
+    }
+
+    /// The largest reciprocal of a principal stretch, and the largest stretch.
+    fn stretches(&self, graph: &mut Graph) -> [Found; 2] {
+        let formulas = Formulas::new(graph, self.chart, &self.strain);
+        let all = 0..self.strain.len();
+        let squeeze = search(self.chart, &formulas, self.limit, all.clone(), |values, _, _| {
+            match self.state(values).stretches.first().map_or(0.0, |least| least.lower()) {
+                least if least > 0.0 => 1.0 / least.next_down(),
+                _ => f64::INFINITY,
+            }
+        });
+        let stretch = search(self.chart, &formulas, self.limit, all, |values, _, _| {
+            self.state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
+        });
+        [squeeze, stretch]
+    }
+
+    /// The largest |D| where no principal stretch is less than `floor`.
+    fn strain_rate(&self, graph: &mut Graph, floor: f64) -> Found {
+        let (motion, known) = (self.motion, self.strain.len());
+        let size = motion.gradient.len();
+        let mut moving = [&self.strain[..], &motion.gradient_rate, &motion.right_rate].concat();
+        moving.extend(motion.squared_rate);
+        let formulas = Formulas::new(graph, self.chart, &moving);
+        let steering = known..known + 2 * size;
+        search(self.chart, &formulas, self.limit, steering, |values, _, _| {
+            let state = self.state(values);
+            let (gradient_rate, rest) = values[known..].split_at(size);
+            let (right_rate, squared) = rest.split_at(size);
+            let of_gradient = largest_rate(&state.deformation, gradient_rate, floor);
+            let of_right = largest_relative_rate(&state.right, right_rate, floor * floor);
+            let of_both = of_gradient.min(of_right / 2.0);
+            squared.iter().fold(of_both, |rate, squared| rate.min(state.rate(*squared)))
+        })
+    }
+
+    /// The fastest wave where the principal stretches lie within bounds.
+    fn wave_speed(&self, graph: &mut Graph, stretches: Interval) -> Found {
+        let (motion, known) = (self.motion, self.strain.len());
+        let mut seen = self.strain.clone();
+        seen.push(motion.density);
+        seen.extend(motion.oriented.iter().flatten());
+        let formulas = Formulas::new(graph, self.chart, &seen);
+        let stress = Tangent::program(graph, &motion.stress);
+        let mut tangent = Tangent::new(self.chart, &stress);
+        let steering = 0..seen.len();
+        search(self.chart, &formulas, self.limit, steering, |values, place, enough| {
+            let (state, density) = (self.state(values), values[known]);
+            let gradient = match &values[known + 1..] {
+                [] => state.principal_gradient(stretches),
+                oriented => oriented.to_vec(),
+            };
+            let coarse = tangent.enclose(&gradient, state.volume, place);
+            match wave_speed(&coarse, density) {
+                speed if speed <= enough => speed,
+                _ => wave_speed(&tangent.sharpen(coarse, &gradient, place), density),
+            }
+        })
+    }
+}
 
 /// Bounds a measure of formulas: in a cell from bounds of the formulas, and at its centre from their
-/// values there.
+/// values there. The measure is told which bound is sharp enough; cells are split where the formulas
+/// that steer change most.
 fn search(
     chart: &Chart,
     formulas: &Formulas,
     limit: usize,
-    mut measure: impl FnMut(&[Interval], &[Interval]) -> f64,
+    steering: Range<usize>,
+    mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let mut bounds = formulas.run::<Interval>(chart);
     let enough = |bound: f64, value: f64| bound <= value * (1.0 + SHARPNESS);
+    let mut greatest = 0.0_f64;
     largest(chart.variables().len(), limit, enough, |cell| {
         let place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
-        let bound = measure(&enclosure.values, &place);
         let at = cell.centre();
         let centre: Vec<Interval> = at.iter().map(|it| Interval::from_f64(*it)).collect();
         let centre = chart.place(&centre);
-        let attained = measure(&bounds.values(&centre), &centre);
+        let attained = measure(&bounds.values(&centre), &centre, f64::INFINITY);
+        let attained = if attained.is_finite() { attained } else { f64::NEG_INFINITY };
+        greatest = greatest.max(attained);
+        let bound = measure(&enclosure.values, &place, greatest * (1.0 + SHARPNESS));
+        let slopes = enclosure.slopes.iter().map(|by| by[steering.clone()].to_vec());
+        let slopes: Vec<_> = slopes.collect();
         Measure {
             bound: if bound.is_nan() { f64::INFINITY } else { bound },
-            attained: if attained.is_finite() { attained } else { f64::NEG_INFINITY },
-            split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
+            attained,
+            split: cell.steepest(&chart.changes(cell, &place, &slopes)),
             at,
         }
     })
 }
 
-/// C from C - I.
-fn with_identity(right: &[Interval], dimension: usize) -> Vec<Interval> {
-    let mut right = right.to_vec();
-    for axis in 0..dimension {
-        let entry = &mut right[axis * dimension + axis];
-        *entry = *entry + Interval::from_f64(1.0);
-    }
-    right
+/// What is known of the deformation in a cell.
+struct State {
+    /// C.
+    right: Vec<Interval>,
+    /// F.
+    deformation: Vec<Interval>,
+    /// The principal stretches, in ascending order: C bounds them whatever the rotation is, F more
+    /// sharply where it is small.
+    stretches: Vec<Interval>,
+    /// J.
+    volume: Interval,
 }
 
-/// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a
-/// state in its principal axes.
-fn principal_gradient(right: &[Interval], stretches: Interval) -> Vec<Interval> {
-    let dimension = right.len().isqrt();
-    let mut gradient = vec![Interval::from_f64(0.0); right.len()];
-    for (axis, square) in eigenvalues(right).into_iter().enumerate() {
-        let stretch = square.meet(stretches.square()).sqrt().meet(stretches);
-        gradient[axis * dimension + axis] = stretch - Interval::from_f64(1.0);
+impl State {
+    /// From J, H and C - I.
+    fn new(volume: Interval, gradient: &[Interval], right: &[Interval]) -> Self {
+        let deformation = with_identity(gradient);
+        let both = with_identity(right).into_iter().zip(gram(&deformation));
+        let right: Vec<_> = both.map(|(entry, square)| entry.meet(square)).collect();
+        let roots = eigenvalues(&right).into_iter().map(|square| square.sqrt());
+        let stretches = roots.zip(singular_values(&deformation));
+        let mut stretches: Vec<_> = stretches.map(|(root, value)| root.meet(value)).collect();
+        // J is the product of all of them.
+        for axis in 0..stretches.len() {
+            let others = stretches.iter().enumerate().filter(|(other, _)| *other != axis);
+            let rest = others.fold(volume, |rest, (_, stretch)| rest / *stretch);
+            stretches[axis] = stretches[axis].meet(rest);
+        }
+        State { right, deformation, stretches, volume }
     }
-    gradient
+
+    /// |D| from 2 J^2 D : D.
+    fn rate(&self, squared: Interval) -> f64 {
+        let square = squared.meet(Interval::new(0.0, f64::INFINITY)) / self.volume.square();
+        let rate = (square / Interval::from_f64(2.0)).sqrt();
+        if rate.is_defined() { rate.upper() } else { f64::INFINITY }
+    }
+
+    /// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a
+    /// state in its principal axes. No stretch lies outside `all`.
+    fn principal_gradient(&self, all: Interval) -> Vec<Interval> {
+        let dimension = self.stretches.len();
+        let mut gradient = vec![Interval::from_f64(0.0); dimension * dimension];
+        for (axis, stretch) in self.stretches.iter().enumerate() {
+            gradient[axis * (dimension + 1)] = stretch.meet(all) - Interval::from_f64(1.0);
+        }
+        gradient
+    }
+}
+
+/// F^T F.
+fn gram(deformation: &[Interval]) -> Vec<Interval> {
+    let order = deformation.len().isqrt();
+    let entry = |row: usize, column: usize| {
+        let terms = (0..order).map(|k| match row == column {
+            true => deformation[k * order + row].square(),
+            false => deformation[k * order + row] * deformation[k * order + column],
+        });
+        terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
+    };
+    (0..order * order).map(|at| entry(at / order, at % order)).collect()
+}
+
+/// A square matrix plus I.
+fn with_identity(matrix: &[Interval]) -> Vec<Interval> {
+    let (mut matrix, order) = (matrix.to_vec(), matrix.len().isqrt());
+    for entry in matrix.iter_mut().step_by(order + 1) {
+        *entry = *entry + Interval::from_f64(1.0);
+    }
+    matrix
 }
 
 /// The fastest wave: the largest eigenvalue of all acoustic tensors, over rho0.
@@ -161,94 +265,4 @@ fn wave_speed(tangent: &[Interval], density: Interval) -> f64 {
     }
     let modulus = largest_acoustic(tangent).max(0.0);
     (modulus / density.lower()).sqrt() * (1.0 + f64::EPSILON)
-}
-
-/// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
-struct Tangent<'a> {
-    first: Run<'a, Dual<Interval>>,
-    second: Run<'a, Dual<Dual<Interval>>>,
-}
-
-/// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
-const DIRECTIONS: usize = 4;
-
-impl Tangent<'_> {
-    /// dP_iJ/dH_kL, row-major in (i, J) and (k, L), over a box: the bounds of interval arithmetic,
-    /// and within them those of the mean-value form.
-    fn enclose(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
-        let mut tangent = self.natural(gradient, place);
-        let varies = |entry: &usize| gradient[*entry].width() > 0.0;
-        let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
-        let whole = tangent.iter().all(|entry| entry.is_defined());
-        if directions.is_empty() || directions.len() > DIRECTIONS || !whole {
-            return tangent;
-        }
-        let middle = |entry: &Interval| Interval::from_f64(entry.middle());
-        let centre: Vec<Interval> = gradient.iter().map(middle).collect();
-        let mut form = self.natural(&centre, place);
-        for direction in directions {
-            let slopes = self.slopes(gradient, place, direction);
-            let side = gradient[direction] - centre[direction];
-            for (entry, slope) in form.iter_mut().zip(slopes) {
-                *entry = *entry + slope * side;
-            }
-        }
-        tangent.iter_mut().zip(form).for_each(|(entry, form)| *entry = entry.meet(form));
-        tangent
-    }
-
-    fn natural(&mut self, gradient: &[Interval], place: &[Interval]) -> Vec<Interval> {
-        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
-        columns(gradient.len(), |column| {
-            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
-            let gradient = gradient.iter().enumerate();
-            let gradient: Vec<_> =
-                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
-            let stress =
-                self.first.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|component| component.slope).collect()
-        })
-    }
-
-    /// The derivative of dP/dH by one entry of H.
-    fn slopes(
-        &mut self,
-        gradient: &[Interval],
-        place: &[Interval],
-        direction: usize,
-    ) -> Vec<Interval> {
-        let place: Vec<_> =
-            place.iter().map(|side| Dual::constant(Dual::constant(*side))).collect();
-        columns(gradient.len(), |column| {
-            let unit =
-                |entry: usize, at: usize| Interval::from_f64(f64::from(u8::from(entry == at)));
-            let gradient = gradient.iter().enumerate().map(|(entry, value)| Dual {
-                value: Dual { value: *value, slope: unit(entry, direction) },
-                slope: Dual::constant(unit(entry, column)),
-            });
-            let gradient: Vec<_> = gradient.collect();
-            let stress =
-                self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|component| component.slope.slope).collect()
-        })
-    }
-}
-
-/// J - 1 of a gradient that is diagonal but for what derivatives are taken by.
-fn volume<T: Number>(gradient: &[T]) -> T {
-    let one = T::from_f64(1.0);
-    let stretches = gradient.iter().step_by(gradient.len().isqrt() + 1);
-    let stretches = stretches.map(|entry| one.clone() + entry.clone());
-    stretches.fold(one.clone(), |product, stretch| product * stretch) - one.clone()
-}
-
-/// A square matrix from its columns.
-fn columns(order: usize, mut column: impl FnMut(usize) -> Vec<Interval>) -> Vec<Interval> {
-    let mut matrix = vec![Interval::UNDEFINED; order * order];
-    for at in 0..order {
-        for (row, entry) in column(at).into_iter().enumerate() {
-            matrix[row * order + at] = entry;
-        }
-    }
-    matrix
 }

@@ -67,9 +67,8 @@ pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
     primes.map(|base| radical_inverse(index, base)).collect()
 }
 
-/// The first `count` points of the Halton sequence, mapped to the domain of a field with these
-/// parameters.
-pub fn samples<T: Number>(compiled: &Compiled, parameters: &[T], count: usize) -> Vec<Sample<T>> {
+/// The body of a field with these parameters, and the two ends of its time window.
+pub fn domain<T: Number>(compiled: &Compiled, parameters: &[T]) -> (Extent<T>, [T; 2]) {
     let interpreter = Interpreter::new(&compiled.program, parameters);
     let bound = |bound: Bound| interpreter.output(Output::Bound(bound));
     let time = bound(Bound::Time);
@@ -81,6 +80,13 @@ pub fn samples<T: Number>(compiled: &Compiled, parameters: &[T], count: usize) -
             Extent::Annulus([inner, outer], [theta[0].clone(), theta[1].clone()])
         }
     };
+    (extent, [time[0].clone(), time[1].clone()])
+}
+
+/// The first `count` points of the Halton sequence, mapped to the domain of a field with these
+/// parameters.
+pub fn samples<T: Number>(compiled: &Compiled, parameters: &[T], count: usize) -> Vec<Sample<T>> {
+    let (extent, time) = domain(compiled, parameters);
     (1..=count)
         .map(|index| {
             let fractions = halton(index);

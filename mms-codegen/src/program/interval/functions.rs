@@ -156,8 +156,20 @@ impl Interval {
 
     /// `self^exponent` for a positive base, at the corners: the power is monotone in each operand.
     fn positive_power(self, exponent: Interval) -> Self {
-        let power = |base: f64, exponent: f64| power_around(base, exponent);
-        self.corners(exponent, |a, b| power(a, b).0, |a, b| power(a, b).1)
+        let (mut lower, mut upper) = (f64::INFINITY, f64::NEG_INFINITY);
+        for base in self.ends() {
+            for exponent in exponent.ends() {
+                let (below, above) = power_around(base, exponent);
+                (lower, upper) = (lower.min(below), upper.max(above));
+            }
+        }
+        Interval::new(lower, upper).only_if(self.defined && exponent.defined)
+    }
+
+    /// Both bounds, or the number that both are.
+    fn ends(self) -> impl Iterator<Item = f64> + Clone {
+        let other = (self.upper > self.lower).then_some(self.upper);
+        core::iter::once(self.lower).chain(other)
     }
 }
 
@@ -169,6 +181,9 @@ fn power_around(base: f64, exponent: f64) -> (f64, f64) {
     if base.is_infinite() || exponent.is_infinite() {
         let grows = (base > 1.0) == (exponent > 0.0);
         return if grows { (f64::MAX, f64::INFINITY) } else { (0.0, f64::from_bits(1)) };
+    }
+    if let Some(power) = quick::power(base, exponent) {
+        return power;
     }
     // exp(exponent ln base), every step rounded one way.
     let logarithm = (exact_below(base).ln(), exact_above(base).ln());
@@ -211,11 +226,11 @@ impl Scalar for Interval {
 
     fn sqrt(self) -> Self {
         let Some(part) = self.within(0.0, f64::INFINITY) else { return Interval::UNDEFINED };
-        part.rising(&Tails::at_infinity(LARGE, LARGE), |x| around!(x, sqrt))
+        part.rising(&Tails::at_infinity(LARGE, LARGE), |x| quickly_around!(x, sqrt))
     }
 
     fn cbrt(self) -> Self {
-        self.rising(&Tails::at_infinity(minus(LARGE), LARGE), |x| around!(x, cbrt))
+        self.rising(&Tails::at_infinity(minus(LARGE), LARGE), |x| quickly_around!(x, cbrt))
     }
 
     fn exp(self) -> Self {

@@ -6,7 +6,8 @@
 //! result. What is declared below is some hundred times what all of them, and the series that are
 //! cut off, make together.
 
-/// The declared errors: of an exponential relative to it, of the others in absolute terms.
+/// The declared errors: of an exponential, a power and a root relative to it, of the others in
+/// absolute terms.
 const ERROR: f64 = 1.0 / (1u128 << 88) as f64;
 
 /// Larger angles are reduced elsewhere.
@@ -74,10 +75,10 @@ impl Double {
 }
 
 /// e^x for |x| <= 600.
-fn exponential(x: f64) -> Double {
-    let turns = (x / LN_2[0]).round();
+fn exponential(x: Double) -> Double {
+    let turns = (x.0 / LN_2[0]).round();
     let [coarse, fine] = LN_2.map(|part| product(turns, part));
-    let rest = Double(x, 0.0).minus(coarse).minus(fine);
+    let rest = x.minus(coarse).minus(fine);
     // |rest| < 0.35, and 0.35^26/26! < 2^-127.
     let mut series = Double(1.0, 0.0);
     for n in (1..=26).rev() {
@@ -93,33 +94,82 @@ pub fn exp(x: f64) -> Option<(f64, f64)> {
     if x.abs() > LARGEST_EXPONENT {
         return None;
     }
-    let value = exponential(x);
+    let value = exponential(Double(x, 0.0));
     value.around(value.0 * ERROR)
 }
 
 /// The logarithm of a positive number, from one that is nearly right: ln z = y + ln(z e^-y).
-fn logarithm(z: Double, y: f64) -> Option<(f64, f64)> {
+fn logarithm(z: Double, y: f64) -> Option<Double> {
     if y.is_nan() || y.abs() > LARGEST_EXPONENT {
         return None;
     }
-    let small = z.times(exponential(-y)).minus(Double(1.0, 0.0));
+    let small = z.times(exponential(Double(-y, 0.0))).minus(Double(1.0, 0.0));
     // Beyond the square there is less than 10^-36.
     if small.0.abs() > 1e-12 {
         return None;
     }
     let correction = small.minus(Double(small.0 * small.0 / 2.0, 0.0));
-    Double(y, 0.0).plus(correction).around(ERROR)
+    Some(Double(y, 0.0).plus(correction))
 }
 
 pub fn ln(x: f64) -> Option<(f64, f64)> {
-    logarithm(Double(x, 0.0), x.ln())
+    logarithm(Double(x, 0.0), x.ln())?.around(ERROR)
 }
 
 pub fn ln_1p(x: f64) -> Option<(f64, f64)> {
     if x == 0.0 {
         return Some((0.0, 0.0));
     }
-    logarithm(sum(1.0, x), x.ln_1p())
+    logarithm(sum(1.0, x), x.ln_1p())?.around(ERROR)
+}
+
+/// base^exponent = e^(exponent ln base) for a positive base.
+pub fn power(base: f64, exponent: f64) -> Option<(f64, f64)> {
+    let power = logarithm(Double(base, 0.0), base.ln())?.times(Double(exponent, 0.0));
+    if power.0.is_nan() || power.0.abs() > LARGEST_EXPONENT || exponent.abs() > LARGEST_EXPONENT {
+        return None;
+    }
+    let value = exponential(power);
+    // The exponent multiplies the error of the logarithm.
+    value.around(value.0 * ERROR * (2.0 + exponent.abs()))
+}
+
+/// Whether no product of three such numbers or their roots leaves the range of normal numbers.
+fn is_moderate(x: f64) -> bool {
+    (1e-200..1e200).contains(&x.abs())
+}
+
+/// The square root: that of hardware is the nearest number, and the sign of x - y^2 tells on which
+/// side it lies.
+pub fn sqrt(x: f64) -> Option<(f64, f64)> {
+    if !is_moderate(x) {
+        return None;
+    }
+    let root = x.sqrt();
+    let Double(square, rest) = product(root, root);
+    // x and the rounded square are neighbours, so that their difference is a number itself.
+    let excess = x - square;
+    Some(match excess > rest {
+        _ if excess == rest => (root, root),
+        true => (root, root.next_up()),
+        false => (root.next_down(), root),
+    })
+}
+
+/// The cube root, from one that is nearly right: y + (x - y^3)/(3 y^2).
+pub fn cbrt(x: f64) -> Option<(f64, f64)> {
+    if !is_moderate(x) {
+        return None;
+    }
+    let root = x.cbrt();
+    let square = product(root, root);
+    let rest = Double(x, 0.0).minus(square.times(Double(root, 0.0)));
+    let correction = rest.0 / (3.0 * square.0);
+    // Beyond the first order there is less than 10^-28 of the root.
+    if correction.abs() > 1e-14 * root.abs() {
+        return None;
+    }
+    sum(root, correction).around(root.abs() * ERROR)
 }
 
 /// An angle less its quarter turns, and how many these are.
@@ -178,4 +228,36 @@ pub fn cos(x: f64) -> Option<(f64, f64)> {
         return Some((1.0, 1.0));
     }
     circular(x, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::precise::Precise;
+    use mms_math::Scalar as _;
+
+    /// Whether 77 digits agree that a value lies between two neighbours, or is both.
+    fn assert_around(found: Option<(f64, f64)>, value: Precise, what: &str) {
+        let Some((lower, upper)) = found else { panic!("{what} is left undecided") };
+        let (below, above) = (Precise::from_f64(lower), Precise::from_f64(upper));
+        assert!(below.at_most(&value) && value.at_most(&above), "{what}: {lower:e} {upper:e}");
+        assert!(upper == lower || upper == lower.next_up(), "{what}: {lower:e} {upper:e}");
+    }
+
+    #[test]
+    fn roots_and_powers_lie_between_neighbours() {
+        let mut x = 1e-12;
+        while x < 1e12 {
+            let exact = || Precise::from_f64(x);
+            assert_around(sqrt(x), exact().sqrt(), &format!("sqrt({x:e})"));
+            assert_around(cbrt(x), exact().cbrt(), &format!("cbrt({x:e})"));
+            for exponent in [-2.0 / 3.0, 1.0 / 3.0, 0.1, -7.3, 11.9] {
+                let exact = exact().powf(Precise::from_f64(exponent));
+                assert_around(power(x, exponent), exact, &format!("{x:e}^{exponent}"));
+            }
+            x *= 1.37;
+        }
+        assert_eq!(sqrt(6.25), Some((2.5, 2.5)));
+        assert_eq!(sqrt(1e-300), None);
+    }
 }

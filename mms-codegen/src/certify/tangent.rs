@@ -1,0 +1,127 @@
+//! dP/dF over a box of states, by dual numbers over intervals.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::chart::{Chart, Run};
+use crate::expr::{Expr, Graph};
+use crate::mechanics::Response;
+use crate::program::dual::Dual;
+use crate::program::interpret::Number;
+use crate::program::interval::Interval;
+use crate::program::schedule::schedule_plainly;
+use crate::program::{Output, Program};
+
+const STRESS: Output = Output::Response(Response::FirstPiolaKirchhoff);
+
+/// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
+pub struct Tangent<'a> {
+    first: Run<'a, Dual<Interval>>,
+    second: Run<'a, Dual<Dual<Interval>>>,
+}
+
+/// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
+const DIRECTIONS: usize = 4;
+
+impl<'a> Tangent<'a> {
+    /// The program of P at a gradient that is supplied.
+    pub fn program(graph: &Graph, stress: &[Expr]) -> Program {
+        schedule_plainly(graph, &BTreeMap::from([(STRESS, stress.to_vec())]))
+    }
+
+    /// Of the stress of such a program.
+    pub fn new(chart: &'a Chart, stress: &'a Program) -> Self {
+        Tangent { first: chart.run(stress), second: chart.run(stress) }
+    }
+
+    /// dP_iJ/dH_kL, row-major in (i, J) and (k, L), over a box where J lies within bounds.
+    pub fn enclose(
+        &mut self,
+        gradient: &[Interval],
+        jacobian: Interval,
+        place: &[Interval],
+    ) -> Vec<Interval> {
+        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
+        columns(gradient.len(), |column| {
+            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
+            let gradient = gradient.iter().enumerate();
+            let gradient: Vec<_> =
+                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
+            let mut volume = volume(&gradient);
+            volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
+            let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+            stress.into_iter().map(|component| component.slope).collect()
+        })
+    }
+
+    /// The same by the mean-value form, within bounds that are known.
+    pub fn sharpen(
+        &mut self,
+        mut tangent: Vec<Interval>,
+        gradient: &[Interval],
+        place: &[Interval],
+    ) -> Vec<Interval> {
+        let varies = |entry: &usize| gradient[*entry].width() > 0.0;
+        let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
+        let whole = tangent.iter().all(|entry| entry.is_defined());
+        if directions.is_empty() || directions.len() > DIRECTIONS || !whole {
+            return tangent;
+        }
+        let middle = |entry: &Interval| Interval::from_f64(entry.middle());
+        let centre: Vec<Interval> = gradient.iter().map(middle).collect();
+        let anywhere = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
+        let mut form = self.enclose(&centre, anywhere, place);
+        for direction in directions {
+            let slopes = self.slopes(gradient, place, direction);
+            let side = gradient[direction] - centre[direction];
+            for (entry, slope) in form.iter_mut().zip(slopes) {
+                *entry = *entry + slope * side;
+            }
+        }
+        tangent.iter_mut().zip(form).for_each(|(entry, form)| *entry = entry.meet(form));
+        tangent
+    }
+
+    /// The derivative of dP/dH by one entry of H.
+    fn slopes(
+        &mut self,
+        gradient: &[Interval],
+        place: &[Interval],
+        direction: usize,
+    ) -> Vec<Interval> {
+        let place: Vec<_> =
+            place.iter().map(|side| Dual::constant(Dual::constant(*side))).collect();
+        columns(gradient.len(), |column| {
+            let unit =
+                |entry: usize, at: usize| Interval::from_f64(f64::from(u8::from(entry == at)));
+            let gradient = gradient.iter().enumerate().map(|(entry, value)| Dual {
+                value: Dual { value: *value, slope: unit(entry, direction) },
+                slope: Dual::constant(unit(entry, column)),
+            });
+            let gradient: Vec<_> = gradient.collect();
+            let stress =
+                self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
+            stress.into_iter().map(|component| component.slope.slope).collect()
+        })
+    }
+}
+
+/// J - 1 of a gradient that is diagonal but for what derivatives are taken by.
+fn volume<T: Number>(gradient: &[T]) -> T {
+    let one = T::from_f64(1.0);
+    let stretches = gradient.iter().step_by(gradient.len().isqrt() + 1);
+    let stretches = stretches.map(|entry| one.clone() + entry.clone());
+    stretches.fold(one.clone(), |product, stretch| product * stretch) - one.clone()
+}
+
+/// A square matrix from its columns.
+fn columns(order: usize, mut column: impl FnMut(usize) -> Vec<Interval>) -> Vec<Interval> {
+    let mut matrix = vec![Interval::UNDEFINED; order * order];
+    for at in 0..order {
+        for (row, entry) in column(at).into_iter().enumerate() {
+            matrix[row * order + at] = entry;
+        }
+    }
+    matrix
+}
