@@ -25,8 +25,8 @@ struct Linear {
     exponent: Rational,
 }
 
-/// A product with its factors x - a and x - b as (x - m)^2 - h^2, m = (a + b)/2 and h = (a - b)/2, whose
-/// bounds are its extrema.
+/// A product with its factors x - a and x - b as (x - m)^2 - h^2, with m = (a + b)/2 and h = (a - b)/2,
+/// whose bounds are its extrema.
 fn with_squares(graph: &mut Graph, factors: Vec<(Expr, Rational)>) -> Expr {
     let (mut linear, mut product) = (Vec::new(), Vec::new());
     for (base, exponent) in factors {

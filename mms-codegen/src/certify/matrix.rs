@@ -53,9 +53,9 @@ fn product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
 /// Intervals that hold the eigenvalues of every symmetric matrix within these bounds, in ascending
 /// order.
 ///
-/// With the midpoint M and the radii R, none is greater than the greatest of M + S R S, nor less than the
-/// least of M - S R S, for the diagonal matrices S of signs (Hertz, IEEE Trans. Automat. Control 37,
-/// 1992); what is between follows Weyl.
+/// With the midpoint M and the radii R, none is greater than the greatest of M + S R S, nor less than
+/// the least of M - S R S, for the diagonal matrices S of signs (Hertz, IEEE Trans. Automat. Control
+/// 37, 1992); what is between follows Weyl.
 pub fn eigenvalues(entries: &[Interval]) -> Vec<Interval> {
     let (middles, radius) = split(entries);
     let scale = spectral_radius(&middles);
@@ -170,9 +170,9 @@ pub fn largest_relative_rate(form: &[Interval], rate: &[Interval], floor: f64) -
 /// No |sym(A F^-1)| with A and F within these bounds is greater, where no singular value of F is less
 /// than `floor` > 0.
 ///
-/// With the midpoints B and M, L = A F^-1 is L = B M^-1 + ((A - B) - L (F - M)) M^-1, so that it differs
-/// from B M^-1 by no more than (|A - B| + |L| |F - M|)/m with the least singular value m of M; and |L|
-/// by the same rule is at most (|B M^-1| + |A - B|/m)/(1 - |F - M|/m), and at most |A|/floor.
+/// With the midpoints B and M, L = A F^-1 is L = B M^-1 + ((A - B) - L (F - M)) M^-1, so that it
+/// differs from B M^-1 by no more than (|A - B| + |L| |F - M|)/m with the least singular value m of M;
+/// and |L| by the same rule is at most (|B M^-1| + |A - B|/m)/(1 - |F - M|/m), and at most |A|/floor.
 pub fn largest_rate(form: &[Interval], rate: &[Interval], floor: f64) -> f64 {
     let order = form.len().isqrt();
     let (form_radii, rate_radii) = (radii(form), radii(rate));
