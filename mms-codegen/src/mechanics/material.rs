@@ -1,7 +1,7 @@
 //! Hyperelasticity: everything about stress follows from a strain-energy density W.
 //!
-//! What the two kinds of strain have in common stands here; [`finite`] has the algebra of F, and
-//! [`small_strain`] that of eps = (H + H^T)/2. The dimensions that a field lacks contribute a
+//! What the two kinds of strain have in common stands here; `finite.rs` has the algebra of F, and
+//! `small_strain.rs` that of eps = (H + H^T)/2. The dimensions that a field lacks contribute a
 //! stretch of one.
 
 use std::collections::BTreeMap;
