@@ -1,7 +1,8 @@
 //! What the reader and what the schema say about a text.
 
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, Mutex};
 
 use jsonschema::Validator;
 use mms_codegen::compile::compile_unproved;
@@ -76,9 +77,22 @@ pub fn reader_accepts(kind: Kind, text: &str) -> bool {
     diagnostics.is_empty() && (kind == Kind::Material || material_is_right(text))
 }
 
-/// Whether the model is one that there is, with the parameters that it has. The compiler says so,
-/// beside much that is not of form.
+/// Whether the model is one that there is, with the parameters that it has. That depends on the
+/// dimension and on [material] alone, which most slips leave as they are.
 fn material_is_right(text: &str) -> bool {
+    static KNOWN: Mutex<BTreeMap<String, bool>> = Mutex::new(BTreeMap::new());
+    let field = json_of(text).unwrap_or_default();
+    let key = format!("{} {}", field["field"]["dimension"], field["material"]);
+    if let Some(known) = KNOWN.lock().expect("a lock").get(&key) {
+        return *known;
+    }
+    let found = compiler_accepts_material(text);
+    KNOWN.lock().expect("a lock").insert(key, found);
+    found
+}
+
+/// The compiler says so, beside much that is not of form.
+fn compiler_accepts_material(text: &str) -> bool {
     let own = own_material(text);
     // As little as can be asked for: what is sought comes before any derivation.
     let quantities = Some([Quantity::Displacement].into());
