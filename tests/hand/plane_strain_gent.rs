@@ -10,25 +10,18 @@
 
 use mms::gallery::plane_strain_gent::Parameters;
 
-use crate::plane::{Moduli, Paper, Strained, compare};
+use crate::plane::{Strained, Waves, compare, cosine, sine};
+use crate::support::{NeoHookean, Values};
 
-fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
-    let speed = (p.young / p.rho0).sqrt();
-    let k = std::f64::consts::PI / p.length;
-    let a = p.amplitude * (k * speed * time).cos();
-    let b = p.amplitude / 2.0 * (k * speed * time + std::f64::consts::PI / 3.0).cos();
-    let (sx, cx) = (k * x).sin_cos();
-    let (sy, cy) = (k * y).sin_cos();
-    let kk = k * k;
-    // u1 = a sx cy, u2 = b cx sy.
-    let strained = Strained {
-        gradient: [[a * k * cx * cy, -a * k * sx * sy], [-b * k * sx * sy, b * k * cx * cy]],
-        second: [
-            [[-a * kk * sx * cy, -a * kk * cx * sy], [-a * kk * cx * sy, -a * kk * sx * cy]],
-            [[-b * kk * cx * sy, -b * kk * sx * cy], [-b * kk * sx * cy, -b * kk * cx * sy]],
-        ],
-    };
-    let Moduli { mu, kappa, .. } = Moduli::new(p.young, p.nu);
+fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Values {
+    let waves = Waves::new(p.length, p.young, p.rho0, p.amplitude, time);
+    let k = waves.k;
+    let strained = Strained::product(
+        waves.amplitudes,
+        [[sine(k, x), cosine(k, y)], [cosine(k, x), sine(k, y)]],
+    );
+    let law = NeoHookean::of(p.young, p.nu);
+    let (mu, kappa) = (law.mu, law.bulk());
     let (j, i1) = (strained.jacobian(), strained.first_invariant());
     let (j_slope, i1_slope) = (strained.jacobian_slope(), strained.first_invariant_slope());
     let isochoric = j.powf(-2.0 / 3.0);
@@ -38,15 +31,9 @@ fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
         let slope = isochoric * (i1_slope[axis] - 2.0 / 3.0 * i1 * j_slope[axis] / j) / p.limit;
         m * (slope / left - 2.0 / 3.0 * j_slope[axis] / j)
     });
-    let q = kappa * (j - 1.0) - m * i1 / (3.0 * j);
-    let q_slope = [0, 1].map(|axis| {
-        kappa * j_slope[axis] - (m_slope[axis] * i1 + m * i1_slope[axis]) / (3.0 * j)
-            + m * i1 * j_slope[axis] / (3.0 * j * j)
-    });
+    let (q, q_slope) = strained.isochoric_pressure(kappa, m, m_slope);
     let solid = strained.solid(m, m_slope, q, q_slope);
-    let frequency = k * speed;
-    let acceleration = [a * sx * cy, b * cx * sy].map(|u: f64| -frequency * frequency * u);
-    Paper { jacobian: strained.jacobian(), acceleration, solid, rho0: p.rho0 }
+    waves.values(&strained, solid, p.rho0)
 }
 
 #[test]

@@ -7,25 +7,17 @@
 
 use mms::gallery::plane_strain_linear_elastic::Parameters;
 
-use crate::plane::{Moduli, Paper, Solid, Strained, compare};
+use crate::plane::{Solid, Strained, Waves, compare, cosine, sine};
+use crate::support::{NeoHookean, Values};
 
-fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
-    let speed = (p.young / p.rho0).sqrt();
-    let k = std::f64::consts::PI / p.length;
-    let a = p.amplitude * (k * speed * time).cos();
-    let b = p.amplitude / 2.0 * (k * speed * time + std::f64::consts::PI / 3.0).cos();
-    let (sx, cx) = (k * x).sin_cos();
-    let (sy, cy) = (k * y).sin_cos();
-    let kk = k * k;
-    // u1 = a sx cy, u2 = b cx sy.
-    let strained = Strained {
-        gradient: [[a * k * cx * cy, -a * k * sx * sy], [-b * k * sx * sy, b * k * cx * cy]],
-        second: [
-            [[-a * kk * sx * cy, -a * kk * cx * sy], [-a * kk * cx * sy, -a * kk * sx * cy]],
-            [[-b * kk * cx * sy, -b * kk * sx * cy], [-b * kk * sx * cy, -b * kk * cx * sy]],
-        ],
-    };
-    let Moduli { lambda, mu, .. } = Moduli::new(p.young, p.nu);
+fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Values {
+    let waves = Waves::new(p.length, p.young, p.rho0, p.amplitude, time);
+    let k = waves.k;
+    let strained = Strained::product(
+        waves.amplitudes,
+        [[sine(k, x), cosine(k, y)], [cosine(k, x), sine(k, y)]],
+    );
+    let NeoHookean { lambda, mu } = NeoHookean::of(p.young, p.nu);
     let (h, second, laplacian) = (strained.gradient, strained.second, strained.laplacian());
     let pressure = lambda * (h[0][0] + h[1][1]);
     let shear = mu * (h[0][1] + h[1][0]);
@@ -33,9 +25,7 @@ fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
     let divergence =
         [0, 1].map(|i| (lambda + mu) * (second[0][0][i] + second[1][1][i]) + mu * laplacian[i]);
     let solid = Solid { stress, divergence };
-    let frequency = k * speed;
-    let acceleration = [a * sx * cy, b * cx * sy].map(|u: f64| -frequency * frequency * u);
-    Paper { jacobian: strained.jacobian(), acceleration, solid, rho0: p.rho0 }
+    waves.values(&strained, solid, p.rho0)
 }
 
 #[test]

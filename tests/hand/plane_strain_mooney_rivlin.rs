@@ -8,24 +8,18 @@
 //! Div P = 2 (c1 + c2) Lap u + q' cof F grad J,   q' = 2 c2 + 2 c3 + d/J^2
 //! ```
 //!
-//! and u1 = a X Y, u2 = b X Y have no Laplacian.
+//! and u1 = a X Y/L^2, u2 = b X Y/L^2 have no Laplacian.
 
 use mms::gallery::plane_strain_mooney_rivlin::Parameters;
 
-use crate::plane::{Moduli, Paper, Strained, compare};
+use crate::plane::{Strained, Waves, compare, linear};
+use crate::support::{NeoHookean, Values};
 
-fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
-    let speed = (p.young / p.rho0).sqrt();
-    let k = std::f64::consts::PI / p.length;
-    let a = p.amplitude * (k * speed * time).cos();
-    let b = p.amplitude / 2.0 * (k * speed * time + std::f64::consts::PI / 3.0).cos();
-    let square = p.length * p.length;
-    let (a, b) = (a / square, b / square);
-    let strained = Strained {
-        gradient: [[a * y, a * x], [b * y, b * x]],
-        second: [[[0.0, a], [a, 0.0]], [[0.0, b], [b, 0.0]]],
-    };
-    let Moduli { lambda, mu, .. } = Moduli::new(p.young, p.nu);
+fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Values {
+    let waves = Waves::new(p.length, p.young, p.rho0, p.amplitude, time);
+    let product = [linear(p.length, x), linear(p.length, y)];
+    let strained = Strained::product(waves.amplitudes, [product; 2]);
+    let NeoHookean { lambda, mu } = NeoHookean::of(p.young, p.nu);
     let (c1, c2) = (3.0 * mu / 8.0, mu / 8.0);
     let c3 = lambda / 2.0 - 2.0 * c2;
     let d = 2.0 * c1 + 4.0 * c2;
@@ -33,9 +27,7 @@ fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
     let q = 2.0 * c2 * j + 2.0 * c3 * (j - 1.0) - d / j;
     let q_slope = j_slope.map(|slope| (2.0 * c2 + 2.0 * c3 + d / (j * j)) * slope);
     let solid = strained.solid(2.0 * (c1 + c2), [0.0; 2], q, q_slope);
-    let frequency = k * speed;
-    let acceleration = [a * x * y, b * x * y].map(|u: f64| -frequency * frequency * u);
-    Paper { jacobian: strained.jacobian(), acceleration, solid, rho0: p.rho0 }
+    waves.values(&strained, solid, p.rho0)
 }
 
 #[test]

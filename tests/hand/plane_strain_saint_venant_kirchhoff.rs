@@ -12,11 +12,12 @@
 
 use mms::gallery::plane_strain_saint_venant_kirchhoff::Parameters;
 
-use crate::plane::{Matrix, Moduli, Paper, Solid, Strained, compare};
+use crate::plane::{Matrix, Solid, Strained, Waves, compare, sine};
+use crate::support::{NeoHookean, Values};
 
 /// G S and its divergence, with the trace of E in the plane, which is that in space.
 fn strained_solid(strained: &Strained, young: f64, nu: f64) -> Solid {
-    let Moduli { lambda, mu, .. } = Moduli::new(young, nu);
+    let NeoHookean { lambda, mu } = NeoHookean::of(young, nu);
     let (g, second) = (strained.deformation(), strained.second);
     let product = |k: usize, j: usize| g[0][k] * g[0][j] + g[1][k] * g[1][j];
     let unit = |k: usize, j: usize| if k == j { 1.0 } else { 0.0 };
@@ -43,45 +44,30 @@ fn strained_solid(strained: &Strained, young: f64, nu: f64) -> Solid {
     Solid { stress, divergence }
 }
 
-fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
-    let speed = (p.young / p.rho0).sqrt();
-    let k = std::f64::consts::PI / p.length;
-    let a = p.amplitude * (k * speed * time).cos();
-    let b = p.amplitude / 2.0 * (k * speed * time + std::f64::consts::PI / 3.0).cos();
-    let (sx, cx) = (k * x).sin_cos();
-    let (sy, cy) = (k * y).sin_cos();
-    let kk = k * k;
-    // w1 = a sx sy, w2 = b sx sy.
-    let strained = Strained {
-        gradient: [[a * k * cx * sy, a * k * sx * cy], [b * k * cx * sy, b * k * sx * cy]],
-        second: [
-            [[-a * kk * sx * sy, a * kk * cx * cy], [a * kk * cx * cy, -a * kk * sx * sy]],
-            [[-b * kk * sx * sy, b * kk * cx * cy], [b * kk * cx * cy, -b * kk * sx * sy]],
-        ],
-    };
+fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Values {
+    let waves = Waves::new(p.length, p.young, p.rho0, p.amplitude, time);
+    let product = [sine(waves.k, x), sine(waves.k, y)];
+    let strained = Strained::product(waves.amplitudes, [product; 2]);
     let solid = strained_solid(&strained, p.young, p.nu);
-    let frequency = k * speed;
+    let frequency = waves.frequency;
     let phase = frequency * time + std::f64::consts::FRAC_PI_4;
     let (sin, cos) = (p.turn * phase.sin()).sin_cos();
     let spin = p.turn * frequency * phase.cos();
     let spin_rate = -p.turn * frequency * frequency * phase.sin();
     let turned = |v: [f64; 2]| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
     let quarter = |v: [f64; 2]| [-v[1], v[0]];
-    let place = turned([x + a * sx * sy, y + b * sx * sy]);
-    let swing = |offset: f64| -frequency * (frequency * time + offset).sin();
-    let velocity = turned([
-        p.amplitude * swing(0.0) * sx * sy,
-        p.amplitude / 2.0 * swing(std::f64::consts::FRAC_PI_3) * sx * sy,
-    ]);
-    let strain_rate = turned([a * sx * sy, b * sx * sy]).map(|w| -frequency * frequency * w);
+    let [w1, w2] = strained.displacement;
+    let place = turned([x + w1, y + w2]);
+    let velocity = turned(Strained::product(waves.rates, [product; 2]).displacement);
+    let own = turned(waves.acceleration(&strained));
     let (across, coriolis) = (quarter(place), quarter(velocity));
     let acceleration = [0, 1].map(|i| {
-        spin_rate * across[i] - spin * spin * place[i] + 2.0 * spin * coriolis[i] + strain_rate[i]
+        spin_rate * across[i] - spin * spin * place[i] + 2.0 * spin * coriolis[i] + own[i]
     });
     let columns = [0, 1].map(|j| turned([solid.stress[0][j], solid.stress[1][j]]));
     let stress = [0, 1].map(|i| [columns[0][i], columns[1][i]]);
     let solid = Solid { stress, divergence: turned(solid.divergence) };
-    Paper { jacobian: strained.jacobian(), acceleration, solid, rho0: p.rho0 }
+    solid.values(strained.jacobian(), acceleration, p.rho0)
 }
 
 #[test]

@@ -9,29 +9,17 @@
 
 use mms::gallery::plane_strain_transversely_isotropic::Parameters;
 
-use crate::plane::{Moduli, Paper, Strained, compare};
+use crate::plane::{Strained, Waves, compare, sine};
+use crate::support::{NeoHookean, Values};
 
-fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
-    let speed = (p.young / p.rho0).sqrt();
-    let k = std::f64::consts::PI / p.length;
-    let a = p.amplitude * (k * speed * time).cos();
-    let b = p.amplitude / 2.0 * (k * speed * time + std::f64::consts::PI / 3.0).cos();
-    let (sx, cx) = (k * x).sin_cos();
-    let (s1, c1) = (k * y).sin_cos();
-    let (s2, c2) = (2.0 * k * y).sin_cos();
-    let kk = k * k;
-    // u1 = a sx sin(k Y), u2 = b sx sin(2 k Y).
-    let strained = Strained {
-        gradient: [[a * k * cx * s1, a * k * sx * c1], [b * k * cx * s2, 2.0 * b * k * sx * c2]],
-        second: [
-            [[-a * kk * sx * s1, a * kk * cx * c1], [a * kk * cx * c1, -a * kk * sx * s1]],
-            [
-                [-b * kk * sx * s2, 2.0 * b * kk * cx * c2],
-                [2.0 * b * kk * cx * c2, -4.0 * b * kk * sx * s2],
-            ],
-        ],
-    };
-    let Moduli { lambda, mu, .. } = Moduli::new(p.young, p.nu);
+fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Values {
+    let waves = Waves::new(p.length, p.young, p.rho0, p.amplitude, time);
+    let k = waves.k;
+    let strained = Strained::product(
+        waves.amplitudes,
+        [[sine(k, x), sine(k, y)], [sine(k, x), sine(2.0 * k, y)]],
+    );
+    let NeoHookean { lambda, mu } = NeoHookean::of(p.young, p.nu);
     let (j, j_slope) = (strained.jacobian(), strained.jacobian_slope());
     let q = (lambda * j.ln() - mu) / j;
     let q_slope = j_slope.map(|slope| (lambda * (1.0 - j.ln()) + mu) * slope / (j * j));
@@ -53,9 +41,7 @@ fn on_paper(p: &Parameters<f64>, [x, y]: [f64; 2], time: f64) -> Paper {
         }
         solid.divergence[i] += pull * (present[i] * along + stretch * bent[i]);
     }
-    let frequency = k * speed;
-    let acceleration = [a * sx * s1, b * sx * s2].map(|u: f64| -frequency * frequency * u);
-    Paper { jacobian: strained.jacobian(), acceleration, solid, rho0: p.rho0 }
+    waves.values(&strained, solid, p.rho0)
 }
 
 #[test]

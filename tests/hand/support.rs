@@ -108,7 +108,7 @@ pub fn in_ring(inner: f64, outer: f64, time: [f64; 2]) -> Vec<([f64; 2], f64)> {
     polar.map(|([r, theta], t)| ([r * theta.cos(), r * theta.sin()], t)).collect()
 }
 
-/// The law of all these fields: W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2.
+/// The law of most of these fields: W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2.
 #[derive(Clone, Copy)]
 pub struct NeoHookean {
     pub lambda: f64,
@@ -120,6 +120,11 @@ impl NeoHookean {
     pub fn of(young: f64, nu: f64) -> Self {
         let lambda = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
         Self { lambda, mu: young / (2.0 * (1.0 + nu)) }
+    }
+
+    /// The bulk modulus.
+    pub fn bulk(&self) -> f64 {
+        self.lambda + 2.0 * self.mu / 3.0
     }
 
     /// P = mu F + (lambda ln J - mu) F^-T.

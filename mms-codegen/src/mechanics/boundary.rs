@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::derivation::Derivation;
-use super::face::{normal, place};
+use super::face::{normal, projection};
 use super::model::{Body, Model};
 use crate::expr::{Expr, Graph, Symbol};
 use crate::pass::substitute::substitute;
@@ -66,12 +66,13 @@ pub fn data(
     data
 }
 
-/// With the coordinate replaced that is constant on a face of a box; all else as it is.
+/// With the coordinate replaced that is constant on a face of a box. To project on a circle would
+/// cost what it cannot save.
 fn on_face(graph: &mut Graph, body: &Body, face: Face, components: &[Expr]) -> Vec<Expr> {
     match body {
         Body::Box { .. } => {
-            let place = place(graph, body, face);
-            substitute(graph, components, &place)
+            let point = projection(graph, body, face);
+            substitute(graph, components, &point)
         }
         Body::Annulus { .. } => components.to_vec(),
     }

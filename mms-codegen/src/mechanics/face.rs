@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::model::Body;
 use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::pass::substitute::substitute;
 use crate::spec::Face;
 
 /// The radius, among the coordinates of [`polar`].
@@ -34,12 +35,23 @@ pub fn normal(graph: &mut Graph, body: &Body, dimension: usize, face: Face) -> V
 
 /// X/R or its opposite.
 fn radial(graph: &mut Graph, sign: i32) -> Vec<Expr> {
+    let radius = radius(graph);
+    let scaled = graph.power(radius, -1);
+    let scaled = graph.scale(scaled, sign);
+    (0..2)
+        .map(|axis| {
+            let coordinate = graph.symbol(Symbol::Coordinate(axis));
+            graph.mul(coordinate, scaled)
+        })
+        .collect()
+}
+
+/// R = sqrt(X^2 + Y^2).
+fn radius(graph: &mut Graph) -> Expr {
     let coordinates = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
     let squares = coordinates.map(|coordinate| (graph.power(coordinate, 2), Rational::ONE));
     let square = graph.sum(squares);
-    let reciprocal = graph.power(square, Rational::from_parts((-1).into(), 2u8.into()));
-    let scaled = graph.scale(reciprocal, sign);
-    coordinates.into_iter().map(|coordinate| graph.mul(coordinate, scaled)).collect()
+    graph.power(square, Rational::from_parts(1.into(), 2u8.into()))
 }
 
 /// The direction in which the angle grows, at that angle, or its opposite.
@@ -88,17 +100,46 @@ pub fn fixed_coordinate(face: Face) -> (usize, bool) {
     }
 }
 
-/// What X is on a face, in terms of the coordinates of [`polar`] that vary there.
-pub fn place(graph: &mut Graph, body: &Body, face: Face) -> BTreeMap<Symbol, Expr> {
+/// The point of a face that a point X of the body stands for, as a function of X: the nearest one on a
+/// flat face of a box, that of the same angle on a circle, that of the same radius on an edge.
+pub fn projection(graph: &mut Graph, body: &Body, face: Face) -> BTreeMap<Symbol, Expr> {
     let (axis, is_upper) = fixed_coordinate(face);
     let bound = bounds(body)[axis][usize::from(is_upper)];
-    let fixed = BTreeMap::from([(Symbol::Coordinate(axis), bound)]);
-    let polar = polar(graph, body);
-    if polar.is_empty() {
-        return fixed;
+    if matches!(body, Body::Box { .. }) {
+        return BTreeMap::from([(Symbol::Coordinate(axis), bound)]);
     }
-    let on_face = |expr: Expr, graph: &mut Graph| {
-        crate::pass::substitute::substitute(graph, &[expr], &fixed)[0]
+    let point = match face {
+        Face::ThetaMin | Face::ThetaMax => {
+            let [sine, cosine] = circular(graph, bound);
+            let radius = radius(graph);
+            [cosine, sine].map(|component| graph.mul(radius, component))
+        }
+        _ => {
+            let direction = radial(graph, 1);
+            [0, 1].map(|axis| graph.mul(bound, direction[axis]))
+        }
     };
-    polar.into_iter().map(|(symbol, expr)| (symbol, on_face(expr, graph))).collect()
+    (0..2).map(Symbol::Coordinate).zip(point).collect()
+}
+
+/// The faces that a body has with these values of its parameters: a disc has no inner face, and a
+/// whole ring no edges. `declared` are those of its shape.
+pub fn present(
+    graph: &mut Graph,
+    body: &Body,
+    declared: Vec<Face>,
+    parameters: &BTreeMap<Symbol, Expr>,
+) -> Vec<Face> {
+    let Body::Annulus { inner, theta, .. } = *body else { return declared };
+    let pi = graph.pi();
+    let turn = [(theta[1], Rational::ONE), (theta[0], Rational::NEG_ONE), (pi, Rational::from(-2))];
+    let rest = graph.sum(turn);
+    let ends = substitute(graph, &[inner, rest], parameters);
+    let (is_disc, is_whole) = (graph.is_zero(ends[0]), graph.is_zero(ends[1]));
+    let exists = |face: &Face| match face {
+        Face::Inner => !is_disc,
+        Face::ThetaMin | Face::ThetaMax => !is_whole,
+        Face::Outer | Face::Min(_) | Face::Max(_) => true,
+    };
+    declared.into_iter().filter(exists).collect()
 }

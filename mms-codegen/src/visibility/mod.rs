@@ -4,7 +4,6 @@
 //! where its expressions are 0, or where they are so small at points spread over the domain that
 //! 77 digits tell nothing else; which of the two is part of the answer, and the latter is no proof.
 
-mod face;
 mod scale;
 mod term;
 mod vanish;

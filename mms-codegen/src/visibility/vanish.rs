@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::face::{faces, on_face};
 use super::term::Term;
 use crate::compile::{Compiled, parameter_values};
 use crate::expr::{Expr, Function, Graph, Rational, Symbol};
+use crate::mechanics::face;
 use crate::mechanics::model::energy_with;
 use crate::mechanics::tensor::dot;
 use crate::mechanics::{Model, Response, TooLarge, derive};
@@ -221,12 +221,19 @@ fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     )
 }
 
+/// P N on each face; a point of the body stands for the one of the face that it projects to.
 fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (model, field) = (&compiled.model, &compiled.field);
-    let values = parameter_values(graph, model, &BTreeMap::new());
-    let declared = Face::of(&field.domain.body, field.dimension);
-    let traction = quantity(compiled, Quantity::Traction);
-    let faces = faces(graph, model, declared, &values);
-    let term = |face| (Term::Traction(face), on_face(graph, &model.domain.body, face, traction));
-    faces.into_iter().map(term).collect()
+    let values = parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate();
+    let values = values.map(|(index, value)| (Symbol::Parameter(index), value)).collect();
+    let (body, dimension) = (&model.domain.body, field.dimension);
+    let declared = Face::of(&field.domain.body, dimension);
+    let faces = face::present(graph, body, declared, &values);
+    let mut term = |face: Face| {
+        let normal = face::normal(graph, body, dimension, face);
+        let mut place = face::projection(graph, body, face);
+        place.extend((0..dimension).map(Symbol::Normal).zip(normal));
+        (Term::Traction(face), substitute(graph, quantity(compiled, Quantity::Traction), &place))
+    };
+    faces.into_iter().map(&mut term).collect()
 }
