@@ -30,6 +30,21 @@ pub trait Scalar:
     /// The nearest value to `value`; exact where the type holds a 53-bit significand.
     fn from_f64(value: f64) -> Self;
 
+    /// What is computed once and used often is computed in this type, which has more digits where
+    /// there is such a type.
+    type Wide: Scalar;
+
+    /// The same value with more digits.
+    fn widen(self) -> Self::Wide;
+
+    /// The nearest value to one with more digits.
+    fn narrow(wide: Self::Wide) -> Self;
+
+    /// The value nearest to `high + low`, a constant that has more digits than an `f64`.
+    fn from_parts(high: f64, low: f64) -> Self {
+        Self::from_f64(high) + Self::from_f64(low)
+    }
+
     /// `numerator / denominator`, rounded once where both are exact in this type.
     fn ratio(numerator: i32, denominator: i32) -> Self {
         Self::from_f64(f64::from(numerator)) / Self::from_f64(f64::from(denominator))
@@ -37,6 +52,11 @@ pub trait Scalar:
 
     /// The circle's half circumference over its radius.
     fn pi() -> Self;
+
+    /// `self * factor + term`, rounded once or twice.
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
 
     /// The square root.
     fn sqrt(self) -> Self;
@@ -50,10 +70,22 @@ pub trait Scalar:
     fn ln(self) -> Self;
     /// ln(1 + self) without cancellation near 0.
     fn ln_1p(self) -> Self;
+    /// self - ln(1 + self) without cancellation near 0, where it is self^2/2.
+    fn ln_1p_rest(self) -> Self {
+        self.clone() - self.ln_1p()
+    }
     /// The sine of an angle in radians.
     fn sin(self) -> Self;
     /// The cosine of an angle in radians.
     fn cos(self) -> Self;
+    /// The sine of an angle in half turns, sin(pi self): whole turns are taken off without error.
+    fn sin_pi(self) -> Self {
+        (Self::pi() * self).sin()
+    }
+    /// The cosine of an angle in half turns.
+    fn cos_pi(self) -> Self {
+        (Self::pi() * self).cos()
+    }
     /// The tangent of an angle in radians.
     fn tan(self) -> Self;
     /// The hyperbolic sine.
@@ -73,3 +105,8 @@ pub trait Scalar:
     /// `self` to the power `exponent`, for a positive base.
     fn powf(self, exponent: Self) -> Self;
 }
+
+/// A scalar whose numbers are copied: what generated code computes with.
+pub trait Real: Scalar<Wide: Copy> + Copy {}
+
+impl<T: Scalar<Wide: Copy> + Copy> Real for T {}

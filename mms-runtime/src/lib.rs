@@ -53,7 +53,9 @@ pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
 /// The precision a solver computes in: `f32` or `f64`.
 ///
 /// Implemented for every type that has the arithmetic; nothing is left to implement by hand.
-pub trait Real: mms_math::Scalar + nalgebra::RealField + Copy + Send + Sync {
+pub trait Real:
+    mms_math::Scalar<Wide: Copy + Send + Sync> + nalgebra::RealField + Copy + Send + Sync
+{
     /// The nearest value of this precision.
     fn of(value: f64) -> Self {
         <Self as mms_math::Scalar>::from_f64(value)
@@ -65,4 +67,7 @@ pub trait Real: mms_math::Scalar + nalgebra::RealField + Copy + Send + Sync {
     }
 }
 
-impl<T: mms_math::Scalar + nalgebra::RealField + Copy + Send + Sync> Real for T {}
+impl<T> Real for T where
+    T: mms_math::Scalar<Wide: Copy + Send + Sync> + nalgebra::RealField + Copy + Send + Sync
+{
+}

@@ -48,6 +48,13 @@ impl Neg for Dual {
 macro_rules! scalar {
     ($($function:ident)*) => {
         impl Scalar for Dual {
+            type Wide = Self;
+            fn widen(self) -> Self {
+                self
+            }
+            fn narrow(wide: Self) -> Self {
+                wide
+            }
             fn from_f64(value: f64) -> Self {
                 Dual::constant(value)
             }

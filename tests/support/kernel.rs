@@ -3,7 +3,7 @@
 use mms_codegen::Compiled;
 use mms_codegen::certify::sample::{Sample, samples};
 use mms_codegen::quantity::Quantity;
-use mms_runtime::math::Scalar;
+use mms_runtime::math::Real;
 
 /// The generated functions of one field.
 pub trait Kernel {
@@ -13,15 +13,15 @@ pub trait Kernel {
     const DIMENSION: usize;
 
     /// The components of a quantity, tensors row-major, for the default parameters.
-    fn quantity<T: Scalar + Copy>(quantity: Quantity, time: T, point: &[T]) -> Vec<T>;
+    fn quantity<T: Real>(quantity: Quantity, time: T, point: &[T]) -> Vec<T>;
     /// rho0 at a point.
-    fn density<T: Scalar + Copy>(point: &[T]) -> T;
+    fn density<T: Real>(point: &[T]) -> T;
     /// W of a displacement gradient, row-major.
-    fn material_strain_energy<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> T;
+    fn material_strain_energy<T: Real>(point: &[T], gradient: &[T]) -> T;
     /// P of a displacement gradient, row-major both.
-    fn material_first_piola_kirchhoff<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> Vec<T>;
+    fn material_first_piola_kirchhoff<T: Real>(point: &[T], gradient: &[T]) -> Vec<T>;
     /// tau of a displacement gradient, row-major both.
-    fn material_kirchhoff_stress<T: Scalar + Copy>(point: &[T], gradient: &[T]) -> Vec<T>;
+    fn material_kirchhoff_stress<T: Real>(point: &[T], gradient: &[T]) -> Vec<T>;
 }
 
 /// Implements [`Kernel`] with a module of the gallery.
@@ -33,7 +33,7 @@ macro_rules! kernel {
             const NAME: &'static str = stringify!($module);
             const DIMENSION: usize = mms::gallery::$module::DIMENSION;
 
-            fn quantity<T: mms_runtime::math::Scalar + Copy>(
+            fn quantity<T: mms_runtime::math::Real>(
                 quantity: mms_codegen::quantity::Quantity,
                 time: T,
                 point: &[T],
@@ -72,12 +72,12 @@ macro_rules! kernel {
                 }
             }
 
-            fn density<T: mms_runtime::math::Scalar + Copy>(point: &[T]) -> T {
+            fn density<T: mms_runtime::math::Real>(point: &[T]) -> T {
                 let field = mms::gallery::$module::prepare(&Default::default());
                 field.density(point.try_into().expect("DIMENSION components"))
             }
 
-            fn material_strain_energy<T: mms_runtime::math::Scalar + Copy>(
+            fn material_strain_energy<T: mms_runtime::math::Real>(
                 point: &[T],
                 gradient: &[T],
             ) -> T {
@@ -86,7 +86,7 @@ macro_rules! kernel {
                 field.material_strain_energy(x, crate::support::kernel::rows(gradient))
             }
 
-            fn material_first_piola_kirchhoff<T: mms_runtime::math::Scalar + Copy>(
+            fn material_first_piola_kirchhoff<T: mms_runtime::math::Real>(
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {
@@ -96,7 +96,7 @@ macro_rules! kernel {
                 field.material_first_piola_kirchhoff(x, rows).concat()
             }
 
-            fn material_kirchhoff_stress<T: mms_runtime::math::Scalar + Copy>(
+            fn material_kirchhoff_stress<T: mms_runtime::math::Real>(
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {

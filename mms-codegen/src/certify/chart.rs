@@ -237,7 +237,7 @@ impl Chart {
 }
 
 /// A program of formulas in the variables of a chart.
-pub struct Run<'a, T> {
+pub struct Run<'a, T: Number> {
     chart: &'a Chart,
     program: &'a Program,
     /// After the stage of parameters, where none of them varies.

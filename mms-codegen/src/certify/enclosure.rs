@@ -51,7 +51,7 @@ impl Formulas {
 }
 
 /// Formulas that are being evaluated.
-pub struct Evaluation<'a, T> {
+pub struct Evaluation<'a, T: Number> {
     run: Run<'a, T>,
     outputs: Vec<Output>,
 }

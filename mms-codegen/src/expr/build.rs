@@ -341,14 +341,17 @@ fn is_long(number: &Rational) -> bool {
 fn value_at_zero(function: Function) -> Option<i32> {
     match function {
         Function::Cbrt
+        | Function::ExpM1
         | Function::Ln1p
+        | Function::Ln1pRest
+        | Function::SinPi
         | Function::Sin
         | Function::Tan
         | Function::Sinh
         | Function::Tanh
         | Function::Asin
         | Function::Atan => Some(0),
-        Function::Exp | Function::Cos | Function::Cosh => Some(1),
+        Function::Exp | Function::Cos | Function::CosPi | Function::Cosh => Some(1),
         Function::Sqrt | Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
     }
 }

@@ -137,10 +137,23 @@ fn partial(
             reciprocal_of_scaled(graph, square, 3)
         }
         Function::Exp => value,
+        Function::ExpM1 => graph.call(Function::Exp, &[x]),
         Function::Ln => graph.power(x, -1),
         Function::Ln1p => {
             let shifted = shifted(graph, x, 1);
             graph.power(shifted, -1)
+        }
+        Function::Ln1pRest => {
+            let shifted = shifted(graph, x, 1);
+            graph.div(x, shifted)
+        }
+        Function::SinPi => {
+            let cosine = graph.call(Function::CosPi, &[x]);
+            times_pi(graph, cosine, 1)
+        }
+        Function::CosPi => {
+            let sine = graph.call(Function::SinPi, &[x]);
+            times_pi(graph, sine, -1)
         }
         Function::Sin => graph.call(Function::Cos, &[x]),
         Function::Cos => {
@@ -182,6 +195,12 @@ fn partial(
             }
         }
     }
+}
+
+fn times_pi(graph: &mut Graph, x: Expr, sign: i32) -> Expr {
+    let pi = graph.pi();
+    let product = graph.mul(pi, x);
+    graph.scale(product, sign)
 }
 
 fn shifted(graph: &mut Graph, x: Expr, constant: i32) -> Expr {

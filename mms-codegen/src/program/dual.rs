@@ -82,6 +82,16 @@ impl<T: Number> Number for Dual<T> {
         Dual::constant(T::from_rational(number))
     }
 
+    fn wide_from_rational(number: &Rational) -> Self::Wide {
+        Dual::constant(T::wide_from_rational(number))
+    }
+
+    fn wide_square(wide: Self::Wide) -> Self::Wide {
+        let derivative = T::Wide::from_f64(2.0) * wide.value.clone();
+        let value = T::wide_square(wide.value.clone());
+        wide.chain(value, derivative)
+    }
+
     fn square(self) -> Self {
         let derivative = T::from_f64(2.0) * self.value.clone();
         let value = self.value.clone().square();
@@ -90,6 +100,20 @@ impl<T: Number> Number for Dual<T> {
 }
 
 impl<T: Scalar> Scalar for Dual<T> {
+    type Wide = Dual<T::Wide>;
+
+    fn widen(self) -> Self::Wide {
+        Dual { value: self.value.widen(), slope: self.slope.widen() }
+    }
+
+    fn narrow(wide: Self::Wide) -> Self {
+        Dual { value: T::narrow(wide.value), slope: T::narrow(wide.slope) }
+    }
+
+    fn from_parts(high: f64, low: f64) -> Self {
+        Dual::constant(T::from_parts(high, low))
+    }
+
     fn from_f64(value: f64) -> Self {
         Dual::constant(T::from_f64(value))
     }
@@ -130,6 +154,21 @@ impl<T: Scalar> Scalar for Dual<T> {
     fn ln_1p(self) -> Self {
         let x = self.value.clone();
         self.chain(x.clone().ln_1p(), one::<T>() / (one::<T>() + x))
+    }
+
+    fn ln_1p_rest(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().ln_1p_rest(), x.clone() / (one::<T>() + x))
+    }
+
+    fn sin_pi(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().sin_pi(), T::pi() * x.cos_pi())
+    }
+
+    fn cos_pi(self) -> Self {
+        let x = self.value.clone();
+        self.chain(x.clone().cos_pi(), -(T::pi() * x.sin_pi()))
     }
 
     fn sin(self) -> Self {

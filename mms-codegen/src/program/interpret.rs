@@ -10,18 +10,35 @@ pub trait Number: Scalar {
     /// The value nearest to `number`.
     ///
     /// The quotient of two integers that the type holds exactly is rounded once, in every
-    /// precision; other numbers go through `f64`. Emitted code does the same.
+    /// precision; other numbers go through two `f64`. Emitted code does the same.
     fn from_rational(number: &Rational) -> Self {
-        match small_ratio(number) {
-            Some((numerator, 1)) => Self::from_f64(f64::from(numerator)),
-            Some((numerator, denominator)) => Self::ratio(numerator, denominator),
-            None => Self::from_f64(number.to_f64().value()),
-        }
+        nearest(number)
+    }
+
+    /// The same with more digits.
+    fn wide_from_rational(number: &Rational) -> Self::Wide {
+        nearest(number)
     }
 
     /// `self * self`; narrower than the product where the type knows that both are one number.
     fn square(self) -> Self {
         self.clone() * self
+    }
+
+    /// The same with more digits.
+    fn wide_square(wide: Self::Wide) -> Self::Wide {
+        wide.clone() * wide
+    }
+}
+
+fn nearest<T: Scalar>(number: &Rational) -> T {
+    match small_ratio(number) {
+        Some((numerator, 1)) => T::from_f64(f64::from(numerator)),
+        Some((numerator, denominator)) => T::ratio(numerator, denominator),
+        None => {
+            let (high, low) = parts(number);
+            T::from_parts(high, low)
+        }
     }
 }
 
@@ -34,6 +51,13 @@ pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
     let numerator = i32::try_from(number.numerator()).ok()?;
     let denominator = i32::try_from(number.denominator()).ok()?;
     (numerator.abs() <= EXACT && denominator <= EXACT).then_some((numerator, denominator))
+}
+
+/// The nearest `f64`, and the nearest to what is left.
+pub fn parts(number: &Rational) -> (f64, f64) {
+    let high = number.to_f64().value();
+    let low = Rational::try_from(high).map_or(0.0, |near| (number - near).to_f64().value());
+    (high, low)
 }
 
 /// What a point supplies, beside the time.
@@ -56,18 +80,20 @@ impl<'a, T> Point<'a, T> {
 
 /// A program prepared for one set of parameters.
 #[derive(Clone, Debug)]
-pub struct Interpreter<'a, T> {
+pub struct Interpreter<'a, T: Number> {
     program: &'a Program,
     values: Vec<T>,
+    /// The stages Parameter and Time, which are rounded when they are done.
+    once: Vec<T::Wide>,
 }
 
 impl<'a, T: Number> Interpreter<'a, T> {
     /// Runs the Parameter stage. `parameters` are in the order of the field file.
     pub fn new(program: &'a Program, parameters: &[T]) -> Self {
         let values = vec![T::from_f64(0.0); program.instrs.len()];
-        let mut interpreter = Interpreter { program, values };
-        let all = vec![true; program.instrs.len()];
-        interpreter.run(Stage::Parameter, &all, |symbol| match symbol {
+        let once = vec![T::Wide::from_f64(0.0); program.start(Stage::Point)];
+        let mut interpreter = Interpreter { program, values, once };
+        interpreter.run_once(Stage::Parameter, |symbol| match symbol {
             Symbol::Parameter(index) => parameters[index].clone(),
             _ => unreachable!("the Parameter stage reads parameters only"),
         });
@@ -76,8 +102,7 @@ impl<'a, T: Number> Interpreter<'a, T> {
 
     /// Runs the Time stage.
     pub fn set_time(&mut self, time: &T) {
-        let all = vec![true; self.program.instrs.len()];
-        self.run(Stage::Time, &all, |symbol| match symbol {
+        self.run_once(Stage::Time, |symbol| match symbol {
             Symbol::Time => time.clone(),
             _ => unreachable!("the Time stage reads the time only"),
         });
@@ -107,33 +132,44 @@ impl<'a, T: Number> Interpreter<'a, T> {
         values.iter().map(|value| self.values[value.index()].clone()).collect()
     }
 
-    fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
-        let start = self.program.instrs.partition_point(|instr| instr.stage < stage);
-        for (index, instr) in self.program.instrs.iter().enumerate().skip(start) {
-            if instr.stage != stage {
-                break;
-            }
-            if plan[index] {
-                self.values[index] = self.apply(&instr.op, &input);
-            }
+    /// Runs a stage that is computed with more digits and then rounded.
+    fn run_once(&mut self, stage: Stage, input: impl Fn(Symbol) -> T) {
+        for index in self.program.range(stage) {
+            let op = &self.program.instrs[index].op;
+            let input = |symbol| input(symbol).widen();
+            self.once[index] = apply(op, &self.once, T::wide_from_rational, T::wide_square, input);
+            self.values[index] = T::narrow(self.once[index].clone());
         }
     }
 
-    fn apply(&self, op: &Op, input: impl Fn(Symbol) -> T) -> T {
-        let of = |value: &super::Value| self.values[value.index()].clone();
-        match op {
-            Op::Constant(number) => T::from_rational(number),
-            Op::Pi => T::pi(),
-            Op::Input(symbol) => input(*symbol),
-            Op::Add(a, b) => of(a) + of(b),
-            Op::Subtract(a, b) => of(a) - of(b),
-            Op::Multiply(a, b) if a == b => of(a).square(),
-            Op::Multiply(a, b) => of(a) * of(b),
-            Op::Divide(a, b) => of(a) / of(b),
-            Op::Negate(a) => -of(a),
-            Op::Unary(function, a) => unary(*function, of(a)),
-            Op::Binary(function, a, b) => binary(*function, of(a), of(b)),
+    fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
+        for index in self.program.range(stage).filter(|index| plan[*index]) {
+            let op = &self.program.instrs[index].op;
+            self.values[index] = apply(op, &self.values, T::from_rational, T::square, &input);
         }
+    }
+}
+
+fn apply<T: Scalar>(
+    op: &Op,
+    values: &[T],
+    constant: impl Fn(&Rational) -> T,
+    square: impl Fn(T) -> T,
+    input: impl Fn(Symbol) -> T,
+) -> T {
+    let of = |value: &super::Value| values[value.index()].clone();
+    match op {
+        Op::Constant(number) => constant(number),
+        Op::Pi => T::pi(),
+        Op::Input(symbol) => input(*symbol),
+        Op::Add(a, b) => of(a) + of(b),
+        Op::Subtract(a, b) => of(a) - of(b),
+        Op::Multiply(a, b) if a == b => square(of(a)),
+        Op::Multiply(a, b) => of(a) * of(b),
+        Op::Divide(a, b) => of(a) / of(b),
+        Op::Negate(a) => -of(a),
+        Op::Unary(function, a) => unary(*function, of(a)),
+        Op::Binary(function, a, b) => binary(*function, of(a), of(b)),
     }
 }
 
@@ -143,10 +179,14 @@ pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
         Function::Sqrt => x.sqrt(),
         Function::Cbrt => x.cbrt(),
         Function::Exp => x.exp(),
+        Function::ExpM1 => x.exp_m1(),
         Function::Ln => x.ln(),
         Function::Ln1p => x.ln_1p(),
+        Function::Ln1pRest => x.ln_1p_rest(),
         Function::Sin => x.sin(),
         Function::Cos => x.cos(),
+        Function::SinPi => x.sin_pi(),
+        Function::CosPi => x.cos_pi(),
         Function::Tan => x.tan(),
         Function::Sinh => x.sinh(),
         Function::Cosh => x.cosh(),

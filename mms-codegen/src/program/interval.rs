@@ -172,6 +172,14 @@ impl Number for Interval {
         Interval::new(lower, upper)
     }
 
+    fn wide_square(wide: Self) -> Self {
+        wide.square()
+    }
+
+    fn wide_from_rational(number: &Rational) -> Self {
+        Self::from_rational(number)
+    }
+
     fn square(self) -> Self {
         let farthest = self.lower.abs().max(self.upper.abs());
         let nearest = if self.contains(0.0) { 0.0 } else { self.lower.abs().min(self.upper.abs()) };

@@ -195,6 +195,17 @@ impl Program {
         &self.instrs[value.index()]
     }
 
+    /// The position of the first instruction of a stage or of a later one.
+    pub fn start(&self, stage: Stage) -> usize {
+        self.instrs.partition_point(|instr| instr.stage < stage)
+    }
+
+    /// The positions of the instructions of a stage.
+    pub fn range(&self, stage: Stage) -> std::ops::Range<usize> {
+        let length = self.instrs.partition_point(|instr| instr.stage <= stage);
+        self.start(stage)..length
+    }
+
     /// Which instructions `outputs` need, by position.
     pub fn needed(&self, outputs: &[Output]) -> Vec<bool> {
         let values = outputs.iter().filter_map(|output| self.outputs.get(output)).flatten();

@@ -166,9 +166,23 @@ impl Number for Precise {
     fn from_rational(number: &Rational) -> Self {
         Precise::new(number)
     }
+
+    fn wide_from_rational(number: &Rational) -> Self {
+        Self::from_rational(number)
+    }
 }
 
 impl Scalar for Precise {
+    type Wide = Self;
+
+    fn widen(self) -> Self {
+        self
+    }
+
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+
     fn from_f64(value: f64) -> Self {
         Precise(Float::try_from(value).ok().map(|value| value.with_precision(BITS).value()))
             .bounded()

@@ -224,7 +224,15 @@ fn command(function: Function) -> String {
         | Function::Asin
         | Function::Acos
         | Function::Atan => format!("\\{}", word(function)),
-        Function::Sqrt | Function::Cbrt | Function::Ln1p | Function::Atan2 | Function::Powf => {
+        Function::Sqrt
+        | Function::Cbrt
+        | Function::ExpM1
+        | Function::Ln1p
+        | Function::Ln1pRest
+        | Function::SinPi
+        | Function::CosPi
+        | Function::Atan2
+        | Function::Powf => {
             format!("\\operatorname{{{}}}", word(function).replace('_', "\\_"))
         }
     }

@@ -262,9 +262,13 @@ impl Writer<'_> {
                 self.elementary(Function::Ln, vec![self.sum(&argument)])
             }
             Function::Exp
+            | Function::ExpM1
             | Function::Ln
+            | Function::Ln1pRest
             | Function::Sin
             | Function::Cos
+            | Function::SinPi
+            | Function::CosPi
             | Function::Tan
             | Function::Sinh
             | Function::Cosh

@@ -163,7 +163,7 @@ fn the_structs_hold_what_the_selected_quantities_read() {
     let velocity = rust::file(&compiled(&moving(), &selection(&[Quantity::Velocity], &[], &[])));
     let all = rust::file(&compiled(&moving(), &Selection::default()));
     let members = |text: &str| {
-        let field = text.split("pub struct Field<T> {").nth(1).expect("the struct");
+        let field = text.split("pub struct Field<T: Real> {").nth(1).expect("the struct");
         field.split('}').next().expect("its end").matches(": T").count()
     };
     assert_eq!(members(&velocity.text), 1, "{}", velocity.text);

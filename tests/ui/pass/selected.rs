@@ -17,10 +17,10 @@ mms_macros::field!(
     name = moved,
 );
 
-use mms_math::Scalar;
+use mms_math::Real;
 
 /// Compiles where the trait is implemented: the modules need it, and nothing of the solver.
-fn needs_math_only<T: Scalar + Copy>(x: T) -> [T; 1] {
+fn needs_math_only<T: Real>(x: T) -> [T; 1] {
     let field = standing_wave_1d::prepare(&standing_wave_1d::Parameters::default());
     field.at_time(x).velocity([x])
 }

@@ -32,7 +32,7 @@ impl Emitter<'_> {
         };
         let doc = format!(" {what} on the face `{}`, at a point of it. Unit: {unit}.", face.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
-        let place = Place { field: quote!(self.field), own };
+        let place = Place::at_points(quote!(self.field), own);
         let output = Output::Face(face, datum);
         let (point, kind) = (self.point(), self.shape_type(Shape::Vector));
         let (body, value) =

@@ -26,10 +26,10 @@ impl Emitter<'_> {
                 None => format!(" {what}."),
             }
         });
-        let place = Place { field: quote!(), own: &[Stage::Parameter] };
+        let place = Place::once(quote!(), &[Stage::Parameter]);
         let outputs: Vec<_> = left.copied().map(Output::Parameter).collect();
         let body = self.body(&outputs, &place);
-        let values = outputs.iter().map(|output| self.operand(self.values(*output)[0], &place));
+        let values = outputs.iter().map(|output| self.narrowed(self.values(*output)[0], &place));
         let own_material = self.contract.then(|| self.own_material());
         let doc = match self.compiled.selection.set.is_empty() {
             true => " The parameters; their defaults are those of the field file.",
@@ -37,7 +37,7 @@ impl Emitter<'_> {
         };
         // A struct without members cannot be generic in their type.
         let generic = self.parameters_generic();
-        let scalar = (!parameters.is_empty()).then(|| quote!(<T: Scalar + Copy>));
+        let scalar = (!parameters.is_empty()).then(|| quote!(<T: Real>));
         let (of_type, of_function) = if parameters.is_empty() {
             (None, Some(quote!(<T>)))
         } else {
@@ -90,20 +90,25 @@ impl Emitter<'_> {
     pub(super) fn field(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Parameter);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place { field: quote!(), own: &[Stage::Parameter] };
-        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
+        let place = Place::once(quote!(), &[Stage::Parameter]);
+        let values: Vec<_> = kept.iter().map(|value| self.narrowed(*value, &place)).collect();
+        let wide = self.kept_for_times();
+        let wide_names: Vec<_> = wide.iter().map(|value| self.wide_name(*value)).collect();
+        let wide_values = wide.iter().map(|value| self.operand(*value, &place));
+        let needed = self.program.needed_for(kept.iter().chain(&wide).copied());
+        let body = self.statements(&needed, &place);
         let generic = self.parameters_generic();
         let solver = self.compiled.selection.is_for_a_solver().then(|| {
             let (bounds, responses) = (self.bounds(), self.responses());
             quote! {
-                impl<T: Scalar + Copy> Field<T> {
+                impl<T: Real> Field<T> {
                     #bounds
                     #responses
                 }
             }
         });
         // A field without any value still has a scalar type.
-        let (marker, marked) = match kept.is_empty() {
+        let (marker, marked) = match kept.is_empty() && wide.is_empty() {
             true => (
                 Some(quote!(marker: ::core::marker::PhantomData<T>,)),
                 Some(quote!(marker: ::core::marker::PhantomData,)),
@@ -111,17 +116,19 @@ impl Emitter<'_> {
             false => (None, None),
         };
         quote! {
-            /// The field for one set of parameters: everything that needs neither t nor X.
+            /// The field for one set of parameters: everything that needs neither t nor X, computed with
+            /// more digits than `T` has.
             #[derive(Clone, Copy, Debug)]
-            pub struct Field<T> {
+            pub struct Field<T: Real> {
                 #(#names: T,)*
+                #(#wide_names: T::Wide,)*
                 #marker
             }
 
             /// Computes once what only the parameters determine.
-            pub fn prepare<T: Scalar + Copy>(parameters: &Parameters #generic) -> Field<T> {
+            pub fn prepare<T: Real>(parameters: &Parameters #generic) -> Field<T> {
                 #body
-                Field { #(#names,)* #marked }
+                Field { #(#names: #values,)* #(#wide_names: #wide_values,)* #marked }
             }
 
             #solver
@@ -133,7 +140,7 @@ impl Emitter<'_> {
     }
 
     fn bounds(&self) -> TokenStream {
-        let place = Place { field: quote!(self), own: &[] };
+        let place = Place::at_points(quote!(self), &[]);
         let function = |bound: Bound, name: &str, doc: &str| {
             let name = format_ident!("{name}");
             let values = self.values(Output::Bound(bound));
@@ -165,7 +172,7 @@ impl Emitter<'_> {
     fn responses(&self) -> TokenStream {
         let point = self.point();
         let gradient = self.gradient();
-        let place = Place { field: quote!(self), own: &[Stage::Point, Stage::PointTime] };
+        let place = Place::at_points(quote!(self), &[Stage::Point, Stage::PointTime]);
         let function = |response: Response, name: &str, doc: &str, shape: Shape, strained: bool| {
             let name = format_ident!("{name}");
             let gradient = strained.then(|| quote!(, #gradient));

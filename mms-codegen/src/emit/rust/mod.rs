@@ -14,7 +14,7 @@ use quote::{format_ident, quote};
 
 use crate::compile::Compiled;
 use crate::expr::{Rational, Symbol};
-use crate::program::interpret::small_ratio;
+use crate::program::interpret::{parts, small_ratio};
 use crate::program::{Op, Output, Program, Stage, Value};
 use crate::quantity::Quantity;
 
@@ -120,6 +120,24 @@ struct Place {
     field: TokenStream,
     /// The stages that the function computes itself.
     own: &'static [Stage],
+    /// The scalar that it computes in.
+    scalar: TokenStream,
+}
+
+impl Place {
+    /// A function that computes `own` for every point.
+    fn at_points(field: TokenStream, own: &'static [Stage]) -> Self {
+        Place { field, own, scalar: quote!(T) }
+    }
+
+    /// A function that computes `own` once, with more digits.
+    fn once(field: TokenStream, own: &'static [Stage]) -> Self {
+        Place { field, own, scalar: quote!(T::Wide) }
+    }
+
+    fn is_once(&self) -> bool {
+        self.own.iter().any(|stage| *stage < Stage::Point)
+    }
 }
 
 struct Emitter<'a> {
@@ -129,8 +147,10 @@ struct Emitter<'a> {
     contract: bool,
     /// The parameters that were not frozen as members of a struct, by their positions in the file.
     parameter_names: BTreeMap<usize, Ident>,
-    /// Values of the Parameter and Time stages that later stages or outputs read.
+    /// Values of the Parameter and Time stages that are read at points, or that are outputs.
     kept: Vec<bool>,
+    /// Values of the Parameter stage that the Time stage reads.
+    kept_wide: Vec<bool>,
     /// Values of the Point stage that the next stage or a quantity reads.
     kept_at_points: Vec<bool>,
 }
@@ -144,10 +164,15 @@ impl<'a> Emitter<'a> {
             Output::Parameter(_) | Output::Expected(_) => false,
         };
         let of_a_point = |output: &Output| matches!(output, Output::Quantity(_));
-        let kept = read_later(program, emitted, &[Stage::Parameter, Stage::Time]);
-        let kept_at_points = read_later(program, of_a_point, &[Stage::Point]);
+        let at_points = [Stage::Point, Stage::PointTime];
+        let kept = Later::new(program, emitted).kept(&[Stage::Parameter, Stage::Time], &at_points);
+        let mut read = Later::new(program, emitted);
+        read.outputs.clear();
+        let kept_wide = read.kept(&[Stage::Parameter], &[Stage::Time]);
+        let kept_at_points =
+            Later::new(program, of_a_point).kept(&[Stage::Point], &[Stage::PointTime]);
         let parameter_names = parameter_names(compiled);
-        Emitter { compiled, program, contract, parameter_names, kept, kept_at_points }
+        Emitter { compiled, program, contract, parameter_names, kept, kept_wide, kept_at_points }
     }
 
     /// Everything but the contract.
@@ -164,11 +189,12 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The path of the scalar trait.
+    /// The path of the scalar traits.
     fn scalar(&self) -> TokenStream {
         let name = if self.contract { RUNTIME } else { MATH };
         let name = Ident::new(name, Span::call_site());
-        if self.contract { quote!(::#name::math::Scalar) } else { quote!(::#name::Scalar) }
+        let traits = quote!({Real, Scalar});
+        if self.contract { quote!(::#name::math::#traits) } else { quote!(::#name::#traits) }
     }
 
     /// The quantities of the module.
@@ -192,8 +218,17 @@ impl<'a> Emitter<'a> {
 
     fn kept_in(&self, stage: Stage) -> Vec<Value> {
         let kept = if stage == Stage::Point { &self.kept_at_points } else { &self.kept };
-        let kept = |index: &usize| kept[*index] && self.program.instrs[*index].stage == stage;
-        (0..self.program.instrs.len()).filter(kept).map(|index| Value(index as u32)).collect()
+        self.values_of(stage, kept)
+    }
+
+    /// What the Time stage reads of the Parameter stage.
+    fn kept_for_times(&self) -> Vec<Value> {
+        self.values_of(Stage::Parameter, &self.kept_wide)
+    }
+
+    fn values_of(&self, stage: Stage, kept: &[bool]) -> Vec<Value> {
+        let kept = self.program.range(stage).filter(|index| kept[*index]);
+        kept.map(|index| Value(index as u32)).collect()
     }
 
     fn body(&self, outputs: &[Output], place: &Place) -> TokenStream {
@@ -220,11 +255,11 @@ impl<'a> Emitter<'a> {
     fn operation(&self, op: &Op, place: &Place) -> TokenStream {
         let of = |value: &Value| self.operand(*value, place);
         match op {
-            Op::Constant(number) => constant(number),
-            Op::Pi => quote!(T::pi()),
+            Op::Constant(number) => constant(number, &place.scalar),
+            Op::Pi => pi(&place.scalar),
             Op::Input(Symbol::Parameter(index)) => {
                 let name = &self.parameter_names[index];
-                quote!(parameters.#name)
+                quote!(parameters.#name.widen())
             }
             Op::Input(symbol) => {
                 let name = input(*symbol);
@@ -253,8 +288,8 @@ impl<'a> Emitter<'a> {
     fn operand(&self, value: Value, place: &Place) -> TokenStream {
         let instr = self.program.instr(value);
         match &instr.op {
-            Op::Constant(number) => return constant(number),
-            Op::Pi => return quote!(T::pi()),
+            Op::Constant(number) => return constant(number, &place.scalar),
+            Op::Pi => return pi(&place.scalar),
             Op::Input(symbol)
                 if !matches!(symbol, Symbol::Parameter(_)) && place.own.contains(&instr.stage) =>
             {
@@ -270,6 +305,10 @@ impl<'a> Emitter<'a> {
         let name = self.name(value);
         match instr.stage {
             stage if place.own.contains(&stage) => quote!(#name),
+            Stage::Parameter if place.is_once() => {
+                let (field, name) = (&place.field, self.wide_name(value));
+                quote!(#field.#name)
+            }
             Stage::Parameter => {
                 let field = &place.field;
                 quote!(#field.#name)
@@ -277,6 +316,23 @@ impl<'a> Emitter<'a> {
             Stage::Time => quote!(self.#name),
             Stage::Point | Stage::PointTime => quote!(point.#name),
         }
+    }
+
+    /// A value that this function computes with more digits, as it is kept.
+    fn narrowed(&self, value: Value, place: &Place) -> TokenStream {
+        match self.program.instr(value).op {
+            Op::Constant(ref number) => constant(number, &quote!(T)),
+            Op::Pi => pi(&quote!(T)),
+            _ => {
+                let value = self.operand(value, place);
+                quote!(T::narrow(#value))
+            }
+        }
+    }
+
+    /// The member with all digits of a value.
+    fn wide_name(&self, value: Value) -> Ident {
+        format_ident!("w{}", value.index())
     }
 
     fn name(&self, value: Value) -> Ident {
@@ -287,25 +343,38 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// The values of some stages that other stages read, or that are outputs: what a struct holds.
-/// Only what these outputs need counts; constants are free, and arguments are passed on.
-fn read_later(program: &Program, of: impl Fn(&Output) -> bool, stages: &[Stage]) -> Vec<bool> {
-    let outputs: Vec<Output> = program.outputs.keys().copied().filter(of).collect();
-    let needed = program.needed(&outputs);
-    let mut kept = vec![false; program.instrs.len()];
-    for (instr, _) in program.instrs.iter().zip(&needed).filter(|(_, needed)| **needed) {
-        for operand in instr.op.operands() {
-            kept[operand.index()] |= program.instr(operand).stage != instr.stage;
+/// Who reads what: of the instructions that some outputs need.
+struct Later<'a> {
+    program: &'a Program,
+    outputs: Vec<Value>,
+    needed: Vec<bool>,
+}
+
+impl<'a> Later<'a> {
+    fn new(program: &'a Program, of: impl Fn(&Output) -> bool) -> Self {
+        let outputs: Vec<Output> = program.outputs.keys().copied().filter(of).collect();
+        let needed = program.needed(&outputs);
+        let outputs = outputs.iter().flat_map(|output| &program.outputs[output]).copied().collect();
+        Later { program, outputs, needed }
+    }
+
+    /// The values of the stages `written` that the stages `reading` read, or that are outputs: what
+    /// a struct holds. Constants are free, and arguments are passed on.
+    fn kept(&self, written: &[Stage], reading: &[Stage]) -> Vec<bool> {
+        let mut kept = vec![false; self.program.instrs.len()];
+        for (instr, needed) in self.program.instrs.iter().zip(&self.needed) {
+            if *needed && reading.contains(&instr.stage) {
+                instr.op.operands().for_each(|operand| kept[operand.index()] = true);
+            }
         }
+        self.outputs.iter().for_each(|value| kept[value.index()] = true);
+        for (kept, instr) in kept.iter_mut().zip(&self.program.instrs) {
+            let free =
+                matches!(instr.op, Op::Constant(_) | Op::Pi | Op::Input(Symbol::Coordinate(_)));
+            *kept &= written.contains(&instr.stage) && !free;
+        }
+        kept
     }
-    for value in outputs.iter().flat_map(|output| &program.outputs[output]) {
-        kept[value.index()] = true;
-    }
-    for (kept, instr) in kept.iter_mut().zip(&program.instrs) {
-        let free = matches!(instr.op, Op::Constant(_) | Op::Pi | Op::Input(Symbol::Coordinate(_)));
-        *kept &= stages.contains(&instr.stage) && !free;
-    }
-    kept
 }
 
 /// The parameters that are left, as members of a struct.
@@ -336,16 +405,37 @@ fn binary(a: TokenStream, operator: TokenStream, b: TokenStream) -> TokenStream 
 }
 
 /// The scalar nearest to an exact number, as the interpreter rounds it.
-fn constant(number: &Rational) -> TokenStream {
-    let value = match small_ratio(number) {
-        Some((numerator, 1)) => f64::from(numerator),
+fn constant(number: &Rational, scalar: &TokenStream) -> TokenStream {
+    let scalar = path(scalar);
+    match small_ratio(number) {
+        Some((numerator, 1)) => {
+            let value = Literal::f64_unsuffixed(f64::from(numerator));
+            quote!(#scalar::from_f64(#value))
+        }
         Some((numerator, denominator)) => {
             let numerator = Literal::i32_unsuffixed(numerator);
             let denominator = Literal::i32_unsuffixed(denominator);
-            return quote!(T::ratio(#numerator, #denominator));
+            quote!(#scalar::ratio(#numerator, #denominator))
         }
-        None => number.to_f64().value(),
-    };
-    let value = Literal::f64_unsuffixed(value);
-    quote!(T::from_f64(#value))
+        None => match parts(number) {
+            (value, 0.0) => {
+                let value = Literal::f64_unsuffixed(value);
+                quote!(#scalar::from_f64(#value))
+            }
+            (high, low) => {
+                let (high, low) = (Literal::f64_unsuffixed(high), Literal::f64_unsuffixed(low));
+                quote!(#scalar::from_parts(#high, #low))
+            }
+        },
+    }
+}
+
+fn pi(scalar: &TokenStream) -> TokenStream {
+    let scalar = path(scalar);
+    quote!(#scalar::pi())
+}
+
+/// A type as the beginning of a path: `T`, or `<T::Wide>`.
+fn path(scalar: &TokenStream) -> TokenStream {
+    if scalar.to_string() == "T" { quote!(T) } else { quote!(<#scalar>) }
 }

@@ -13,7 +13,7 @@ impl Emitter<'_> {
     pub(super) fn point_cache(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Point);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place { field: quote!(self), own: &[Stage::Point] };
+        let place = Place::at_points(quote!(self), &[Stage::Point]);
         let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
         let (dimension, point) = (self.dimension(), self.point());
         let axes: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
@@ -39,7 +39,7 @@ impl Emitter<'_> {
                 pub const BYTES: usize = ::core::mem::size_of::<Self>();
             }
 
-            impl<T: Scalar + Copy> Field<T> {
+            impl<T: Real> Field<T> {
                 /// Computes once what the parameters and the reference position determine.
                 #[inline]
                 pub fn at_point(&self, #point) -> Point<T> {

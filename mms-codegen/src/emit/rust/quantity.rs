@@ -18,28 +18,32 @@ impl Emitter<'_> {
     pub(super) fn at_time(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Time);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place { field: quote!(self), own: &[Stage::Time] };
+        let place = Place::once(quote!(self), &[Stage::Time]);
         let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
+        let values = kept.iter().map(|value| self.narrowed(*value, &place));
+        // Only where there is something to compute.
+        let widened = (!kept.is_empty()).then(|| quote!(let t = t.widen();));
         let quantities = self.quantities().map(|quantity| self.quantity(quantity));
         let faces = self.on_faces();
         quote! {
             /// The field at one time: everything that needs no X.
             #[derive(Clone, Copy, Debug)]
-            pub struct AtTime<'a, T> {
+            pub struct AtTime<'a, T: Real> {
                 field: &'a Field<T>,
                 #(#names: T,)*
             }
 
-            impl<T: Scalar + Copy> Field<T> {
+            impl<T: Real> Field<T> {
                 /// Computes once what the parameters and the time determine.
                 #[inline]
                 pub fn at_time(&self, t: T) -> AtTime<'_, T> {
+                    #widened
                     #body
-                    AtTime { field: self, #(#names,)* }
+                    AtTime { field: self, #(#names: #values,)* }
                 }
             }
 
-            impl<T: Scalar + Copy> AtTime<'_, T> {
+            impl<T: Real> AtTime<'_, T> {
                 #(#quantities)*
                 #(#faces)*
             }
@@ -52,7 +56,7 @@ impl Emitter<'_> {
         let doc = format!(" {} Unit: {}.", quantity.doc(), quantity.unit());
         let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
-        let place = |own| Place { field: quote!(self.field), own };
+        let place = |own| Place::at_points(quote!(self.field), own);
         let (whole, rest) = (place(own), place(&own[1..]));
         let output = Output::Quantity(quantity);
         let point = self.point();

@@ -211,6 +211,16 @@ fn minus(around: (f64, f64)) -> (f64, f64) {
 }
 
 impl Scalar for Interval {
+    type Wide = Self;
+
+    fn widen(self) -> Self {
+        self
+    }
+
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+
     fn from_f64(value: f64) -> Self {
         if value.is_finite() { Interval::new(value, value) } else { Interval::UNDEFINED }
     }
@@ -254,6 +264,20 @@ impl Scalar for Interval {
         let Some(part) = self.within(-1.0, f64::INFINITY) else { return Interval::UNDEFINED };
         let tails = Tails { from: -UNIT.0, left: minus(LARGE), to: f64::MAX, right: LARGE };
         part.rising(&tails, |x| quickly_around!(x, ln_1p)).only_if(part.lower > -1.0)
+    }
+
+    fn ln_1p_rest(self) -> Self {
+        // It falls to 0 at 0 and rises from there.
+        let Some(part) = self.within(-1.0, f64::INFINITY) else { return Interval::UNDEFINED };
+        let at = |x: f64| {
+            let point = Interval::new(x, x);
+            point - point.ln_1p()
+        };
+        let ends = [at(part.lower), at(part.upper)];
+        let lower =
+            if part.contains(0.0) { 0.0 } else { ends[0].lower.min(ends[1].lower).max(0.0) };
+        let upper = ends[0].upper.max(ends[1].upper);
+        Interval::new(lower, upper).only_if(part.lower > -1.0)
     }
 
     fn sin(self) -> Self {
