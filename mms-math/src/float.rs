@@ -1,18 +1,21 @@
-//! [`Scalar`] for the two IEEE formats, through the standard library.
+//! [`Scalar`] for the two IEEE formats: the quick functions, and where they do not know, the
+//! standard library.
 
-use crate::{Real, Scalar};
+use crate::lane::Lane;
+use crate::quick::number::Float;
+use crate::{Double, Scalar};
 
 macro_rules! scalar {
-    ($float:ident, $wide:ident, $($function:ident)*) => {
+    ($float:ident, $wide:ident, $narrow:expr, $($function:ident)*) => {
         impl Scalar for $float {
             type Wide = $wide;
             #[inline]
             fn widen(self) -> Self::Wide {
-                self as $wide
+                $wide::from(self)
             }
             #[inline]
             fn narrow(wide: Self::Wide) -> Self {
-                wide as $float
+                $narrow(wide)
             }
             #[inline]
             fn from_parts(high: f64, _: f64) -> Self {
@@ -27,45 +30,51 @@ macro_rules! scalar {
                 core::$float::consts::PI
             }
             #[inline]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+            #[inline]
             fn ln_1p_rest(self) -> Self {
-                if self.abs() < 0.1 { series_of_rest(self) } else { self - $float::ln_1p(self) }
+                // Unknown are numbers so large that nothing cancels, and those without a value.
+                known(Lane::<_, false>(self).ln_1p_rest(), || self - $float::ln_1p(self))
             }
             #[inline]
             fn sin_pi(self) -> Self {
-                let turns = $float::round(self * 0.5);
-                $float::sin((self - 2.0 * turns) * Self::pi())
+                known(Lane::<_, false>(self).sin_pi(), || Lane::<_, false>(self % 2.0).sin_pi().0)
             }
             #[inline]
             fn cos_pi(self) -> Self {
-                let turns = $float::round(self * 0.5);
-                $float::cos((self - 2.0 * turns) * Self::pi())
+                known(Lane::<_, false>(self).cos_pi(), || Lane::<_, false>(self % 2.0).cos_pi().0)
             }
             #[inline]
             fn atan2(self, x: Self) -> Self {
-                $float::atan2(self, x)
+                known(Lane::<_, false>(self).atan2(Lane(x)), || $float::atan2(self, x))
             }
             #[inline]
             fn powf(self, exponent: Self) -> Self {
-                $float::powf(self, exponent)
+                known(Lane::<_, false>(self).powf(Lane(exponent)), || $float::powf(self, exponent))
             }
             $(
                 #[inline]
                 fn $function(self) -> Self {
-                    $float::$function(self)
+                    known(Lane::<_, false>(self).$function(), || $float::$function(self))
                 }
             )*
         }
     };
 }
 
-scalar!(f32, f64, sqrt cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asin acos atan);
-scalar!(f64, f64, sqrt cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asin acos atan);
+scalar!(
+    f32, f64, |wide| wide as f32,
+    cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asin acos atan
+);
+scalar!(
+    f64, Double, Double::to_f64,
+    cbrt exp exp_m1 ln ln_1p sin cos tan sinh cosh tanh asin acos atan
+);
 
-/// x - ln(1 + x) = x^2/2 - x^3/3 + ..., for |x| < 0.1.
-fn series_of_rest<T: Real>(x: T) -> T {
-    let mut sum = T::from_f64(0.0);
-    for n in (2..=17).rev() {
-        sum = T::ratio(1, n) - x * sum;
-    }
-    x * x * sum
+/// What the quick function says, or the careful one where that is not a number.
+#[inline(always)]
+fn known<T: Float>(quick: Lane<T, false>, careful: impl FnOnce() -> T) -> T {
+    if quick.0.is_nan() { careful() } else { quick.0 }
 }

@@ -1,15 +1,33 @@
 //! The scalar trait that generated functions, the interpreter and the solver compute with.
 //!
-//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, dual
-//! numbers or arbitrary precision. The crate has no dependencies and needs no standard library
-//! unless the feature `std` (on by default) supplies the elementary functions of `f32` and `f64`.
+//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, twice the
+//! digits of `f64` ([`Double`]), dual numbers or arbitrary precision. The crate has no dependencies
+//! and needs no standard library unless the feature `std` (on by default) supplies the elementary
+//! functions of `f32` and `f64`, and with them evaluation at many points ([`batch`]).
+//! These are quick ones that vectorise, alone those of [`Lane`], and where they do not know, those
+//! of the standard library.
 #![no_std]
 
 #[cfg(feature = "std")]
 extern crate std;
 
 #[cfg(feature = "std")]
+pub mod batch;
+#[cfg(feature = "std")]
+mod dispatch;
+mod double;
+#[cfg(feature = "std")]
 mod float;
+#[cfg(feature = "std")]
+mod generate;
+#[cfg(feature = "std")]
+mod lane;
+#[cfg(feature = "std")]
+mod quick;
+
+pub use double::Double;
+#[cfg(feature = "std")]
+pub use lane::{Lane, NEAR_ZERO};
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};

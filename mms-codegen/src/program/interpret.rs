@@ -1,6 +1,6 @@
 //! The reference interpreter: runs a program in any scalar, stage by stage.
 
-use mms_math::Scalar;
+use mms_math::{Double, Scalar};
 
 use super::{Op, Output, Program, Stage};
 use crate::expr::{Function, Rational, Symbol};
@@ -44,6 +44,7 @@ fn nearest<T: Scalar>(number: &Rational) -> T {
 
 impl Number for f32 {}
 impl Number for f64 {}
+impl Number for Double {}
 
 /// Numerator and denominator, where both are exact even in `f32`.
 pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {

@@ -277,7 +277,7 @@ impl Scalar for Interval {
         let lower =
             if part.contains(0.0) { 0.0 } else { ends[0].lower.min(ends[1].lower).max(0.0) };
         let upper = ends[0].upper.max(ends[1].upper);
-        Interval::new(lower, upper).only_if(part.lower > -1.0)
+        Interval::new(lower, upper).only_if(part.defined && part.lower > -1.0)
     }
 
     fn sin(self) -> Self {

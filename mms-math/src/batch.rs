@@ -1,0 +1,316 @@
+//! Evaluation at many points: a kernel in one scalar, and a loop that the compiler turns into vector
+//! instructions.
+//!
+//! Points go through in blocks of fixed length, so that the loop over a block has no branch and no
+//! remainder; the last block is filled up with copies of its first point. What the processor can do
+//! is asked at run time: nothing depends on how the program was compiled.
+//!
+//! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
+//! value is computed again, number by number, with the careful functions of the scalar itself.
+
+use crate::{Lane, Real};
+
+/// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
+/// first cache.
+pub const BLOCK: usize = 64;
+
+/// The values of `N` numbers at the points of a block.
+pub type Block<T, const N: usize> = [[T; BLOCK]; N];
+
+/// A scalar that stands for a number of type `T` in a loop over points.
+pub trait Stand<T>: Real {
+    /// In place of the number.
+    fn of(value: T) -> Self;
+    /// The number.
+    fn value(self) -> T;
+}
+
+/// A number that batches are made of: `f32` or `f64`.
+pub trait Float: Real + Stand<Self> + PartialOrd + Send + Sync {
+    /// Its stand-in where the processor multiplies and adds in one step.
+    type Fused: Stand<Self>;
+    /// Its stand-in elsewhere.
+    type Plain: Stand<Self>;
+}
+
+macro_rules! float {
+    ($float:ident) => {
+        impl Stand<$float> for $float {
+            #[inline(always)]
+            fn of(value: $float) -> Self {
+                value
+            }
+            #[inline(always)]
+            fn value(self) -> $float {
+                self
+            }
+        }
+
+        impl<const FUSED: bool> Stand<$float> for Lane<$float, FUSED> {
+            #[inline(always)]
+            fn of(value: $float) -> Self {
+                Lane(value)
+            }
+            #[inline(always)]
+            fn value(self) -> $float {
+                self.0
+            }
+        }
+
+        impl Float for $float {
+            type Fused = Lane<$float, true>;
+            type Plain = Lane<$float, false>;
+        }
+    };
+}
+
+float!(f32);
+float!(f64);
+
+/// A function of `I` numbers with `O` results.
+pub trait Function<S, const I: usize, const O: usize> {
+    /// Its results. To be inlined always: a call in the loop over points would end all vectors.
+    fn at(&self, point: [S; I]) -> [S; O];
+}
+
+/// The same function in any stand-in of `T`.
+pub trait Kernel<T, const I: usize, const O: usize> {
+    /// Passes the function to a loop over points.
+    fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, I, O>);
+}
+
+/// A loop over points.
+pub trait Points<S, const I: usize, const O: usize> {
+    /// Applies the function to every point.
+    fn each(&mut self, function: &impl Function<S, I, O>);
+}
+
+/// `N` numbers at each of some points, wherever they are stored.
+pub trait Source<T, const N: usize> {
+    /// How many points there are.
+    fn count(&self) -> usize;
+    /// Copies the points from `start` on, as many as fit and are there.
+    fn load(&self, start: usize, block: &mut Block<T, N>);
+}
+
+/// A place for `N` numbers at each of some points.
+pub trait Sink<T, const N: usize> {
+    /// How many points there is room for.
+    fn room(&self) -> usize;
+    /// Writes the points from `start` on, as many as there is room for.
+    fn store(&mut self, start: usize, block: &Block<T, N>);
+}
+
+/// Structure of arrays: one slice for each number.
+impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
+    fn count(&self) -> usize {
+        one_length(self.iter().map(|column| column.len()))
+    }
+
+    #[inline(always)]
+    fn load(&self, start: usize, block: &mut Block<T, N>) {
+        for (column, lane) in self.iter().zip(block) {
+            let rest = &column[start..];
+            match rest.first_chunk() {
+                Some(whole) => *lane = *whole,
+                None => lane[..rest.len()].copy_from_slice(rest),
+            }
+        }
+    }
+}
+
+/// Array of structures: the numbers of a point beside each other.
+impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn load(&self, start: usize, block: &mut Block<T, N>) {
+        for (place, point) in self[start..].iter().take(BLOCK).enumerate() {
+            for (lane, value) in block.iter_mut().zip(point) {
+                lane[place] = *value;
+            }
+        }
+    }
+}
+
+/// Positions and normals as two arrays of structures.
+impl<T: Copy, const D: usize, const N: usize> Source<T, N> for (&[[T; D]], &[[T; D]]) {
+    fn count(&self) -> usize {
+        one_length([self.0.len(), self.1.len()].into_iter())
+    }
+
+    #[inline(always)]
+    fn load(&self, start: usize, block: &mut Block<T, N>) {
+        let points = self.0[start..].iter().zip(&self.1[start..]);
+        for (place, (first, second)) in points.take(BLOCK).enumerate() {
+            for (lane, value) in block.iter_mut().zip(first.iter().chain(second)) {
+                lane[place] = *value;
+            }
+        }
+    }
+}
+
+impl<T: Copy, const N: usize> Sink<T, N> for [&mut [T]; N] {
+    fn room(&self) -> usize {
+        one_length(self.iter().map(|column| column.len()))
+    }
+
+    #[inline(always)]
+    fn store(&mut self, start: usize, block: &Block<T, N>) {
+        for (column, lane) in self.iter_mut().zip(block) {
+            let rest = &mut column[start..];
+            match rest.first_chunk_mut() {
+                Some(whole) => *whole = *lane,
+                None => rest.copy_from_slice(&lane[..rest.len()]),
+            }
+        }
+    }
+}
+
+impl<T: Copy, const N: usize> Sink<T, N> for &mut [[T; N]] {
+    fn room(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn store(&mut self, start: usize, block: &Block<T, N>) {
+        for (place, point) in self[start..].iter_mut().take(BLOCK).enumerate() {
+            for (value, lane) in point.iter_mut().zip(block) {
+                *value = lane[place];
+            }
+        }
+    }
+}
+
+/// The length that all columns have.
+fn one_length(mut lengths: impl Iterator<Item = usize>) -> usize {
+    let first = lengths.next().unwrap_or(0);
+    for length in lengths {
+        assert_eq!(length, first, "the slices of a batch have different lengths");
+    }
+    first
+}
+
+/// Some columns, and then others.
+#[doc(hidden)]
+pub fn join<C: Copy, const A: usize, const B: usize, const N: usize>(
+    first: [C; A],
+    second: [C; B],
+) -> [C; N] {
+    const { assert!(A + B == N) };
+    core::array::from_fn(|index| if index < A { first[index] } else { second[index - A] })
+}
+
+/// Applies a kernel to every point of a source.
+///
+/// # Panics
+///
+/// If slices have different lengths.
+pub fn run<T: Float, const I: usize, const O: usize>(
+    kernel: &impl Kernel<T, I, O>,
+    source: &impl Source<T, I>,
+    sink: &mut impl Sink<T, O>,
+) {
+    let count = source.count();
+    assert_eq!(sink.room(), count, "a batch has {count} points, and other room for its results");
+    let zero = T::from_f64(0.0);
+    let mut blocks = Blocks {
+        source,
+        sink,
+        count,
+        inputs: [[zero; BLOCK]; I],
+        outputs: [[zero; BLOCK]; O],
+        careful: |inputs: &Block<T, I>, outputs: &mut Block<T, O>| {
+            kernel.drive::<T>(&mut Single { inputs, outputs });
+        },
+    };
+    crate::dispatch::drive(kernel, &mut blocks);
+}
+
+/// All points, block by block.
+struct Blocks<'a, T, In, Out, Careful, const I: usize, const O: usize> {
+    source: &'a In,
+    sink: &'a mut Out,
+    count: usize,
+    inputs: Block<T, I>,
+    outputs: Block<T, O>,
+    careful: Careful,
+}
+
+impl<T, S, In, Out, Careful, const I: usize, const O: usize> Points<S, I, O>
+    for Blocks<'_, T, In, Out, Careful, I, O>
+where
+    T: Float,
+    S: Stand<T>,
+    In: Source<T, I>,
+    Out: Sink<T, O>,
+    Careful: Fn(&Block<T, I>, &mut Block<T, O>),
+{
+    #[inline(always)]
+    fn each(&mut self, function: &impl Function<S, I, O>) {
+        let mut start = 0;
+        while start < self.count {
+            self.source.load(start, &mut self.inputs);
+            let left = self.count - start;
+            if left < BLOCK {
+                // What is behind the last point was computed before, or is 0: it might be what no
+                // function is defined at.
+                self.inputs.iter_mut().for_each(|lane| {
+                    let first = lane[0];
+                    lane[left..].fill(first);
+                });
+            }
+            let known = evaluate(function, &self.inputs, &mut self.outputs);
+            if !known {
+                (self.careful)(&self.inputs, &mut self.outputs);
+            }
+            self.sink.store(start, &self.outputs);
+            start += BLOCK;
+        }
+    }
+}
+
+/// Whether all results are numbers.
+#[inline(always)]
+fn evaluate<T: Float, S: Stand<T>, const I: usize, const O: usize>(
+    function: &impl Function<S, I, O>,
+    inputs: &Block<T, I>,
+    outputs: &mut Block<T, O>,
+) -> bool {
+    for place in 0..BLOCK {
+        let point = core::array::from_fn(|input| S::of(inputs[input][place]));
+        let results = function.at(point);
+        for output in 0..O {
+            outputs[output][place] = results[output].value();
+        }
+    }
+    let mut known = true;
+    for lane in outputs.iter() {
+        for value in lane {
+            // Only not-a-number differs from itself.
+            #[allow(clippy::eq_op)]
+            let is_number = *value == *value;
+            known &= is_number;
+        }
+    }
+    known
+}
+
+/// One block, number by number.
+struct Single<'a, T, const I: usize, const O: usize> {
+    inputs: &'a Block<T, I>,
+    outputs: &'a mut Block<T, O>,
+}
+
+impl<T: Copy, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T, I, O> {
+    fn each(&mut self, function: &impl Function<T, I, O>) {
+        for place in 0..BLOCK {
+            let results = function.at(core::array::from_fn(|input| self.inputs[input][place]));
+            for (lane, result) in self.outputs.iter_mut().zip(results) {
+                lane[place] = result;
+            }
+        }
+    }
+}

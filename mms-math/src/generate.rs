@@ -1,0 +1,134 @@
+//! What generated code would otherwise repeat for every quantity. Not meant for other callers: the
+//! macros name the structs of a generated module.
+
+/// A function of a point in the scalar of a loop: a struct around the prepared field.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! kernel {
+    ($name:ident<$scalar:ident>, $inputs:tt -> $results:tt, |$at:ident, $point:pat_param| $result:block) => {
+        struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
+
+        impl<$scalar: $crate::Real> $crate::batch::Function<$scalar, $inputs, $results>
+            for $name<'_, $scalar>
+        {
+            #[inline(always)]
+            fn at(&self, $point: [$scalar; $inputs]) -> [$scalar; $results] {
+                let $at = self.0;
+                $result
+            }
+        }
+
+        impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
+            #[inline(always)]
+            fn drive<S: $crate::batch::Stand<T>>(
+                &self,
+                points: &mut impl $crate::batch::Points<S, $inputs, $results>,
+            ) {
+                let field = self.0.field.standing::<S>();
+                points.each(&$name(&self.0.standing(&field)));
+            }
+        }
+    };
+}
+
+/// A quantity at many points: from positions in either layout, and from what was kept of them. With
+/// `normals`, a unit normal at each point comes with the position.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! batches {
+    (
+        $name:literal, $dimension:tt -> $results:tt;
+        $whole:ident: $batch:ident, $batch_aos:ident, |$at:ident, $point:pat_param| $result:block;
+        $cached:ident<$scalar:ident>: $batch_at:ident, $columns:tt, $count:tt,
+            |$at_kept:ident, $kept:pat_param| $result_kept:block;
+    ) => {
+        $crate::kernel! { $whole<S>, $dimension -> $results, |$at, $point| $result }
+        $crate::kernel! { $cached<$scalar>, $count -> $results, |$at_kept, $kept| $result_kept }
+
+        impl<T: $crate::batch::Float> AtTime<'_, T> {
+            #[doc = concat!(" As `", $name, "`, at many points: a slice for each coordinate and each component of the result, rows first.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch(&self, points: [&[T]; $dimension], mut out: [&mut [T]; $results]) {
+                $crate::batch::run(&$whole(self), &points, &mut out);
+            }
+
+            #[doc = concat!(" As `", $name, "_batch`, with the numbers of a point beside each other.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch_aos(&self, points: &[[T; $dimension]], mut out: &mut [[T; $results]]) {
+                $crate::batch::run(&$whole(self), &points, &mut out);
+            }
+
+            #[doc = concat!(" As `", $name, "_batch`, from what was kept of the points.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch_at(&self, points: &Points<T>, mut out: [&mut [T]; $results]) {
+                let kept = $columns.map(|column: usize| &points.columns[column][..]);
+                $crate::batch::run(&$cached(self), &kept, &mut out);
+            }
+        }
+    };
+    (
+        $name:literal, normals $inputs:tt, $dimension:tt -> $results:tt;
+        $whole:ident: $batch:ident, $batch_aos:ident, |$at:ident, $point:pat_param| $result:block;
+        $cached:ident<$scalar:ident>: $batch_at:ident, $columns:tt, $count:tt,
+            |$at_kept:ident, $kept:pat_param| $result_kept:block;
+    ) => {
+        $crate::kernel! { $whole<S>, $inputs -> $results, |$at, $point| $result }
+        $crate::kernel! { $cached<$scalar>, $count -> $results, |$at_kept, $kept| $result_kept }
+
+        impl<T: $crate::batch::Float> AtTime<'_, T> {
+            #[doc = concat!(" As `", $name, "`, at many points: a slice for each coordinate and each component of the normals and of the result.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch(
+                &self,
+                points: [&[T]; $dimension],
+                normals: [&[T]; $dimension],
+                mut out: [&mut [T]; $results],
+            ) {
+                let both: [&[T]; $inputs] = $crate::batch::join(points, normals);
+                $crate::batch::run(&$whole(self), &both, &mut out);
+            }
+
+            #[doc = concat!(" As `", $name, "_batch`, with the numbers of a point beside each other.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch_aos(
+                &self,
+                points: &[[T; $dimension]],
+                normals: &[[T; $dimension]],
+                mut out: &mut [[T; $results]],
+            ) {
+                $crate::batch::run(&$whole(self), &(points, normals), &mut out);
+            }
+
+            #[doc = concat!(" As `", $name, "_batch`, from what was kept of the points.")]
+            ///
+            /// # Panics
+            ///
+            /// If the slices have different lengths.
+            pub fn $batch_at(
+                &self,
+                points: &Points<T>,
+                normals: [&[T]; $dimension],
+                mut out: [&mut [T]; $results],
+            ) {
+                let kept = $columns.map(|column: usize| &points.columns[column][..]);
+                let both: [&[T]; $count] = $crate::batch::join(kept, normals);
+                $crate::batch::run(&$cached(self), &both, &mut out);
+            }
+        }
+    };
+}

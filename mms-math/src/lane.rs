@@ -1,0 +1,118 @@
+//! Numbers that are computed with many at a time.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::Scalar;
+use crate::quick::number::Float;
+use crate::quick::{exponential, inverse, logarithm, power, trigonometric};
+
+/// One number of a loop that the compiler may turn into vector instructions: the functions have
+/// neither branches nor calls, and are not a number where they do not know.
+///
+/// `FUSED` says that `mul_add` rounds once. The code must then be compiled for a processor that
+/// does so in one instruction, or every operation becomes a call; elsewhere it is a product and a
+/// sum.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+#[repr(transparent)]
+pub struct Lane<T, const FUSED: bool>(pub T);
+
+/// The largest magnitude that [`Lane::sin_near_zero`] and [`Lane::cos_near_zero`] take: just less
+/// than a quarter turn.
+pub const NEAR_ZERO: f64 = 1.57;
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $operator:tt),*) => {
+        $(
+            impl<T: Float, const FUSED: bool> $trait for Lane<T, FUSED> {
+                type Output = Self;
+                #[inline(always)]
+                fn $method(self, other: Self) -> Self {
+                    Lane(self.0 $operator other.0)
+                }
+            }
+        )*
+    };
+}
+
+operators!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl<T: Float, const FUSED: bool> Neg for Lane<T, FUSED> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lane(-self.0)
+    }
+}
+
+impl<T: Float, const FUSED: bool> Lane<T, FUSED> {
+    /// The sine for |self| <= [`NEAR_ZERO`], else not a number. At most 1.7 ulp.
+    #[inline(always)]
+    pub fn sin_near_zero(self) -> Self {
+        trigonometric::sin_near_zero(self, T::of(NEAR_ZERO))
+    }
+
+    /// The cosine for |self| <= [`NEAR_ZERO`], else not a number. Its error is less than
+    /// f64's or f32's epsilon, also near its zero: at most 0.9 of that.
+    #[inline(always)]
+    pub fn cos_near_zero(self) -> Self {
+        trigonometric::cos_near_zero(self, T::of(NEAR_ZERO))
+    }
+}
+
+macro_rules! scalar {
+    ($($module:ident: $($function:ident)*;)*) => {
+        impl<T: Float, const FUSED: bool> Scalar for Lane<T, FUSED> {
+            type Wide = Self;
+            #[inline(always)]
+            fn widen(self) -> Self {
+                self
+            }
+            #[inline(always)]
+            fn narrow(wide: Self) -> Self {
+                wide
+            }
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                Lane(T::of(value))
+            }
+            #[inline(always)]
+            fn from_parts(high: f64, _: f64) -> Self {
+                Lane(T::of(high))
+            }
+            #[inline(always)]
+            fn pi() -> Self {
+                Lane(T::PI[0])
+            }
+            #[inline(always)]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                self.times_plus(factor, term)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Lane(self.0.sqrt())
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                inverse::atan2(self, x)
+            }
+            #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                T::powf(self, exponent)
+            }
+            $($(
+                #[inline(always)]
+                fn $function(self) -> Self {
+                    $module::$function(self)
+                }
+            )*)*
+        }
+    };
+}
+
+scalar! {
+    power: cbrt;
+    exponential: exp exp_m1 sinh cosh tanh;
+    logarithm: ln ln_1p ln_1p_rest;
+    trigonometric: sin cos tan sin_pi cos_pi;
+    inverse: asin acos atan;
+}
