@@ -10,14 +10,16 @@ use crate::expr::resolve::Scope;
 use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
 use crate::mechanics::boundary::{Datum, data};
 use crate::mechanics::face;
+use crate::mechanics::kinematics::Route;
 use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
+use crate::pass::half_turns::half_turns;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
-use crate::selection::Selection;
+use crate::selection::{Form, Selection};
 use crate::simplify::{simplify, twins};
 use crate::source::{SourceId, Sources};
 use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
@@ -50,6 +52,8 @@ pub struct Compiled {
     pub derivation: Derivation,
     /// What of it was wanted.
     pub selection: Selection,
+    /// Which ways to compute were open.
+    pub form: Form,
     /// What is wanted, scheduled.
     pub program: Program,
 }
@@ -85,11 +89,17 @@ pub struct Options {
     pub selection: Selection,
     /// How many nodes and operands the expression graph may have.
     pub max_nodes: usize,
+    /// Which ways to compute are open.
+    pub form: Form,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { selection: Selection::default(), max_nodes: DEFAULT_MAX_NODES }
+        Options {
+            selection: Selection::default(),
+            max_nodes: DEFAULT_MAX_NODES,
+            form: Form::Stable,
+        }
     }
 }
 
@@ -188,12 +198,12 @@ fn phases(
     diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     diagnostics.extend(rotates_unfit_material(&field, material.as_ref()));
     let material = material.filter(|_| diagnostics.is_empty())?;
-    let derived = derive(&mut graph, &model, &Relations::default())
+    let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
     // The force of a twin needs the motion of the field.
     let needed = |quantity| model.rigid.is_some() || selection.wants(quantity);
-    let derivation = simplify(&mut graph, &model, &derived, needed);
+    let derivation = simplify(&mut graph, &model, &derived, options.form, needed);
     let (derived, derivation) = match &model.rigid {
         Some(rigid) => twins(&mut graph, rigid, [&derived, &derivation]),
         None => (derived, derivation),
@@ -203,6 +213,9 @@ fn phases(
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
         return None;
+    }
+    for components in outputs.values_mut() {
+        *components = half_turns(&mut graph, components);
     }
     let program = schedule(&graph, &outputs);
     diagnostics.extend(unrepresentable(&field, &program));
@@ -217,6 +230,7 @@ fn phases(
         derived,
         derivation,
         selection,
+        form: options.form,
         program,
     })
 }

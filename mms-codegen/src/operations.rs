@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::compile::Compiled;
 use crate::expr::Expr;
 use crate::mechanics::Derivation;
+use crate::pass::half_turns::half_turns;
 use crate::program::schedule::{cost, schedule, schedule_plainly};
 use crate::program::{Op, Output, Program, Stage};
 use crate::quantity::Quantity;
@@ -41,8 +42,10 @@ impl Compiled {
         // What is cheapest for each alone need not be so together.
         let forms = [chosen, derived];
         let cheapest = forms.into_iter().min_by_key(|form| cost(&self.graph, form));
-        let outputs = BTreeMap::from([(TOGETHER, cheapest.unwrap_or_default())]);
-        let after = schedule(&self.graph, &outputs);
+        let mut graph = self.graph.clone();
+        graph.make_room();
+        let outputs = half_turns(&mut graph, &cheapest.unwrap_or_default());
+        let after = schedule(&graph, &BTreeMap::from([(TOGETHER, outputs)]));
         Operations {
             before: before.operations(&[TOGETHER]).values().sum(),
             after: after.operations(&[TOGETHER]).values().sum(),

@@ -36,6 +36,42 @@ pub struct Selection {
     pub twin: Twin,
 }
 
+/// Which of the ways to compute a quantity are open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Form {
+    /// Those that hold the accuracy contract: of each quantity, at any strain down to 1e-12, an error
+    /// of at most 64 eps of its largest magnitude.
+    #[default]
+    Stable,
+    /// All. Where a strain e is small, its stress may lose eps/e, and its energy eps/e^2.
+    Fast,
+}
+
+impl Form {
+    /// Every form.
+    pub const ALL: [Form; 2] = [Form::Stable, Form::Fast];
+
+    /// Its name on the command line and in the macro.
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::Stable => "stable",
+            Form::Fast => "fast",
+        }
+    }
+
+    /// The form of that name; otherwise what is wrong with it, in one line.
+    pub fn from_name(name: &str) -> Result<Form, String> {
+        Self::ALL.into_iter().find(|form| form.name() == name).ok_or_else(|| {
+            let known = Self::ALL.map(Form::name);
+            let advice = match did_you_mean(name, known) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the forms are {}", known.join(", ")),
+            };
+            format!("unknown form {}; {advice}", quoted(name))
+        })
+    }
+}
+
 /// Which parameters become constants, at their default values. They are then no parameters of the
 /// generated code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -234,6 +270,9 @@ impl Compiled {
             format!("{} = {value}", parameter.name)
         };
         let mut lines = Vec::new();
+        if self.form != Form::default() {
+            lines.push(format!("Form: {}", self.form.name()));
+        }
         if let Some(quantities) = &self.selection.quantities {
             let names: Vec<_> = quantities.iter().map(|quantity| quantity.name()).collect();
             lines.push(format!("Quantities: {}", names.join(", ")));

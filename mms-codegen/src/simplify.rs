@@ -6,14 +6,19 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Graph};
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::derivation::derive_settled;
+use crate::mechanics::kinematics::Route;
 use crate::mechanics::rigid::RigidMotion;
 use crate::mechanics::{Derivation, Model, derive};
+use crate::pass::absorb::absorb;
+use crate::pass::factor::factor;
 use crate::pass::nest::nest;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::{Relations, lateness};
 use crate::program::schedule::{Cost, cost};
 use crate::quantity::Quantity;
+use crate::selection::Form;
 
 /// Simplifies those quantities of a derivation without relations that are wanted, and its
 /// responses; other quantities stay as they are.
@@ -21,6 +26,7 @@ pub fn simplify(
     graph: &mut Graph,
     model: &Model,
     plain: &Derivation,
+    form: Form,
     wanted: impl Fn(Quantity) -> bool,
 ) -> Derivation {
     let relations = Relations::find(graph, &model.displacement);
@@ -28,17 +34,94 @@ pub fn simplify(
         quantities.retain(|quantity, _| wanted(*quantity));
         quantities
     };
-    let mut forms = vec![of_wanted(plain.quantities.clone())];
-    if !relations.is_empty() {
-        // Relations that are used early keep the motion short, and all that follows from it.
-        let reduced = graph.attempt(|graph| derive(graph, model, &relations));
-        forms.extend(reduced.and_then(Result::ok).map(|reduced| of_wanted(reduced.quantities)));
-    }
+    let unrelated = Relations::default();
+    // Relations that are used early keep the motion short, and all that follows from it.
+    let used = if relations.is_empty() { vec![&unrelated] } else { vec![&unrelated, &relations] };
+    let mut derivations = vec![plain.quantities.clone()];
+    let mut derive_more = |graph: &mut Graph, route: Route, used: &[&Relations]| {
+        for relations in used {
+            let derived = graph.attempt(|graph| derive(graph, model, relations, route));
+            derivations.extend(derived.and_then(Result::ok).map(|derived| derived.quantities));
+        }
+        derivations.len()
+    };
+    let of_gradient = derive_more(graph, Route::Gradient, &used[1..]);
+    derive_more(graph, Route::Deformation, &used);
+    let of = |derivations: &[BTreeMap<Quantity, Vec<Expr>>], fine: bool| -> Vec<_> {
+        let of_kind = |derivation: &BTreeMap<Quantity, Vec<Expr>>| {
+            let of_kind = derivation.iter().filter(|(quantity, _)| is_fine(**quantity) == fine);
+            of_wanted(of_kind.map(|(quantity, it)| (*quantity, it.clone())).collect())
+        };
+        derivations.iter().map(of_kind).collect()
+    };
     let mut quantities = plain.quantities.clone();
-    quantities.extend(cheapest(graph, forms, &relations));
+    quantities.extend(cheapest(graph, of(&derivations, false), &relations));
+    let settled = graph.attempt(|graph| derive_settled(graph, model, &relations));
+    quantities.extend(match (form, settled) {
+        (Form::Fast, _) => cheapest(graph, of(&derivations, true), &relations),
+        // To multiply out what was settled would undo it, modulo the relations of whole angles alone
+        // it does not: they do not occur in what is small.
+        (Form::Stable, Some(Ok(Some(settled)))) => {
+            let forms = of(&[settled], true);
+            cheapest_of(graph, &forms, |graph, components| {
+                let mut ways = kept_apart(graph, components.clone());
+                if !relations.is_empty() {
+                    ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
+                }
+                ways
+            })
+        }
+        (Form::Stable, _) => cheapest(graph, of(&derivations[..of_gradient], true), &relations),
+    });
+    if form == Form::Stable && is_graded(graph, model) {
+        // The part of Div P that is due to gradients of the moduli is as small as the stress is.
+        let settled = graph.attempt(|graph| derive(graph, model, &relations, Route::Settled));
+        if let Some(Ok(settled)) = settled {
+            let forms = of(&[settled.quantities], false);
+            quantities.extend(cheapest_of(graph, &forms, kept_apart));
+        }
+    }
     Derivation {
         quantities,
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
+    }
+}
+
+/// Whether moduli or the direction of fibres depend on X.
+fn is_graded(graph: &Graph, model: &Model) -> bool {
+    let arguments = model.arguments.iter();
+    arguments
+        .flat_map(|argument| graph.symbols(*argument))
+        .any(|symbol| matches!(symbol, Symbol::Coordinate(_)))
+}
+
+/// Whether a quantity vanishes with the strain or the displacement, so that an error of the size of
+/// eps is too much for it. The others are of the size of 1, of X or of a derivative of second order,
+/// whatever the strain.
+fn is_fine(quantity: Quantity) -> bool {
+    match quantity {
+        Quantity::Displacement
+        | Quantity::DisplacementGradient
+        | Quantity::GreenLagrange
+        | Quantity::StrainEnergy
+        | Quantity::FirstPiolaKirchhoff
+        | Quantity::NominalStress
+        | Quantity::CauchyStress
+        | Quantity::KirchhoffStress
+        | Quantity::Traction => true,
+        Quantity::Position
+        | Quantity::Velocity
+        | Quantity::Acceleration
+        | Quantity::DeformationGradient
+        | Quantity::Jacobian
+        | Quantity::RightCauchyGreen
+        | Quantity::LeftCauchyGreen
+        | Quantity::MassDensity
+        | Quantity::DivP
+        | Quantity::DivSigma
+        | Quantity::BodyForce
+        | Quantity::BodyForceDensity
+        | Quantity::CurrentBodyForceDensity => false,
     }
 }
 
@@ -56,19 +139,28 @@ pub fn twins(
 }
 
 /// The cheapest components for every key, of which some forms are known; of equals, the first.
-fn cheapest<K: Ord>(
+fn cheapest<K: Ord + Copy>(
     graph: &mut Graph,
     forms: Vec<BTreeMap<K, Vec<Expr>>>,
     relations: &Relations,
 ) -> BTreeMap<K, Vec<Expr>> {
+    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations))
+}
+
+/// The same of what `rewrite` makes of each form.
+fn cheapest_of<K: Ord + Copy>(
+    graph: &mut Graph,
+    forms: &[BTreeMap<K, Vec<Expr>>],
+    rewrite: impl Fn(&mut Graph, Vec<Expr>) -> Vec<Vec<Expr>>,
+) -> BTreeMap<K, Vec<Expr>> {
     let mut written = Vec::new();
-    for form in &forms {
+    for form in forms {
         let components: Vec<Expr> = form.values().flatten().copied().collect();
-        written.extend(ways(graph, components, relations));
+        written.extend(rewrite(graph, components));
     }
     let mut position = 0;
     let mut best = BTreeMap::new();
-    for (key, components) in forms.into_iter().next().unwrap_or_default() {
+    for (key, components) in forms.first().into_iter().flatten() {
         let range = position..position + components.len();
         position = range.end;
         let mut costs = BTreeMap::<&[Expr], Cost>::new();
@@ -76,17 +168,28 @@ fn cheapest<K: Ord>(
             .iter()
             .map(|way| &way[range.clone()])
             .min_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
-        best.insert(key, cheapest.map(<[Expr]>::to_vec).unwrap_or(components));
+        best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
     best
+}
+
+/// Expressions as they are, and with factors taken out or in; no sum is multiplied out.
+fn kept_apart(graph: &mut Graph, components: Vec<Expr>) -> Vec<Vec<Expr>> {
+    let mut ways = vec![components.clone()];
+    ways.extend(graph.attempt(|graph| nest(graph, &components, &lateness)));
+    ways.extend(graph.attempt(|graph| {
+        let factored = factor(graph, &components);
+        absorb(graph, &factored)
+    }));
+    ways.extend(graph.attempt(|graph| factor(graph, &components)));
+    ways
 }
 
 /// Expressions as they are, and rewritten; what would outgrow the graph is left out.
 ///
 /// They are rewritten together, since what they have in common is then rewritten once.
 pub fn ways(graph: &mut Graph, components: Vec<Expr>, relations: &Relations) -> Vec<Vec<Expr>> {
-    let mut ways = vec![components.clone()];
-    ways.extend(graph.attempt(|graph| nest(graph, &components, &lateness)));
+    let mut ways = kept_apart(graph, components.clone());
     let among = Relations::find(graph, &components).at_points(graph);
     let all = [Some(relations.clone()), relations.thorough(), Some(among)];
     for relations in all.into_iter().flatten().filter(|relations| !relations.is_empty()) {

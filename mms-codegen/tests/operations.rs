@@ -95,3 +95,13 @@ fn a_radial_displacement_stays_radial() {
     let definitions = ["T = \"a*sin(c*pi*t)\"", "R = \"hypot(X, Y)\"", "f = \"3*R^2 - 2*R^3 - R\""];
     at_most(&field(&definitions, &["T*f*X/R", "T*f*Y/R"]), 115, 60);
 }
+
+#[test]
+fn standing_waves_along_the_axes_share_one_logarithm_of_a_product() {
+    let wave = |axis: &str, phase: &str| format!("a*sin(pi*{axis})*sin(pi*c*t{phase})");
+    let displacement = [wave("X", ""), wave("Y", " + 2*pi/3"), wave("Z", " + 4*pi/3")];
+    let text = field(&[], &displacement.each_ref().map(String::as_str));
+    // b_i = u_i (C + (k + l ln(F_1 F_2 F_3))/F_i^2): three each for u_i and F_i, two for J, three
+    // for the bracket, five for the rest.
+    at_most(&text, 65, 36);
+}

@@ -47,6 +47,7 @@ use request::Request;
 /// | `freeze` | makes all parameters constants, at their defaults. They disappear from `Parameters`, and what they make 0 disappears from the code |
 /// | `freeze = [..]` | makes these constants |
 /// | `rigid = ".."` | puts a rigid motion on top, with the keys of `[rigid]`; without a value a large and accelerated one |
+/// | `form = "fast"` | takes the fewest operations, at the cost of accuracy where strains are small; `"stable"`, the default, holds every quantity to 64 eps of its largest magnitude |
 /// | `name = other` | names the module, so that two of one file can stand side by side |
 ///
 /// A parameter that depends on others and is frozen without them keeps the value that their
@@ -79,7 +80,7 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let folder = file.parent().unwrap_or(&root);
     let load = |material: &str| read(&folder.join(material));
-    let options = Options::from(request.selection.clone());
+    let options = Options { form: request.form, ..Options::from(request.selection.clone()) };
     let compiled = compile_with(&name, &path, &text, &load, &options)
         .map_err(|failure| refused(request, failure))?;
     let module = match &request.name {

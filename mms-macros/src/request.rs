@@ -1,6 +1,6 @@
 //! The words between the parentheses of `field!`.
 
-use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
+use mms_codegen::selection::{Entry, Form, Freeze, Selection, quantity};
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
 use proc_macro2::{Ident, Span};
@@ -10,7 +10,7 @@ use syn::token::Bracket;
 use syn::{Error, Lit, LitStr, Result, Token, braced, bracketed};
 
 /// What may follow the path.
-const OPTIONS: [&str; 5] = ["quantities", "set", "freeze", "rigid", "name"];
+const OPTIONS: [&str; 6] = ["quantities", "set", "freeze", "rigid", "form", "name"];
 
 /// A parsed call of the macro.
 pub struct Request {
@@ -20,6 +20,8 @@ pub struct Request {
     pub name: Option<Ident>,
     /// What of the field is wanted.
     pub selection: Selection,
+    /// Which ways to compute are open.
+    pub form: Form,
     /// Where the entries of `set` and `freeze` stand.
     places: Places,
 }
@@ -37,6 +39,7 @@ impl Parse for Request {
             path: input.parse()?,
             name: None,
             selection: Selection::default(),
+            form: Form::default(),
             places: Places::default(),
         };
         let mut seen = Vec::<String>::new();
@@ -74,6 +77,7 @@ impl Request {
             "set" => self.set(input),
             "freeze" => self.freeze(option, input),
             "rigid" => self.rigid(input),
+            "form" => self.form(input),
             "name" => {
                 input.parse::<Token![=]>()?;
                 let name = input.parse().map_err(|error: Error| {
@@ -125,6 +129,17 @@ impl Request {
                 content.parse::<Token![,]>()?;
             }
         }
+        Ok(())
+    }
+
+    /// `= "fast"`
+    fn form(&mut self, input: ParseStream) -> Result<()> {
+        input.parse::<Token![=]>()?;
+        let name: LitStr = input.parse().map_err(|error: Error| {
+            Error::new(error.span(), "expected a form in quotes: \"stable\" or \"fast\"")
+        })?;
+        self.form =
+            Form::from_name(&name.value()).map_err(|message| Error::new(name.span(), message))?;
         Ok(())
     }
 

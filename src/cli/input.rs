@@ -11,7 +11,7 @@ use dashu_ratio::RBig;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::quantity::Quantity;
-use mms_codegen::selection::quantity;
+use mms_codegen::selection::{Form, quantity};
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
@@ -34,11 +34,19 @@ pub struct Variant {
     /// more is refused.
     #[arg(long, value_name = "N", default_value_t = Variant::default().max_nodes)]
     max_nodes: u32,
+    /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
+    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    #[arg(long, value_name = "stable|fast", default_value = "stable", value_parser = Form::from_name, hide_default_value = true)]
+    form: Form,
 }
 
 impl Default for Variant {
     fn default() -> Self {
-        Variant { rigid: None, max_nodes: Options::default().max_nodes as u32 }
+        Variant {
+            rigid: None,
+            max_nodes: Options::default().max_nodes as u32,
+            form: Form::default(),
+        }
     }
 }
 
@@ -51,7 +59,7 @@ impl Variant {
             Some(motion) => Twin::Given(motion.into()),
         };
         let selection = Selection { twin, ..selection };
-        Options { selection, max_nodes: self.max_nodes as usize }
+        Options { selection, max_nodes: self.max_nodes as usize, form: self.form }
     }
 }
 
@@ -99,7 +107,8 @@ impl Input {
         let compiled = entry
             .compile_with(options)
             .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
-        let entry = Some(entry).filter(|_| options.selection.twin == Twin::Nothing);
+        let entry = Some(entry)
+            .filter(|_| options.selection.twin == Twin::Nothing && options.form == Form::Stable);
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry })
     }
 

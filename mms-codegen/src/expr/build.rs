@@ -149,6 +149,16 @@ impl Graph {
                 let rest = self.sum(terms);
                 Some(self.call(Function::Ln1p, &[rest]))
             }
+            // ln(1 + (x - 1)) is ln x, which has no other digits and saves a subtraction.
+            Function::Ln1p => {
+                let Node::Sum(constant, terms) = self.node(argument) else { return None };
+                if *constant != Rational::NEG_ONE {
+                    return None;
+                }
+                let terms = terms.clone();
+                let whole = self.sum(terms);
+                Some(self.call(Function::Ln, &[whole]))
+            }
             Function::Sin | Function::Cos => self.fold_circular(function, argument),
             _ => None,
         }

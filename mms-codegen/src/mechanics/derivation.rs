@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::kinematics::{Motion, Strain};
+use super::kinematics::{Motion, Route, Strain, half_angles};
 use super::material::Law;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::pass::differentiate::differentiate;
+use crate::pass::factor::factor;
 use crate::pass::relations::Relations;
+use crate::pass::settle::settle;
 use crate::quantity::Quantity;
 
 /// Functions of a displacement gradient H that the caller supplies: the material of the field as a
@@ -46,14 +49,19 @@ pub fn derive(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
+    route: Route,
 ) -> Result<Derivation, TooLarge> {
     let law = Law::new(graph, model.energy, &model.kind);
     within_bound(graph, "stress of the material")?;
-    let motion = Motion::new(graph, &model.displacement, &model.kind, relations);
+    let motion = Motion::new(graph, &model.displacement, &model.kind, relations, route);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
     let mut quantities = kinematic_quantities(graph, &motion);
     quantities.extend(strain_quantities(graph, &motion.strain));
-    quantities.extend(stress_quantities(graph, &law, &motion.strain));
+    let energy = match route {
+        Route::Gradient | Route::Settled => law.energy(graph, &motion.strain),
+        Route::Deformation => law.typed_energy(graph, &motion.strain),
+    };
+    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, Kirchhoff::Left));
     within_bound(graph, "stress")?;
     let divergence = law.divergence(graph, &motion);
     within_bound(graph, "divergence of the stress")?;
@@ -61,6 +69,41 @@ pub fn derive(
     let responses = responses(graph, &law, model);
     within_bound(graph, "body force")?;
     Ok(Derivation { quantities, responses })
+}
+
+/// The quantities that vanish with the displacement or the strain, such that nothing cancels in them
+/// but what the numbers given make cancel: rotations and functions less their value at 0 are taken
+/// apart in exact numbers. `None` where there is nothing to take apart.
+pub fn derive_settled(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+) -> Result<Option<BTreeMap<Quantity, Vec<Expr>>>, TooLarge> {
+    let dimension = model.displacement.len();
+    let plain = factor(graph, &model.displacement);
+    let columns: Vec<Vec<Expr>> =
+        (0..dimension).map(|axis| differentiate(graph, &plain, Symbol::Coordinate(axis))).collect();
+    let components: Vec<Expr> =
+        (0..dimension * dimension).map(|k| columns[k % dimension][k / dimension]).collect();
+    let components = factor(graph, &components);
+    let gradient = Tensor::from_components(dimension, components);
+    let displacement = settle(graph, &plain);
+    let halves = half_angles(graph, &plain, &gradient);
+    let strain = Strain::settled(graph, gradient.clone(), &model.kind, [relations, &halves]);
+    let as_it_was = settle(graph, gradient.components()) == gradient.components();
+    within_bound(graph, "strain")?;
+    if !halves.has_angles() && displacement == plain && as_it_was {
+        return Ok(None);
+    }
+    let law = Law::new(graph, model.energy, &model.kind);
+    let energy = law.energy(graph, &strain);
+    let from = if halves.has_angles() { Kirchhoff::First } else { Kirchhoff::Left };
+    let mut quantities = strain_quantities(graph, &strain);
+    quantities.extend(stress_quantities(graph, &law, &strain, energy, from));
+    quantities.insert(Quantity::Displacement, displacement);
+    quantities.insert(Quantity::DisplacementGradient, strain.gradient.components().to_vec());
+    within_bound(graph, "stress")?;
+    Ok(Some(quantities))
 }
 
 fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
@@ -102,15 +145,28 @@ fn strain_quantities(graph: &mut Graph, strain: &Strain) -> BTreeMap<Quantity, V
     ])
 }
 
+/// What tau is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kirchhoff {
+    /// B - I, which needs no inverse.
+    Left,
+    /// P F^T: a rotation cancels in C - I, while B - I turns with it and grows.
+    First,
+}
+
 /// W, P, P^T, sigma = tau/J, tau and P N.
 fn stress_quantities(
     graph: &mut Graph,
     law: &Law,
     strain: &Strain,
+    energy: Expr,
+    from: Kirchhoff,
 ) -> BTreeMap<Quantity, Vec<Expr>> {
-    let energy = law.energy(graph, strain);
     let first = law.first_piola_kirchhoff(graph, strain);
-    let kirchhoff = law.kirchhoff(graph, strain);
+    let kirchhoff = match from {
+        Kirchhoff::Left => law.kirchhoff(graph, strain),
+        Kirchhoff::First => first.mul(graph, &strain.deformation.transpose()),
+    };
     let per_volume = graph.power(strain.jacobian, -1);
     let cauchy = kirchhoff.scale(graph, per_volume);
     let dimension = first.dimension();

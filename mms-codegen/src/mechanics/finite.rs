@@ -14,7 +14,7 @@
 
 use super::invariant::{FIBRE, FIRST, SECOND, VOLUME};
 use super::kinematics::{Fibre, Motion, Strain, total};
-use super::material::{Gradient, at, gradient};
+use super::material::{Gradient, at, chained_gradient, explicit_gradient, gradient};
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
@@ -117,8 +117,10 @@ impl Finite {
     ///
     /// ```text
     /// (Div P)_i = alpha Lap u_i + F_iJ alpha,J + beta (F C)_iJ,J + (F C)_iJ beta,J
-    ///           + (gamma,J - gamma g_J) F^-1_Ji + fibres,   g_J = F^-1_Kk u_k,KJ = (ln J),J
+    ///           + (gamma,J - gamma g_J) F^-1_Ji + graded + fibres,   g_J = F^-1_Kk u_k,KJ = (ln J),J
     /// ```
+    ///
+    /// where alpha,J and its like are through the strain, and what is graded through X.
     pub fn divergence(&self, graph: &mut Graph, motion: &Motion) -> Vec<Expr> {
         let dimension = motion.displacement.len();
         let strain = &motion.strain;
@@ -131,11 +133,13 @@ impl Finite {
         let cubic = strain.deformation.mul(graph, &right);
         let roots = [self.alpha, self.beta, self.gamma];
         let [alpha_slope, beta_slope, gamma_slope] =
-            roots.map(|root| gradient(graph, motion, root, self.symbols));
+            roots.map(|root| chained_gradient(graph, motion, root, self.symbols));
+        let graded = self.graded_divergence(graph, strain);
         let values = at(graph, strain, &roots);
         let (alpha, beta, gamma) = (values[0], values[1], values[2]);
         let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
         let fibres = self.fibre_divergence(graph, motion);
+        let one = graph.number(1);
         let pressure: Vec<Expr> = (0..dimension)
             .map(|axis| {
                 let product = graph.mul(gamma, log_volume[axis]);
@@ -150,10 +154,30 @@ impl Finite {
                     pairs.push((cubic.at(row, axis), beta_slope[axis]));
                     pairs.push((strain.inverse.at(axis, row), pressure[axis]));
                 }
+                pairs.push((graded[row], one));
                 pairs.extend(fibres.iter().flat_map(|fibres| fibres[row]));
                 dot(graph, pairs)
             })
             .collect()
+    }
+
+    /// dP_iJ/dX_J at fixed H, of moduli that depend on X: as P itself it is small where the strain is,
+    /// while the gradients of alpha, beta and gamma are not.
+    fn graded_divergence(&self, graph: &mut Graph, strain: &Strain) -> Vec<Expr> {
+        let dimension = strain.gradient.dimension();
+        let slopes = self.strain_form.map(|root| explicit_gradient(graph, strain, root));
+        let square = strain.right.mul(graph, &strain.right);
+        let pulled: Vec<Expr> = (0..dimension)
+            .map(|row| {
+                let linear =
+                    (0..dimension).map(|axis| (strain.right.at(row, axis), slopes[1][axis]));
+                let linear = dot(graph, linear);
+                let quadratic = (0..dimension).map(|axis| (square.at(row, axis), slopes[2][axis]));
+                let quadratic = dot(graph, quadratic);
+                total(graph, &[slopes[0][row], linear, quadratic])
+            })
+            .collect();
+        strain.inverse.transpose().apply(graph, &pulled)
     }
 
     /// The fibres' part of (Div P)_i as two products, with f = F a0:

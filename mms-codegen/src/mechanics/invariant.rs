@@ -18,6 +18,11 @@ pub const SMALL_TRACE: Symbol = Symbol::Invariant(4);
 /// eps:eps.
 pub const SMALL_SQUARE: Symbol = Symbol::Invariant(5);
 
+/// k = i1 - 2 j, of second order in the strain. Densities do not know it.
+pub const EXCESS: Symbol = Symbol::Invariant(6);
+/// q, the sum of the principal minors of C - I of two rows. Densities do not know it.
+pub const MINORS: Symbol = Symbol::Invariant(7);
+
 /// An invariant as densities know it.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariant {

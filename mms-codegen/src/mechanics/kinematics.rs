@@ -2,13 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::invariant::{FIBRE, FIRST, Kind, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME};
+use super::invariant::{
+    EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
+};
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;
+use crate::pass::settle::settle;
 
 /// What follows from a displacement gradient H = du/dX at one point.
 #[derive(Clone, Debug)]
@@ -29,6 +32,36 @@ pub struct Strain {
     pub invariants: BTreeMap<Symbol, Expr>,
     /// The fibres, where the density is a function of I4.
     pub fibre: Option<Fibre>,
+}
+
+/// What a strain is computed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// H: what is small with H is computed without cancellation.
+    Gradient,
+    /// F: in fewer operations, and with errors of the size of eps.
+    Deformation,
+    /// H, with all that cancels at small strains taken apart: see [`Strain::settled`].
+    Settled,
+}
+
+/// The relations of half the angles that a displacement turns by, in whose sine H is small: those
+/// whose cosine less 1 stands in it.
+pub(super) fn half_angles(
+    graph: &mut Graph,
+    displacement: &[Expr],
+    gradient: &Tensor,
+) -> Relations {
+    let settled = settle(graph, gradient.components());
+    Relations::of_half_angles(graph, displacement, &settled)
+}
+
+/// What a strain is made of.
+struct Tensors {
+    gradient: Tensor,
+    deformation: Tensor,
+    right: Tensor,
+    left: Tensor,
 }
 
 /// The direction of fibres at one point, one component per dimension of the field.
@@ -54,6 +87,77 @@ impl Strain {
         let square = gradient.mul(graph, &transposed);
         let left = symmetric.add(graph, &square).reduce(graph, relations);
         let volume = gradient.determinant_less_one(graph);
+        let volume = reduce(graph, &[volume], relations)[0];
+        let excess = match relations.is_empty() {
+            true => excess_of_gradient(graph, &gradient),
+            false => excess_of_strain(graph, &right, volume),
+        };
+        let tensors = Tensors { gradient, deformation, right, left };
+        Self::of(graph, tensors, [volume, excess], kind, [relations; 2])
+    }
+
+    /// The same for a strain that may be tiny beside rotation: whatever cancels does so in exact
+    /// numbers. The first relations are those of the angles, the second those of half the angles.
+    pub fn settled(
+        graph: &mut Graph,
+        gradient: Tensor,
+        kind: &Kind,
+        [whole, relations]: [&Relations; 2],
+    ) -> Self {
+        let identity = Tensor::identity(graph, gradient.dimension());
+        // F and its inverse are of the size of 1.
+        let plain = gradient.reduce(graph, whole);
+        let deformation = identity.add(graph, &plain);
+        let gradient = gradient.settle(graph, relations);
+        let transposed = gradient.transpose();
+        let symmetric = gradient.add(graph, &transposed);
+        let square = transposed.mul(graph, &gradient);
+        let right = symmetric.add(graph, &square).settle(graph, relations);
+        let square = gradient.mul(graph, &transposed);
+        let left = symmetric.add(graph, &square).settle(graph, relations);
+        let volume = gradient.determinant_less_one(graph);
+        let volume = reduce(graph, &[volume], relations);
+        let volume = settle(graph, &volume)[0];
+        // Rotations cancel in C - I and in j, but not in what is made of H.
+        let excess = match relations.is_empty() {
+            true => excess_of_gradient(graph, &gradient),
+            false => excess_of_strain(graph, &right, volume),
+        };
+        let tensors = Tensors { gradient, deformation, right, left };
+        Self::of(graph, tensors, [volume, excess], kind, [&Relations::default(), whole])
+    }
+
+    /// The same from F = I + H, with J its determinant and C - I = F^T F - I: fewer operations, and
+    /// errors of the size of eps, however small the strain is.
+    pub fn direct(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
+        let identity = Tensor::identity(graph, gradient.dimension());
+        let gradient = gradient.reduce(graph, relations);
+        let deformation = identity.add(graph, &gradient);
+        let transposed = deformation.transpose();
+        let minus_one = graph.number(-1);
+        let minus_identity = identity.scale(graph, minus_one);
+        let [right, left] =
+            [(&transposed, &deformation), (&deformation, &transposed)].map(|(first, second)| {
+                let product = first.mul(graph, second);
+                product.add(graph, &minus_identity).reduce(graph, relations)
+            });
+        let determinant = deformation.determinant(graph);
+        let volume = graph.add(determinant, minus_one);
+        let first = right.trace(graph);
+        let excess = graph.sum([(first, Rational::ONE), (volume, Rational::from(-2))]);
+        let tensors = Tensors { gradient, deformation, right, left };
+        Self::of(graph, tensors, [volume, excess], kind, [relations; 2])
+    }
+
+    /// The strain of these tensors, with J - 1 and i1 - 2 (J - 1). The first relations reduce the
+    /// invariants, the second F^-1.
+    fn of(
+        graph: &mut Graph,
+        Tensors { gradient, deformation, right, left }: Tensors,
+        [volume, excess]: [Expr; 2],
+        kind: &Kind,
+        [relations, of_inverse]: [&Relations; 2],
+    ) -> Self {
         let mut invariants: Vec<Expr> = match kind {
             Kind::Isotropic | Kind::Fibrous(_) => first_invariants(graph, &right).into(),
             Kind::SmallStrain => small_invariants(graph, &gradient).into(),
@@ -71,9 +175,11 @@ impl Strain {
             Kind::Isotropic | Kind::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
             Kind::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
         };
-        let invariants = symbols.into_iter().zip(invariants).collect();
+        let mut invariants: BTreeMap<Symbol, Expr> = symbols.into_iter().zip(invariants).collect();
+        let minors = right.principal_minors(graph, 2);
+        invariants.extend([(EXCESS, excess), (MINORS, minors)]);
         let reciprocal = graph.power(jacobian, -1);
-        let adjugate = deformation.adjugate(graph).reduce(graph, relations);
+        let adjugate = deformation.adjugate(graph).reduce(graph, of_inverse);
         let inverse = adjugate.scale(graph, reciprocal);
         Strain { gradient, deformation, jacobian, inverse, right, left, invariants, fibre }
     }
@@ -108,14 +214,36 @@ fn small_invariants(graph: &mut Graph, gradient: &Tensor) -> [Expr; 2] {
     [gradient.trace(graph), strain.contract(graph, &strain)]
 }
 
-/// I1 - 3 = tr (C - I) and I2 - 3 = 2 i1 + (i1^2 - tr (C - I)^2)/2, from C - I.
+/// I1 - 3 = tr (C - I) and I2 - 3 = 2 i1 + q, from C - I and the sum q of its principal minors of
+/// two rows.
 fn first_invariants(graph: &mut Graph, right: &Tensor) -> [Expr; 2] {
     let first = right.trace(graph);
-    let square = graph.power(first, 2);
-    let contracted = right.contract(graph, right);
-    let half = Rational::from_parts(1.into(), 2u8.into());
-    let terms = [(first, Rational::from(2)), (square, half.clone()), (contracted, -half)];
-    [first, graph.sum(terms)]
+    let minors = right.principal_minors(graph, 2);
+    [first, graph.sum([(first, Rational::from(2)), (minors, Rational::ONE)])]
+}
+
+/// i1 - 2 j = |H|^2 - 2 q(H) - 2 det H, from H: no cancellation at small strains nor at large
+/// ones, but a rotation does not cancel either.
+fn excess_of_gradient(graph: &mut Graph, gradient: &Tensor) -> Expr {
+    let square = gradient.contract(graph, gradient);
+    let [second, third] = [2, 3].map(|rows| gradient.principal_minors(graph, rows));
+    let minus_two = Rational::from(-2);
+    graph.sum([(square, Rational::ONE), (second, minus_two.clone()), (third, minus_two)])
+}
+
+/// i1 - 2 j = (i1 j - 2 (q + det A))/(2 + j) with A = C - I and q its principal minors of two rows,
+/// since 2 j + j^2 = det C - 1 = i1 + q + det A. It is as exact as A and j are, and does not cancel
+/// at a large change of volume, where i1 + q + det A is of the size of J^2.
+fn excess_of_strain(graph: &mut Graph, right: &Tensor, volume: Expr) -> Expr {
+    let first = right.trace(graph);
+    let [second, third] = [2, 3].map(|rows| right.principal_minors(graph, rows));
+    let crossed = graph.mul(first, volume);
+    let minus_two = Rational::from(-2);
+    let numerator =
+        graph.sum([(crossed, Rational::ONE), (second, minus_two.clone()), (third, minus_two)]);
+    let two = graph.number(2);
+    let denominator = graph.add(two, volume);
+    graph.div(numerator, denominator)
 }
 
 /// What follows from a displacement u(X, t).
@@ -149,6 +277,7 @@ impl Motion {
         displacement: &[Expr],
         kind: &Kind,
         relations: &Relations,
+        route: Route,
     ) -> Self {
         let dimension = displacement.len();
         let displacement = factor(graph, displacement);
@@ -167,7 +296,14 @@ impl Motion {
                 Tensor::from_fn(dimension, |j, k| second[k][j])
             })
             .collect();
-        let strain = Strain::new(graph, gradient, kind, relations);
+        let strain = match route {
+            Route::Gradient => Strain::new(graph, gradient, kind, relations),
+            Route::Deformation => Strain::direct(graph, gradient, kind, relations),
+            Route::Settled => {
+                let halves = half_angles(graph, &displacement, &gradient);
+                Strain::settled(graph, gradient, kind, [relations, &halves])
+            }
+        };
         let fibre_gradient = match kind {
             Kind::Fibrous(direction) => Some(gradient_of(graph, direction)),
             Kind::Isotropic | Kind::SmallStrain => None,
@@ -182,7 +318,7 @@ impl Motion {
             invariant_gradients: BTreeMap::new(),
             fibre_gradient,
         };
-        if !relations.is_empty() {
+        if !relations.is_empty() && route != Route::Settled {
             motion.differentiate_invariants(graph, relations);
         } else if *kind == Kind::SmallStrain {
             motion.contract_small_strain(graph);
@@ -195,8 +331,13 @@ impl Motion {
 
     fn differentiate_invariants(&mut self, graph: &mut Graph, relations: &Relations) {
         let dimension = self.displacement.len();
-        let (symbols, invariants): (Vec<Symbol>, Vec<Expr>) =
-            self.strain.invariants.iter().map(|(symbol, value)| (*symbol, *value)).unzip();
+        let (symbols, invariants): (Vec<Symbol>, Vec<Expr>) = self
+            .strain
+            .invariants
+            .iter()
+            .filter(|(symbol, _)| ![EXCESS, MINORS].contains(symbol))
+            .map(|(symbol, value)| (*symbol, *value))
+            .unzip();
         let slopes: Vec<Vec<Expr>> = (0..dimension)
             .map(|axis| {
                 let slopes = derivative(graph, &invariants, Symbol::Coordinate(axis));

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use super::expansion;
 use super::finite::{self, Finite};
 use super::invariant::Kind;
 use super::kinematics::{Motion, Strain};
@@ -22,6 +23,8 @@ use crate::pass::substitute::substitute;
 pub struct Law {
     /// W.
     energy: Expr,
+    /// W in a form of second order in the strain.
+    second_order: Expr,
     stress: Stress,
 }
 
@@ -40,11 +43,20 @@ impl Law {
             }
             Kind::SmallStrain => Stress::SmallStrain(SmallStrain::new(graph, energy)),
         };
-        Law { energy, stress }
+        let second_order = match kind {
+            Kind::Isotropic | Kind::Fibrous(_) => expansion::of_second_order(graph, energy),
+            Kind::SmallStrain => energy,
+        };
+        Law { energy, second_order, stress }
     }
 
-    /// W at a strain.
+    /// W at a strain, from what is of second order in it.
     pub fn energy(&self, graph: &mut Graph, strain: &Strain) -> Expr {
+        at(graph, strain, &[self.second_order])[0]
+    }
+
+    /// W at a strain as it was typed, with errors of the size of eps.
+    pub fn typed_energy(&self, graph: &mut Graph, strain: &Strain) -> Expr {
         at(graph, strain, &[self.energy])[0]
     }
 
@@ -184,8 +196,34 @@ pub(super) fn at(graph: &mut Graph, strain: &Strain, roots: &[Expr]) -> Vec<Expr
     substitute(graph, roots, &strain.invariants)
 }
 
+/// The gradient of a function of the invariants at a fixed strain: through graded parameters.
+pub(super) fn explicit_gradient(graph: &mut Graph, strain: &Strain, root: Expr) -> Vec<Expr> {
+    (0..strain.gradient.dimension())
+        .map(|axis| {
+            let explicit = differentiate(graph, &[root], Symbol::Coordinate(axis))[0];
+            at(graph, strain, &[explicit])[0]
+        })
+        .collect()
+}
+
 /// The total gradient of a function of the invariants and, through graded parameters, of X.
 pub(super) fn gradient(
+    graph: &mut Graph,
+    motion: &Motion,
+    root: Expr,
+    symbols: &[Symbol],
+) -> Vec<Expr> {
+    let explicit = explicit_gradient(graph, &motion.strain, root);
+    let chained = chained_gradient(graph, motion, root, symbols);
+    explicit
+        .into_iter()
+        .zip(chained)
+        .map(|(explicit, chained)| graph.add(explicit, chained))
+        .collect()
+}
+
+/// The gradient of a function of the invariants through these alone.
+pub(super) fn chained_gradient(
     graph: &mut Graph,
     motion: &Motion,
     root: Expr,
@@ -198,13 +236,10 @@ pub(super) fn gradient(
     let slopes = at(graph, strain, &slopes);
     (0..strain.gradient.dimension())
         .map(|axis| {
-            let explicit = differentiate(graph, &[root], Symbol::Coordinate(axis))[0];
-            let explicit = at(graph, strain, &[explicit])[0];
             let chained = symbols.iter().zip(&slopes);
             let chained =
                 chained.map(|(symbol, slope)| (*slope, motion.invariant_gradients[symbol][axis]));
-            let chained = dot(graph, chained);
-            graph.add(explicit, chained)
+            dot(graph, chained)
         })
         .collect()
 }

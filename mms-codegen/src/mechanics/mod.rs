@@ -7,6 +7,7 @@
 
 pub mod boundary;
 pub mod derivation;
+mod expansion;
 pub mod face;
 mod finite;
 pub mod invariant;

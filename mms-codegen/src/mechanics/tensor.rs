@@ -3,6 +3,7 @@
 use crate::expr::{Expr, Graph, Rational};
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;
+use crate::pass::settle::settle;
 
 /// A `dimension` x `dimension` matrix, row-major.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +56,14 @@ impl Tensor {
         Self::from_components(self.dimension, reduce(graph, &self.components, relations))
     }
 
+    /// The same matrix, reduced modulo the relations of half the angles, and what cancels where
+    /// arguments are small settled.
+    pub fn settle(&self, graph: &mut Graph, relations: &Relations) -> Self {
+        let halved = relations.halve(graph, &self.components);
+        let reduced = reduce(graph, &halved, relations);
+        Self::from_components(self.dimension, settle(graph, &reduced))
+    }
+
     /// `A + B`.
     pub fn add(&self, graph: &mut Graph, other: &Tensor) -> Self {
         Self::from_fn(self.dimension, |row, column| {
@@ -97,6 +106,19 @@ impl Tensor {
         dot(graph, pairs)
     }
 
+    /// The sum of the principal minors of so many rows.
+    pub fn principal_minors(&self, graph: &mut Graph, rows: u32) -> Expr {
+        let subsets = (1..1usize << self.dimension).filter(|subset| subset.count_ones() == rows);
+        let minors: Vec<_> = subsets
+            .map(|subset| {
+                let indices: Vec<usize> =
+                    (0..self.dimension).filter(|axis| subset >> axis & 1 == 1).collect();
+                (self.minor(graph, &indices, &indices), Rational::ONE)
+            })
+            .collect();
+        graph.sum(minors)
+    }
+
     /// det(I + A) - 1, the sum of the principal minors of A: no cancellation where A is small.
     pub fn determinant_less_one(&self, graph: &mut Graph) -> Expr {
         let mut minors = Vec::new();
@@ -106,6 +128,12 @@ impl Tensor {
             minors.push((self.minor(graph, &indices, &indices), Rational::ONE));
         }
         graph.sum(minors)
+    }
+
+    /// The determinant.
+    pub fn determinant(&self, graph: &mut Graph) -> Expr {
+        let all: Vec<usize> = (0..self.dimension).collect();
+        self.minor(graph, &all, &all)
     }
 
     /// The adjugate: A^-1 = adj A / det A.

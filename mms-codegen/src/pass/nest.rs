@@ -22,7 +22,7 @@ pub fn nest(graph: &mut Graph, roots: &[Expr], rank: &dyn Fn(&Graph, Expr) -> u8
 }
 
 /// A sum as a polynomial in the bases of its products, which are not multiplied out.
-fn flat_view(graph: &mut Graph, expr: Expr) -> Option<Polynomial> {
+pub(super) fn flat_view(graph: &mut Graph, expr: Expr) -> Option<Polynomial> {
     let Node::Sum(constant, terms) = graph.node(expr).clone() else { return None };
     if terms.len() > MAX_TERMS {
         return None;

@@ -12,6 +12,10 @@ use super::polynomial::{Monomial, Polynomial};
 use crate::expr::{Expr, Function, Graph, Node, Rational};
 use crate::program::Stage;
 
+fn half_of(graph: &mut Graph, angle: Expr) -> Expr {
+    graph.scale(angle, Rational::from_parts(1.into(), 2u8.into()))
+}
+
 /// The relations of a set of expressions.
 #[derive(Clone, Debug, Default)]
 pub struct Relations {
@@ -25,6 +29,9 @@ pub struct Relations {
     squared: BTreeSet<Expr>,
     /// Whether functions of a single root are multiplied out as well.
     thorough: bool,
+    /// Whether functions of a root have high powers of sums, such as (1 - (R - 1)^2)^2: multiplied
+    /// out, their terms are large and cancel.
+    steep: bool,
 }
 
 /// How late an expression is known, latest first: 0 if it needs X, 1 if it needs t, else 2.
@@ -66,7 +73,95 @@ impl Relations {
                 _ => {}
             }
         }
+        relations.steep = relations.is_steep(graph, &reachable);
         relations
+    }
+
+    /// The relations between sine and cosine of half the angles that `expressions` have sine and
+    /// cosine of: cos^2 = 1 - sin^2, so that normal forms are polynomials in what is small with the
+    /// angle. Roots are as in [`Relations::find`].
+    ///
+    /// Only angles count of which half stands in `used`. See [`Relations::halve`].
+    pub fn of_half_angles(graph: &mut Graph, expressions: &[Expr], used: &[Expr]) -> Self {
+        let used = graph.reachable(used);
+        let mut relations = Self::find(graph, expressions);
+        relations.squares.retain(|leading, _| !relations.circular.contains(leading));
+        relations.circular.clear();
+        let reachable = graph.reachable(expressions);
+        for expr in reachable.iter().copied() {
+            let Node::Call(function, angle) = graph.node(expr).clone() else { continue };
+            let (partner, sign) = match function {
+                Function::Sin => (Function::Cos, -1),
+                Function::Sinh => (Function::Cosh, 1),
+                _ => continue,
+            };
+            let cosine = graph.find(&Node::Call(partner, angle.clone()));
+            if !cosine.is_some_and(|cosine| reachable.contains(&cosine)) {
+                continue;
+            }
+            let half = half_of(graph, angle[0]);
+            let [sine, cosine] = [function, partner].map(|function| graph.call(function, &[half]));
+            let square = Polynomial::power_of(sine, 2);
+            let equal = Polynomial::constant(Rational::ONE).plus(&square, &Rational::from(sign));
+            if !used.contains(&sine) {
+                continue;
+            }
+            relations.squares.extend(equal.map(|equal| (cosine, equal)));
+            relations.circular.extend([sine, cosine]);
+        }
+        relations
+    }
+
+    /// Expressions in half the angles of these relations: sin a = 2 sin(a/2) cos(a/2) and
+    /// cos a = 1 - 2 sin^2(a/2), hyperbolic ones likewise.
+    pub fn halve(&self, graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+        if self.circular.is_empty() {
+            return roots.to_vec();
+        }
+        // What stands in an angle stays, for angles are known as they are.
+        let mut halved = BTreeMap::<Expr, Expr>::new();
+        for expr in graph.reachable(roots) {
+            let made = match graph.node(expr).clone() {
+                call @ Node::Call(
+                    Function::Sin | Function::Cos | Function::Sinh | Function::Cosh,
+                    _,
+                ) => self.half(graph, call),
+                mut node => {
+                    node.map_children(|child| halved[&child]);
+                    graph.remake(node)
+                }
+            };
+            halved.insert(expr, made);
+        }
+        roots.iter().map(|root| halved[root]).collect()
+    }
+
+    /// A sine or cosine in half its angle, where these relations know that.
+    fn half(&self, graph: &mut Graph, node: Node) -> Expr {
+        let Node::Call(function, angle) = &node else { return graph.remake(node) };
+        let (sine, cosine, sign) = match function {
+            Function::Sin | Function::Cos => (Function::Sin, Function::Cos, -2),
+            Function::Sinh | Function::Cosh => (Function::Sinh, Function::Cosh, 2),
+            _ => return graph.remake(node),
+        };
+        let is_sine = *function == sine;
+        let half = half_of(graph, angle[0]);
+        let [sine, cosine] = [sine, cosine].map(|function| graph.call(function, &[half]));
+        if !self.circular.contains(&sine) {
+            return graph.remake(node);
+        }
+        if is_sine {
+            let product = graph.mul(sine, cosine);
+            return graph.scale(product, 2);
+        }
+        let square = graph.power(sine, 2);
+        let one = graph.number(1);
+        graph.sum([(one, Rational::ONE), (square, Rational::from(sign))])
+    }
+
+    /// Whether any of them is between a sine and a cosine.
+    pub fn has_angles(&self) -> bool {
+        !self.circular.is_empty()
     }
 
     /// Whether there are none.
@@ -180,7 +275,8 @@ impl Relations {
     /// The same relations, multiplying out functions of a single root too, if there are roots: what
     /// is short grows, but all that can cancel does.
     pub fn thorough(&self) -> Option<Self> {
-        (!self.roots.is_empty()).then(|| Relations { thorough: true, ..self.clone() })
+        (!self.roots.is_empty() && !self.steep)
+            .then(|| Relations { thorough: true, ..self.clone() })
     }
 
     /// Only the relations between what depends on X.
@@ -189,6 +285,29 @@ impl Relations {
         relations.squares.retain(|leading, _| lateness(graph, *leading) == 0);
         relations.circular.retain(|function| lateness(graph, *function) == 0);
         relations
+    }
+
+    fn is_steep(&self, graph: &Graph, reachable: &BTreeSet<Expr>) -> bool {
+        // How often powers of sums stand in one another, up to each expression.
+        let mut depths = BTreeMap::<Expr, usize>::new();
+        for expr in reachable {
+            let of = |child: Expr| depths.get(&child).copied().unwrap_or(0);
+            let depth = match graph.node(*expr) {
+                Node::Sum(_, terms) => terms.iter().map(|(term, _)| of(*term)).max(),
+                Node::Product(factors) => {
+                    let factor = |(base, power): &(Expr, Rational)| {
+                        let is_sum = matches!(graph.node(*base), Node::Sum(..));
+                        let is_high = is_sum && *power > Rational::ONE && power.is_int();
+                        let is_power = is_high && !self.roots.contains_key(base);
+                        of(*base) + usize::from(is_power)
+                    };
+                    factors.iter().map(factor).max()
+                }
+                _ => None,
+            };
+            depths.insert(*expr, depth.unwrap_or(0));
+        }
+        depths.values().any(|depth| *depth > 1)
     }
 
     fn is_radical(&self, expr: Expr) -> bool {

@@ -49,6 +49,12 @@ impl Precise {
         self.0.as_ref().map_or(f64::NAN, |value| value.to_f64().value())
     }
 
+    /// Decimal digits in scientific notation; `None` where undefined.
+    pub fn decimal(&self, digits: usize) -> Option<String> {
+        let decimal = self.0.as_ref()?.to_decimal().value();
+        Some(format!("{:e}", decimal.with_precision(digits).value()))
+    }
+
     /// The magnitude.
     pub fn magnitude(self) -> Self {
         match &self.0 {

@@ -6,6 +6,7 @@ use super::term::Term;
 use crate::compile::{Compiled, parameter_values};
 use crate::expr::{Expr, Function, Graph, Rational, Symbol};
 use crate::mechanics::face;
+use crate::mechanics::kinematics::Route;
 use crate::mechanics::model::energy_with;
 use crate::mechanics::tensor::dot;
 use crate::mechanics::{Model, Response, TooLarge, derive};
@@ -209,10 +210,10 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
 /// Div P of a model, with what it can be reduced to; that of a rotation has no ln J then.
 fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     let relations = Relations::find(graph, &model.displacement);
-    let reduced = graph.attempt(|graph| derive(graph, model, &relations));
+    let reduced = graph.attempt(|graph| derive(graph, model, &relations, Route::Gradient));
     let derivation = match reduced {
         Some(Ok(derivation)) => Ok(derivation),
-        _ => derive(graph, model, &Relations::default()),
+        _ => derive(graph, model, &Relations::default(), Route::Gradient),
     };
     // Where the graph is full, what is in it is not looked at.
     derivation.map_or_else(

@@ -145,11 +145,17 @@ fn each_quantity_alone_has_its_values_and_no_other_code() {
         let [found, expected] = [&alone, &all].map(|of| values(of, *quantity, &none));
         assert_same(&found, &expected, quantity.name());
         let (name, at) = (quantity.name().to_string(), format!("{}_at", quantity.name()));
-        let mut expected =
-            ["at_point", "at_time", "default", "from_array", "prepare"].map(String::from).to_vec();
+        // Those of a field, of its stages, and of what many points share.
+        let mut expected: Vec<String> = ["default", "from_array", "prepare", "at_time", "at_point"]
+            .into_iter()
+            .chain(["at_points", "len", "is_empty", "standing", "drive", "at"])
+            .map(String::from)
+            .collect();
         expected.extend([name, at]);
         expected.sort();
-        assert_eq!(names(&rust::file(&alone).text), expected);
+        let text = rust::file(&alone).text;
+        assert_eq!(names(&text), expected);
+        assert_eq!(text.matches("batches! {").count(), 1);
         let outputs = alone.program.outputs.keys().filter(|output| match output {
             Output::Quantity(_) | Output::Response(_) | Output::Face(..) => true,
             Output::Bound(_) | Output::Parameter(_) | Output::Expected(_) => false,

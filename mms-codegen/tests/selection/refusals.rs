@@ -135,3 +135,16 @@ fn quantities_have_names_and_aliases() {
     let text = quantity("temperature").expect_err("no quantity");
     assert!(text.starts_with("unknown quantity `temperature`; the quantities are displacement, "));
 }
+
+#[test]
+fn a_form_that_does_not_exist_is_refused() {
+    use mms_codegen::selection::Form;
+    for form in Form::ALL {
+        assert_eq!(Form::from_name(form.name()), Ok(form));
+    }
+    assert_eq!(
+        Form::from_name("fats"),
+        Err("unknown form `fats`; did you mean `fast`?".to_string())
+    );
+    assert_eq!(Form::from_name(""), Err("unknown form ``; the forms are stable, fast".to_string()));
+}

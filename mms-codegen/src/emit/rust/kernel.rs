@@ -95,8 +95,7 @@ impl Emitter<'_> {
         let wide = self.kept_for_times();
         let wide_names: Vec<_> = wide.iter().map(|value| self.wide_name(*value)).collect();
         let wide_values = wide.iter().map(|value| self.operand(*value, &place));
-        let needed = self.program.needed_for(kept.iter().chain(&wide).copied());
-        let body = self.statements(&needed, &place);
+        let body = self.statements(kept.iter().chain(&wide).copied(), &place);
         let generic = self.parameters_generic();
         let solver = self.compiled.selection.is_for_a_solver().then(|| {
             let (bounds, responses) = (self.bounds(), self.responses());

@@ -1,8 +1,10 @@
 //! Rust: a module of kernels over arrays, generic in the scalar, and their face to the runtime.
 
 mod adapter;
+mod batch;
 mod face;
 mod file;
+mod fusion;
 mod kernel;
 mod point;
 mod quantity;
@@ -12,6 +14,7 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use self::fusion::{Fused, Fusion};
 use crate::compile::Compiled;
 use crate::expr::{Rational, Symbol};
 use crate::program::interpret::{parts, small_ratio};
@@ -177,24 +180,17 @@ impl<'a> Emitter<'a> {
 
     /// Everything but the contract.
     fn kernels(&self) -> TokenStream {
-        let scalar = self.scalar();
+        let math = self.math();
         let (parameters, field) = (self.parameters(), self.field());
-        let (point, at_time) = (self.point_cache(), self.at_time());
+        let (point, at_time, batches) = (self.point_cache(), self.at_time(), self.batches());
         quote! {
-            use #scalar;
+            use #math::{Real, Scalar, batch};
             #parameters
             #field
             #point
             #at_time
+            #batches
         }
-    }
-
-    /// The path of the scalar traits.
-    fn scalar(&self) -> TokenStream {
-        let name = if self.contract { RUNTIME } else { MATH };
-        let name = Ident::new(name, Span::call_site());
-        let traits = quote!({Real, Scalar});
-        if self.contract { quote!(::#name::math::#traits) } else { quote!(::#name::#traits) }
     }
 
     /// The quantities of the module.
@@ -232,24 +228,44 @@ impl<'a> Emitter<'a> {
     }
 
     fn body(&self, outputs: &[Output], place: &Place) -> TokenStream {
-        self.statements(&self.program.needed(outputs), place)
+        let roots = outputs.iter().flat_map(|output| self.values(*output)).copied();
+        self.statements(roots, place)
     }
 
-    /// One `let` for every needed instruction of the stages that a function computes.
-    fn statements(&self, needed: &[bool], place: &Place) -> TokenStream {
+    /// One `let` for every instruction of the stages that a function computes, and that its results
+    /// need.
+    fn statements(&self, roots: impl IntoIterator<Item = Value>, place: &Place) -> TokenStream {
+        let roots: Vec<Value> = roots.into_iter().collect();
+        let needed = self.program.needed_for(roots.iter().copied());
+        let fusion = match place.is_once() {
+            true => Fusion::none(self.program),
+            false => Fusion::new(self.program, &roots, &needed, place.own),
+        };
         let mut statements = TokenStream::new();
         for (index, instr) in self.program.instrs.iter().enumerate() {
             let free = matches!(instr.op, Op::Constant(_) | Op::Pi);
             let argument =
                 matches!(instr.op, Op::Input(symbol) if !matches!(symbol, Symbol::Parameter(_)));
-            if !needed[index] || free || argument || !place.own.contains(&instr.stage) {
+            let skipped = free || argument || fusion.absorbed[index];
+            if !needed[index] || skipped || !place.own.contains(&instr.stage) {
                 continue;
             }
             let name = self.name(Value(index as u32));
-            let value = self.operation(&instr.op, place);
+            let value = match &fusion.fused[index] {
+                Some(fused) => self.fused(fused, place),
+                None => self.operation(&instr.op, place),
+            };
             statements.extend(quote!(let #name = #value;));
         }
         statements
+    }
+
+    fn fused(&self, fused: &Fused, place: &Place) -> TokenStream {
+        let [a, b, term] = [fused.factors[0], fused.factors[1], fused.term]
+            .map(|value| self.operand(value, place));
+        let a = if fused.minus_product { quote!((-#a)) } else { a };
+        let term = if fused.minus_term { quote!(-#term) } else { term };
+        quote!(#a.mul_add(#b, #term))
     }
 
     fn operation(&self, op: &Op, place: &Place) -> TokenStream {

@@ -14,7 +14,7 @@ impl Emitter<'_> {
         let kept = self.kept_in(Stage::Point);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
         let place = Place::at_points(quote!(self), &[Stage::Point]);
-        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
+        let body = self.statements(kept.iter().copied(), &place);
         let (dimension, point) = (self.dimension(), self.point());
         let axes: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
         let count = Literal::usize_unsuffixed(axes.len() + kept.len());
@@ -41,7 +41,7 @@ impl Emitter<'_> {
 
             impl<T: Real> Field<T> {
                 /// Computes once what the parameters and the reference position determine.
-                #[inline]
+                #[inline(always)]
                 pub fn at_point(&self, #point) -> Point<T> {
                     #body
                     Point { reference_position: [#(#axes),*], #(#names,)* }

@@ -9,7 +9,7 @@ use crate::program::{Output, Stage};
 use crate::quantity::{Quantity, Shape};
 
 /// The function that gives a quantity from what was kept of a point.
-fn at(quantity: Quantity) -> Ident {
+pub(super) fn at(quantity: Quantity) -> Ident {
     format_ident!("{}_at", quantity.name())
 }
 
@@ -19,7 +19,7 @@ impl Emitter<'_> {
         let kept = self.kept_in(Stage::Time);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
         let place = Place::once(quote!(self), &[Stage::Time]);
-        let body = self.statements(&self.program.needed_for(kept.iter().copied()), &place);
+        let body = self.statements(kept.iter().copied(), &place);
         let values = kept.iter().map(|value| self.narrowed(*value, &place));
         // Only where there is something to compute.
         let widened = (!kept.is_empty()).then(|| quote!(let t = t.widen();));
@@ -71,11 +71,11 @@ impl Emitter<'_> {
             [&whole, &rest].map(|place| self.shaped(output, quantity.shape(), place));
         quote! {
             #[doc = #doc]
-            #[inline]
+            #[inline(always)]
             pub fn #name(&self, #point #normal) -> #kind { #body #value }
 
             #[doc = #cached]
-            #[inline]
+            #[inline(always)]
             pub fn #at(&self, point: &Point<T> #normal) -> #kind { #rest_body #rest_value }
         }
     }

@@ -1,0 +1,251 @@
+//! Quantities at many points: the functions of a point, driven over slices.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{ToTokens as _, format_ident, quote};
+
+use super::quantity::at;
+use super::{Emitter, MATH, RUNTIME, input};
+use crate::expr::Symbol;
+use crate::program::{Op, Output, Stage, Value};
+use crate::quantity::{Quantity, Shape};
+
+/// What a function of a point takes from the cache of the point.
+struct Columns {
+    /// Coordinates, by axis.
+    axes: Vec<usize>,
+    /// Members.
+    values: Vec<Value>,
+}
+
+impl Emitter<'_> {
+    /// The module of batches.
+    pub(super) fn math(&self) -> TokenStream {
+        let name = Ident::new(if self.contract { RUNTIME } else { MATH }, Span::call_site());
+        if self.contract { quote!(::#name::math) } else { quote!(::#name) }
+    }
+
+    /// What the loops over points need: the prepared field in the scalar of a loop, the cache of many
+    /// points, and a kernel for each quantity.
+    pub(super) fn batches(&self) -> TokenStream {
+        let (stand_ins, points) = (self.stand_ins(), self.points());
+        let kernels = self.quantities().map(|quantity| self.kernels_of(quantity));
+        quote!(#stand_ins #points #(#kernels)*)
+    }
+
+    /// Conversions of the prepared structs.
+    fn stand_ins(&self) -> TokenStream {
+        let names = |values: Vec<Value>| -> Vec<_> {
+            values.into_iter().map(|value| self.name(value)).collect()
+        };
+        let (field, time) =
+            (names(self.kept_in(Stage::Parameter)), names(self.kept_in(Stage::Time)));
+        let wide: Vec<_> =
+            self.kept_for_times().into_iter().map(|value| self.wide_name(value)).collect();
+        let marker = (field.is_empty() && wide.is_empty())
+            .then(|| quote!(marker: ::core::marker::PhantomData,));
+        quote! {
+            impl<T: Real> Field<T> {
+                #[inline(always)]
+                fn standing<S: batch::Stand<T>>(&self) -> Field<S> {
+                    Field {
+                        #(#field: S::of(self.#field),)*
+                        #(#wide: S::of(T::narrow(self.#wide)).widen(),)*
+                        #marker
+                    }
+                }
+            }
+
+            impl<T: Real> AtTime<'_, T> {
+                #[inline(always)]
+                fn standing<'a, S: batch::Stand<T>>(&self, field: &'a Field<S>) -> AtTime<'a, S> {
+                    AtTime { field, #(#time: S::of(self.#time),)* }
+                }
+            }
+        }
+    }
+
+    /// The cache of many points.
+    fn points(&self) -> TokenStream {
+        let kept: Vec<_> = self.kept_in(Stage::Point);
+        let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
+        let dimension = self.dimension();
+        let axes = self.axes().map(Literal::usize_unsuffixed);
+        let count = self.axes().len() + kept.len();
+        let size = format!(
+            " {count} values of `T` a point, {} bytes in double precision: see `BYTES`.",
+            8 * count
+        );
+        let count = Literal::usize_unsuffixed(count);
+        quote! {
+            /// What many reference positions determine, as one column for each value.
+            ///
+            #[doc = #size]
+            /// It pays where computing those values costs more than reading them from
+            /// memory: for sines, exponentials and roots, not for a product or two.
+            #[derive(Clone, Debug)]
+            pub struct Points<T> {
+                columns: [::std::vec::Vec<T>; #count],
+            }
+
+            impl<T> Points<T> {
+                /// The size of one point in bytes.
+                pub const BYTES: usize = #count * ::core::mem::size_of::<T>();
+
+                /// How many points there are.
+                pub fn len(&self) -> usize {
+                    self.columns[0].len()
+                }
+
+                /// Whether there is no point.
+                pub fn is_empty(&self) -> bool {
+                    self.columns[0].is_empty()
+                }
+            }
+
+            impl<T: batch::Float> Field<T> {
+                /// Computes once what the parameters and many reference positions determine.
+                ///
+                /// # Panics
+                ///
+                /// If the slices have different lengths.
+                pub fn at_points(&self, points: [&[T]; #dimension]) -> Points<T> {
+                    let room = || ::std::vec![T::from_f64(0.0); points[0].len()];
+                    let mut columns = ::core::array::from_fn(|_| room());
+                    batch::run(&PointsOf(self), &points, &mut columns.each_mut().map(|c| &mut c[..]));
+                    Points { columns }
+                }
+            }
+
+            struct PointsOf<'a, T: Real>(&'a Field<T>);
+
+            impl<S: Real> batch::Function<S, #dimension, #count> for PointsOf<'_, S> {
+                #[inline(always)]
+                fn at(&self, position: [S; #dimension]) -> [S; #count] {
+                    let point = self.0.at_point(position);
+                    [#(point.reference_position[#axes],)* #(point.#names),*]
+                }
+            }
+
+            impl<T: batch::Float> batch::Kernel<T, #dimension, #count> for PointsOf<'_, T> {
+                #[inline(always)]
+                fn drive<S: batch::Stand<T>>(
+                    &self,
+                    points: &mut impl batch::Points<S, #dimension, #count>,
+                ) {
+                    points.each(&PointsOf(&self.0.standing()));
+                }
+            }
+        }
+    }
+
+    /// The kernels of a quantity, and the functions that drive them.
+    fn kernels_of(&self, quantity: Quantity) -> TokenStream {
+        let math = self.math();
+        let dimension = self.axes().len();
+        let is_traction = quantity == Quantity::Traction;
+        let normals = if is_traction { dimension } else { 0 };
+        let count = Literal::usize_unsuffixed;
+        let (axes, results) = (count(dimension), count(quantity.shape().components(dimension)));
+        let name = quantity.name();
+        let [batch, batch_aos, batch_at] =
+            ["batch", "batch_aos", "batch_at"].map(|suffix| format_ident!("{name}_{suffix}"));
+        let (whole, cached) = (kernel(quantity, ""), kernel(quantity, "At"));
+        let (function, function_at) = (format_ident!("{name}"), at(quantity));
+        let position: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let normal: Vec<_> = (0..normals).map(|axis| input(Symbol::Normal(axis))).collect();
+        let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+        let columns = self.columns(quantity);
+        let (point, taken) = self.point_of(&columns);
+        let (inputs, inputs_at) = (count(dimension + normals), count(taken.len() + normals));
+        let with_normals = is_traction.then(|| quote!(normals #inputs,));
+        let from_position =
+            self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
+        let from_kept = self.flat(quantity, quote!(at.#function_at(&#point #normal_argument)));
+        let indices = columns
+            .axes
+            .iter()
+            .copied()
+            .chain(columns.values.iter().map(|value| self.column(*value)))
+            .map(Literal::usize_unsuffixed);
+        quote! {
+            #math::batches! {
+                #name, #with_normals #axes -> #results;
+                #whole: #batch, #batch_aos, |at, [#(#position,)* #(#normal),*]| { #from_position };
+                #cached<S>: #batch_at, [#(#indices),*], #inputs_at,
+                    |at, [#(#taken,)* #(#normal),*]| { #from_kept };
+            }
+        }
+    }
+
+    /// The components of a result beside each other.
+    fn flat(&self, quantity: Quantity, result: TokenStream) -> TokenStream {
+        match quantity.shape() {
+            Shape::Scalar => quote!([#result]),
+            Shape::Vector => result,
+            Shape::Tensor => {
+                let columns: Vec<_> = self.axes().map(Literal::usize_unsuffixed).collect();
+                let components = columns
+                    .iter()
+                    .flat_map(|row| columns.iter().map(move |column| quote!(p[#row][#column])));
+                quote!(let p = #result; [#(#components),*])
+            }
+        }
+    }
+
+    /// What a quantity reads of the cache of a point; something, so that a batch has a length.
+    fn columns(&self, quantity: Quantity) -> Columns {
+        let roots = self.values(Output::Quantity(quantity));
+        let needed = self.program.needed_for(roots.iter().copied());
+        let mut read = vec![false; self.program.instrs.len()];
+        roots.iter().for_each(|root| read[root.index()] = true);
+        for index in self.program.range(Stage::PointTime).filter(|index| needed[*index]) {
+            let operands = self.program.instrs[index].op.operands();
+            operands.for_each(|operand| read[operand.index()] = true);
+        }
+        let mut columns = Columns { axes: Vec::new(), values: Vec::new() };
+        for index in self.program.range(Stage::Point).filter(|index| read[*index]) {
+            match self.program.instrs[index].op {
+                Op::Input(Symbol::Coordinate(axis)) => columns.axes.push(axis),
+                _ => columns.values.push(Value(index as u32)),
+            }
+        }
+        if columns.axes.is_empty() && columns.values.is_empty() {
+            columns.axes.push(0);
+        }
+        columns
+    }
+
+    /// The position of a value in the cache of many points.
+    fn column(&self, value: Value) -> usize {
+        let place = self.kept_in(Stage::Point).iter().position(|kept| *kept == value);
+        self.axes().len() + place.expect("what a quantity reads is kept")
+    }
+
+    /// A point of which only these columns are known, and the names of the columns.
+    fn point_of(&self, columns: &Columns) -> (TokenStream, Vec<Ident>) {
+        let zero = quote!(S::from_f64(0.0));
+        let position = self.axes().map(|axis| match columns.axes.contains(&axis) {
+            true => input(Symbol::Coordinate(axis)).into_token_stream(),
+            false => zero.clone(),
+        });
+        let members = self.kept_in(Stage::Point).into_iter().map(|value| {
+            let name = self.name(value);
+            match columns.values.contains(&value) {
+                true => quote!(#name),
+                false => quote!(#name: #zero),
+            }
+        });
+        let taken = columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
+        let taken = taken.chain(columns.values.iter().map(|value| self.name(*value))).collect();
+        (quote!(Point { reference_position: [#(#position),*], #(#members),* }), taken)
+    }
+}
+
+/// The name of the kernel of a quantity.
+fn kernel(quantity: Quantity, suffix: &str) -> Ident {
+    let words = quantity.name().split('_').map(|word| {
+        let (first, rest) = word.split_at(1);
+        first.to_uppercase() + rest
+    });
+    format_ident!("{}{suffix}Kernel", words.collect::<String>())
+}

@@ -1,0 +1,143 @@
+//! The stable form holds its accuracy: of every quantity, at any amplitude down to 1e-12 of the
+//! size, the largest error over points spread over body and time window is at most 64 eps of the
+//! largest magnitude of that quantity over these points.
+//!
+//! The reference is the same program in 77 digits, on the very same `f64` numbers.
+
+mod measure;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use measure::{Excess, of_field, of_responses};
+use mms_codegen::compile::{MATERIALS, compile_unproved};
+use mms_codegen::source::Sources;
+use mms_codegen::spec::{MaterialSpec, read_material};
+use mms_codegen::{Compiled, Options};
+
+/// The bound, in units of eps.
+const BOUND: f64 = 64.0;
+
+/// What is tried for the parameter that scales the strain, beside its default.
+const AMPLITUDES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
+
+/// Parameters that scale a motion.
+const SCALES: [&str; 4] = ["amplitude", "angle", "twist", "stretch"];
+
+/// The TOML files of a folder, in order of their names.
+fn files(folder: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let entries = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    files.sort();
+    assert!(!files.is_empty(), "{folder:?} has fields");
+    files
+}
+
+fn compiled(name: &str, text: &str) -> Compiled {
+    let load = |_: &str| Err("only shipped materials".to_string());
+    compile_unproved(name, name, text, &load, &Options::default())
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// Everything of a field at every amplitude.
+fn measured(name: &str, text: &str) -> Vec<Excess> {
+    let compiled = compiled(name, text);
+    let scale = compiled.model.parameters.iter().position(|parameter| {
+        let name = parameter.name.as_str();
+        SCALES.contains(&name)
+    });
+    let mut measured = of_field(&compiled, name, None);
+    for amplitude in AMPLITUDES {
+        measured.extend(
+            scale.into_iter().flat_map(|scale| of_field(&compiled, name, Some((scale, amplitude)))),
+        );
+    }
+    measured
+}
+
+/// The largest first; the test fails where one is beyond the bound.
+#[track_caller]
+fn hold(mut measured: Vec<Excess>) {
+    assert!(!measured.is_empty());
+    measured.sort_by(|a, b| b.eps.total_cmp(&a.eps));
+    let beyond: Vec<_> = measured.iter().filter(|it| it.is_beyond(BOUND)).collect();
+    for excess in beyond.iter().copied().chain(measured.iter().take(5)) {
+        println!("{excess}");
+    }
+    assert!(beyond.is_empty(), "{} of {} are beyond {BOUND} eps", beyond.len(), measured.len());
+}
+
+#[test]
+fn every_field_of_the_gallery_holds() {
+    let of = |path: &PathBuf| {
+        let text = fs::read_to_string(path).expect("a readable file");
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        measured(&name, &text)
+    };
+    hold(files("../fields").iter().flat_map(of).collect());
+}
+
+/// A motion of `data/stable/` with a material. The files lack their last table, [material].
+fn with_material(stem: &str, text: &str, spec: &MaterialSpec) -> (String, String) {
+    let line = |(index, parameter): (usize, &mms_codegen::spec::MaterialParameter)| {
+        let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
+        let value = if unit == Some("Pa") { 2 + index } else { 30 };
+        format!("{} = {value}\n", parameter.name.value)
+    };
+    let arguments: String = spec.parameters.iter().enumerate().map(line).collect();
+    let fibre = if spec.has_fibres() { "fibre = [\"3/5\", \"4/5\", 0]\n" } else { "" };
+    let material = &spec.name;
+    let text =
+        format!("{text}\n[material]\nmodel = \"{material}\"\n{arguments}{fibre}density = 2\n");
+    (format!("{stem} of {material}"), text)
+}
+
+fn materials() -> Vec<MaterialSpec> {
+    let read = |(stem, text): &(&str, &str)| {
+        let mut sources = Sources::default();
+        let id = sources.add(*stem, *text);
+        read_material(&sources, id, stem, &mut Vec::new()).expect("a right file")
+    };
+    MATERIALS.iter().map(read).collect()
+}
+
+#[test]
+fn motions_with_large_rotations_and_tiny_strains_hold_for_every_material() {
+    let mut all = Vec::new();
+    for motion in files("tests/data/stable") {
+        let text = fs::read_to_string(&motion).expect("a readable file");
+        let stem = motion.file_stem().unwrap_or_default().to_string_lossy();
+        for spec in materials() {
+            let (name, text) = with_material(&stem, &text, &spec);
+            all.extend(measured(&name, &text));
+        }
+    }
+    hold(all);
+}
+
+#[test]
+fn what_a_material_answers_to_a_gradient_holds() {
+    let mut all = Vec::new();
+    for dimension in 1..=3 {
+        let corner = |value: &str| vec![value; dimension].join(", ");
+        let motion = format!(
+            "[field]\ntitle = \"a field\"\ndimension = {dimension}\n[displacement]\nu = [{}]\n\
+             [domain]\nshape = \"box\"\nlower = [{}]\nupper = [{}]\ntime = [0, 1]\n",
+            corner("0"),
+            corner("0"),
+            corner("1")
+        );
+        for spec in materials() {
+            let (name, text) = with_material("an answer", &motion, &spec);
+            let compiled = compiled(&name, &text);
+            for size in [0.3, 1e-3, 1e-6, 1e-9, 1e-12] {
+                all.extend(of_responses(&compiled, &name, size));
+            }
+        }
+    }
+    hold(all);
+}
