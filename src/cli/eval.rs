@@ -3,14 +3,17 @@
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_codegen::Compiled;
+use mms_codegen::compile::constant;
 use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
+use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::Face;
 use mms_codegen::suggest::did_you_mean;
-use mms_runtime::Real;
-use serde_json::{Map, Value, json};
+use mms_runtime::math::{Double, Scalar as _};
+use serde::{Serialize, Serializer};
+use serde_json::value::RawValue;
 
 use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json};
@@ -25,7 +28,7 @@ pub struct Eval {
     at: Vec<String>,
     /// The time.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    time: f64,
+    time: String,
     /// Quantities, separated by commas, or `all`.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
@@ -50,22 +53,112 @@ pub struct Eval {
 
 /// The precision of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Precision {
+enum Precision {
     /// Single.
     F32,
     /// Double.
     #[default]
     F64,
+    /// Twice the digits of double precision.
+    Wide,
 }
 
 impl Precision {
     /// The word of the command line.
-    pub fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Precision::F32 => "f32",
             Precision::F64 => "f64",
+            Precision::Wide => "wide",
         }
     }
+}
+
+/// A number of the command line.
+trait Digits: Number {
+    /// The value nearest to a text; not finite where it is too large.
+    fn read(text: &str) -> anyhow::Result<Self>;
+    /// The nearest double precision number.
+    fn near(&self) -> f64;
+    /// As few digits as read back as the same number; for a number of twice the digits, as many as
+    /// it has.
+    fn write(&self) -> String;
+}
+
+impl Digits for f32 {
+    fn read(text: &str) -> anyhow::Result<Self> {
+        Ok(text.parse()?)
+    }
+
+    fn near(&self) -> f64 {
+        f64::from(*self)
+    }
+
+    fn write(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Digits for f64 {
+    fn read(text: &str) -> anyhow::Result<Self> {
+        Ok(text.parse()?)
+    }
+
+    fn near(&self) -> f64 {
+        *self
+    }
+
+    fn write(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+impl Digits for Double {
+    fn read(text: &str) -> anyhow::Result<Self> {
+        let near: f64 = text.parse()?;
+        // What `f64` takes and a formula does not, such as `+1` or `1.`, is read as one.
+        Ok(constant(text).map_or(Double::from(near), |exact| Double::from_rational(&exact)))
+    }
+
+    fn near(&self) -> f64 {
+        self.to_f64()
+    }
+
+    fn write(&self) -> String {
+        // 104 bits are 31.3 decimal digits.
+        Precise::from_parts(self.to_f64(), self.low()).decimal(32).unwrap_or_default()
+    }
+}
+
+/// Numbers in a JSON document, with the digits that they have.
+#[derive(Serialize)]
+#[serde(transparent)]
+struct Numbers(Vec<Box<RawValue>>);
+
+impl Numbers {
+    fn new<T: Digits>(values: &[T]) -> Self {
+        Numbers(values.iter().map(Self::one).collect())
+    }
+
+    fn one<T: Digits>(value: &T) -> Box<RawValue> {
+        RawValue::from_string(value.write()).unwrap_or_else(|_| RawValue::NULL.to_owned())
+    }
+}
+
+/// The names and values at one point, in order.
+struct Record(Vec<(&'static str, Numbers)>);
+
+impl Serialize for Record {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, numbers)| (name, numbers)))
+    }
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    field: &'a str,
+    time: Box<RawValue>,
+    points: Vec<Record>,
 }
 
 impl Eval {
@@ -75,15 +168,20 @@ impl Eval {
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
             Precision::F64 => self.evaluate::<f64>(&input, &quantities),
+            Precision::Wide => self.evaluate::<Double>(&input, &quantities),
         }
     }
 
-    fn evaluate<T: Real + Number>(
+    fn evaluate<T: Digits>(
         &self,
         input: &Input,
         quantities: &[Quantity],
     ) -> anyhow::Result<Outcome> {
         let dimension = input.compiled.field.dimension;
+        let time = T::read(&self.time).with_context(|| format!("`--time {}`", self.time))?;
+        if !time.near().is_finite() {
+            bail!("`--time {}`: expected a finite number", self.time);
+        }
         let points = self
             .at
             .iter()
@@ -100,48 +198,46 @@ impl Eval {
             }
             (None, None) => vec![Vec::new(); points.len()],
         };
-        if !self.time.is_finite() {
-            bail!("`--time {}`: expected a finite number", self.time);
-        }
         let mut interpreter = Interpreter::new(&input.compiled.program, &parameters);
-        interpreter.set_time(&T::of(self.time));
+        interpreter.set_time(&time);
         let outputs: Vec<_> =
             quantities.iter().map(|quantity| Output::Quantity(*quantity)).collect();
         let plan = interpreter.plan(&outputs);
-        let mut results = Vec::new();
+        let mut records = Vec::new();
         for ((coordinates, at), normal) in points.iter().zip(&self.at).zip(&normals) {
             interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
-            let mut values = Map::new();
-            values.insert("at".into(), numbers(coordinates));
+            let mut record = Record(vec![("at", Numbers::new(coordinates))]);
             for quantity in quantities {
                 let components = interpreter.output(Output::Quantity(*quantity));
-                if let Some(odd) = components.iter().find(|component| !component.is_finite()) {
+                if let Some(odd) = components.iter().find(|component| !component.near().is_finite())
+                {
                     bail!(
                         "{} of `{}` is {} at X = {at}, t = {}: not defined there, or beyond the range of {}",
                         quantity.name(),
                         input.name,
-                        odd.to_f64(),
+                        odd.near(),
                         self.time,
                         self.precision.name()
                     );
                 }
-                values.insert(quantity.name().into(), numbers(&components));
+                record.0.push((quantity.name(), Numbers::new(&components)));
             }
-            results.push(values);
+            records.push(record);
         }
         if self.json {
-            print_json(&json!({ "field": input.name, "time": self.time, "points": results }))?;
+            let time = Numbers::one(&time);
+            print_json(&Document { field: &input.name, time, points: records })?;
         } else {
-            print(&text(&results))?;
+            print(&text(&records))?;
         }
         Ok(Outcome::AsExpected)
     }
 }
 
 /// A unit vector.
-fn unit<T: Real>(normal: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
+fn unit<T: Digits>(normal: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
     let components = coordinates::<T>("--normal", normal, dimension)?;
-    let squared: f64 = components.iter().map(|component| component.to_f64().powi(2)).sum();
+    let squared: f64 = components.iter().map(|component| component.near().powi(2)).sum();
     if (squared - 1.0).abs() > 1e-6 {
         bail!("`--normal`: expected a unit vector, found one of length {}", squared.sqrt());
     }
@@ -149,7 +245,7 @@ fn unit<T: Real>(normal: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
 }
 
 /// The outward normals of a face at points of it.
-fn normals<T: Real + Number>(
+fn normals<T: Digits>(
     compiled: &Compiled,
     face: &str,
     parameters: &[T],
@@ -176,16 +272,13 @@ fn normals<T: Real + Number>(
     Ok(normals.collect())
 }
 
-fn coordinates<T: Real>(option: &str, text: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
+fn coordinates<T: Digits>(option: &str, text: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
     let components = text
         .split(',')
         .map(|component| {
-            let value: f64 = component
-                .trim()
-                .parse()
+            let value = T::read(component.trim())
                 .with_context(|| format!("`{option} {text}`: `{component}` is not a number"))?;
-            let value = T::of(value);
-            if !value.is_finite() {
+            if !value.near().is_finite() {
                 bail!("`{option} {text}`: `{component}` is not a finite number");
             }
             Ok(value)
@@ -200,23 +293,17 @@ fn coordinates<T: Real>(option: &str, text: &str, dimension: usize) -> anyhow::R
     Ok(components)
 }
 
-/// The shortest digits that read back as the same numbers in their own precision.
-fn numbers<T: Real>(values: &[T]) -> Value {
-    let number = |value: &T| value.to_string().parse::<f64>().map_or(Value::Null, Value::from);
-    values.iter().map(number).collect()
-}
-
-fn text(points: &[Map<String, Value>]) -> String {
-    let width = points.iter().flat_map(|point| point.keys()).map(String::len).max().unwrap_or(0);
+fn text(points: &[Record]) -> String {
+    let names = points.iter().flat_map(|point| &point.0).map(|(name, _)| name.len());
+    let width = names.max().unwrap_or(0);
     let mut text = String::new();
     for (index, point) in points.iter().enumerate() {
         if index > 0 {
             text.push('\n');
         }
-        for (name, values) in point {
-            let values: Vec<_> =
-                values.as_array().into_iter().flatten().map(Value::to_string).collect();
-            text.push_str(&format!("{name:width$}  {}\n", values.join("  ")));
+        for (name, numbers) in &point.0 {
+            let numbers: Vec<_> = numbers.0.iter().map(|number| number.get()).collect();
+            text.push_str(&format!("{name:width$}  {}\n", numbers.join("  ")));
         }
     }
     text

@@ -10,11 +10,30 @@ use mms_codegen::program::interpret::Number;
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{IntegratorName, Level, Method, Real, ShapeName, Verdict};
 
-use super::eval::Precision;
 use super::input::{Input, Variant};
 use super::{Outcome, print, print_json};
 use crate::report::{Refused, Study as Report};
 use crate::scene::Scene;
+
+/// The precision of the solver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Precision {
+    /// Single.
+    F32,
+    /// Double.
+    #[default]
+    F64,
+}
+
+impl Precision {
+    /// The word of the command line.
+    fn name(self) -> &'static str {
+        match self {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        }
+    }
+}
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///

@@ -122,6 +122,18 @@ fn double_precision_has_the_shortest_digits_that_read_back() {
     assert_eq!(numbers(&run.json()["points"][0]["strain_energy"]), [expected]);
 }
 
+/// With twice the digits, u = X (2 L - X) A cos(sqrt(E/rho0) pi t / L) / L^2 at the decimals that were
+/// typed. By mpmath: 0.37*1.63*0.2*cos(sqrt(1000)*pi*0.013) with 40 digits.
+#[test]
+fn twice_the_digits_are_asked_for_by_name() {
+    let run = Folder::new()
+        .mms("eval bar_1d --at 0.37 --time 0.013 --quantity u --precision wide --json")
+        .exits(0);
+    let [at, displacement] = literals(&run.stdout)[..] else { panic!("two numbers") };
+    assert_eq!(at, "3.7e-1");
+    assert!(displacement.starts_with("3.325284728272693776125122018595"), "{displacement}");
+}
+
 #[test]
 fn single_precision_has_the_shortest_digits_that_read_back() {
     let run =
@@ -266,7 +278,7 @@ fn incomplete_command_lines_are_refused() {
     refused("bar_1d --time 0", "--at <X,Y>");
     refused("bar_1d --at 1", "--time <T>");
     refused("--at 1 --time 0", "<FIELD>");
-    refused("bar_1d --at 1 --time 0 --precision f16", "[possible values: f32, f64]");
+    refused("bar_1d --at 1 --time 0 --precision f16", "[possible values: f32, f64, wide]");
 }
 
 /// The bar with a range for its amplitude, which depends on a parameter above it.
