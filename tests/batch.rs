@@ -104,7 +104,7 @@ fn many_points_of_waves() {
 fn many_points_of_a_vortex() {
     let place = |count| {
         let (radius, angle) =
-            (spread(count, 0.754, [0.76, 1.24]), spread(count, 0.569, [0.0, 6.28]));
+            (spread(count, 0.754, [0.76, 1.24]), spread(count, 0.569, [0.0, 6.0]));
         [f64::cos, f64::sin]
             .map(|f| radius.iter().zip(&angle).map(|(r, a)| r * f(*a)).collect::<Vec<_>>())
     };

@@ -346,7 +346,8 @@ fn whole_and_half_turns_have_exact_values() {
 
 #[test]
 fn odd_functions_keep_the_sign_of_zero() {
-    let functions: [(&str, fn(f64) -> f64); 11] = [
+    type Function = fn(f64) -> f64;
+    let functions: [(&str, Function); 11] = [
         ("cbrt", Scalar::cbrt),
         ("exp_m1", Scalar::exp_m1),
         ("ln_1p", Scalar::ln_1p),

@@ -8,6 +8,8 @@ macro_rules! kernel {
     ($name:ident<$scalar:ident>, $inputs:tt -> $results:tt, |$at:ident, $point:pat_param| $result:block) => {
         struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
 
+        // Coordinates and normals are called as they are in mathematics.
+        #[allow(non_snake_case)]
         impl<$scalar: $crate::Real> $crate::batch::Function<$scalar, $inputs, $results>
             for $name<'_, $scalar>
         {

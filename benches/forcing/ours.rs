@@ -1,0 +1,98 @@
+//! What this project generates.
+
+use std::time::Instant;
+
+use crate::{COUNT, Case, Contender, Run};
+
+mms_macros::field!("benches/forcing/fields/a.toml", quantities = [body_force]);
+mms_macros::field!("benches/forcing/fields/b.toml", quantities = [body_force]);
+mms_macros::field!("benches/forcing/fields/c.toml", quantities = [body_force]);
+
+type Work<T> = Box<dyn FnMut(&[Vec<T>], &mut [Vec<T>])>;
+
+struct Ours<T> {
+    mode: &'static str,
+    precision: &'static str,
+    points: Vec<Vec<T>>,
+    out: Vec<Vec<T>>,
+    seconds: Vec<f64>,
+    work: Work<T>,
+}
+
+impl<T: Copy + Into<f64>> Contender for Ours<T> {
+    fn round(&mut self) -> Result<(), Box<dyn std::error::Error>> {
+        let start = Instant::now();
+        (self.work)(&self.points, &mut self.out);
+        self.seconds.push(start.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Run {
+        let widened = |column: &Vec<T>| column.iter().map(|value| (*value).into()).collect();
+        Run {
+            contender: "mms",
+            precision: self.precision,
+            mode: self.mode,
+            seconds: self.seconds,
+            results: self.out.iter().map(widened).collect(),
+        }
+    }
+}
+
+macro_rules! field {
+    ($module:ident, $dimension:literal, $float:ident, $case:expr) => {{
+        let parameters = core::array::from_fn(|index| $case.parameters[index] as $float);
+        let field: &'static _ =
+            Box::leak(Box::new($module::prepare(&$module::Parameters::from_array(parameters))));
+        let time = $case.time as $float;
+        let points: Vec<Vec<$float>> = $case
+            .points
+            .iter()
+            .map(|column| column.iter().map(|value| *value as $float).collect())
+            .collect();
+        let kept = field.at_points(core::array::from_fn(|axis| &points[axis][..]));
+        let scalar: Work<$float> = Box::new(move |points, out| {
+            let at = field.at_time(time);
+            for index in 0..COUNT {
+                let b = at.body_force(core::array::from_fn(|axis| points[axis][index]));
+                for (column, value) in out.iter_mut().zip(b) {
+                    column[index] = value;
+                }
+            }
+        });
+        let batch: Work<$float> = Box::new(move |points, out| {
+            let out: &mut [_; $dimension] = out.try_into().expect("one column for each axis");
+            let points = core::array::from_fn(|axis| &points[axis][..]);
+            field
+                .at_time(time)
+                .body_force_batch(points, out.each_mut().map(|column| &mut column[..]));
+        });
+        let cached: Work<$float> = Box::new(move |_, out| {
+            let out: &mut [_; $dimension] = out.try_into().expect("one column for each axis");
+            field
+                .at_time(time)
+                .body_force_batch_at(&kept, out.each_mut().map(|column| &mut column[..]));
+        });
+        [("scalar", scalar), ("batch", batch), ("cached", cached)].map(|(mode, work)| {
+            let contender: Box<dyn Contender> = Box::new(Ours {
+                mode,
+                precision: stringify!($float),
+                points: points.clone(),
+                out: vec![vec![0.0; COUNT]; $dimension],
+                seconds: Vec::new(),
+                work,
+            });
+            contender
+        })
+    }};
+}
+
+/// Scalar, batch and cached, in both precisions.
+pub fn contenders(case: &Case) -> Vec<Box<dyn Contender>> {
+    let both = match case.name {
+        "A" => [field!(a, 1, f64, case), field!(a, 1, f32, case)],
+        "B" => [field!(b, 3, f64, case), field!(b, 3, f32, case)],
+        _ => [field!(c, 2, f64, case), field!(c, 2, f32, case)],
+    };
+    both.into_iter().flatten().collect()
+}

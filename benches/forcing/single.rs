@@ -1,0 +1,53 @@
+//! Contenders that compute one point after the other.
+
+use std::time::Instant;
+
+use crate::{COUNT, Case, Contender, Run};
+
+/// b at all points: parameters, time, coordinates by axis, and the components to write.
+pub type Forcing = fn(&[f64], f64, &[Vec<f64>], &mut [Vec<f64>]);
+
+/// A function that is timed.
+pub struct Single {
+    contender: &'static str,
+    forcing: Forcing,
+    parameters: &'static [f64],
+    time: f64,
+    points: Vec<Vec<f64>>,
+    out: Vec<Vec<f64>>,
+    seconds: Vec<f64>,
+}
+
+impl Single {
+    /// Ready for its first round.
+    pub fn contender(contender: &'static str, case: &Case, forcing: Forcing) -> Box<dyn Contender> {
+        Box::new(Single {
+            contender,
+            forcing,
+            parameters: case.parameters,
+            time: case.time,
+            points: case.points.clone(),
+            out: vec![vec![0.0; COUNT]; case.points.len()],
+            seconds: Vec::new(),
+        })
+    }
+}
+
+impl Contender for Single {
+    fn round(&mut self) -> Result<(), Box<dyn std::error::Error>> {
+        let start = Instant::now();
+        (self.forcing)(self.parameters, self.time, &self.points, &mut self.out);
+        self.seconds.push(start.elapsed().as_secs_f64());
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Run {
+        Run {
+            contender: self.contender,
+            precision: "f64",
+            mode: "scalar",
+            seconds: self.seconds,
+            results: self.out,
+        }
+    }
+}
