@@ -51,8 +51,8 @@ fn fields() -> Vec<String> {
     let pass = root.join("mms-codegen/tests/data/pass");
     let files = ["rotating_2d", "sines_3d", "graded_2d", "twin_2d", "twin_3d"]
         .map(|name| pass.join(format!("{name}.toml")));
-    let odd = root.join("tests/ui/pass/odd_names.toml");
-    let own = root.join("tests/ui/pass/own.toml");
+    let odd = root.join("tests/programs/odd_names.toml");
+    let own = root.join("tests/programs/own.toml");
     let paths = files.into_iter().chain([odd, own]);
     let paths = paths.map(|path: PathBuf| path.to_string_lossy().into_owned());
     mms::gallery::FIELDS.iter().map(|entry| entry.name.to_string()).chain(paths).collect()

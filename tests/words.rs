@@ -98,8 +98,9 @@ fn the_functions_that_a_message_offers_are_those_that_are_reserved() {
     assert_eq!(offered, FUNCTIONS);
 }
 
-/// The field of `tests/ui/pass/odd_names.rs`, where each of its names is compiled and evaluated.
-const ODD_NAMES: &str = include_str!("ui/pass/odd_names.toml");
+/// The field of `tests/programs/odd_names.rs`, where each of its names is compiled and
+/// evaluated.
+const ODD_NAMES: &str = include_str!("programs/odd_names.toml");
 
 #[test]
 fn every_word_of_every_target_is_a_name_in_the_field_that_is_compiled() {
@@ -109,7 +110,7 @@ fn every_word_of_every_target_is_a_name_in_the_field_that_is_compiled() {
         compiled.model.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
     for (target, words) in TARGETS {
         for word in words.iter().flat_map(|words| words.split_whitespace()) {
-            assert!(names.contains(&word), "{target}: tests/ui/pass/odd_names.toml lacks `{word}`");
+            assert!(names.contains(&word), "{target}: odd_names.toml lacks `{word}`");
         }
     }
     assert!(names.iter().any(|name| name.len() == MAX_NAME));

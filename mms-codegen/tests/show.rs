@@ -104,7 +104,7 @@ fn fields() -> Vec<Compiled> {
             fields.push(compiled(name, &with_material(&text, material)));
         }
     }
-    fields.push(compiled("odd_names", include_str!("../../tests/ui/pass/odd_names.toml")));
+    fields.push(compiled("odd_names", include_str!("../../tests/programs/odd_names.toml")));
     fields
 }
 
@@ -411,7 +411,7 @@ fn mathml_is_well_formed() {
 
 #[test]
 fn names_of_users_are_kept_apart_from_those_of_quantities() {
-    let field = compiled("odd_names", include_str!("../../tests/ui/pass/odd_names.toml"));
+    let field = compiled("odd_names", include_str!("../../tests/programs/odd_names.toml"));
     let document = document(&field);
     let parameters = field.model.parameters.iter().map(|parameter| parameter.name.clone());
     let shown = lines(&document);

@@ -1,5 +1,9 @@
 //! `mms check`: mistakes with their places, and closed forms.
 
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
 use super::mms::{BAR, Folder};
 
 /// A folder with the bar, changed.
@@ -203,4 +207,34 @@ fn matter_that_is_turned_inside_out_exits_1() {
     let run = folder.mms("check bar.toml").exits(1);
     run.complains("J = det F is not positive").complains("J is ").prints("J > 0 is REFUTED");
     folder.mms("eval bar.toml --at 1 --time 0").exits(2).complains("J = det F is not positive");
+}
+
+#[test]
+fn the_macro_refuses_a_file_with_the_same_text() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR")).join("mms-macros");
+    let mut count = 0;
+    for entry in fs::read_dir(package.join("tests/ui/fail")).expect("a folder") {
+        let input = entry.expect("an entry").path();
+        if input.extension().is_none_or(|extension| extension != "toml") {
+            continue;
+        }
+        let shown = input.strip_prefix(&package).expect("a file of the package");
+        let check = Command::new(env!("CARGO_BIN_EXE_mms"))
+            .args([Path::new("check"), shown])
+            .current_dir(&package)
+            .output()
+            .expect("the program starts");
+        assert_eq!(check.status.code(), Some(2), "{}", shown.display());
+        let compiler = fs::read_to_string(input.with_extension("stderr")).expect("a .stderr file");
+        // The compiler adds the place of the macro, and changes the indentation.
+        let (message, _) = compiler.rsplit_once("\n --> ").expect("the place of the macro");
+        let lines = |text: &str| -> Vec<String> {
+            let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+            lines.map(str::to_string).collect()
+        };
+        let expected = String::from_utf8(check.stderr).expect("UTF-8");
+        assert_eq!(lines(message), lines(&expected), "{}", shown.display());
+        count += 1;
+    }
+    assert!(count >= 4, "{count} files");
 }

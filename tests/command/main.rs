@@ -4,6 +4,7 @@ mod bound;
 mod check;
 mod emit;
 mod eval;
+mod form;
 mod main_job;
 mod material;
 mod mms;

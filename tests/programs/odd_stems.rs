@@ -1,11 +1,12 @@
 //! Files whose names are no names in Rust.
 #![deny(warnings)]
 
-mms_macros::field!("tests/ui/pass/2d.toml");
-mms_macros::field!("tests/ui/pass/fn.toml");
-mms_macros::field!("tests/ui/pass/self.toml");
+mms_macros::field!("tests/programs/2d.toml");
+mms_macros::field!("tests/programs/fn.toml");
+mms_macros::field!("tests/programs/self.toml");
 
-fn main() {
+#[test]
+fn a_file_may_have_any_name() {
     let upper: [f64; 1] = field_2d::prepare(&field_2d::Parameters::default()).upper();
     assert_eq!(upper, r#fn::prepare(&r#fn::Parameters::default()).upper());
     assert_eq!(upper, self_::prepare(&self_::Parameters::default()).upper());

@@ -1,11 +1,12 @@
 //! Parameters whose names mean something in Rust or in generated code.
 #![deny(warnings)]
 
-mms_macros::field!("tests/ui/pass/odd_names.toml");
+mms_macros::field!("tests/programs/odd_names.toml");
 
 use odd_names::{NAMES, Parameters, prepare};
 
-fn main() {
+#[test]
+fn a_parameter_may_have_any_name() {
     // In the field file each parameter has its place, counted from 1, as its value.
     let places: [f64; NAMES.len()] = std::array::from_fn(|index| (index + 1) as f64);
     assert_eq!(Parameters::from_array(places), Parameters::default());

@@ -12,7 +12,8 @@ fn end_displacement<T: Real>(field: &dyn ManufacturedField<T, 1>) -> f64 {
     out[0][0].to_f64()
 }
 
-fn main() {
+#[test]
+fn a_solver_takes_either_precision() {
     let double = bar_1d::prepare(&bar_1d::Parameters::<f64>::default()).boxed();
     let single = bar_1d::prepare(&bar_1d::Parameters::<f32>::default()).boxed();
     assert_eq!(end_displacement(double.as_ref()), 0.2);

@@ -49,7 +49,8 @@ macro_rules! every_quantity {
     };
 }
 
-fn main() {
+#[test]
+fn what_is_kept_of_a_point_gives_the_same_bits() {
     every_quantity!(bar_1d, f64, [[0.0], [0.37], [1.0]], [1.0]);
     every_quantity!(bar_1d, f32, [[0.0], [0.37], [1.0]], [-1.0]);
     let points = [[0.1, 0.2, 0.3], [0.9, 0.5, 0.7]];

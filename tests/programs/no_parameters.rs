@@ -1,9 +1,10 @@
 //! A field without parameters, in a crate that allows no warning.
 #![deny(warnings, missing_docs, unsafe_code, clippy::all)]
 
-mms_macros::field!("tests/ui/pass/plain.toml");
+mms_macros::field!("tests/programs/plain.toml");
 
-fn main() {
+#[test]
+fn there_may_be_no_parameter() {
     let field = plain::prepare(&plain::Parameters::default());
     assert_eq!(plain::NAMES.len(), 0);
     assert_eq!(plain::Parameters::from_array::<f64>([]), plain::Parameters::default());

@@ -1,9 +1,10 @@
 //! A material of the user's own, found relative to the field file.
 #![deny(warnings)]
 
-mms_macros::field!("tests/ui/pass/own.toml");
+mms_macros::field!("tests/programs/own.toml");
 
-fn main() {
+#[test]
+fn a_material_may_lie_beside_its_field() {
     // P = kappa (F - 1), and F - 1 = (1 - X)/2 cos(t).
     let field = own::prepare(&own::Parameters { kappa: 8.0_f64 });
     let stress = field.at_time(0.0).first_piola_kirchhoff([0.25]);
