@@ -71,6 +71,47 @@ float!(f64);
 pub trait Function<S, const I: usize, const O: usize> {
     /// Its results. To be inlined always: a call in the loop over points would end all vectors.
     fn at(&self, point: [S; I]) -> [S; O];
+
+    /// Its results at all points of a block.
+    #[inline(always)]
+    fn on_block<T: Copy>(&self, inputs: &Block<T, I>, outputs: &mut Block<T, O>)
+    where
+        S: Stand<T>,
+    {
+        for place in 0..BLOCK {
+            let point = core::array::from_fn(|input| S::of(inputs[input][place]));
+            let results = self.at(point);
+            for output in 0..O {
+                outputs[output][place] = results[output].value();
+            }
+        }
+    }
+}
+
+/// One function of the results of another. Each has a loop of its own: the elements of a short loop
+/// wait less for each other, so that more of them are under way at a time.
+#[derive(Debug)]
+pub struct Then<F, G, const M: usize>(pub F, pub G);
+
+impl<S, F, G, const I: usize, const M: usize, const O: usize> Function<S, I, O> for Then<F, G, M>
+where
+    F: Function<S, I, M>,
+    G: Function<S, M, O>,
+{
+    #[inline(always)]
+    fn at(&self, point: [S; I]) -> [S; O] {
+        self.1.at(self.0.at(point))
+    }
+
+    #[inline(always)]
+    fn on_block<T: Copy>(&self, inputs: &Block<T, I>, outputs: &mut Block<T, O>)
+    where
+        S: Stand<T>,
+    {
+        let mut between = [[inputs[0][0]; BLOCK]; M];
+        self.0.on_block(inputs, &mut between);
+        self.1.on_block(&between, outputs);
+    }
 }
 
 /// The same function in any stand-in of `T`.
@@ -279,13 +320,7 @@ fn evaluate<T: Float, S: Stand<T>, const I: usize, const O: usize>(
     inputs: &Block<T, I>,
     outputs: &mut Block<T, O>,
 ) -> bool {
-    for place in 0..BLOCK {
-        let point = core::array::from_fn(|input| S::of(inputs[input][place]));
-        let results = function.at(point);
-        for output in 0..O {
-            outputs[output][place] = results[output].value();
-        }
-    }
+    function.on_block(inputs, outputs);
     let mut known = true;
     for lane in outputs.iter() {
         for value in lane {

@@ -33,6 +33,27 @@ macro_rules! kernel {
     };
 }
 
+/// A kernel that is one after another, with as many numbers in between.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! kernels {
+    ($name:ident = $first:ident, $second:ident; $inputs:tt -> $between:tt -> $results:tt) => {
+        struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
+
+        impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
+            #[inline(always)]
+            fn drive<S: $crate::batch::Stand<T>>(
+                &self,
+                points: &mut impl $crate::batch::Points<S, $inputs, $results>,
+            ) {
+                let field = self.0.field.standing::<S>();
+                let at = self.0.standing(&field);
+                points.each(&$crate::batch::Then::<_, _, $between>($first(&at), $second(&at)));
+            }
+        }
+    };
+}
+
 /// A quantity at many points: from positions in either layout, and from what was kept of them. With
 /// `normals`, a unit normal at each point comes with the position.
 #[doc(hidden)]
@@ -40,13 +61,9 @@ macro_rules! kernel {
 macro_rules! batches {
     (
         $name:literal, $dimension:tt -> $results:tt;
-        $whole:ident: $batch:ident, $batch_aos:ident, |$at:ident, $point:pat_param| $result:block;
-        $cached:ident<$scalar:ident>: $batch_at:ident, $columns:tt, $count:tt,
-            |$at_kept:ident, $kept:pat_param| $result_kept:block;
+        $whole:ident: $batch:ident, $batch_aos:ident;
+        $cached:ident: $batch_at:ident, $columns:tt;
     ) => {
-        $crate::kernel! { $whole<S>, $dimension -> $results, |$at, $point| $result }
-        $crate::kernel! { $cached<$scalar>, $count -> $results, |$at_kept, $kept| $result_kept }
-
         impl<T: $crate::batch::Float> AtTime<'_, T> {
             #[doc = concat!(" As `", $name, "`, at many points: a slice for each coordinate and each component of the result, rows first.")]
             ///
@@ -79,13 +96,9 @@ macro_rules! batches {
     };
     (
         $name:literal, normals $inputs:tt, $dimension:tt -> $results:tt;
-        $whole:ident: $batch:ident, $batch_aos:ident, |$at:ident, $point:pat_param| $result:block;
-        $cached:ident<$scalar:ident>: $batch_at:ident, $columns:tt, $count:tt,
-            |$at_kept:ident, $kept:pat_param| $result_kept:block;
+        $whole:ident: $batch:ident, $batch_aos:ident;
+        $cached:ident: $batch_at:ident, $columns:tt, $count:tt;
     ) => {
-        $crate::kernel! { $whole<S>, $inputs -> $results, |$at, $point| $result }
-        $crate::kernel! { $cached<$scalar>, $count -> $results, |$at_kept, $kept| $result_kept }
-
         impl<T: $crate::batch::Float> AtTime<'_, T> {
             #[doc = concat!(" As `", $name, "`, at many points: a slice for each coordinate and each component of the normals and of the result.")]
             ///

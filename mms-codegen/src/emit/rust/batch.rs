@@ -4,7 +4,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
 use super::quantity::at;
-use super::{Emitter, MATH, RUNTIME, input};
+use super::{Emitter, MATH, Place, RUNTIME, input};
 use crate::expr::Symbol;
 use crate::program::{Op, Output, Stage, Value};
 use crate::quantity::{Quantity, Shape};
@@ -156,10 +156,10 @@ impl Emitter<'_> {
         let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
         let columns = self.columns(quantity);
         let (point, taken) = self.point_of(&columns);
-        let (inputs, inputs_at) = (count(dimension + normals), count(taken.len() + normals));
-        let with_normals = is_traction.then(|| quote!(normals #inputs,));
-        let from_position =
-            self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
+        let inputs = count(dimension + normals);
+        let inputs_at = count(taken.len() + normals);
+        let with_normals = is_traction.then(|| (quote!(normals #inputs,), quote!(, #inputs_at)));
+        let (with_normals, with_count) = with_normals.unzip();
         let from_kept = self.flat(quantity, quote!(at.#function_at(&#point #normal_argument)));
         let indices = columns
             .axes
@@ -167,14 +167,55 @@ impl Emitter<'_> {
             .copied()
             .chain(columns.values.iter().map(|value| self.column(*value)))
             .map(Literal::usize_unsuffixed);
+        let from_position = if self.is_worth_two_loops(quantity) {
+            let (first, kept_of) = (kernel(quantity, "Of"), format_ident!("{name}_of"));
+            let place = Place::at_points(quote!(self), &[Stage::Point]);
+            let body = self.statements(columns.values.iter().copied(), &place);
+            let (kept, point) = (count(taken.len()), self.point());
+            let doc = format!(" What `{batch_at}` reads of a point.");
+            quote! {
+                impl<T: Real> Field<T> {
+                    #[doc = #doc]
+                    #[inline(always)]
+                    fn #kept_of(&self, #point) -> [T; #kept] { #body [#(#taken),*] }
+                }
+                #math::kernel! { #first<S>, #inputs -> #inputs_at, |at, [#(#position,)* #(#normal),*]| {
+                    let [#(#taken),*] = at.field.#kept_of([#(#position),*]);
+                    [#(#taken,)* #(#normal),*]
+                } }
+                #math::kernels! { #whole = #first, #cached; #inputs -> #inputs_at -> #results }
+            }
+        } else {
+            let result =
+                self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
+            quote! {
+                #math::kernel! { #whole<S>, #inputs -> #results, |at, [#(#position,)* #(#normal),*]| {
+                    #result
+                } }
+            }
+        };
         quote! {
+            #from_position
+            #math::kernel! { #cached<S>, #inputs_at -> #results, |at, [#(#taken,)* #(#normal),*]| {
+                #from_kept
+            } }
             #math::batches! {
                 #name, #with_normals #axes -> #results;
-                #whole: #batch, #batch_aos, |at, [#(#position,)* #(#normal),*]| { #from_position };
-                #cached<S>: #batch_at, [#(#indices),*], #inputs_at,
-                    |at, [#(#taken,)* #(#normal),*]| { #from_kept };
+                #whole: #batch, #batch_aos;
+                #cached: #batch_at, [#(#indices),*] #with_count;
             }
         }
+    }
+
+    /// Whether the stages of a quantity are loops of their own: each then has a shorter chain of
+    /// operations that wait for each other. That pays where both have something to do.
+    fn is_worth_two_loops(&self, quantity: Quantity) -> bool {
+        let roots = self.values(Output::Quantity(quantity));
+        let needed = self.program.needed_for(roots.iter().copied());
+        [Stage::Point, Stage::PointTime].into_iter().all(|stage| {
+            let work = self.program.range(stage).filter(|index| needed[*index]);
+            work.map(|index| weight(&self.program.instrs[index].op)).sum::<usize>() >= WORTH_A_LOOP
+        })
     }
 
     /// The components of a result beside each other.
@@ -238,6 +279,19 @@ impl Emitter<'_> {
         let taken = columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
         let taken = taken.chain(columns.values.iter().map(|value| self.name(*value))).collect();
         (quote!(Point { reference_position: [#(#position),*], #(#members),* }), taken)
+    }
+}
+
+/// What a loop has to do at least, as [`weight`] counts.
+const WORTH_A_LOOP: usize = 20;
+
+/// How long an operation takes, in sums or products: roughly, and of vectors.
+fn weight(op: &Op) -> usize {
+    match op {
+        Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_) => 0,
+        Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) => 1,
+        Op::Divide(..) => 10,
+        Op::Unary(..) | Op::Binary(..) => 20,
     }
 }
 

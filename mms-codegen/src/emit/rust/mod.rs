@@ -2,6 +2,8 @@
 
 mod adapter;
 mod batch;
+mod body;
+mod division;
 mod face;
 mod file;
 mod fusion;
@@ -14,7 +16,6 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use self::fusion::{Fused, Fusion};
 use crate::compile::Compiled;
 use crate::expr::{Rational, Symbol};
 use crate::program::interpret::{parts, small_ratio};
@@ -125,17 +126,19 @@ struct Place {
     own: &'static [Stage],
     /// The scalar that it computes in.
     scalar: TokenStream,
+    /// Whether all that it computes is of use wherever it is called.
+    is_whole: bool,
 }
 
 impl Place {
     /// A function that computes `own` for every point.
     fn at_points(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T) }
+        Place { field, own, scalar: quote!(T), is_whole: true }
     }
 
     /// A function that computes `own` once, with more digits.
     fn once(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T::Wide) }
+        Place { field, own, scalar: quote!(T::Wide), is_whole: true }
     }
 
     fn is_once(&self) -> bool {
@@ -225,79 +228,6 @@ impl<'a> Emitter<'a> {
     fn values_of(&self, stage: Stage, kept: &[bool]) -> Vec<Value> {
         let kept = self.program.range(stage).filter(|index| kept[*index]);
         kept.map(|index| Value(index as u32)).collect()
-    }
-
-    fn body(&self, outputs: &[Output], place: &Place) -> TokenStream {
-        let roots = outputs.iter().flat_map(|output| self.values(*output)).copied();
-        self.statements(roots, place)
-    }
-
-    /// One `let` for every instruction of the stages that a function computes, and that its results
-    /// need.
-    fn statements(&self, roots: impl IntoIterator<Item = Value>, place: &Place) -> TokenStream {
-        let roots: Vec<Value> = roots.into_iter().collect();
-        let needed = self.program.needed_for(roots.iter().copied());
-        let fusion = match place.is_once() {
-            true => Fusion::none(self.program),
-            false => Fusion::new(self.program, &roots, &needed, place.own),
-        };
-        let mut statements = TokenStream::new();
-        for (index, instr) in self.program.instrs.iter().enumerate() {
-            let free = matches!(instr.op, Op::Constant(_) | Op::Pi);
-            let argument =
-                matches!(instr.op, Op::Input(symbol) if !matches!(symbol, Symbol::Parameter(_)));
-            let skipped = free || argument || fusion.absorbed[index];
-            if !needed[index] || skipped || !place.own.contains(&instr.stage) {
-                continue;
-            }
-            let name = self.name(Value(index as u32));
-            let value = match &fusion.fused[index] {
-                Some(fused) => self.fused(fused, place),
-                None => self.operation(&instr.op, place),
-            };
-            statements.extend(quote!(let #name = #value;));
-        }
-        statements
-    }
-
-    fn fused(&self, fused: &Fused, place: &Place) -> TokenStream {
-        let [a, b, term] = [fused.factors[0], fused.factors[1], fused.term]
-            .map(|value| self.operand(value, place));
-        let a = if fused.minus_product { quote!((-#a)) } else { a };
-        let term = if fused.minus_term { quote!(-#term) } else { term };
-        quote!(#a.mul_add(#b, #term))
-    }
-
-    fn operation(&self, op: &Op, place: &Place) -> TokenStream {
-        let of = |value: &Value| self.operand(*value, place);
-        match op {
-            Op::Constant(number) => constant(number, &place.scalar),
-            Op::Pi => pi(&place.scalar),
-            Op::Input(Symbol::Parameter(index)) => {
-                let name = &self.parameter_names[index];
-                quote!(parameters.#name.widen())
-            }
-            Op::Input(symbol) => {
-                let name = input(*symbol);
-                quote!(#name)
-            }
-            Op::Add(a, b) => binary(of(a), quote!(+), of(b)),
-            Op::Subtract(a, b) => binary(of(a), quote!(-), of(b)),
-            Op::Multiply(a, b) => binary(of(a), quote!(*), of(b)),
-            Op::Divide(a, b) => binary(of(a), quote!(/), of(b)),
-            Op::Negate(a) => {
-                let a = of(a);
-                quote!(-#a)
-            }
-            Op::Unary(function, a) => {
-                let (function, a) = (format_ident!("{}", function.name()), of(a));
-                quote!(#a.#function())
-            }
-            Op::Binary(function, a, b) => {
-                let (function, a, b) = (format_ident!("{}", function.name()), of(a), of(b));
-                quote!(#a.#function(#b))
-            }
-        }
     }
 
     /// How a function reads a value: a literal, a local, or a member of an earlier stage's struct.
@@ -414,10 +344,6 @@ fn input(symbol: Symbol) -> Ident {
             unreachable!("a member of the parameters, or gone after derivation")
         }
     }
-}
-
-fn binary(a: TokenStream, operator: TokenStream, b: TokenStream) -> TokenStream {
-    quote!(#a #operator #b)
 }
 
 /// The scalar nearest to an exact number, as the interpreter rounds it.
