@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
+use mms_codegen::accuracy::regime::REGIMES;
 use mms_codegen::accuracy::{Precision, Request, measure, names};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, Selection};
@@ -28,13 +29,14 @@ use crate::workbench::{Module, Time, Way, Workbench, time};
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
 /// declared, and at displacements down to 1e-12 of the size.
 #[derive(Args)]
+#[command(after_help = listed())]
 pub struct Accuracy {
     /// A gallery name, or a path to a TOML file.
     field: String,
     /// Quantities, separated by commas, or `all`.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// Regimes, separated by commas, or `all`: those that --help lists below, and the names of the
+    /// Regimes, separated by commas, or `all`: those that are listed below, and the names of the
     /// field's [[extreme]] tables.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     regime: Vec<String>,
@@ -62,6 +64,13 @@ pub struct Accuracy {
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
+}
+
+/// The regimes, for --help.
+fn listed() -> String {
+    let width = REGIMES.iter().map(|regime| regime.name.len()).max().unwrap_or(0);
+    let lines = REGIMES.iter().map(|regime| format!("\n  {:width$}  {}", regime.name, regime.doc));
+    format!("Regimes:{}", lines.collect::<String>())
 }
 
 impl Accuracy {

@@ -74,6 +74,12 @@ impl<const BITS: usize> Tally<BITS> {
 
     /// An error in units of eps of a size.
     fn ratio(&self, error: &Binary<BITS>, size: Binary<BITS>) -> f64 {
+        let (near, scale) = (error.to_f64(), size.to_f64());
+        // Where double precision holds both, 15 digits of an error are plenty.
+        if near == 0.0 || (near.is_normal() && scale.is_normal() && scale > self.precision.least())
+        {
+            return near / scale.max(self.precision.least()) / self.precision.eps();
+        }
         let least = Binary::from_f64(self.precision.least());
         let size = if size.at_most(&least) { least } else { size };
         (error.clone() / size).to_f64() / self.precision.eps()

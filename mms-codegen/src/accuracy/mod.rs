@@ -3,7 +3,7 @@
 //!
 //! What is measured is the interpreter, which has the bits of emitted code. Each precision gets inputs
 //! that it holds exactly, and the reference gets the very same numbers. The reference is the same
-//! program with so many digits that four times as many change nothing.
+//! program with so many digits that more change nothing.
 
 mod errors;
 mod points;
@@ -11,6 +11,10 @@ mod precision;
 mod probe;
 pub mod regime;
 mod subject;
+
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::thread;
 
 use mms_math::{Double, Scalar as _};
 
@@ -157,12 +161,7 @@ impl Accuracy {
             Err(reason) => return leave_out(None, reason),
         };
         let mut rows = Vec::new();
-        for precision in &request.precisions {
-            let errors = match precision {
-                Precision::F32 => made.errors::<f32>(request),
-                Precision::F64 => made.errors::<f64>(request),
-                Precision::Wide => made.errors::<Double>(request),
-            };
+        for (precision, errors) in request.precisions.iter().zip(made.all_errors(request)) {
             match errors {
                 Ok(errors) => rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
                     regime: name.into(),
@@ -180,11 +179,14 @@ impl Accuracy {
     }
 }
 
+/// The errors of each quantity and form in one precision; otherwise why there are none.
+type Found = Result<Vec<(Quantity, Form, Errors)>, String>;
+
 /// A regime of a field, compiled.
 struct Made {
     case: Case,
-    reference: std::rc::Rc<Compiled>,
-    forms: Vec<(Form, std::rc::Rc<Compiled>)>,
+    reference: Arc<Compiled>,
+    forms: Vec<(Form, Arc<Compiled>)>,
 }
 
 impl Made {
@@ -193,6 +195,20 @@ impl Made {
         let forms = request.forms.iter().map(compiled).collect::<Result<_, String>>()?;
         let reference = subject.of_case(&case, Form::Stable)?;
         Ok(Made { case, reference, forms })
+    }
+
+    /// The errors in each precision, side by side.
+    fn all_errors(&self, request: &Request) -> Vec<Found> {
+        thread::scope(|scope| {
+            let start = |precision: &Precision| match precision {
+                Precision::F32 => scope.spawn(|| self.errors::<f32>(request)),
+                Precision::F64 => scope.spawn(|| self.errors::<f64>(request)),
+                Precision::Wide => scope.spawn(|| self.errors::<Double>(request)),
+            };
+            let started: Vec<_> = request.precisions.iter().map(start).collect();
+            let joined = started.into_iter().map(|thread| thread.join());
+            joined.map(|found| found.unwrap_or_else(|panic| resume_unwind(panic))).collect()
+        })
     }
 
     /// The errors of each quantity and form in a precision.
@@ -214,12 +230,12 @@ impl Made {
             return Err("0 is neither in the body nor in the time window".into());
         }
         let run = Run { made: self, quantities: &request.quantities, parameters, inputs };
-        // So many bits that four times as many change nothing.
-        if run.is_settled::<256, 1024>() {
+        // So many bits that more change nothing. The largest numbers have 1024 before the point.
+        if run.is_settled::<256, 1536>() {
             return run.compare::<256>();
         }
-        if run.is_settled::<1024, 4096>() {
-            return run.compare::<1024>();
+        if run.is_settled::<1536, 4096>() {
+            return run.compare::<1536>();
         }
         if run.is_settled::<4096, 8192>() {
             return run.compare::<4096>();
@@ -279,7 +295,7 @@ impl<T: Digits> Run<'_, T> {
         })
     }
 
-    fn compare<const BITS: usize>(&self) -> Result<Vec<(Quantity, Form, Errors)>, String> {
+    fn compare<const BITS: usize>(&self) -> Found {
         let outputs = self.outputs();
         let mut reference = self.reference::<BITS>();
         let forms = self.made.forms.iter();

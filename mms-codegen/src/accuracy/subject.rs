@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::regime::Case;
 use crate::compile::{Compiled, Failure, Options};
@@ -23,7 +23,7 @@ pub(super) struct Subject<'a> {
     options: Options,
     /// In the stable form, without a rigid motion on top.
     plain: Compiled,
-    variants: RefCell<BTreeMap<Key, Rc<Compiled>>>,
+    variants: RefCell<BTreeMap<Key, Arc<Compiled>>>,
 }
 
 impl<'a> Subject<'a> {
@@ -59,7 +59,7 @@ impl<'a> Subject<'a> {
     }
 
     /// What a case evaluates, in a form.
-    pub fn of_case(&self, case: &Case, form: Form) -> Result<Rc<Compiled>, String> {
+    pub fn of_case(&self, case: &Case, form: Form) -> Result<Arc<Compiled>, String> {
         let key = (case.variation.clone(), case.extreme, form);
         if let Some(compiled) = self.variants.borrow().get(&key) {
             return Ok(compiled.clone());
@@ -74,7 +74,7 @@ impl<'a> Subject<'a> {
             set.extend(values.map(|(name, value)| (name.value.clone(), value.text.clone())));
         }
         let compiled = (self.compile)(&options).map_err(|failure| first_line(&failure))?;
-        let compiled = Rc::new(compiled);
+        let compiled = Arc::new(compiled);
         self.variants.borrow_mut().insert(key, compiled.clone());
         Ok(compiled)
     }

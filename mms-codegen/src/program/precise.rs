@@ -139,6 +139,20 @@ fn cos_pi<const BITS: usize>(x: &Float) -> Float {
     if is_odd { Float::ZERO } else { (Float::pi(BITS) * x).cos() }
 }
 
+/// Below this exponent of two x - ln(1 + x) is summed up, above it is subtracted.
+const SMALL: isize = -32;
+
+/// x - ln(1 + x) = x^2/2 - x^3/3 + ... for a small x, to all digits.
+fn ln_1p_rest<const BITS: usize>(x: &Float) -> Float {
+    let terms = 2..=3 + BITS.div_ceil(SMALL.unsigned_abs());
+    // After Horner, from the last term on.
+    let sum = terms.rev().fold(Float::ZERO, |sum, n| {
+        let coefficient = Float::ONE.with_precision(BITS).value() / Float::from(n);
+        coefficient - x * sum
+    });
+    x * x * sum
+}
+
 fn exp<const BITS: usize>(x: &Float) -> Float {
     if !moderate(x) {
         return Float::ZERO;
@@ -251,6 +265,13 @@ impl<const BITS: usize> Scalar for Binary<BITS> {
         self.map(|x| *x > Float::NEG_ONE, |x| x.ln_1p())
     }
 
+    fn ln_1p_rest(self) -> Self {
+        match &self.0 {
+            Some(x) if exponent(x) < SMALL => self.map(|_| true, ln_1p_rest::<BITS>),
+            _ => self.clone() - self.ln_1p(),
+        }
+    }
+
     fn sin(self) -> Self {
         self.map(is_angle, |x| x.sin())
     }
@@ -349,6 +370,20 @@ mod tests {
         assert_eq!(of(1e6 + 0.5).sin_pi().to_f64(), 1.0);
         assert_eq!(of(1e6 + 1.0).cos_pi().to_f64(), -1.0);
         assert_eq!(ratio(&of(0.25).sin_pi(), &of(0.5).sqrt()), 1.0);
+    }
+
+    #[test]
+    fn what_is_left_of_a_logarithm_keeps_its_digits() {
+        for x in [1e-10, -1e-10, 1e-30] {
+            let more = Binary::<1024>::from_f64(x);
+            let rest = more.clone() - more.ln_1p();
+            let found = of(x).ln_1p_rest();
+            let difference = (found.with_bits::<1024>() - rest.clone()) / rest;
+            assert!(difference.to_f64().abs() < 1e-70, "{x}");
+        }
+        assert_eq!(of(1e-300).ln_1p_rest().to_f64(), 0.0);
+        assert_eq!(ratio(&of(1e-300).ln_1p_rest(), &(of(1e-300) * of(1e-300))), 0.5);
+        assert_eq!(of(0.0).ln_1p_rest().to_f64(), 0.0);
     }
 
     #[test]
