@@ -81,24 +81,6 @@ impl Workbench {
         self.output_of(program.as_os_str(), input)
     }
 
-    /// The bytes of an object file with the functions of a source, each under its own name.
-    pub fn object(&self, modules: &[(String, String)], source: &str) -> anyhow::Result<Vec<u8>> {
-        for (name, text) in modules {
-            self.write(&format!("{name}.rs"), text)?;
-        }
-        self.write("object.rs", source)?;
-        let options = [
-            "--crate-name",
-            "object",
-            "--crate-type",
-            "lib",
-            "--emit=obj",
-            "-C",
-            "codegen-units=1",
-        ];
-        Ok(fs::read(self.compile("object.rs", "object.o", &options)?)?)
-    }
-
     fn output_of(&self, program: &OsStr, input: &str) -> anyhow::Result<String> {
         let mut child = Command::new(program)
             .stdin(Stdio::piped())

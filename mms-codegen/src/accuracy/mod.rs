@@ -36,7 +36,7 @@ use crate::selection::Form;
 use crate::variation::Variation;
 
 /// At how many points the digits of the reference are checked.
-const CHECKED: usize = 8;
+const CHECKED: usize = 4;
 
 /// To how many bits of the largest component two references must agree.
 const SETTLED: i32 = 136;

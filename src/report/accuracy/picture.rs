@@ -3,6 +3,7 @@
 use anyhow::anyhow;
 use mms_codegen::accuracy::Precision;
 use mms_codegen::selection::Form;
+use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
 use super::super::picture::{span, ticks};
@@ -76,7 +77,8 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
     let marks = marks(report);
     let times = span(marks.iter().map(|mark| mark.ns_per_point), 3.0);
     let errors = span(marks.iter().map(|mark| mark.error), 100.0);
-    let ((times_shown, times_between), (errors_shown, _)) = (ticks(times), ticks(errors));
+    let ((times_shown, times_between), (decades, _)) = (ticks(times), ticks(errors));
+    let errors_shown: Vec<f64> = decades.iter().copied().step_by(decades.len() / 10 + 1).collect();
     let caption = format!("{}: {}, {} points", report.field, regime(report), report.points);
     let mut chart = ChartBuilder::on(&root)
         .caption(caption, ("sans-serif", 18))
@@ -94,7 +96,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .configure_mesh()
         .label_style(TEXT)
         .axis_desc_style(TEXT)
-        .x_desc("all quantities, ns per point")
+        .x_desc("all of these quantities together, ns per point")
         .y_desc("largest error over largest value")
         .x_label_formatter(&|time| format!("{time}"))
         .y_label_formatter(&|error| format!("{error:.0e}"))
@@ -104,19 +106,25 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
     chart
         .draw_series(DashedLineSeries::new(front(&marks), 6, 4, FRONT.stroke_width(2)))?
         .label("Pareto front")
-        .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], FRONT.stroke_width(2)));
-    for mark in &marks {
-        let place = Precision::ALL.iter().position(|it| *it == mark.precision).unwrap_or(0);
-        let colour = COLOURS[place % COLOURS.len()];
-        let style = match mark.form {
-            Form::Stable => colour.filled(),
-            Form::Fast => colour.stroke_width(2),
-        };
-        let label = format!("{} {}", mark.precision.name(), mark.form.name());
-        let at = (mark.ns_per_point, mark.error);
-        chart.draw_series([EmptyElement::at(at)
-            + Circle::new((0, 0), 6, style)
-            + Text::new(label, label_at(mark.form), TEXT.into_font())])?;
+        .legend(|(x, y)| {
+            DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))
+        });
+    for form in Form::ALL {
+        let marks = marks.iter().filter(|mark| mark.form == form);
+        let circles = marks.clone().map(|mark| {
+            let style = style(colour(mark.precision), form);
+            Circle::new((mark.ns_per_point, mark.error), 6, style)
+        });
+        chart
+            .draw_series(circles)?
+            .label(form.name())
+            .legend(move |(x, y)| Circle::new((x + 9, y), 6, style(FRONT, form)));
+        // The other form is never far.
+        for mark in marks.filter(|mark| mark.form == Form::Stable) {
+            let at = EmptyElement::at((mark.ns_per_point, mark.error));
+            let name = Text::new(mark.precision.name(), (10, -18), TEXT.into_font());
+            chart.draw_series([at + name])?;
+        }
     }
     chart
         .configure_series_labels()
@@ -129,10 +137,18 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
     Ok(())
 }
 
-/// Where the label of a mark stands, such that those of two forms close to each other do not overlap.
-fn label_at(form: Form) -> (i32, i32) {
+fn colour(precision: Precision) -> RGBColor {
+    match precision {
+        Precision::F32 => COLOURS[0],
+        Precision::F64 => COLOURS[1],
+        Precision::Wide => COLOURS[2],
+    }
+}
+
+/// A disc for the stable form, a ring for the fast one.
+fn style(colour: RGBColor, form: Form) -> ShapeStyle {
     match form {
-        Form::Stable => (10, -18),
-        Form::Fast => (10, 4),
+        Form::Stable => colour.filled(),
+        Form::Fast => colour.stroke_width(2),
     }
 }
