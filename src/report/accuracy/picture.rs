@@ -103,12 +103,14 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .bold_line_style(RGBColor(210, 210, 210))
         .light_line_style(RGBColor(240, 240, 240))
         .draw()?;
-    chart
-        .draw_series(DashedLineSeries::new(front(&marks), 6, 4, FRONT.stroke_width(2)))?
-        .label("Pareto front")
-        .legend(|(x, y)| {
-            DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))
-        });
+    if !marks.is_empty() {
+        chart
+            .draw_series(DashedLineSeries::new(front(&marks), 6, 4, FRONT.stroke_width(2)))?
+            .label("Pareto front")
+            .legend(|(x, y)| {
+                DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))
+            });
+    }
     for form in Form::ALL {
         let marks = marks.iter().filter(|mark| mark.form == form);
         let circles = marks.clone().map(|mark| {
