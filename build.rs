@@ -1,5 +1,5 @@
-//! Finds the field files and lists them for the gallery and for the tests. Discovers only: the
-//! files are read, compiled and reported by the macro.
+//! Finds the field files and lists them for the gallery and for the tests, and the sources of
+//! `mms-math` for the workbench. Discovers only: the files are read, compiled and reported by others.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -42,6 +42,7 @@ fn main() -> io::Result<()> {
         }
     }
     fs::write(out.join("gallery.rs"), gallery(&root, &stems))?;
+    fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"))?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&stems))
 }
 
@@ -68,6 +69,33 @@ fn gallery(root: &Path, stems: &[String]) -> String {
     }
     text.push_str("];\n");
     text
+}
+
+/// Paths and texts of the Rust files below a folder; none where there is no such folder, as in a
+/// package.
+fn sources(folder: &Path) -> io::Result<String> {
+    let (mut folders, mut files) = (vec![folder.to_path_buf()], Vec::new());
+    while let Some(folder) = folders.pop().filter(|folder| folder.is_dir()) {
+        println!("cargo::rerun-if-changed={}", folder.display());
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    let mut text = String::from("&[\n");
+    for path in &files {
+        let below = path.strip_prefix(folder).unwrap_or(path).components();
+        let below: Vec<_> = below.map(|part| part.as_os_str().to_string_lossy()).collect();
+        writeln!(text, "    ({:?}, include_str!({path:?})),", below.join("/"))
+            .expect("writing to a string");
+    }
+    text.push_str("]\n");
+    Ok(text)
 }
 
 /// The properties that hold for every field, once per field.

@@ -11,6 +11,7 @@ pub mod interpreted;
 pub mod report;
 pub mod scene;
 pub mod schema;
+pub mod workbench;
 
 /// The README's programs.
 #[cfg(doctest)]

@@ -26,6 +26,7 @@ use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
 use crate::suggest::did_you_mean;
 use crate::syntax;
 use crate::units;
+use crate::variation::Variation;
 
 /// The materials that come with the crate: stem and text.
 pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
@@ -91,6 +92,8 @@ pub struct Options {
     pub max_nodes: usize,
     /// Which ways to compute are open.
     pub form: Form,
+    /// Another field that is made of this one, to evaluate at extremes.
+    pub variation: Variation,
 }
 
 impl Default for Options {
@@ -99,6 +102,7 @@ impl Default for Options {
             selection: Selection::default(),
             max_nodes: DEFAULT_MAX_NODES,
             form: Form::Stable,
+            variation: Variation::Nothing,
         }
     }
 }
@@ -186,6 +190,7 @@ fn phases(
     let source = sources.add(path, text);
     let mut field = spec::read_field(sources, source, name, diagnostics)?;
     selection.apply(sources, &mut field, diagnostics);
+    options.variation.rewrite(sources, &mut field);
     let mut material = read_material(sources, &field, load, diagnostics);
     if let Some(material) = &mut material {
         moduli::convert(sources, &field, material, diagnostics);
@@ -194,10 +199,11 @@ fn phases(
     let reported = diagnostics.len();
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
     selection.explain(sources, &field, &mut diagnostics[reported..]);
-    let model = model?;
+    let mut model = model?;
     diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
     diagnostics.extend(rotates_unfit_material(&field, material.as_ref()));
     let material = material.filter(|_| diagnostics.is_empty())?;
+    options.variation.transform(&mut graph, &mut model);
     let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;

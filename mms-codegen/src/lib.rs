@@ -6,6 +6,7 @@
 //! evaluates and the emitters print. The phases, each a function from the last one's output, are
 //! the body of [`compile()`].
 
+pub mod accuracy;
 pub mod certify;
 pub mod compile;
 pub mod culprit;
@@ -26,6 +27,7 @@ pub mod suggest;
 pub mod syntax;
 pub mod twin;
 pub mod units;
+pub mod variation;
 pub mod visibility;
 
 pub use compile::{Compiled, Options, compile, compile_with};

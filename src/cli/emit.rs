@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::Context as _;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::emit::{File, TARGETS, Target};
 use mms_codegen::selection::{Freeze, Selection};
 use serde_json::json;
 
-use super::input::{Input, Variant, quantities};
+use super::input::{Input, Variant, quantities, settings};
 use super::{Outcome, print, print_json};
 use crate::report::write_whole;
 
@@ -75,13 +75,7 @@ impl Emit {
     fn selection(&self) -> anyhow::Result<Selection> {
         let everything = self.quantity.iter().all(|name| name.trim() == "all");
         let wanted = if everything { None } else { Some(quantities(&self.quantity)?) };
-        let mut set = Vec::new();
-        for setting in &self.set {
-            let Some((name, value)) = setting.split_once('=') else {
-                bail!("`--set {setting}`: expected name=value");
-            };
-            set.push((name.trim().to_string(), value.trim().to_string()));
-        }
+        let set = settings(&self.set)?;
         let freeze = match &self.freeze {
             None => Freeze::Nothing,
             Some(names) if names.is_empty() => Freeze::Everything,

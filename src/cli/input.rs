@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context as _, Error, anyhow, bail};
@@ -21,9 +21,9 @@ use crate::gallery::{self, Entry};
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";
 
-/// How a field is taken.
+/// Which motion is taken, and within which limits.
 #[derive(Clone, Debug, Args)]
-pub struct Variant {
+pub struct Motion {
     /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
     /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
     /// "0"]'; without it the motion is a large and accelerated one. Faces that were at rest are then
@@ -32,25 +32,17 @@ pub struct Variant {
     rigid: Option<String>,
     /// How many nodes and operands the expressions of a field may have together; a field that needs
     /// more is refused.
-    #[arg(long, value_name = "N", default_value_t = Variant::default().max_nodes)]
+    #[arg(long, value_name = "N", default_value_t = Motion::default().max_nodes)]
     max_nodes: u32,
-    /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
-    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
-    #[arg(long, value_name = "stable|fast", default_value = "stable", value_parser = Form::from_name, hide_default_value = true)]
-    form: Form,
 }
 
-impl Default for Variant {
+impl Default for Motion {
     fn default() -> Self {
-        Variant {
-            rigid: None,
-            max_nodes: Options::default().max_nodes as u32,
-            form: Form::default(),
-        }
+        Motion { rigid: None, max_nodes: Options::default().max_nodes as u32 }
     }
 }
 
-impl Variant {
+impl Motion {
     /// Everything of the field, or a part of it.
     pub fn options(&self, selection: Selection) -> Options {
         let twin = match self.rigid.as_deref() {
@@ -59,7 +51,25 @@ impl Variant {
             Some(motion) => Twin::Given(motion.into()),
         };
         let selection = Selection { twin, ..selection };
-        Options { selection, max_nodes: self.max_nodes as usize, form: self.form }
+        Options { selection, max_nodes: self.max_nodes as usize, ..Options::default() }
+    }
+}
+
+/// How a field is taken.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Variant {
+    #[command(flatten)]
+    motion: Motion,
+    /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
+    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    #[arg(long, value_name = "stable|fast", default_value = "stable", value_parser = Form::from_name, hide_default_value = true)]
+    form: Form,
+}
+
+impl Variant {
+    /// Everything of the field, or a part of it.
+    pub fn options(&self, selection: Selection) -> Options {
+        Options { form: self.form, ..self.motion.options(selection) }
     }
 }
 
@@ -93,16 +103,7 @@ impl Input {
         if field.ends_with(".toml") {
             return Self::from_file(Path::new(field), options);
         }
-        let Some(entry) = gallery::find(field) else {
-            let names = gallery::FIELDS.iter().map(|entry| entry.name);
-            match did_you_mean(field, names.clone()) {
-                Some(near) => bail!("no field `{field}` in the gallery; did you mean `{near}`?"),
-                None => bail!(
-                    "no field `{field}` in the gallery, which holds {}; a file of your own is given by its path, ending in .toml",
-                    names.collect::<Vec<_>>().join(", ")
-                ),
-            }
-        };
+        let entry = entry(field)?;
         let whole = "the field of the gallery does not compile";
         let compiled = entry
             .compile_with(options)
@@ -156,6 +157,78 @@ impl Input {
         }
         Ok(set)
     }
+}
+
+/// The field of the gallery of that name.
+fn entry(field: &str) -> anyhow::Result<&'static Entry> {
+    if let Some(entry) = gallery::find(field) {
+        return Ok(entry);
+    }
+    let names = gallery::FIELDS.iter().map(|entry| entry.name);
+    match did_you_mean(field, names.clone()) {
+        Some(near) => bail!("no field `{field}` in the gallery; did you mean `{near}`?"),
+        None => bail!(
+            "no field `{field}` in the gallery, which holds {}; a file of your own is given by its path, ending in .toml",
+            names.collect::<Vec<_>>().join(", ")
+        ),
+    }
+}
+
+/// The text of a field that the user named, to be compiled in more than one way.
+pub struct Text {
+    name: String,
+    shown: String,
+    text: String,
+    /// Where materials of the field's own are found.
+    materials: Materials,
+}
+
+enum Materials {
+    Gallery(&'static Entry),
+    Folder(PathBuf),
+}
+
+impl Text {
+    /// The text of a field of the gallery, or of a TOML file.
+    pub fn find(field: &str) -> anyhow::Result<Self> {
+        if !field.ends_with(".toml") {
+            let entry = entry(field)?;
+            let [name, shown, text] = [entry.name, entry.path, entry.text].map(String::from);
+            return Ok(Text { name, shown, text, materials: Materials::Gallery(entry) });
+        }
+        let path = Path::new(field);
+        let text = fs::read_to_string(path).with_context(|| format!("cannot read `{field}`"))?;
+        let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Text { name, shown: field.into(), text, materials: Materials::Folder(folder) })
+    }
+
+    /// The name of the field.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Derives what follows from it, whether or not it is what it claims to be.
+    pub fn compile(&self, options: &Options) -> Result<Compiled, Failure> {
+        let load = |material: &str| match &self.materials {
+            Materials::Gallery(entry) => {
+                entry.material.map(str::to_string).ok_or_else(|| "not part of the gallery".into())
+            }
+            Materials::Folder(folder) => {
+                fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
+            }
+        };
+        compile_unproved(&self.name, &self.shown, &self.text, &load, options)
+    }
+}
+
+/// New defaults of parameters: names, and numbers or formulas.
+pub fn settings(settings: &[String]) -> anyhow::Result<Vec<(String, String)>> {
+    let pair = |setting: &String| match setting.split_once('=') {
+        Some((name, value)) => Ok((name.trim().to_string(), value.trim().to_string())),
+        None => bail!("`--set {setting}`: expected name=value"),
+    };
+    settings.iter().map(pair).collect()
 }
 
 /// The quantities of some names or aliases, each once; `all` stands for those of a point and a time.

@@ -1,5 +1,6 @@
 //! The `mms` command: one file per subcommand.
 
+mod accuracy;
 mod check;
 mod emit;
 mod eval;
@@ -36,6 +37,7 @@ enum Command {
     Check(check::Check),
     Eval(eval::Eval),
     Emit(emit::Emit),
+    Accuracy(accuracy::Accuracy),
     Study(study::Study),
     New(new::New),
     Schema(schema::Schema),
@@ -64,6 +66,7 @@ pub fn run() -> ExitCode {
         Some(Command::Check(check)) => check.run(),
         Some(Command::Eval(eval)) => eval.run(),
         Some(Command::Emit(emit)) => emit.run(),
+        Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Study(study)) => study.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),

@@ -1,5 +1,6 @@
 //! A study as a table, a JSON document, a CSV file and a picture.
 
+pub mod accuracy;
 mod picture;
 
 use std::io::Write as _;

@@ -110,7 +110,7 @@ fn slope(all: &[(f64, f64)], order: f64) -> Vec<(f64, f64)> {
 }
 
 /// The range of some positive values, widened by a factor; a harmless one where there are none.
-fn span(values: impl Iterator<Item = f64>, factor: f64) -> (f64, f64) {
+pub(super) fn span(values: impl Iterator<Item = f64>, factor: f64) -> (f64, f64) {
     let (least, greatest) = values
         .fold((f64::INFINITY, 0.0_f64), |(least, greatest), v| (least.min(v), greatest.max(v)));
     if greatest > 0.0 { (least / factor, greatest * factor) } else { (0.1, 1.0) }
@@ -126,7 +126,7 @@ fn apart(values: impl Iterator<Item = f64>, range: (f64, f64)) -> Vec<f64> {
 }
 
 /// Labelled and unlabelled places on a logarithmic axis: decades if there are two or more.
-fn ticks(range: (f64, f64)) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn ticks(range: (f64, f64)) -> (Vec<f64>, Vec<f64>) {
     let exponents = range.0.log10().floor() as i32..=range.1.log10().ceil() as i32;
     let inside = |digits: &[u8]| -> Vec<f64> {
         let values = exponents.clone().flat_map(|exponent| {

@@ -1,5 +1,6 @@
 //! The `mms` command as a user meets it: the built program, run in a folder of its own.
 
+mod accuracy;
 mod bound;
 mod check;
 mod emit;

@@ -89,6 +89,7 @@ fn bad_usage_exits_2_and_prints_nothing() {
         "check",
         "study",
         "eval",
+        "accuracy",
         "new",
         "schema extra",
     ] {
@@ -99,7 +100,7 @@ fn bad_usage_exits_2_and_prints_nothing() {
 #[test]
 fn help_and_version_exit_0() {
     let help = Folder::new().mms("--help").exits(0);
-    for command in ["list", "show", "check", "eval", "study", "new", "schema"] {
+    for command in ["list", "show", "check", "eval", "accuracy", "study", "new", "schema"] {
         help.prints(command);
     }
     Folder::new().mms("--version").exits(0).prints(env!("CARGO_PKG_VERSION"));

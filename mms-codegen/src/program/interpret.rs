@@ -48,10 +48,11 @@ impl Number for Double {}
 
 /// Numerator and denominator, where both are exact even in `f32`.
 pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
-    const EXACT: i32 = 1 << 24;
+    const EXACT: u32 = 1 << 24;
     let numerator = i32::try_from(number.numerator()).ok()?;
     let denominator = i32::try_from(number.denominator()).ok()?;
-    (numerator.abs() <= EXACT && denominator <= EXACT).then_some((numerator, denominator))
+    let is_exact = |number: i32| number.unsigned_abs() <= EXACT;
+    (is_exact(numerator) && is_exact(denominator)).then_some((numerator, denominator))
 }
 
 /// The nearest `f64`, and the nearest to what is left.
@@ -205,5 +206,18 @@ pub(crate) fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
         Function::Atan2 => a.atan2(b),
         Function::Powf => a.powf(b),
         _ => unreachable!("a function of one argument"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_single_precision_does_not_hold_is_no_small_ratio() {
+        let exact = 1 << 24;
+        assert_eq!(small_ratio(&Rational::from(-exact)), Some((-exact, 1)));
+        assert_eq!(small_ratio(&Rational::from(exact + 1)), None);
+        assert_eq!(small_ratio(&Rational::from(i32::MIN)), None);
     }
 }

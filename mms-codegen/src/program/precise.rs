@@ -1,4 +1,6 @@
 //! Arbitrary precision: the reference against which closed forms and precisions are judged.
+//!
+//! Its digits are a parameter: a result is trusted where more of them do not change it.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -10,9 +12,6 @@ use mms_math::Scalar;
 use super::interpret::Number;
 use crate::expr::Rational;
 
-/// Significant bits: 77 decimal digits.
-const BITS: usize = 256;
-
 /// A result of a larger exponent of two is treated as not representable, and one of a smaller
 /// exponent than minus this is 0: exponents never leave their own integers.
 const LARGEST_EXPONENT: isize = 1 << 60;
@@ -23,25 +22,25 @@ const LARGEST_ARGUMENT: isize = 59;
 /// The exponent of the largest angle: reducing it takes as many digits of pi.
 const LARGEST_ANGLE: isize = 1 << 12;
 
-/// Of an argument below this exponent of two the exponential function is 1 + x to all digits.
-const NEGLIGIBLE_SQUARE: isize = -2 * BITS as isize;
-
 type Float = FBig<HalfEven, 2>;
 
-/// A number of 77 significant decimal digits, or undefined.
+/// A number of `BITS` significant bits, or undefined.
 ///
 /// What has no finite real value (1/0, ln(-1), exp(1e30)) is undefined, and so is everything
 /// computed from it. Numbers are told from 0 down to 2^-2^60, so that exp(-1e7) is a number as any
 /// other.
 #[derive(Clone, Debug)]
-pub struct Precise(Option<Float>);
+pub struct Binary<const BITS: usize>(Option<Float>);
 
-impl Precise {
+/// A number of 77 significant decimal digits, or undefined.
+pub type Precise = Binary<256>;
+
+impl<const BITS: usize> Binary<BITS> {
     /// The value nearest to an exact number.
     pub fn new(number: &Rational) -> Self {
         let numerator = Float::from(number.numerator().clone()).with_precision(BITS).value();
         let denominator = Float::from(number.denominator().clone()).with_precision(BITS).value();
-        Precise(Some(numerator / denominator))
+        Binary(Some(numerator / denominator))
     }
 
     /// The nearest `f64`; not a number where undefined.
@@ -64,8 +63,13 @@ impl Precise {
     }
 
     /// Whether both are defined and `self` is at most `other`.
-    pub fn at_most(&self, other: &Precise) -> bool {
+    pub fn at_most(&self, other: &Self) -> bool {
         matches!((&self.0, &other.0), (Some(a), Some(b)) if a <= b)
+    }
+
+    /// The same number with more digits, or the nearest with fewer.
+    pub fn with_bits<const OTHER: usize>(&self) -> Binary<OTHER> {
+        Binary(self.0.clone().map(|value| value.with_precision(OTHER).value()))
     }
 
     /// Whether the value is a real number.
@@ -74,11 +78,11 @@ impl Precise {
     }
 
     fn map(self, defined: impl Fn(&Float) -> bool, function: impl Fn(&Float) -> Float) -> Self {
-        Precise(self.0.filter(|value| defined(value)).map(|value| function(&value))).bounded()
+        Binary(self.0.filter(|value| defined(value)).map(|value| function(&value))).bounded()
     }
 
     fn combine(self, other: Self, function: impl Fn(Float, Float) -> Float) -> Self {
-        Precise(self.0.zip(other.0).map(|(a, b)| function(a, b))).bounded()
+        Binary(self.0.zip(other.0).map(|(a, b)| function(a, b))).bounded()
     }
 
     fn bounded(self) -> Self {
@@ -91,7 +95,7 @@ impl Precise {
         };
         // Exact results such as exp(0) = 1 come without a precision, which functions need.
         let rounded = |value: Float| told_from_zero(value).with_precision(BITS).value();
-        Precise(self.0.filter(in_range).map(rounded))
+        Binary(self.0.filter(in_range).map(rounded))
     }
 }
 
@@ -110,18 +114,57 @@ fn not_too_large(value: &Float) -> bool {
     *value < Float::ZERO || moderate(value)
 }
 
-fn exp(x: &Float) -> Float {
+/// Whether exp(x) is 1 + x to all digits.
+fn is_negligible<const BITS: usize>(x: &Float) -> bool {
+    exponent(x) < -2 * BITS as isize
+}
+
+/// What is left of a number of half turns when whole turns are taken off, without error.
+fn within_a_turn(x: &Float) -> Float {
+    let two = Float::from(2);
+    x - (x / &two).round() * two
+}
+
+/// The sine of x half turns, exact where it is 0.
+fn sin_pi<const BITS: usize>(x: &Float) -> Float {
+    let x = within_a_turn(x);
+    if x.clone().round() == x { Float::ZERO } else { (Float::pi(BITS) * x).sin() }
+}
+
+/// The cosine of x half turns, exact where it is 0.
+fn cos_pi<const BITS: usize>(x: &Float) -> Float {
+    let x = within_a_turn(x);
+    let quarters = &x + &x;
+    let is_odd = quarters == Float::ONE || quarters == Float::NEG_ONE;
+    if is_odd { Float::ZERO } else { (Float::pi(BITS) * x).cos() }
+}
+
+/// Below this exponent of two x - ln(1 + x) is summed up, above it is subtracted.
+const SMALL: isize = -32;
+
+/// x - ln(1 + x) = x^2/2 - x^3/3 + ... for a small x, to all digits.
+fn ln_1p_rest<const BITS: usize>(x: &Float) -> Float {
+    let terms = 2..=3 + BITS.div_ceil(SMALL.unsigned_abs());
+    // After Horner, from the last term on.
+    let sum = terms.rev().fold(Float::ZERO, |sum, n| {
+        let coefficient = Float::ONE.with_precision(BITS).value() / Float::from(n);
+        coefficient - x * sum
+    });
+    x * x * sum
+}
+
+fn exp<const BITS: usize>(x: &Float) -> Float {
     if !moderate(x) {
         return Float::ZERO;
     }
-    if exponent(x) < NEGLIGIBLE_SQUARE { Float::ONE + x } else { x.exp() }
+    if is_negligible::<BITS>(x) { Float::ONE + x } else { x.exp() }
 }
 
-fn exp_m1(x: &Float) -> Float {
+fn exp_m1<const BITS: usize>(x: &Float) -> Float {
     if !moderate(x) {
         return Float::NEG_ONE;
     }
-    if exponent(x) < NEGLIGIBLE_SQUARE { x.clone() } else { x.exp_m1() }
+    if is_negligible::<BITS>(x) { x.clone() } else { x.exp_m1() }
 }
 
 fn is_angle(value: &Float) -> bool {
@@ -132,45 +175,45 @@ fn within_one(value: &Float) -> bool {
     *value >= Float::NEG_ONE && *value <= Float::ONE
 }
 
-impl Add for Precise {
+impl<const BITS: usize> Add for Binary<BITS> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         self.combine(other, |a, b| a + b)
     }
 }
 
-impl Sub for Precise {
+impl<const BITS: usize> Sub for Binary<BITS> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self.combine(other, |a, b| a - b)
     }
 }
 
-impl Mul for Precise {
+impl<const BITS: usize> Mul for Binary<BITS> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         self.combine(other, |a, b| a * b)
     }
 }
 
-impl Div for Precise {
+impl<const BITS: usize> Div for Binary<BITS> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
-        let other = Precise(other.0.filter(|value| *value != Float::ZERO));
+        let other = Binary(other.0.filter(|value| *value != Float::ZERO));
         self.combine(other, |a, b| a / b)
     }
 }
 
-impl Neg for Precise {
+impl<const BITS: usize> Neg for Binary<BITS> {
     type Output = Self;
     fn neg(self) -> Self {
-        Precise(self.0.map(|value| -value)).bounded()
+        Binary(self.0.map(|value| -value)).bounded()
     }
 }
 
-impl Number for Precise {
+impl<const BITS: usize> Number for Binary<BITS> {
     fn from_rational(number: &Rational) -> Self {
-        Precise::new(number)
+        Binary::new(number)
     }
 
     fn wide_from_rational(number: &Rational) -> Self {
@@ -178,7 +221,7 @@ impl Number for Precise {
     }
 }
 
-impl Scalar for Precise {
+impl<const BITS: usize> Scalar for Binary<BITS> {
     type Wide = Self;
 
     fn widen(self) -> Self {
@@ -190,12 +233,12 @@ impl Scalar for Precise {
     }
 
     fn from_f64(value: f64) -> Self {
-        Precise(Float::try_from(value).ok().map(|value| value.with_precision(BITS).value()))
+        Binary(Float::try_from(value).ok().map(|value| value.with_precision(BITS).value()))
             .bounded()
     }
 
     fn pi() -> Self {
-        Precise(Some(Float::pi(BITS)))
+        Binary(Some(Float::pi(BITS)))
     }
 
     fn sqrt(self) -> Self {
@@ -207,11 +250,11 @@ impl Scalar for Precise {
     }
 
     fn exp(self) -> Self {
-        self.map(not_too_large, exp)
+        self.map(not_too_large, exp::<BITS>)
     }
 
     fn exp_m1(self) -> Self {
-        self.map(not_too_large, exp_m1)
+        self.map(not_too_large, exp_m1::<BITS>)
     }
 
     fn ln(self) -> Self {
@@ -222,12 +265,27 @@ impl Scalar for Precise {
         self.map(|x| *x > Float::NEG_ONE, |x| x.ln_1p())
     }
 
+    fn ln_1p_rest(self) -> Self {
+        match &self.0 {
+            Some(x) if exponent(x) < SMALL => self.map(|_| true, ln_1p_rest::<BITS>),
+            _ => self.clone() - self.ln_1p(),
+        }
+    }
+
     fn sin(self) -> Self {
         self.map(is_angle, |x| x.sin())
     }
 
     fn cos(self) -> Self {
         self.map(is_angle, |x| x.cos())
+    }
+
+    fn sin_pi(self) -> Self {
+        self.map(is_angle, sin_pi::<BITS>)
+    }
+
+    fn cos_pi(self) -> Self {
+        self.map(is_angle, cos_pi::<BITS>)
     }
 
     fn tan(self) -> Self {
@@ -261,13 +319,13 @@ impl Scalar for Precise {
     fn atan2(self, x: Self) -> Self {
         let origin = |value: &Option<Float>| value.as_ref().is_some_and(|v| *v == Float::ZERO);
         if origin(&self.0) && origin(&x.0) {
-            return Precise(None);
+            return Binary(None);
         }
         self.combine(x, |y, x| y.atan2(&x))
     }
 
     fn powf(self, exponent: Self) -> Self {
-        let zero = |value: &Precise| value.0.as_ref().is_some_and(|v| *v == Float::ZERO);
+        let zero = |value: &Self| value.0.as_ref().is_some_and(|v| *v == Float::ZERO);
         let positive = exponent.0.as_ref().is_some_and(|v| *v > Float::ZERO);
         if zero(&self) && positive {
             return self;
@@ -301,6 +359,31 @@ mod tests {
             assert_eq!(ratio(&down.clone().exp_m1(), &down), 1.0);
             assert_eq!(of(-x).exp_m1().to_f64(), -1.0);
         }
+    }
+
+    #[test]
+    fn half_turns_are_exact_where_they_vanish() {
+        for x in [0.0, 1.0, -3.0, 1e15, 4503599627370497.0] {
+            assert_eq!(of(x).sin_pi().to_f64(), 0.0, "{x}");
+            assert_eq!(of(x + 0.5).cos_pi().to_f64(), 0.0, "{x}");
+        }
+        assert_eq!(of(1e6 + 0.5).sin_pi().to_f64(), 1.0);
+        assert_eq!(of(1e6 + 1.0).cos_pi().to_f64(), -1.0);
+        assert_eq!(ratio(&of(0.25).sin_pi(), &of(0.5).sqrt()), 1.0);
+    }
+
+    #[test]
+    fn what_is_left_of_a_logarithm_keeps_its_digits() {
+        for x in [1e-10, -1e-10, 1e-30] {
+            let more = Binary::<1024>::from_f64(x);
+            let rest = more.clone() - more.ln_1p();
+            let found = of(x).ln_1p_rest();
+            let difference = (found.with_bits::<1024>() - rest.clone()) / rest;
+            assert!(difference.to_f64().abs() < 1e-70, "{x}");
+        }
+        assert_eq!(of(1e-300).ln_1p_rest().to_f64(), 0.0);
+        assert_eq!(ratio(&of(1e-300).ln_1p_rest(), &(of(1e-300) * of(1e-300))), 0.5);
+        assert_eq!(of(0.0).ln_1p_rest().to_f64(), 0.0);
     }
 
     #[test]

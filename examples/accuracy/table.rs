@@ -1,0 +1,142 @@
+//! The table of errors, as a page of Markdown.
+
+use std::path::{Path, PathBuf};
+
+use mms_codegen::accuracy::{Accuracy, Precision, Request, Row, measure};
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::selection::Form;
+
+/// What stands above the table.
+const HEAD: &str = "\
+# Accuracy
+
+The errors of what is generated, against arbitrary precision: for every field of the gallery and
+every regime, the largest |error| over points and components over the largest |value| of that
+quantity, in eps of the precision (f32: 2^-23, f64: 2^-52, wide: 2^-104). Each entry is of the quantity
+that fares worst, and names it by its symbol. Made by a command, at the number of points and times that it states; a test
+measures every row again at fewer:
+
+```console
+$ cargo run --release --example accuracy -- POINTS > docs/accuracy.md
+```
+
+`mms accuracy FIELD` shows the same quantity by quantity, with the median and the other quantiles of
+|error|/|value|, and what the code costs.
+
+| regime | the field is evaluated |
+|---|---|
+| `declared` | as its file says |
+| `displacement_1e-4` ... | with a displacement of that part of its size |
+| `jacobian_1e-3`, `jacobian_1e-6`, `jacobian_1e3` | with an amplitude such that J falls, or rises, to that |
+| `lambda_mu_1e8`, `lambda_mu_0` | with that lambda/mu in its material |
+| `moduli_1e-9`, `moduli_1e9`; `lengths_1e-9`, `lengths_1e9` | with parameters of that size, in their unit |
+| `origin_1e6` | 1e6 of its sizes off the origin: u(X - s, t) |
+| `time_1e6` | 1e6 time windows later |
+| `subnormal_inputs`, `largest_inputs` | at a coordinate or a time that is subnormal, or the last finite number |
+| `subnormal_amplitude`, `largest_amplitude` | with an amplitude that is that |
+
+A field whose parameters do not scale its displacement gets a factor for that. Where J is near 0, an
+error of eps in X already changes what is divided by J by eps/J: no evaluation in that precision does
+better. `lost` counts components that are not finite although the true value is within range; those
+whose true value is beyond it are no loss. Magnitudes below the least normal number count as that one.
+
+";
+
+/// The paths of the gallery's files, in order of their names.
+pub fn files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fields");
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
+    let mut files: Vec<PathBuf> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| is_field(path)).collect();
+    files.sort();
+    files
+}
+
+fn is_field(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "toml")
+}
+
+/// The name of a field.
+pub fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Measures what is asked for of a field.
+pub fn measured(path: &Path, request: &Request) -> Accuracy {
+    let (name, shown) = (stem(path), path.display().to_string());
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{shown}: {error}"));
+    let load = |file: &str| {
+        let path = path.with_file_name(file);
+        std::fs::read_to_string(path).map_err(|error| error.to_string())
+    };
+    let compile = |options: &_| compile_unproved(&name, &shown, &text, &load, options);
+    measure(&compile, request, |_| {}).unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// The precisions and forms of the columns.
+pub fn columns() -> impl Iterator<Item = (Precision, Form)> {
+    let forms = |precision| Form::ALL.map(|form| (precision, form));
+    Precision::ALL.into_iter().flat_map(forms)
+}
+
+/// The names of the regimes that were measured, in order.
+pub fn regimes(accuracy: &Accuracy) -> Vec<String> {
+    let mut regimes: Vec<String> = Vec::new();
+    for row in &accuracy.rows {
+        if !regimes.contains(&row.regime) {
+            regimes.push(row.regime.clone());
+        }
+    }
+    regimes
+}
+
+/// The quantity that fares worst, and how many components were lost in all quantities.
+pub fn worst<'a>(
+    accuracy: &'a Accuracy,
+    regime: &str,
+    (precision, form): (Precision, Form),
+) -> Option<(&'a Row, usize)> {
+    let rows = accuracy
+        .rows
+        .iter()
+        .filter(|row| row.regime == regime && row.precision == precision && row.form == form);
+    let lost = rows.clone().map(|row| row.errors.not_finite - row.errors.overflowed).sum();
+    let worst = rows.max_by(|a, b| a.errors.max_scaled_eps.total_cmp(&b.errors.max_scaled_eps));
+    worst.map(|row| (row, lost))
+}
+
+fn cell(accuracy: &Accuracy, regime: &str, column: (Precision, Form)) -> String {
+    let Some((row, lost)) = worst(accuracy, regime, column) else { return "-".into() };
+    let eps = row.errors.max_scaled_eps;
+    let number = if eps < 1000.0 { format!("{eps:.1}") } else { format!("{eps:.1e}") };
+    let symbol = row.quantity.symbol();
+    match lost {
+        0 => format!("{number} {symbol}"),
+        lost => format!("{number} {symbol}, {lost} lost"),
+    }
+}
+
+/// The whole page; `progress` hears the name of every field before it begins.
+pub fn page(points: usize, mut progress: impl FnMut(&str)) -> String {
+    let mut text = HEAD.replace("POINTS", &points.to_string());
+    let names = columns().map(|(precision, form)| format!("{} {}", precision.name(), form.name()));
+    let names: Vec<String> = names.collect();
+    text += &format!("| field | regime | {} |\n", names.join(" | "));
+    text += &format!("|---|---|{}\n", "---|".repeat(names.len()));
+    let mut left_out = String::new();
+    for path in files() {
+        let field = stem(&path);
+        progress(&field);
+        let accuracy = measured(&path, &Request { points, ..Request::default() });
+        for regime in regimes(&accuracy) {
+            let cells: Vec<String> =
+                columns().map(|column| cell(&accuracy, &regime, column)).collect();
+            text += &format!("| {field} | {regime} | {} |\n", cells.join(" | "));
+        }
+        for it in &accuracy.left_out {
+            let precision = it.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
+            left_out += &format!("* {field}, {}{precision}: {}\n", it.regime, it.reason);
+        }
+    }
+    format!("{text}\nLeft out:\n\n{left_out}")
+}

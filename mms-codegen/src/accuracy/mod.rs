@@ -1,0 +1,373 @@
+//! Errors of a field against arbitrary precision: every quantity, in every precision and form, as
+//! declared and at extremes.
+//!
+//! What is measured is the interpreter, which has the bits of emitted code. Each precision gets inputs
+//! that it holds exactly, and the reference gets the very same numbers. The reference is the same
+//! program with so many digits that more change nothing.
+
+mod errors;
+mod points;
+mod precision;
+mod probe;
+pub mod regime;
+mod subject;
+
+use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::thread;
+
+use mms_math::{Double, Scalar as _};
+
+pub use errors::Errors;
+use errors::Tally;
+pub use points::{Input, Place, inputs};
+pub use precision::{Digits, Precision};
+use regime::{Case, REGIMES, Regime};
+pub use subject::Compile;
+use subject::{Subject, first_line};
+
+use crate::certify::declared::accepts;
+use crate::compile::{Compiled, Failure, Options};
+use crate::program::Output;
+use crate::program::interpret::{Interpreter, Point};
+use crate::program::precise::Binary;
+use crate::quantity::Quantity;
+use crate::selection::Form;
+use crate::variation::Variation;
+
+/// At how many points the digits of the reference are checked.
+const CHECKED: usize = 4;
+
+/// To how many bits of the largest component two references must agree.
+const SETTLED: i32 = 136;
+
+/// What is to be measured.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The parameters that are set, the rigid motion and the limits. Quantities and form do not matter.
+    pub options: Options,
+    /// The quantities.
+    pub quantities: Vec<Quantity>,
+    /// The precisions.
+    pub precisions: Vec<Precision>,
+    /// The forms.
+    pub forms: Vec<Form>,
+    /// The names of the regimes, and of the field's own extremes; `None` stands for all.
+    pub regimes: Option<Vec<String>>,
+    /// How many points.
+    pub points: usize,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Request {
+            options: Options::default(),
+            quantities: Quantity::ALL.to_vec(),
+            precisions: Precision::ALL.to_vec(),
+            forms: Form::ALL.to_vec(),
+            regimes: None,
+            points: 1000,
+        }
+    }
+}
+
+/// The errors of one quantity in one regime.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The name of the regime.
+    pub regime: String,
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The precision.
+    pub precision: Precision,
+    /// The form.
+    pub form: Form,
+    /// The errors.
+    pub errors: Errors,
+}
+
+/// A regime that could not be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its name.
+    pub regime: String,
+    /// The precision, where it is made in others.
+    pub precision: Option<Precision>,
+    /// Why.
+    pub reason: String,
+}
+
+/// All that was measured of a field.
+#[derive(Clone, Debug, Default)]
+pub struct Accuracy {
+    /// By regime, quantity, precision and form.
+    pub rows: Vec<Row>,
+    /// What was not, and why.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// The names of the regimes of a field: those of all fields, then its own.
+pub fn names(own: &[crate::spec::ExtremeSpec]) -> Vec<String> {
+    let shared = REGIMES.iter().map(|regime| regime.name.to_string());
+    shared.chain(own.iter().map(|extreme| extreme.name.value.clone())).collect()
+}
+
+/// Measures what is asked for; `progress` hears the name of every regime before it begins.
+pub fn measure(
+    compile: Compile<'_>,
+    request: &Request,
+    mut progress: impl FnMut(&str),
+) -> Result<Accuracy, Failure> {
+    let subject = Subject::new(compile, &request.options, &request.quantities)?;
+    let mut accuracy = Accuracy::default();
+    let wanted = |name: &str| match &request.regimes {
+        Some(names) => names.iter().any(|wanted| wanted == name),
+        None => true,
+    };
+    let shared = REGIMES.iter().map(|regime| (regime.name, Maker::Shared(regime)));
+    let own = subject.plain().field.extremes.iter().enumerate();
+    let own = own.map(|(index, extreme)| (extreme.name.value.as_str(), Maker::Own(index)));
+    for (name, maker) in shared.chain(own).filter(|(name, _)| wanted(name)) {
+        progress(name);
+        let case = match maker {
+            Maker::Shared(regime) => regime.case(&subject, request.points),
+            Maker::Own(index) => Ok(Case::extreme(index)),
+        };
+        accuracy.add(name, case, &subject, request);
+    }
+    Ok(accuracy)
+}
+
+/// What makes a regime.
+enum Maker {
+    Shared(&'static Regime),
+    Own(usize),
+}
+
+impl Accuracy {
+    fn add(
+        &mut self,
+        name: &str,
+        case: Result<Case, String>,
+        subject: &Subject,
+        request: &Request,
+    ) {
+        let mut leave_out = |precision: Option<Precision>, reason: String| {
+            self.left_out.push(LeftOut { regime: name.into(), precision, reason });
+        };
+        let made = case.and_then(|case| Made::new(case, subject, request));
+        let made = match made {
+            Ok(made) => made,
+            Err(reason) => return leave_out(None, reason),
+        };
+        let mut rows = Vec::new();
+        for (precision, errors) in request.precisions.iter().zip(made.all_errors(request)) {
+            match errors {
+                Ok(errors) => rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
+                    regime: name.into(),
+                    quantity,
+                    precision: *precision,
+                    form,
+                    errors,
+                })),
+                Err(reason) => leave_out(Some(*precision), reason),
+            }
+        }
+        // Stable, so that forms and precisions stay in the order of the request.
+        rows.sort_by_key(|row| row.quantity);
+        self.rows.extend(rows);
+    }
+}
+
+/// The errors of each quantity and form in one precision; otherwise why there are none.
+type Found = Result<Vec<(Quantity, Form, Errors)>, String>;
+
+/// A regime of a field, compiled.
+struct Made {
+    case: Case,
+    reference: Arc<Compiled>,
+    forms: Vec<(Form, Arc<Compiled>)>,
+}
+
+impl Made {
+    fn new(case: Case, subject: &Subject, request: &Request) -> Result<Self, String> {
+        let compiled = |form: &Form| Ok((*form, subject.of_case(&case, *form)?));
+        let forms = request.forms.iter().map(compiled).collect::<Result<_, String>>()?;
+        let reference = subject.of_case(&case, Form::Stable)?;
+        Ok(Made { case, reference, forms })
+    }
+
+    /// The errors in each precision, side by side.
+    fn all_errors(&self, request: &Request) -> Vec<Found> {
+        thread::scope(|scope| {
+            let start = |precision: &Precision| match precision {
+                Precision::F32 => scope.spawn(|| self.errors::<f32>(request)),
+                Precision::F64 => scope.spawn(|| self.errors::<f64>(request)),
+                Precision::Wide => scope.spawn(|| self.errors::<Double>(request)),
+            };
+            let started: Vec<_> = request.precisions.iter().map(start).collect();
+            let joined = started.into_iter().map(|thread| thread.join());
+            joined.map(|found| found.unwrap_or_else(|panic| resume_unwind(panic))).collect()
+        })
+    }
+
+    /// The errors of each quantity and form in a precision.
+    fn errors<T: Digits>(
+        &self,
+        request: &Request,
+    ) -> Result<Vec<(Quantity, Form, Errors)>, String> {
+        let set = self.case.values(T::PRECISION);
+        if self.case.variation == Variation::Nothing {
+            accepts(&self.reference, &set).map_err(|failure| first_line(&failure))?;
+        }
+        let parameters = self.reference.parameters::<T>(&set);
+        let named = parameters.iter().zip(&self.reference.model.parameters);
+        if let Some((_, odd)) = named.into_iter().find(|(value, _)| !value.is_number()) {
+            return Err(format!("`{}` is beyond the range of {}", odd.name, T::PRECISION.name()));
+        }
+        let inputs = inputs(&self.reference, &parameters, self.case.place, request.points);
+        if inputs.is_empty() {
+            return Err("0 is neither in the body nor in the time window".into());
+        }
+        let run = Run { made: self, quantities: &request.quantities, parameters, inputs };
+        // So many bits that more change nothing. The largest numbers have 1024 before the point.
+        if run.is_settled::<256, 1536>() {
+            return run.compare::<256>();
+        }
+        if run.is_settled::<1536, 4096>() {
+            return run.compare::<1536>();
+        }
+        if run.is_settled::<4096, 8192>() {
+            return run.compare::<4096>();
+        }
+        Err("1233 digits do not tell what the true values are".into())
+    }
+}
+
+/// The inputs of a regime in a precision.
+struct Run<'a, T> {
+    made: &'a Made,
+    quantities: &'a [Quantity],
+    parameters: Vec<T>,
+    inputs: Vec<Input<T>>,
+}
+
+/// The program of a form at some point.
+struct Evaluation<'a, T: crate::program::interpret::Number> {
+    interpreter: Interpreter<'a, T>,
+    plan: Vec<bool>,
+}
+
+impl<'a, T: crate::program::interpret::Number> Evaluation<'a, T> {
+    fn new(compiled: &'a Compiled, parameters: &[T], outputs: &[Output]) -> Self {
+        let interpreter = Interpreter::new(&compiled.program, parameters);
+        let plan = interpreter.plan(outputs);
+        Evaluation { interpreter, plan }
+    }
+
+    fn set(&mut self, input: &Input<T>) {
+        self.interpreter.set_time(&input.time);
+        let Input { coordinates, normal, .. } = input;
+        self.interpreter.set_point(&self.plan, Point { coordinates, normal, gradient: &[] });
+    }
+}
+
+impl<T: Digits> Run<'_, T> {
+    fn outputs(&self) -> Vec<Output> {
+        let jacobian = Output::Quantity(Quantity::Jacobian);
+        self.quantities.iter().map(|it| Output::Quantity(*it)).chain([jacobian]).collect()
+    }
+
+    fn reference<const BITS: usize>(&self) -> Evaluation<'_, Binary<BITS>> {
+        Evaluation::new(&self.made.reference, &precisely(&self.parameters), &self.outputs())
+    }
+
+    /// Whether references of different digits agree where they are looked at.
+    fn is_settled<const BITS: usize, const MORE: usize>(&self) -> bool {
+        let (mut some, mut more) = (self.reference::<BITS>(), self.reference::<MORE>());
+        let step = self.inputs.len().div_ceil(CHECKED);
+        self.inputs.iter().step_by(step).all(|input| {
+            some.set(&precise_input(input));
+            more.set(&precise_input(input));
+            self.outputs().into_iter().all(|output| {
+                agree(&some.interpreter.output(output), &more.interpreter.output(output))
+            })
+        })
+    }
+
+    fn compare<const BITS: usize>(&self) -> Found {
+        let outputs = self.outputs();
+        let mut reference = self.reference::<BITS>();
+        let forms = self.made.forms.iter();
+        let mut evaluations: Vec<_> = forms
+            .map(|(_, compiled)| Evaluation::new(compiled, &self.parameters, &outputs))
+            .collect();
+        let tallies = || self.quantities.iter().map(|_| Tally::<BITS>::new(T::PRECISION));
+        let mut tallies: Vec<Vec<_>> = evaluations.iter().map(|_| tallies().collect()).collect();
+        let mut counted = 0;
+        for input in &self.inputs {
+            reference.set(&precise_input(input));
+            if !self.counts(&reference) {
+                continue;
+            }
+            counted += 1;
+            evaluations.iter_mut().for_each(|evaluation| evaluation.set(input));
+            for (place, output) in outputs[..self.quantities.len()].iter().enumerate() {
+                let expected = reference.interpreter.output(*output);
+                for (evaluation, tallies) in evaluations.iter().zip(&mut tallies) {
+                    let found = evaluation.interpreter.output(*output);
+                    for (found, expected) in found.into_iter().zip(&expected) {
+                        tallies[place].compare(found, expected);
+                    }
+                }
+            }
+        }
+        if counted == 0 {
+            return Err("J is below 1/2 at every point".into());
+        }
+        let named = self.made.forms.iter().zip(tallies);
+        let errors = named.flat_map(|((form, _), tallies)| {
+            let of =
+                |(quantity, tally): (&Quantity, Tally<BITS>)| (*quantity, *form, tally.finish());
+            self.quantities.iter().zip(tallies).map(of).collect::<Vec<_>>()
+        });
+        Ok(errors.collect())
+    }
+
+    /// Whether the regime is about the point that the reference is at.
+    fn counts<const BITS: usize>(&self, reference: &Evaluation<'_, Binary<BITS>>) -> bool {
+        let Some(least) = self.made.case.least_jacobian else { return true };
+        let jacobian = reference.interpreter.output(Output::Quantity(Quantity::Jacobian));
+        jacobian.iter().all(|jacobian| Binary::from_f64(least).at_most(jacobian))
+    }
+}
+
+fn precisely<T: Digits, const BITS: usize>(values: &[T]) -> Vec<Binary<BITS>> {
+    values.iter().map(|value| value.precisely()).collect()
+}
+
+fn precise_input<T: Digits, const BITS: usize>(input: &Input<T>) -> Input<Binary<BITS>> {
+    Input {
+        coordinates: precisely(&input.coordinates),
+        time: input.time.precisely(),
+        normal: precisely(&input.normal),
+    }
+}
+
+/// Whether the components of a quantity are the same, as far as it matters.
+fn agree<const BITS: usize, const MORE: usize>(
+    some: &[Binary<BITS>],
+    more: &[Binary<MORE>],
+) -> bool {
+    let mut largest = Binary::<MORE>::from_f64(0.0);
+    for value in more.iter().filter(|value| value.is_defined()) {
+        let size = value.clone().magnitude();
+        largest = if size.at_most(&largest) { largest } else { size };
+    }
+    let bound = largest * Binary::from_f64(2f64.powi(-SETTLED));
+    some.iter().zip(more).all(|(some, more)| {
+        let difference = some.with_bits::<MORE>() - more.clone();
+        some.is_defined() == more.is_defined()
+            && (!more.is_defined() || difference.magnitude().at_most(&bound))
+    })
+}

@@ -1,0 +1,158 @@
+//! How a field answers to its parameters: which one scales the displacement, and where J is small or
+//! large.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::points::{Input, Place, exact, inputs};
+use crate::compile::Compiled;
+use crate::expr::Rational;
+use crate::program::interpret::{Interpreter, Point};
+use crate::program::precise::Precise;
+use crate::program::{Bound, Output};
+use crate::quantity::Quantity;
+
+/// How many points show what a parameter does.
+const POINTS: usize = 64;
+
+/// By how much, in powers of two, a parameter is reduced to see whether u goes with it.
+const REDUCED: i32 = 30;
+
+/// How many doublings of an amplitude are tried.
+const DOUBLINGS: usize = 40;
+
+/// A parameter with which the displacement vanishes.
+#[derive(Clone, Copy, Debug)]
+pub struct Amplitude {
+    /// Its position.
+    pub parameter: usize,
+    /// Its default.
+    pub value: f64,
+    /// Where it is small, the largest |u| is `factor` times the parameter to the power `order`.
+    factor: f64,
+    order: f64,
+}
+
+impl Amplitude {
+    /// The parameter of that position, if all of u vanishes with it and neither body nor time window
+    /// depend on it.
+    pub fn of(compiled: &Compiled, parameter: usize) -> Option<Amplitude> {
+        let value = compiled.parameters::<f64>(&BTreeMap::new())[parameter];
+        let reduced = value * 2f64.powi(-REDUCED);
+        if value == 0.0 || !value.is_finite() || !reduced.is_normal() {
+            return None;
+        }
+        let [with, without] = [value, reduced].map(|value| set(parameter, value));
+        if bounds(compiled, &with) != bounds(compiled, &without) {
+            return None;
+        }
+        let [whole, rest] = [with, without].map(|set| largest_displacement(compiled, &set));
+        let scale = 2f64.powi(-REDUCED);
+        let vanishes = whole > 0.0 && rest > 0.0 && rest <= 2.0 * scale * whole;
+        let order = ((whole / rest).log2() / f64::from(REDUCED)).round();
+        vanishes.then(|| Amplitude {
+            parameter,
+            value,
+            factor: rest / reduced.abs().powf(order),
+            order,
+        })
+    }
+
+    /// The first such parameter of a field.
+    pub fn find(compiled: &Compiled) -> Option<Amplitude> {
+        (0..compiled.model.parameters.len())
+            .filter(|index| !compiled.field.parameters[*index].frozen)
+            .find_map(|index| Self::of(compiled, index))
+    }
+
+    /// The value for which the largest |u| is about that, where that is small.
+    pub fn for_displacement(&self, displacement: f64) -> f64 {
+        (displacement / self.factor).powf(1.0 / self.order).copysign(self.value)
+    }
+}
+
+/// A setting of one parameter; none where the value is not finite.
+pub fn set(parameter: usize, value: f64) -> BTreeMap<usize, Rational> {
+    exact(value).map(|value| (parameter, value)).into_iter().collect()
+}
+
+fn bounds(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Vec<f64> {
+    let interpreter = Interpreter::new(&compiled.program, &compiled.parameters::<f64>(set));
+    let all = [Bound::Lower, Bound::Upper, Bound::Inner, Bound::Outer, Bound::Theta, Bound::Time];
+    all.into_iter().flat_map(|bound| interpreter.output(Output::Bound(bound))).collect()
+}
+
+/// With 77 digits: what is typed as a difference may cancel.
+fn largest_displacement(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> f64 {
+    let output = Output::Quantity(Quantity::Displacement);
+    let parameters = compiled.parameters::<Precise>(set);
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&[output]);
+    let points = inputs(compiled, &compiled.parameters::<f64>(set), Place::Body, POINTS);
+    let mut largest = 0.0_f64;
+    for input in points {
+        let coordinates: Vec<_> = input.coordinates.iter().map(|x| Precise::from_f64(*x)).collect();
+        interpreter.set_time(&Precise::from_f64(input.time));
+        interpreter.set_point(&plan, Point::at(&coordinates));
+        let components = interpreter.output(output);
+        largest = components.iter().map(|u| u.to_f64().abs()).fold(largest, f64::max);
+    }
+    largest
+}
+
+/// The least and the greatest J at points and times.
+fn jacobians(
+    compiled: &Compiled,
+    points: &[Input<f64>],
+    set: &BTreeMap<usize, Rational>,
+) -> [f64; 2] {
+    let output = Output::Quantity(Quantity::Jacobian);
+    let mut interpreter = Interpreter::new(&compiled.program, &compiled.parameters::<f64>(set));
+    let plan = interpreter.plan(&[output]);
+    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+    for input in points {
+        interpreter.set_time(&input.time);
+        interpreter.set_point(&plan, Point::at(&input.coordinates));
+        for jacobian in interpreter.output(output) {
+            range = [range[0].min(jacobian), range[1].max(jacobian)];
+        }
+    }
+    range
+}
+
+/// The value of an amplitude of least magnitude at which the least J is `target`, if that is less
+/// than 1, or else the greatest is; otherwise what J does.
+pub fn amplitude_for_jacobian(
+    compiled: &Compiled,
+    amplitude: &Amplitude,
+    target: f64,
+    count: usize,
+) -> Result<f64, String> {
+    let points =
+        inputs(compiled, &compiled.parameters::<f64>(&BTreeMap::new()), Place::Body, count);
+    let range = |value: f64| jacobians(compiled, &points, &set(amplitude.parameter, value));
+    let is_beyond = |value: f64| match (target < 1.0, range(value)) {
+        (true, [least, _]) => least < target,
+        (false, [_, greatest]) => greatest > target,
+    };
+    let sizes = (0..2 * DOUBLINGS).map(|step| step as f64 - DOUBLINGS as f64);
+    let mut tried = sizes.flat_map(|power| [1.0, -1.0].map(|sign| sign * 2f64.powf(power)));
+    let found = tried.find(|factor| is_beyond(factor * amplitude.value));
+    let Some(factor) = found else {
+        let [least, greatest] = range(amplitude.value);
+        return Err(format!(
+            "J lies between {least:.3} and {greatest:.3} by default, and no amplitude makes it {target:e}"
+        ));
+    };
+    let (mut within, mut beyond) = (0.5 * factor * amplitude.value, factor * amplitude.value);
+    for _ in 0..60 {
+        let middle = 0.5 * (within + beyond);
+        if is_beyond(middle) {
+            beyond = middle;
+        } else {
+            within = middle;
+        }
+    }
+    Ok(within)
+}

@@ -1,0 +1,139 @@
+//! Another field that is made of one: to evaluate at extremes that its own parameters do not reach.
+//!
+//! A variation is made before anything is differentiated, so that what follows from the varied field
+//! is derived as that of any other. Nothing that it claims is looked at: its boundary may be another.
+
+use std::collections::BTreeMap;
+
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::invariant::Kind;
+use crate::mechanics::model::Model;
+use crate::pass::substitute::substitute;
+use crate::source::{Sources, Spanned};
+use crate::spec::{FieldSpec, Formula, ParameterSpec};
+
+/// What is changed of a field.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Variation {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The displacement is s u(X, t), with s = 1 a parameter behind those of the file.
+    Scaled,
+    /// The body lies elsewhere: u(X - s, t), and its material likewise, with s = 0 a parameter behind
+    /// those of the file, the same along each axis.
+    Shifted,
+    /// The material has this ratio of lambda to mu, a number as field files write it.
+    Moduli(String),
+}
+
+/// What a material is made of, where that fixes lambda/mu = r: the argument that is replaced, the one
+/// that it is made of, and the factor as a formula of r.
+const PAIRS: [(&str, &str, &str); 3] =
+    [("lambda", "mu", "(r)"), ("kappa", "mu", "((r) + 2/3)"), ("nu", "young", "")];
+
+impl Variation {
+    /// Whether a field can be varied so; otherwise what it lacks.
+    pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
+        match self {
+            Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {
+                Err("the material is not given by lambda and mu, kappa and mu, or young and nu, and no definition is called lambda".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Changes formulas and parameters, before any name is resolved. Each text that is put in becomes
+    /// a source of its own.
+    pub(crate) fn rewrite(&self, sources: &mut Sources, field: &mut FieldSpec) {
+        match self {
+            Variation::Nothing => {}
+            Variation::Scaled => add_parameter(sources, field, "scale of u", "1"),
+            Variation::Shifted => add_parameter(sources, field, "shift of X", "0"),
+            Variation::Moduli(ratio) => set_moduli(sources, field, ratio),
+        }
+    }
+
+    /// Changes what the formulas mean.
+    pub(crate) fn transform(&self, graph: &mut Graph, model: &mut Model) {
+        let Some(last) = model.parameters.len().checked_sub(1) else { return };
+        let parameter = graph.symbol(Symbol::Parameter(last));
+        match self {
+            Variation::Nothing | Variation::Moduli(_) => {}
+            Variation::Scaled => {
+                for component in &mut model.displacement {
+                    *component = graph.mul(parameter, *component);
+                }
+            }
+            Variation::Shifted => shift(graph, model, parameter),
+        }
+    }
+}
+
+/// Adds a parameter behind the others, under a name that no file can have.
+fn add_parameter(sources: &mut Sources, field: &mut FieldSpec, name: &str, value: &str) {
+    let source = sources.add("variation", value);
+    let span = sources.span(source, 0, value.len());
+    field.parameters.push(ParameterSpec {
+        name: Spanned { value: name.into(), span },
+        value: Formula::plain(value, span),
+        unit: None,
+        doc: None,
+        range: None,
+        frozen: false,
+    });
+}
+
+/// The places of two arguments of the material that fix lambda/mu, and the factor between them.
+fn pair(field: &FieldSpec) -> Option<(usize, usize, &'static str)> {
+    let arguments = &field.material.arguments;
+    let place = |name: &str| arguments.iter().position(|(argument, _)| argument.value == name);
+    PAIRS
+        .iter()
+        .find_map(|(replaced, other, factor)| Some((place(replaced)?, place(other)?, *factor)))
+}
+
+/// Whether the file defines lambda and, above it, mu.
+fn has_definitions(field: &FieldSpec) -> bool {
+    let place = |name: &str| field.lets.iter().position(|it| it.name.value == name);
+    place("mu").zip(place("lambda")).is_some_and(|(mu, lambda)| mu < lambda)
+}
+
+fn set_moduli(sources: &mut Sources, field: &mut FieldSpec, ratio: &str) {
+    let mut formula = |text: String| {
+        let source = sources.add("variation", text.as_str());
+        Formula::plain(&text, sources.span(source, 0, text.len()))
+    };
+    if let Some((replaced, other, factor)) = pair(field) {
+        let other = &field.material.arguments[other].1.text;
+        let text = match factor {
+            "" => format!("({ratio})/(2*(1 + ({ratio})))"),
+            factor => format!("{}*({other})", factor.replace("(r)", &format!("({ratio})"))),
+        };
+        field.material.arguments[replaced].1 = formula(text);
+    } else if let Some(lambda) = field.lets.iter_mut().find(|it| it.name.value == "lambda") {
+        lambda.value = formula(format!("({ratio})*mu"));
+    }
+}
+
+/// X becomes X - s everywhere.
+fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
+    let axes = 0..model.displacement.len();
+    let moved: BTreeMap<Symbol, Expr> = axes
+        .map(|axis| {
+            let symbol = Symbol::Coordinate(axis);
+            let coordinate = graph.symbol(symbol);
+            (symbol, graph.sub(coordinate, by))
+        })
+        .collect();
+    let mut shifted = |exprs: &[Expr]| substitute(graph, exprs, &moved);
+    model.displacement = shifted(&model.displacement);
+    model.arguments = shifted(&model.arguments);
+    model.density = shifted(&[model.density])[0];
+    model.energy = shifted(&[model.energy])[0];
+    model.fibre = model.fibre.as_deref().map(&mut shifted);
+    model.poisson = model.poisson.map(|poisson| shifted(&[poisson])[0]);
+    if let Kind::Fibrous(direction) = &mut model.kind {
+        *direction = shifted(direction);
+    }
+}

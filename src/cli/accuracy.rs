@@ -1,0 +1,182 @@
+//! `mms accuracy`: errors against arbitrary precision, and what they cost.
+
+use std::path::PathBuf;
+
+use anyhow::{anyhow, bail};
+use clap::Args;
+use mms_codegen::accuracy::regime::REGIMES;
+use mms_codegen::accuracy::{Precision, Request, measure, names};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::{Form, Selection};
+use mms_codegen::suggest::did_you_mean;
+use mms_codegen::{Compiled, Options};
+
+use super::input::{Motion, Text, quantities, settings};
+use super::{Outcome, print, print_json};
+use crate::report::accuracy::Report;
+use crate::report::write_whole;
+use crate::workbench::{Module, Time, Way, Workbench, time};
+
+/// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
+/// twice double precision, in the stable and the fast form, as declared and at extremes.
+///
+/// The table shows, for each quantity, precision and form, the regime with the largest error. Errors
+/// are in eps of the precision (2^-23, 2^-52, 2^-104): the median, that which 99 of 100 components do
+/// not exceed, and the largest |error|/|value|; then the largest |error| over the largest |value| of
+/// the quantity. What is not finite is counted, and enters no error. A 2-D field takes some seconds,
+/// a 3-D one about a minute; --quantity, --regime and --points shorten that.
+///
+/// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
+/// declared, and at displacements down to 1e-12 of the size.
+#[derive(Args)]
+#[command(after_help = listed())]
+pub struct Accuracy {
+    /// A gallery name, or a path to a TOML file.
+    field: String,
+    /// Quantities, separated by commas, or `all`.
+    #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// Regimes, separated by commas, or `all`: those that are listed below, and the names of the
+    /// field's [[extreme]] tables.
+    #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
+    regime: Vec<String>,
+    /// At how many points and times; one in four lies on a face or close to one.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    points: u32,
+    /// Change the default of a parameter, to a number or a formula in the parameters above it; may
+    /// be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    motion: Motion,
+    /// Compile the emitted code with the `rustc` on the PATH, and time it: batches in f32 and f64,
+    /// point by point in twice the digits. Takes half a minute, some minutes for all quantities of a
+    /// 3-D field.
+    #[arg(long)]
+    time: bool,
+    /// Show every regime, not the worst alone.
+    #[arg(long)]
+    all: bool,
+    /// Write accuracy.json there, and accuracy.svg: errors over time, with the Pareto front. Implies
+    /// --time.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The regimes, for --help.
+fn listed() -> String {
+    let width = REGIMES.iter().map(|regime| regime.name.len()).max().unwrap_or(0);
+    let lines = REGIMES.iter().map(|regime| format!("\n  {:width$}  {}", regime.name, regime.doc));
+    format!("Regimes:{}", lines.collect::<String>())
+}
+
+impl Accuracy {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let text = Text::find(&self.field)?;
+        let quantities = self.quantities()?;
+        let set = settings(&self.set)?;
+        let options = self.motion.options(Selection { set, ..Selection::default() });
+        let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
+        let compiled = text.compile(&options).map_err(refused)?;
+        let request = Request {
+            options: options.clone(),
+            quantities: quantities.clone(),
+            regimes: self.regimes(&compiled)?,
+            points: self.points as usize,
+            ..Request::default()
+        };
+        let say = |regime: &str| anstream::eprintln!("{}: {regime}", text.name());
+        let compile = |options: &Options| text.compile(options);
+        let accuracy = measure(&compile, &request, say).map_err(refused)?;
+        let times = match self.time || self.output.is_some() {
+            true => timed(&text, &options, &quantities),
+            false => None,
+        };
+        let report = Report {
+            field: text.name().into(),
+            points: request.points,
+            accuracy,
+            times: times.unwrap_or_default(),
+        };
+        if let Some(folder) = &self.output {
+            for path in report.write(folder, write_whole)? {
+                anstream::eprintln!("{path}");
+            }
+        }
+        if self.json {
+            print_json(&report.document())?;
+        } else {
+            print(&report.table(self.all))?;
+        }
+        let held = report.broken().is_empty();
+        Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    fn quantities(&self) -> anyhow::Result<Vec<Quantity>> {
+        if self.quantity.iter().any(|name| name.trim() == "all") {
+            return Ok(Quantity::ALL.to_vec());
+        }
+        quantities(&self.quantity)
+    }
+
+    fn regimes(&self, compiled: &Compiled) -> anyhow::Result<Option<Vec<String>>> {
+        let wanted: Vec<String> = self.regime.iter().map(|name| name.trim().to_string()).collect();
+        if wanted.iter().any(|name| name == "all") {
+            return Ok(None);
+        }
+        let known = names(&compiled.field.extremes);
+        let names = || known.iter().map(String::as_str);
+        for name in &wanted {
+            if known.contains(name) {
+                continue;
+            }
+            match did_you_mean(name, names()) {
+                Some(near) => bail!("no regime `{name}`; did you mean `{near}`?"),
+                None => bail!(
+                    "no regime `{name}`; there are {}",
+                    names().collect::<Vec<_>>().join(", ")
+                ),
+            }
+        }
+        Ok(Some(wanted))
+    }
+}
+
+/// The times of both forms; `None`, with a word on stderr, where nothing can be timed.
+fn timed(text: &Text, options: &Options, quantities: &[Quantity]) -> Option<Vec<(Form, Time)>> {
+    anstream::eprintln!("{}: compiling and timing the emitted code", text.name());
+    let compiled = |form: Form| {
+        let mut options = Options { form, ..options.clone() };
+        options.selection.quantities = Some(quantities.iter().copied().collect());
+        text.compile(&options).map_err(|failure| anyhow!("{failure}"))
+    };
+    let times = || {
+        let bench = Workbench::open()?;
+        let forms = Form::ALL.map(|form| (form, compiled(form)));
+        let mut modules = Vec::new();
+        for (form, compiled) in &forms {
+            let compiled = compiled.as_ref().map_err(|error| anyhow!("{error}"))?;
+            modules.push(Module { name: form.name(), compiled });
+        }
+        let ways = Precision::ALL.map(|precision| match precision {
+            Precision::Wide => (precision, Way::Single),
+            _ => (precision, Way::Batch),
+        });
+        time(&bench, &modules, &ways)
+    };
+    match times() {
+        Ok(times) => Some(
+            times
+                .into_iter()
+                .filter_map(|time| Some((Form::from_name(&time.module).ok()?, time)))
+                .collect(),
+        ),
+        Err(error) => {
+            anstream::eprintln!("no times: {error:#}");
+            None
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Measured errors as a table, a JSON document and a picture.
+
+mod picture;
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_codegen::accuracy::{Accuracy, Errors, Precision, Row};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::Form;
+use serde_json::{Value, json};
+
+use crate::workbench::Time;
+
+/// What the stable form promises, in eps of the largest value of a quantity.
+pub const BOUND: f64 = 64.0;
+
+/// The regimes that the promise is about.
+const PROMISED: [&str; 4] =
+    ["declared", "displacement_1e-4", "displacement_1e-8", "displacement_1e-12"];
+
+/// The measured errors of a field.
+pub struct Report {
+    /// The field's name.
+    pub field: String,
+    /// At how many points.
+    pub points: usize,
+    /// The errors.
+    pub accuracy: Accuracy,
+    /// What the emitted code costs; empty where that was not measured.
+    pub times: Vec<(Form, Time)>,
+}
+
+/// Whether a row is beyond what is promised of it.
+fn is_broken(row: &Row) -> bool {
+    let Errors { max_scaled_eps, not_finite, .. } = row.errors;
+    let is_promised = row.form == Form::Stable && PROMISED.contains(&row.regime.as_str());
+    is_promised && (max_scaled_eps > BOUND || max_scaled_eps.is_nan() || not_finite > 0)
+}
+
+impl Report {
+    /// The rows that are beyond what is promised of them.
+    pub fn broken(&self) -> Vec<&Row> {
+        self.accuracy.rows.iter().filter(|row| is_broken(row)).collect()
+    }
+
+    /// What the emitted code of a row takes.
+    fn time(&self, quantity: Quantity, precision: Precision, form: Form) -> Option<f64> {
+        let same = |(of, time): &&(Form, Time)| {
+            *of == form && time.quantity == quantity && time.precision == precision
+        };
+        self.times.iter().find(same).map(|(_, time)| time.ns_per_point)
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        let rows = self.accuracy.rows.iter().map(|row| {
+            let errors = row.errors;
+            json!({
+                "quantity": row.quantity.name(),
+                "precision": row.precision.name(),
+                "form": row.form.name(),
+                "regime": row.regime,
+                "median_eps": errors.median_eps,
+                "p99_eps": errors.p99_eps,
+                "max_eps": errors.max_eps,
+                "max_scaled_eps": errors.max_scaled_eps,
+                "compared": errors.compared,
+                "not_finite": errors.not_finite,
+                "overflowed": errors.overflowed,
+                "undefined": errors.undefined,
+                "ns_per_point": self.time(row.quantity, row.precision, row.form),
+            })
+        });
+        let left_out = self.accuracy.left_out.iter().map(|it| {
+            json!({
+                "regime": it.regime,
+                "precision": it.precision.map(Precision::name),
+                "reason": it.reason,
+            })
+        });
+        json!({
+            "field": self.field,
+            "points": self.points,
+            "rows": rows.collect::<Vec<_>>(),
+            "left_out": left_out.collect::<Vec<_>>(),
+        })
+    }
+
+    /// The rows that are shown: all, or of each quantity, precision and form that of the largest
+    /// error.
+    fn shown(&self, all: bool) -> Vec<&Row> {
+        let rows = self.accuracy.rows.iter();
+        if all {
+            return rows.collect();
+        }
+        let mut shown: Vec<&Row> = Vec::new();
+        for row in rows {
+            let key = |row: &Row| (row.quantity, row.precision, row.form);
+            match shown.iter_mut().find(|other| key(other) == key(row)) {
+                Some(other) if row.errors.max_scaled_eps > other.errors.max_scaled_eps => {
+                    *other = row;
+                }
+                Some(_) => {}
+                None => shown.push(row),
+            }
+        }
+        shown.sort_by_key(|row| row.quantity);
+        shown
+    }
+
+    /// The table for a terminal, and below it what was left out and what broke its promise.
+    pub fn table(&self, all: bool) -> String {
+        let mut table = Table::new();
+        table.load_style(NOTHING).set_header([
+            "quantity",
+            "precision",
+            "form",
+            "regime",
+            "median",
+            "99 %",
+            "max",
+            "max/largest",
+            "not finite",
+            "ns/point",
+        ]);
+        for row in self.shown(all) {
+            let errors = row.errors;
+            let lost = match (errors.not_finite, errors.overflowed) {
+                (0, _) => "-".into(),
+                (lost, overflowed) => format!("{lost} ({overflowed} too large)"),
+            };
+            let time = self.time(row.quantity, row.precision, row.form);
+            table.add_row([
+                row.quantity.name().to_string(),
+                row.precision.name().into(),
+                row.form.name().into(),
+                row.regime.clone(),
+                eps(errors.median_eps),
+                eps(errors.p99_eps),
+                eps(errors.max_eps),
+                eps(errors.max_scaled_eps),
+                lost,
+                time.map_or("-".into(), |time| format!("{time:.2}")),
+            ]);
+        }
+        for column in table.column_iter_mut().skip(4) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+        let mut text =
+            format!("{}, {} points, errors in eps\n\n{table}\n", self.field, self.points);
+        for left_out in &self.accuracy.left_out {
+            let precision =
+                left_out.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
+            text += &format!("\nleft out: {}{precision}: {}", left_out.regime, left_out.reason);
+        }
+        for row in self.broken() {
+            text += &format!(
+                "\nbeyond {BOUND} eps: {} in {} at {}: {} eps, {} not finite",
+                row.quantity.name(),
+                row.precision.name(),
+                row.regime,
+                eps(row.errors.max_scaled_eps),
+                row.errors.not_finite
+            );
+        }
+        text
+    }
+
+    /// Writes accuracy.json and, where there are times, accuracy.svg into a folder; returns their
+    /// paths.
+    pub fn write(
+        &self,
+        folder: &Path,
+        write_whole: impl Fn(&Path, &str) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Vec<String>> {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let mut files = vec![("json", serde_json::to_string_pretty(&self.document())? + "\n")];
+        if !self.times.is_empty() {
+            files.push(("svg", picture::draw(self)?));
+        }
+        files
+            .into_iter()
+            .map(|(extension, content)| {
+                let path = folder.join("accuracy").with_extension(extension);
+                write_whole(&path, &content)
+                    .with_context(|| format!("cannot write `{}`", path.display()))?;
+                Ok(path.display().to_string())
+            })
+            .collect()
+    }
+}
+
+/// An error for a person.
+pub fn eps(value: f64) -> String {
+    match value {
+        0.0 => "0".into(),
+        small if small < 1000.0 => format!("{small:.2}"),
+        large => format!("{large:.1e}"),
+    }
+}

@@ -1,0 +1,98 @@
+//! Compiles emitted code and runs it, to see what it costs on this machine.
+//!
+//! The workbench is a temporary folder with `mms-math`, whose sources are embedded, compiled by the
+//! `rustc` of the user. Nothing else is needed, and nothing is fetched.
+
+mod timing;
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context as _, bail};
+use tempfile::TempDir;
+
+pub use timing::{Module, Time, Way, time};
+
+/// The sources of `mms-math`: paths below `src/`, and texts.
+const MATH: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/math.rs"));
+
+/// A folder with a compiled `mms-math`.
+pub struct Workbench {
+    folder: TempDir,
+    rustc: PathBuf,
+}
+
+impl Workbench {
+    /// Compiles `mms-math`; an error says why there is no workbench here.
+    pub fn open() -> anyhow::Result<Self> {
+        let rustc = PathBuf::from("rustc");
+        if MATH.is_empty() {
+            bail!("this program was built without the sources of mms-math");
+        }
+        let version = Command::new(&rustc).arg("--version").output();
+        if !version.is_ok_and(|output| output.status.success()) {
+            bail!("no `rustc` on the PATH to compile emitted code with");
+        }
+        let bench = Workbench { folder: tempfile::tempdir()?, rustc };
+        for (path, text) in MATH {
+            bench.write(&format!("mms_math/{path}"), text)?;
+        }
+        let std = ["--cfg", "feature=\"std\"", "--crate-type", "rlib"];
+        bench.compile("mms_math/lib.rs", "libmms_math.rlib", &std)?;
+        Ok(bench)
+    }
+
+    /// Writes a source file, and the folders above it.
+    fn write(&self, name: &str, text: &str) -> anyhow::Result<()> {
+        let path = self.folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+        fs::write(&path, text).with_context(|| format!("cannot write `{}`", path.display()))
+    }
+
+    /// Compiles a crate of this folder as a release is.
+    fn compile(&self, source: &str, output: &str, options: &[&str]) -> anyhow::Result<PathBuf> {
+        let output = self.folder.path().join(output);
+        let mut command = Command::new(&self.rustc);
+        command
+            .current_dir(self.folder.path())
+            .args(["--edition", "2024", "--cap-lints", "allow", "-C", "opt-level=3"])
+            .args(options)
+            .arg("-o")
+            .arg(&output)
+            .arg(source);
+        if source != "mms_math/lib.rs" {
+            command.args(["--extern", "mms_math=libmms_math.rlib"]);
+        }
+        let result = command.output().context("cannot start `rustc`")?;
+        if !result.status.success() {
+            let text = String::from_utf8_lossy(&result.stderr);
+            let lines: Vec<&str> = text.lines().take(20).collect();
+            bail!("`rustc` refuses the emitted code:\n{}", lines.join("\n"));
+        }
+        Ok(output)
+    }
+
+    /// Compiles a program and returns what it prints when it reads `input`.
+    fn run(&self, source: &str, input: &str) -> anyhow::Result<String> {
+        let program = self.compile(source, "program", &["--crate-name", "program"])?;
+        self.output_of(program.as_os_str(), input)
+    }
+
+    fn output_of(&self, program: &OsStr, input: &str) -> anyhow::Result<String> {
+        let mut child = Command::new(program)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .context("cannot start the compiled program")?;
+        // It reads everything before it writes.
+        child.stdin.take().context("no pipe")?.write_all(input.as_bytes())?;
+        let output = child.wait_with_output()?;
+        if !output.status.success() {
+            bail!("the compiled program stopped: {}", output.status);
+        }
+        Ok(String::from_utf8(output.stdout)?)
+    }
+}

@@ -1,0 +1,101 @@
+//! `mms accuracy`: the errors, how they are printed, and what is refused.
+
+use serde_json::Value;
+
+use super::mms::{BAR, Folder, keys};
+
+const KEYS: [&str; 13] = [
+    "quantity",
+    "precision",
+    "form",
+    "regime",
+    "median_eps",
+    "p99_eps",
+    "max_eps",
+    "max_scaled_eps",
+    "compared",
+    "not_finite",
+    "overflowed",
+    "undefined",
+    "ns_per_point",
+];
+
+fn rows(document: &Value) -> &[Value] {
+    document["rows"].as_array().map_or(&[], Vec::as_slice)
+}
+
+#[test]
+fn the_document_has_a_row_for_each_precision_and_form() {
+    let arguments = "accuracy bar_1d --quantity body_force --regime declared --points 20 --json";
+    let document = Folder::new().mms(arguments).exits(0).json();
+    assert_eq!(keys(&document), ["field", "points", "rows", "left_out"]);
+    assert_eq!(
+        (document["field"].as_str(), document["points"].as_u64()),
+        (Some("bar_1d"), Some(20))
+    );
+    let names: Vec<_> = rows(&document)
+        .iter()
+        .map(|row| ["precision", "form"].map(|key| row[key].as_str().unwrap_or_default()).join(" "))
+        .collect();
+    let expected = ["f32 stable", "f32 fast", "f64 stable", "f64 fast", "wide stable", "wide fast"];
+    assert_eq!(names, expected);
+    for row in rows(&document) {
+        assert_eq!(keys(row), KEYS);
+        assert!(row["max_scaled_eps"].as_f64().is_some_and(|eps| eps < 64.0), "{row}");
+        assert!(row["ns_per_point"].is_null());
+    }
+}
+
+#[test]
+fn a_fields_own_extreme_is_a_regime() {
+    let folder = Folder::new();
+    let own = "\n[[extreme]]\nname = \"soft\"\nset = { young = 1e-3 }\n";
+    folder.write("soft.toml", &format!("{BAR}{own}"));
+    let arguments = "accuracy soft.toml --quantity P --regime soft --points 8 --json";
+    let document = folder.mms(arguments).exits(0).json();
+    assert_eq!(rows(&document).len(), 6);
+    assert!(rows(&document).iter().all(|row| row["regime"] == "soft"));
+}
+
+#[test]
+fn what_cannot_be_made_is_left_out_with_the_reason() {
+    let run = Folder::new()
+        .mms("accuracy generalized_vortex --quantity J --regime jacobian_1e-3 --points 8");
+    let stdout = run.exits(0).stdout;
+    assert!(stdout.contains("left out: jacobian_1e-3: J lies between"), "{stdout}");
+}
+
+#[test]
+fn names_that_do_not_exist_are_refused_with_those_that_do() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        ("accuracy bar_1d --regime declred", "did you mean `declared`?"),
+        ("accuracy bar_1d --regime nothing_like_it", "there are declared, displacement_1e-4"),
+        ("accuracy bar_2d", "did you mean `bar_1d`?"),
+        ("accuracy bar_1d --set young", "expected name=value"),
+        ("accuracy bar_1d --set yung=2", "did you mean `young`?"),
+    ] {
+        let run = folder.mms(arguments).exits(2);
+        assert!(run.stderr.contains(message), "{arguments}: {}", run.stderr);
+    }
+    folder.mms("accuracy bar_1d --points 0").exits(2);
+}
+
+#[test]
+fn the_picture_needs_times_and_they_a_compiler() {
+    let folder = Folder::new();
+    let run = folder
+        .mms("accuracy bar_1d --quantity body_force --regime declared --points 8 --json -o out")
+        .exits(0);
+    let timed = !run.stderr.contains("no times: ");
+    for row in rows(&run.json()) {
+        assert_eq!(row["ns_per_point"].as_f64().is_some(), timed, "{}", run.stderr);
+    }
+    assert!(folder.path("out/accuracy.json").is_file());
+    assert_eq!(folder.path("out/accuracy.svg").is_file(), timed);
+    if timed {
+        let picture = folder.read("out/accuracy.svg");
+        roxmltree::Document::parse(&picture).expect("well-formed");
+        assert!(picture.contains("Pareto front") && picture.contains("wide"));
+    }
+}
