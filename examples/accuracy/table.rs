@@ -12,9 +12,9 @@ const HEAD: &str = "\
 
 The errors of what is generated, against arbitrary precision: for every field of the gallery and
 every regime, the largest |error| over points and components over the largest |value| of that
-quantity, in eps of the precision (f32: 2^-23, f64: 2^-52, wide: 2^-104). Each entry is of the quantity
-that fares worst, and names it by its symbol. Made by a command, at the number of points and times that it states; a test
-measures every row again at fewer:
+quantity, in eps of the precision (f32: 2^-23, f64: 2^-52, wide: 2^-104). Each entry is of the
+quantity that fares worst, and names it by its symbol. Made by a command, at the number of points and
+times that it states; a test measures every row again at fewer:
 
 ```console
 $ cargo run --release --example accuracy -- POINTS > docs/accuracy.md

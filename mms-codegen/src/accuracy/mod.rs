@@ -38,7 +38,7 @@ use crate::variation::Variation;
 /// At how many points the digits of the reference are checked.
 const CHECKED: usize = 4;
 
-/// To how many bits of the largest component two references must agree.
+/// To how many bits of the largest value of a quantity two references must agree.
 const SETTLED: i32 = 136;
 
 /// What is to be measured.
@@ -286,13 +286,19 @@ impl<T: Digits> Run<'_, T> {
     fn is_settled<const BITS: usize, const MORE: usize>(&self) -> bool {
         let (mut some, mut more) = (self.reference::<BITS>(), self.reference::<MORE>());
         let step = self.inputs.len().div_ceil(CHECKED);
-        self.inputs.iter().step_by(step).all(|input| {
+        let outputs = self.outputs();
+        let mut agreements: Vec<_> = outputs.iter().map(|_| Agreement::<MORE>::default()).collect();
+        for input in self.inputs.iter().step_by(step) {
             some.set(&precise_input(input));
             more.set(&precise_input(input));
-            self.outputs().into_iter().all(|output| {
-                agree(&some.interpreter.output(output), &more.interpreter.output(output))
-            })
-        })
+            for (output, agreement) in outputs.iter().zip(&mut agreements) {
+                let found = some.interpreter.output(*output);
+                for (some, more) in found.iter().zip(more.interpreter.output(*output)) {
+                    agreement.see(&some.with_bits(), more);
+                }
+            }
+        }
+        agreements.iter().all(Agreement::is_close)
     }
 
     fn compare<const BITS: usize>(&self) -> Found {
@@ -354,20 +360,36 @@ fn precise_input<T: Digits, const BITS: usize>(input: &Input<T>) -> Input<Binary
     }
 }
 
-/// Whether the components of a quantity are the same, as far as it matters.
-fn agree<const BITS: usize, const MORE: usize>(
-    some: &[Binary<BITS>],
-    more: &[Binary<MORE>],
-) -> bool {
-    let mut largest = Binary::<MORE>::from_f64(0.0);
-    for value in more.iter().filter(|value| value.is_defined()) {
-        let size = value.clone().magnitude();
-        largest = if size.at_most(&largest) { largest } else { size };
+/// How far two references of a quantity are apart, over all that was looked at: one component may be
+/// 0, and nothing but round-off in both.
+struct Agreement<const BITS: usize> {
+    difference: Binary<BITS>,
+    largest: Binary<BITS>,
+    is_defined_alike: bool,
+}
+
+impl<const BITS: usize> Default for Agreement<BITS> {
+    fn default() -> Self {
+        let zero = Binary::from_f64(0.0);
+        Agreement { difference: zero.clone(), largest: zero, is_defined_alike: true }
     }
-    let bound = largest * Binary::from_f64(2f64.powi(-SETTLED));
-    some.iter().zip(more).all(|(some, more)| {
-        let difference = some.with_bits::<MORE>() - more.clone();
-        some.is_defined() == more.is_defined()
-            && (!more.is_defined() || difference.magnitude().at_most(&bound))
-    })
+}
+
+impl<const BITS: usize> Agreement<BITS> {
+    fn see(&mut self, some: &Binary<BITS>, more: Binary<BITS>) {
+        self.is_defined_alike &= some.is_defined() == more.is_defined();
+        let difference = (some.clone() - more.clone()).magnitude();
+        if difference.is_defined() && !difference.at_most(&self.difference) {
+            self.difference = difference;
+        }
+        let size = more.magnitude();
+        if size.is_defined() && !size.at_most(&self.largest) {
+            self.largest = size;
+        }
+    }
+
+    fn is_close(&self) -> bool {
+        let bound = self.largest.clone() * Binary::from_f64(2f64.powi(-SETTLED));
+        self.is_defined_alike && self.difference.at_most(&bound)
+    }
 }
