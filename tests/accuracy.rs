@@ -1,6 +1,7 @@
 //! The page of errors holds: every row is measured again, at fewer points and for some quantities.
 
 #[path = "../examples/accuracy/table.rs"]
+#[expect(dead_code, reason = "the example writes the page; here its numbers are measured again")]
 mod table;
 
 use mms_codegen::accuracy::Request;
