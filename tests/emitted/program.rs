@@ -1,13 +1,5 @@
-//! Evaluates what `mms emit` wrote a moment ago. A line `QUANTITY TIME COORDINATES..` on stdin is
-//! answered by the bits of its components.
-#![deny(warnings, unsafe_code)]
-// Nobody uses all quantities.
-#![allow(dead_code)]
-
-mod bar_1d;
-mod odd_names;
-mod plain;
-mod standing_wave_3d;
+// Evaluates the emitted modules beside it. A line `QUANTITY TIME COORDINATES..` on stdin is answered by
+// the bits of its components.
 
 use std::io::{Read as _, stdin};
 

@@ -65,6 +65,8 @@ fn what_is_kept_of_a_point_gives_the_same_bits() {
     assert_eq!(field.at_time(9.0).body_force_at(&point), b);
 
     assert_eq!(bar_1d::Point::<f64>::BYTES, 2 * bar_1d::Point::<f32>::BYTES);
-    assert_eq!(bar_1d::Point::<f64>::BYTES, size_of_val(&bar_1d::prepare(
-        &bar_1d::Parameters::<f64>::default()).at_point([0.0])));
+    assert_eq!(
+        bar_1d::Point::<f64>::BYTES,
+        size_of_val(&bar_1d::prepare(&bar_1d::Parameters::<f64>::default()).at_point([0.0]))
+    );
 }

@@ -117,7 +117,10 @@ fn a_root_and_what_divides_by_it_are_right_or_not_a_number() {
                 continue;
             }
             let truth = of(x).sqrt();
-            assert!(format.is_right(root, &truth, [0.6, 0.7][index]), "the root of {x:e}: {root:e}");
+            assert!(
+                format.is_right(root, &truth, [0.6, 0.7][index]),
+                "the root of {x:e}: {root:e}"
+            );
             assert!(format.is_right(below, &(of(1.0) / truth), 1.0), "under the root of {x:e}");
         }
     }
