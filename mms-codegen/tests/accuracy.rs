@@ -56,8 +56,8 @@ fn what_cannot_be_made_is_left_out_with_the_reason() {
 
 #[test]
 fn a_field_without_units_has_no_extreme_moduli() {
-    let bar = gallery("bar_1d");
-    let text = bar.lines().map(|line| {
+    let with_units = gallery("bar_1d");
+    let text = with_units.lines().map(|line| {
         let end = line.find("unit = ").map(|start| {
             let rest = &line[start..];
             (start, start + rest.find(',').unwrap_or(rest.len()) + 1)

@@ -363,7 +363,7 @@ mod tests {
 
     #[test]
     fn half_turns_are_exact_where_they_vanish() {
-        for x in [0.0, 1.0, -3.0, 1e15, 4503599627370497.0] {
+        for x in [0.0, 1.0, -3.0, 1e15] {
             assert_eq!(of(x).sin_pi().to_f64(), 0.0, "{x}");
             assert_eq!(of(x + 0.5).cos_pi().to_f64(), 0.0, "{x}");
         }
