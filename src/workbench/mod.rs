@@ -19,24 +19,25 @@ pub use timing::{Module, Time, Way, time};
 /// The sources of `mms-math`: paths below `src/`, and texts.
 const MATH: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/math.rs"));
 
+/// The user's compiler, on the PATH.
+const RUSTC: &str = "rustc";
+
 /// A folder with a compiled `mms-math`.
 pub struct Workbench {
     folder: TempDir,
-    rustc: PathBuf,
 }
 
 impl Workbench {
     /// Compiles `mms-math`; an error says why there is no workbench here.
     pub fn open() -> anyhow::Result<Self> {
-        let rustc = PathBuf::from("rustc");
         if MATH.is_empty() {
             bail!("this program was built without the sources of mms-math");
         }
-        let version = Command::new(&rustc).arg("--version").output();
+        let version = Command::new(RUSTC).arg("--version").output();
         if !version.is_ok_and(|output| output.status.success()) {
             bail!("no `rustc` on the PATH to compile emitted code with");
         }
-        let bench = Workbench { folder: tempfile::tempdir()?, rustc };
+        let bench = Workbench { folder: tempfile::tempdir()? };
         for (path, text) in MATH {
             bench.write(&format!("mms_math/{path}"), text)?;
         }
@@ -55,7 +56,7 @@ impl Workbench {
     /// Compiles a crate of this folder as a release is.
     fn compile(&self, source: &str, output: &str, options: &[&str]) -> anyhow::Result<PathBuf> {
         let output = self.folder.path().join(output);
-        let mut command = Command::new(&self.rustc);
+        let mut command = Command::new(RUSTC);
         command
             .current_dir(self.folder.path())
             .args(["--edition", "2024", "--cap-lints", "allow", "-C", "opt-level=3"])

@@ -35,8 +35,6 @@ pub enum Way {
     Single,
     /// All points at once.
     Batch,
-    /// All points at once, from what was kept of them.
-    Cached,
 }
 
 /// The time of one contender.
@@ -122,9 +120,6 @@ fn contender(
         ),
         Way::Batch => format!(
             "    batch!(turns, input, {module}, {scalar}, {dimension}, {components}, {name}_batch{normals});\n"
-        ),
-        Way::Cached => format!(
-            "    cached!(turns, input, {module}, {scalar}, {dimension}, {components}, {name}_batch_at{normals});\n"
         ),
     }
 }

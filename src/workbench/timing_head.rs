@@ -60,27 +60,6 @@ macro_rules! batch {
     }};
 }
 
-macro_rules! cached {
-    ($turns:ident, $input:ident, $module:ident, $float:ident, $dimension:literal, $results:literal,
-     $function:ident $(, $normals:ident)?) => {{
-        let field: $module::Field<$float> = $module::prepare(&$module::Parameters::default());
-        let time = $input.time as $float;
-        let points: [Vec<$float>; $dimension] = $input.columns(0);
-        $(let $normals: [Vec<$float>; $dimension] = $input.columns($dimension);)?
-        let count = points[0].len();
-        let kept = field.at_points(core::array::from_fn(|axis| &points[axis][..]));
-        let mut out: [Vec<$float>; $results] = core::array::from_fn(|_| vec![0.0; count]);
-        $turns.push((count, Box::new(move || {
-            field.at_time(black_box(time)).$function(
-                &kept
-                $(, core::array::from_fn(|axis| &$normals[axis][..]))?,
-                out.each_mut().map(|column| &mut column[..]),
-            );
-            black_box(&mut out);
-        })));
-    }};
-}
-
 macro_rules! single {
     ($turns:ident, $input:ident, $module:ident, $scalar:ident, $dimension:literal,
      $function:ident, $($normals:ident)?) => {{
