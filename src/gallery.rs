@@ -54,9 +54,13 @@ impl Entry {
 
     /// Compiles a part of the text, the text with some parameters fixed, or within other limits.
     pub fn compile_with(&self, options: &Options) -> Result<Compiled, Failure> {
-        let missing = || "not part of the gallery".to_string();
-        let load = |_: &str| self.material.map(str::to_string).ok_or_else(missing);
+        let load = |_: &str| self.own_material();
         mms_codegen::compile_with(self.name, self.path, self.text, &load, options)
+    }
+
+    /// The text of its material's file; otherwise why there is none.
+    pub fn own_material(&self) -> Result<String, String> {
+        self.material.map(str::to_string).ok_or_else(|| "not part of the gallery".into())
     }
 }
 

@@ -100,24 +100,14 @@ impl Input {
 
     /// A part of the field of a gallery name, or of a path to a TOML file.
     pub fn find_with(field: &str, options: &Options) -> anyhow::Result<Input> {
-        if field.ends_with(".toml") {
-            return Self::from_file(Path::new(field), options);
-        }
-        let entry = entry(field)?;
-        let whole = "the field of the gallery does not compile";
-        let compiled = entry
-            .compile_with(options)
-            .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
-        let entry = Some(entry)
+        let text = Text::find(field)?;
+        let compiled = text
+            .compile_as(compile_with, options)
+            .map_err(|failure| anyhow!("{}\n{failure}", text.what_failed(options)))?;
+        let entry = text
+            .entry()
             .filter(|_| options.selection.twin == Twin::Nothing && options.form == Form::Stable);
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry })
-    }
-
-    fn from_file(path: &Path, options: &Options) -> anyhow::Result<Input> {
-        let whole = "the field file has mistakes";
-        let compiled = read_with(path, options, compile_with)?
-            .map_err(|failure| anyhow!("{}\n{failure}", what_failed(options, whole)))?;
-        Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry: None })
     }
 
     /// The parameters that `name=value` settings set, by position.
@@ -174,33 +164,40 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     }
 }
 
-/// The text of a field that the user named, to be compiled in more than one way.
+/// The text of a field that the user named, to be compiled in one way or more.
 pub struct Text {
     name: String,
     shown: String,
     text: String,
-    /// Where materials of the field's own are found.
-    materials: Materials,
+    origin: Origin,
 }
 
-enum Materials {
+/// Where a text is from, and so a material of its own.
+enum Origin {
     Gallery(&'static Entry),
     Folder(PathBuf),
 }
 
+/// One of the ways to compile.
+type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
+
 impl Text {
-    /// The text of a field of the gallery, or of a TOML file.
+    /// The text of a gallery name, or of a path to a TOML file.
     pub fn find(field: &str) -> anyhow::Result<Self> {
-        if !field.ends_with(".toml") {
-            let entry = entry(field)?;
-            let [name, shown, text] = [entry.name, entry.path, entry.text].map(String::from);
-            return Ok(Text { name, shown, text, materials: Materials::Gallery(entry) });
+        if field.ends_with(".toml") {
+            return Self::read(Path::new(field));
         }
-        let path = Path::new(field);
-        let text = fs::read_to_string(path).with_context(|| format!("cannot read `{field}`"))?;
+        let entry = entry(field)?;
+        let [name, shown, text] = [entry.name, entry.path, entry.text].map(String::from);
+        Ok(Text { name, shown, text, origin: Origin::Gallery(entry) })
+    }
+
+    fn read(path: &Path) -> anyhow::Result<Self> {
+        let shown = path.display().to_string();
+        let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
         let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Text { name, shown: field.into(), text, materials: Materials::Folder(folder) })
+        Ok(Text { name, shown, text, origin: Origin::Folder(folder) })
     }
 
     /// The name of the field.
@@ -208,17 +205,35 @@ impl Text {
         &self.name
     }
 
+    fn entry(&self) -> Option<&'static Entry> {
+        match self.origin {
+            Origin::Gallery(entry) => Some(entry),
+            Origin::Folder(_) => None,
+        }
+    }
+
     /// Derives what follows from it, whether or not it is what it claims to be.
     pub fn compile(&self, options: &Options) -> Result<Compiled, Failure> {
-        let load = |material: &str| match &self.materials {
-            Materials::Gallery(entry) => {
-                entry.material.map(str::to_string).ok_or_else(|| "not part of the gallery".into())
-            }
-            Materials::Folder(folder) => {
+        self.compile_as(compile_unproved, options)
+    }
+
+    fn compile_as(&self, compile: Compile, options: &Options) -> Result<Compiled, Failure> {
+        let load = |material: &str| match &self.origin {
+            Origin::Gallery(entry) => entry.own_material(),
+            Origin::Folder(folder) => {
                 fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
             }
         };
-        compile_unproved(&self.name, &self.shown, &self.text, &load, options)
+        compile(&self.name, &self.shown, &self.text, &load, options)
+    }
+
+    /// What is to blame: all of the field, or what was selected of it.
+    fn what_failed(&self, options: &Options) -> &'static str {
+        match self.origin {
+            _ if options.selection != Selection::default() => SELECTED,
+            Origin::Gallery(_) => "the field of the gallery does not compile",
+            Origin::Folder(_) => "the field file has mistakes",
+        }
     }
 }
 
@@ -250,31 +265,8 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
     Ok(quantities)
 }
 
-/// What is to blame: all of the field, or what was selected of it.
-fn what_failed(options: &Options, whole: &'static str) -> &'static str {
-    if options.selection == Selection::default() { whole } else { SELECTED }
-}
-
 /// Reads a field file and derives what follows from it, whether or not it is what it claims to be:
 /// an error if it cannot be read, a failure if it is wrong.
 pub fn read(path: &Path, variant: &Variant) -> anyhow::Result<Result<Compiled, Failure>> {
-    read_with(path, &variant.options(Selection::default()), compile_unproved)
-}
-
-/// One of the ways to compile.
-type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Failure>;
-
-fn read_with(
-    path: &Path,
-    options: &Options,
-    compile: Compile,
-) -> anyhow::Result<Result<Compiled, Failure>> {
-    let shown = path.display().to_string();
-    let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let load = |material: &str| {
-        fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
-    };
-    Ok(compile(&name, &shown, &text, &load, options))
+    Ok(Text::read(path)?.compile(&variant.options(Selection::default())))
 }
