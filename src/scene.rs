@@ -1,6 +1,7 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::{Level, ManufacturedField, Method, Real, Refusal, run_level};
+use mms_runtime::study::{Watch, run};
+use mms_runtime::{Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// A field of one, two or three dimensions in the precision `T`.
 pub enum Scene<T> {
@@ -42,17 +43,34 @@ impl<T> Scene<T> {
 }
 
 impl<T: Real> Scene<T> {
+    /// Runs a method on the field; see [`mms_runtime::run`].
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
+    pub fn run(
+        &self,
+        method: &Method,
+        cells: &Division,
+        watch: Watch,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Run, Refusal> {
+        match self {
+            Scene::Line(field) => run(field.as_ref(), method, cells, watch, progress),
+            Scene::Plane(field) => run(field.as_ref(), method, cells, watch, progress),
+            Scene::Space(field) => run(field.as_ref(), method, cells, watch, progress),
+        }
+    }
+
     /// Runs one level of a study; see [`mms_runtime::run_level`].
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
     pub fn run_level(
         &self,
         method: &Method,
-        cells: usize,
+        cells: &Division,
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Level, Refusal> {
-        match self {
-            Scene::Line(field) => run_level(field.as_ref(), method, cells, progress),
-            Scene::Plane(field) => run_level(field.as_ref(), method, cells, progress),
-            Scene::Space(field) => run_level(field.as_ref(), method, cells, progress),
-        }
+        self.run(method, cells, Watch::Displacement, progress).map(|run| run.level)
     }
 }

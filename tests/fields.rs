@@ -6,15 +6,17 @@ mod support;
 
 use std::collections::BTreeSet;
 
+use mms::scene::Scene;
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::spec::StudySpec;
 use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::study::{TOLERANCE, judge};
-use mms_runtime::{Method, Verdict};
+use mms_runtime::{Level, Method, Real, Verdict};
 
 use current::both_frames;
 use support::dual::Dual;
@@ -441,38 +443,52 @@ fn the_gallery_leaves_no_term_unseen() {
     assert!(unseen.is_empty(), "no field of the gallery sees {unseen:?}");
 }
 
-/// Every `[[study]]` of the file whose method the solver has.
+/// Every `[[study]]` of the file.
 fn studies<K: Kernel>() {
     let compiled = compiled(K::NAME);
     for study in &compiled.field.studies {
-        let (Ok(shape), Ok(integrator)) = (study.shape.parse(), study.integrator.parse()) else {
-            continue;
-        };
-        let of_this_solver =
-            |word: &Option<String>, own: &str| word.as_deref().unwrap_or(own) == own;
-        if !of_this_solver(&study.formulation, "updated")
-            || !of_this_solver(&study.transfer, "flip")
-            || !of_this_solver(&study.precision, "f64")
-            || !of_this_solver(&study.fill, "cartesian")
-        {
-            continue;
-        }
-        let default = Method::default();
-        let method = Method {
-            shape,
-            integrator,
-            particles_per_cell: study.particles_per_cell.unwrap_or(default.particles_per_cell),
-            courant: study.courant.unwrap_or(default.courant),
-        };
         let entry = mms::gallery::find(K::NAME).expect("a field of the gallery");
-        let parameters = compiled.parameters::<f64>(&Default::default());
-        let scene = (entry.double)(&parameters).expect("parameters in the order of the file");
-        let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
-        let level = |cells: &usize| {
-            scene.run_level(&method, *cells, &mut |_, _| {}).expect("the solver takes the scene")
+        let levels = if study.precision.as_deref() == Some("f32") {
+            levels((entry.single)(&compiled.parameters(&Default::default())), study)
+        } else {
+            levels((entry.double)(&compiled.parameters(&Default::default())), study)
         };
-        let levels: Vec<_> = cells.iter().map(level).collect();
         let judgement = judge(&levels, study.order, study.tolerance.unwrap_or(TOLERANCE));
         assert_eq!(judgement.verdict, Verdict::Pass, "{judgement:?}\n{levels:#?}");
     }
+}
+
+/// The method of a study, with the command's defaults for what it leaves out.
+fn method(study: &StudySpec) -> Method {
+    /// The member of a family that the file names.
+    fn named<N: std::str::FromStr>(word: &str) -> N {
+        word.parse().unwrap_or_else(|_| panic!("the solver has no `{word}`"))
+    }
+    let mut method = Method {
+        shape: named(&study.shape),
+        integrator: named(&study.integrator),
+        ..Method::default()
+    };
+    if let Some(formulation) = &study.formulation {
+        method.formulation = named(formulation);
+    }
+    if let Some(transfer) = &study.transfer {
+        method.setup.transfer = named(transfer);
+    }
+    method.setup.fill = study.fill.as_deref().map(named);
+    if let Some(number) = study.particles_per_cell {
+        method.setup.particles_per_cell = number.into();
+    }
+    method.setup.courant = study.courant.unwrap_or(method.setup.courant);
+    method
+}
+
+fn levels<T: Real>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
+    let scene = scene.expect("parameters in the order of the file");
+    let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
+    let level = |&cells: &usize| {
+        let progress = &mut |_, _| {};
+        scene.run_level(&method(study), &cells.into(), progress).expect("a scene for the solver")
+    };
+    cells.iter().map(level).collect()
 }

@@ -20,7 +20,7 @@ pub type Block<T, const N: usize> = [[T; BLOCK]; N];
 /// A scalar that stands for a number of type `T` in a loop over points.
 pub trait Stand<T>: Real {
     /// In place of the number.
-    fn of(value: T) -> Self;
+    fn standing_for(value: T) -> Self;
     /// The number.
     fn value(self) -> T;
 }
@@ -37,7 +37,7 @@ macro_rules! float {
     ($float:ident) => {
         impl Stand<$float> for $float {
             #[inline(always)]
-            fn of(value: $float) -> Self {
+            fn standing_for(value: $float) -> Self {
                 value
             }
             #[inline(always)]
@@ -48,7 +48,7 @@ macro_rules! float {
 
         impl<const FUSED: bool> Stand<$float> for Lane<$float, FUSED> {
             #[inline(always)]
-            fn of(value: $float) -> Self {
+            fn standing_for(value: $float) -> Self {
                 Lane(value)
             }
             #[inline(always)]
@@ -79,7 +79,7 @@ pub trait Function<S, const I: usize, const O: usize> {
         S: Stand<T>,
     {
         for place in 0..BLOCK {
-            let point = core::array::from_fn(|input| S::of(inputs[input][place]));
+            let point = core::array::from_fn(|input| S::standing_for(inputs[input][place]));
             let results = self.at(point);
             for output in 0..O {
                 outputs[output][place] = results[output].value();

@@ -1,87 +1,146 @@
 //! What holds the grid's nodes at the body's faces.
 //!
-//! * `fixed` and `roller`: a wall on a plane of nodes, by the method of images ([`wall`]).
+//! * `fixed` and `roller` on a box: a wall on a plane of nodes, by the method of images ([`wall`]).
 //! * `free`: nothing.
-//! * `prescribed`, and faces without a claim: nodes follow the field ([`prescribed`]).
+//! * `prescribed`, faces without a claim, and `fixed` on an annulus: nodes follow the field
+//!   ([`prescribed`]).
+//! * `traction`: the field's P N on the pieces of the face ([`traction`]).
+//! * An axis may be periodic instead ([`period`]).
 
+pub mod period;
 pub mod prescribed;
+pub mod surface;
+pub mod traction;
 pub mod wall;
 
-use crate::failure::positive;
+use crate::body::{Fill, Filling, Piece};
+use crate::shape::Shape;
 use crate::{
-    Body, Condition, Domain, Face, Failure, Grid, ManufacturedField, Real, Refusal, Vector,
+    Body, Condition, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
 };
+use period::Period;
 use prescribed::Prescribed;
+use surface::Surface;
+use traction::{Place, Traction};
 use wall::Wall;
 
-/// The boundary conditions of a scene.
+/// The boundary conditions of a scene. What a scene does not have is empty, and costs nothing.
 pub struct Boundary<T, const D: usize> {
+    periods: Vec<Period>,
     walls: Vec<Wall>,
     prescribed: Prescribed<T, D>,
+    traction: Traction<T, D>,
 }
 
-/// Lower and upper corner of the body in double precision, or why it cannot be used.
-pub(crate) fn box_corners<T: Real, const D: usize>(
-    body: &Body<T, D>,
-) -> Result<[[f64; D]; 2], Refusal> {
-    let Body::Box { lower, upper } = body else {
-        return Err(Refusal::UnsupportedBody);
-    };
-    let corner = |corner: &Vector<T, D>| std::array::from_fn(|a| corner[a].to_f64());
-    let corners: [[f64; D]; 2] = [corner(lower), corner(upper)];
-    for (lower, upper) in corners[0].iter().zip(&corners[1]) {
-        positive("an edge of the body", upper - lower)?;
+/// Whether a face is a wall: a face of a box that rests on a plane of nodes.
+pub(crate) fn is_wall<T, const D: usize>(domain: &Domain<T, D>, face: Face) -> bool {
+    let rests = matches!(domain.condition(face), Condition::Fixed | Condition::Roller);
+    rests && matches!(domain.body, Body::Box { .. })
+}
+
+/// The faces that the body has.
+fn faces_of<T: Real, const D: usize>(body: &Body<T, D>) -> Vec<Face> {
+    match body {
+        Body::Box { .. } => (0..D).flat_map(|a| [Face::Min(a), Face::Max(a)]).collect(),
+        Body::Annulus { theta, .. } => {
+            let turn = (theta[1] - theta[0]).to_f64();
+            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
+            let ring = turn > std::f64::consts::TAU * (1.0 - 1e-6);
+            all[..if ring { 2 } else { 4 }].to_vec()
+        }
     }
-    Ok(corners)
 }
 
 impl<T: Real, const D: usize> Boundary<T, D> {
-    /// The conditions of a box on a grid that has a node at the box's lower corner.
-    pub fn new(domain: &Domain<T, D>, grid: &Grid<T, D>) -> Result<Self, Refusal> {
-        let corners = box_corners(&domain.body)?;
-        let exists = |face: Face| matches!(face, Face::Min(a) | Face::Max(a) if a < D);
-        if let Some(&(face, _)) = domain.faces.iter().find(|(face, _)| !exists(*face)) {
+    /// The conditions of a body on a grid; `moves` says whether the body moves through it.
+    ///
+    /// # Errors
+    /// A condition that cannot be met on this grid, or a claim about a face that the body lacks.
+    pub fn new(
+        domain: &Domain<T, D>,
+        lattice: &Lattice<T, D>,
+        pieces: &[Piece<D>],
+        moves: bool,
+    ) -> Result<Self, Refusal> {
+        let faces = faces_of(&domain.body);
+        if let Some(&(face, _)) = domain.faces.iter().find(|(face, _)| !faces.contains(face)) {
             return Err(Refusal::NoSuchFace { face, dimension: D });
         }
-        let mut boundary = Self { walls: Vec::new(), prescribed: Prescribed::none() };
-        for (axis, (&lower, &upper)) in corners[0].iter().zip(&corners[1]).enumerate() {
-            for (face, position) in [(Face::Min(axis), lower), (Face::Max(axis), upper)] {
-                let condition = domain.condition(face);
-                match condition {
-                    Condition::Free => {}
-                    Condition::Fixed | Condition::Roller => {
-                        let wall = Wall::new(grid, face, condition, upper - lower)?;
-                        boundary.walls.push(wall);
-                    }
-                    Condition::Prescribed => {
-                        let is_upper = face == Face::Max(axis);
-                        boundary.prescribed.add_face(grid, axis, is_upper, T::of(position));
-                    }
-                    Condition::Traction => {
-                        return Err(Refusal::UnsupportedCondition { face, condition });
-                    }
+        let mut boundary = Self {
+            periods: (0..D).filter_map(|axis| Period::new(lattice, axis)).collect(),
+            walls: Vec::new(),
+            prescribed: Prescribed::new(moves),
+            traction: Traction::none(),
+        };
+        for face in faces {
+            if matches!(face, Face::Min(a) | Face::Max(a) if lattice.period[a].is_some()) {
+                continue;
+            }
+            let condition = domain.condition(face);
+            match condition {
+                Condition::Free => {}
+                Condition::Fixed | Condition::Roller if is_wall(domain, face) => {
+                    boundary.walls.push(Wall::new(lattice, face, condition)?);
                 }
+                Condition::Fixed | Condition::Prescribed => {
+                    let surface = Surface::new(&domain.body, face);
+                    let at_rest = condition == Condition::Fixed;
+                    let cell_size = lattice.cell_size.map(Real::to_f64);
+                    let cells = Filling::new(&domain.body, Fill::Fitted, &cell_size)?;
+                    let samples = cells.pieces.iter().filter(|piece| piece.face == face);
+                    let samples = samples.map(|piece| piece.position.map(T::of));
+                    boundary.prescribed.add_face(surface, at_rest, samples, lattice);
+                }
+                Condition::Roller => {
+                    return Err(Refusal::UnsupportedCondition { face, condition });
+                }
+                Condition::Traction => boundary.traction.add_face(face, pieces)?,
             }
         }
         Ok(boundary)
     }
 
-    /// Adds the images' mass to the nodes inside the walls.
+    /// Adds the images' mass to the nodes inside.
     pub fn fold_mass(&self, mass: &mut [T]) {
+        self.periods.iter().for_each(|period| period.fold_mass(mass));
         self.walls.iter().for_each(|wall| wall.fold_mass(mass));
     }
 
-    /// Adds the images' momentum or force to the nodes inside the walls.
+    /// Adds the images' momentum or force to the nodes inside.
     pub fn fold(&self, extensive: &mut [Vector<T, D>]) {
+        self.periods.iter().for_each(|period| period.fold(extensive));
         self.walls.iter().for_each(|wall| wall.fold(extensive));
     }
 
     /// Finds the nodes that follow the field, and their reference positions at `time`.
+    ///
+    /// # Errors
+    /// The motion cannot be inverted at a node.
     pub fn locate<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
         self.prescribed.locate(field, time, grid)
+    }
+
+    /// Adds the field's tractions at `time` to the forces. `place` says where the piece of a face at X, carried
+    /// by a particle, is.
+    ///
+    /// # Errors
+    /// A piece is off the grid, or the field's F is singular there.
+    pub fn traction<F, S>(
+        &mut self,
+        field: &F,
+        time: T,
+        lattice: &Lattice<T, D>,
+        place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
+        force: &mut [Vector<T, D>],
+    ) -> Result<(), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+        S: Shape,
+    {
+        self.traction.apply::<F, S>(field, time, lattice, place, force)
     }
 
     /// Imposes the velocity at `time`.
@@ -103,8 +162,15 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         self.mirror(acceleration);
     }
 
+    /// Imposes what is left of a velocity that the boundary takes no part in.
+    pub fn residual(&mut self, residual: &mut [Vector<T, D>]) {
+        self.prescribed.impose(residual, |_, out| out.fill(Vector::zeros()));
+        self.mirror(residual);
+    }
+
     /// Wall after wall; at edges the last one sees what the others have mirrored.
     fn mirror(&self, intensive: &mut [Vector<T, D>]) {
         self.walls.iter().for_each(|wall| wall.mirror(intensive));
+        self.periods.iter().for_each(|period| period.copy(intensive));
     }
 }

@@ -1,14 +1,18 @@
 //! Why a solver cannot start ([`Refusal`]) and why a run stopped ([`Failure`]).
 
-use crate::{Condition, Face};
+use crate::tensor::components;
+use crate::{Condition, Face, Real, ShapeName, Vector};
+
+/// The names of axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Why a scene is not started. Nothing has run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// A face asks for a condition that the solver does not have.
     #[error(
-        "face {face} is `{condition}`, which is not supported by this solver; it supports fixed, \
-         roller, free and prescribed: claim `prescribed` there, or leave the face without a claim"
+        "face {face} is `{condition}`, which this solver has on faces of boxes only: claim \
+         `prescribed` there, or leave the face without a claim"
     )]
     UnsupportedCondition {
         /// The face.
@@ -16,11 +20,73 @@ pub enum Refusal {
         /// What it asks for.
         condition: Condition,
     },
-    /// The body is not a box.
-    #[error("a body of shape `annulus` is not supported by this solver; it supports `box`")]
-    UnsupportedBody,
+    /// No particle lies along a face that needs it.
+    #[error(
+        "face {face} is `{condition}`, but a Cartesian fill cuts it ragged; fill the body with \
+         particles that are fitted to it (`--fill fitted`)"
+    )]
+    RaggedFace {
+        /// The face.
+        face: Face,
+        /// What it asks for.
+        condition: Condition,
+    },
+    /// A domain that follows the deformation, in a formulation where nothing moves.
+    #[error(
+        "shape function `{shape}` follows the deformation, but in the total formulation no particle's \
+         domain moves; the nearest is `ugimp`, whose domains are those of the reference configuration"
+    )]
+    NothingToFollow {
+        /// The shape function.
+        shape: ShapeName,
+    },
+    /// Numbers for another dimension.
+    #[error("{given} numbers of {what} for a body in {dimension} dimension(s)")]
+    WrongDimension {
+        /// `cells` or `particles per cell`.
+        what: &'static str,
+        /// How many numbers there are.
+        given: usize,
+        /// The body's dimension.
+        dimension: usize,
+    },
+    /// A number outside its range.
+    #[error("{what} is {value}, and has to be between {from} and {to}")]
+    OutOfRange {
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The least it may be.
+        from: f64,
+        /// The most it may be.
+        to: f64,
+    },
+    /// An axis that cannot be periodic.
+    #[error("axis {} cannot be periodic: {}", AXES[*axis], if *is_box {
+        format!("the body is {cells} cells long there, and has to be a whole number of them")
+    } else {
+        "the body is no box".to_owned()
+    })]
+    NoPeriod {
+        /// The axis.
+        axis: usize,
+        /// Whether the body is a box.
+        is_box: bool,
+        /// Its length in cells.
+        cells: f64,
+    },
+    /// A field that does not repeat itself.
+    #[error(
+        "axis {} cannot be periodic: the field's displacement differs between its two faces",
+        AXES[*axis]
+    )]
+    NotPeriodic {
+        /// The axis.
+        axis: usize,
+    },
     /// The field names a face that the body does not have.
-    #[error("the body, a box in {dimension} dimension(s), has no face {face}")]
+    #[error("the body, in {dimension} dimension(s), has no face {face}")]
     NoSuchFace {
         /// The face.
         face: Face,
@@ -29,15 +95,15 @@ pub enum Refusal {
     },
     /// A wall does not lie on a plane of grid nodes, so that it has no mirror image on the grid.
     #[error(
-        "face {face} is `{condition}` but lies between grid nodes: its edge is {cells} cells long; \
-         choose a number of cells that makes it a whole number"
+        "face {face} is `{condition}` but lies between grid nodes, {cells} cells from one; choose a \
+         number of cells, and an offset of the grid, that put it on nodes"
     )]
     WallBetweenNodes {
         /// The face.
         face: Face,
         /// What it asks for.
         condition: Condition,
-        /// Length of the body along the face's normal, in cells.
+        /// Its distance in cells from a plane of nodes or from the opposite face.
         cells: f64,
     },
     /// A value that has to be positive and finite is not.
@@ -135,6 +201,9 @@ pub enum Cause {
         /// The grid spacing.
         cell_size: f64,
     },
+    /// A particle's domain is flat or not finite.
+    #[error("the particle's domain is flat or not finite")]
+    FlatDomain,
     /// No reference position was found for a node beside a prescribed face.
     #[error(
         "the field's motion could not be inverted at the grid node x = {position:?}, beside a prescribed face"
@@ -146,10 +215,15 @@ pub enum Cause {
 }
 
 impl Cause {
+    /// A particle, or a corner of its domain, that the grid does not hold.
+    pub(crate) fn lost<T: Real, const D: usize>(position: &Vector<T, D>) -> Self {
+        Cause::Lost { position: components(position) }
+    }
+
     /// The likely reason, and what to try.
     pub fn advice(&self) -> &'static str {
         match self {
-            Cause::Inverted { .. } | Cause::NotFinite { .. } => {
+            Cause::Inverted { .. } | Cause::NotFinite { .. } | Cause::FlatDomain => {
                 "likely an unstable or too coarse run, or forcing and material that do not belong \
                  together: try a smaller Courant number or more cells"
             }

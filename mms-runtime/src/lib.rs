@@ -17,16 +17,23 @@
 //! consistent system works.
 
 mod extension;
+mod spline;
 
+pub mod body;
 pub mod boundary;
 pub mod failure;
 pub mod field;
+pub mod formulation;
 pub mod grid;
 pub mod integrator;
+pub mod lattice;
+pub mod mapping;
 pub mod material;
+pub mod method;
 pub mod particle;
 pub mod shape;
 pub mod solver;
+pub mod stencil;
 pub mod study;
 pub mod tensor;
 pub mod transfer;
@@ -34,15 +41,20 @@ pub mod transfer;
 pub use mms_math as math;
 pub use nalgebra;
 
+pub use body::Fill;
 pub use extension::UnknownName;
 pub use failure::{Cause, Failure, Refusal};
 pub use field::{Body, Condition, Domain, Face, ManufacturedField};
+pub use formulation::FormulationName;
 pub use grid::Grid;
 pub use integrator::IntegratorName;
+pub use lattice::Lattice;
 pub use material::Material;
+pub use method::{Division, Method, Setup};
 pub use shape::ShapeName;
-pub use solver::{Resolution, Solver};
-pub use study::{Errors, Judgement, Level, Method, Verdict, run_level};
+pub use solver::Solver;
+pub use study::{Errors, Judgement, Level, Run, Verdict, run, run_level};
+pub use transfer::Transfer;
 
 /// A vector with `D` components.
 pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;
@@ -54,7 +66,12 @@ pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
 ///
 /// Implemented for every type that has the arithmetic; nothing is left to implement by hand.
 pub trait Real:
-    mms_math::Scalar<Wide: Copy + Send + Sync> + nalgebra::RealField + Copy + Send + Sync
+    mms_math::Scalar<Wide: Copy + Send + Sync>
+    + mms_math::batch::Float
+    + nalgebra::RealField
+    + bytemuck::Pod
+    + Send
+    + Sync
 {
     /// The nearest value of this precision.
     fn of(value: f64) -> Self {
@@ -68,6 +85,27 @@ pub trait Real:
 }
 
 impl<T> Real for T where
-    T: mms_math::Scalar<Wide: Copy + Send + Sync> + nalgebra::RealField + Copy + Send + Sync
+    T: mms_math::Scalar<Wide: Copy + Send + Sync>
+        + mms_math::batch::Float
+        + nalgebra::RealField
+        + bytemuck::Pod
+        + Send
+        + Sync
 {
+}
+
+/// Vectors or matrices as arrays of their `N` numbers, matrices by columns.
+///
+/// # Panics
+/// If they have another number of numbers.
+pub fn arrays<T: Real, V: bytemuck::Pod, const N: usize>(values: &[V]) -> &[[T; N]] {
+    bytemuck::cast_slice(values)
+}
+
+/// As [`arrays`], to write to.
+///
+/// # Panics
+/// If they have another number of numbers.
+pub fn arrays_mut<T: Real, V: bytemuck::Pod, const N: usize>(values: &mut [V]) -> &mut [[T; N]] {
+    bytemuck::cast_slice_mut(values)
 }

@@ -12,8 +12,12 @@ pub fn deformation_gradient<T: Real, const D: usize>(
 
 /// J = det(I + H) for D = 1, 2, 3; other dimensions do not compile.
 pub fn jacobian<T: Real, const D: usize>(displacement_gradient: &Matrix<T, D>) -> T {
+    determinant(&deformation_gradient(displacement_gradient))
+}
+
+/// det F for D = 1, 2, 3; other dimensions do not compile.
+pub fn determinant<T: Real, const D: usize>(f: &Matrix<T, D>) -> T {
     const { assert!(D >= 1 && D <= 3, "one to three dimensions") };
-    let f = deformation_gradient(displacement_gradient);
     let minor = |i: usize, j: usize| f[(1, i)] * f[(2, j)] - f[(1, j)] * f[(2, i)];
     match D {
         1 => f[(0, 0)],
@@ -27,6 +31,40 @@ pub fn inverse_deformation_gradient<T: Real, const D: usize>(
     displacement_gradient: &Matrix<T, D>,
 ) -> Option<Matrix<T, D>> {
     deformation_gradient(displacement_gradient).try_inverse().filter(matrix_is_finite)
+}
+
+/// cof F = J F^-T, or `None` where F = I + H is singular or not finite.
+pub fn cofactor<T: Real, const D: usize>(
+    displacement_gradient: &Matrix<T, D>,
+) -> Option<Matrix<T, D>> {
+    let inverse = inverse_deformation_gradient(displacement_gradient)?;
+    Some(inverse.transpose() * jacobian(displacement_gradient))
+}
+
+/// How many iterations find a rotation; each doubles the digits.
+const POLAR_ITERATIONS: usize = 20;
+
+/// The right stretch tensor U of F = I + H = R U, or `None` where F is singular or not finite.
+///
+/// Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986):
+/// R is the limit of (R + R^-T)/2 from R = F. A diagonal F is its own stretch.
+pub fn right_stretch<T: Real, const D: usize>(
+    displacement_gradient: &Matrix<T, D>,
+) -> Option<Matrix<T, D>> {
+    let f = deformation_gradient(displacement_gradient);
+    if f == Matrix::from_diagonal(&f.diagonal()) {
+        return Some(f);
+    }
+    let mut rotation = f;
+    for _ in 0..POLAR_ITERATIONS {
+        let next = (rotation + rotation.try_inverse()?.transpose()) * T::ratio(1, 2);
+        let change = (next - rotation).amax();
+        rotation = next;
+        if change <= T::default_epsilon() * T::of(8.0) {
+            break;
+        }
+    }
+    Some(rotation.tr_mul(&f)).filter(matrix_is_finite)
 }
 
 /// Whether every component is finite.
@@ -55,6 +93,15 @@ mod tests {
         let h = Matrix::<f64, 3>::new(1.0, 2.0, 0.5, -1.0, 3.0, 4.0, 2.0, 0.0, 1.0);
         let exact = (Matrix::<f64, 3>::identity() + h).determinant();
         assert!((jacobian(&h) - exact).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_stretch_is_symmetric_and_has_the_same_square() {
+        let h = Matrix::<f64, 3>::new(0.2, 1.5, -0.3, -0.9, 0.4, 0.1, 0.2, 0.0, -0.2);
+        let (f, u) = (deformation_gradient(&h), right_stretch(&h).unwrap());
+        assert!((u - u.transpose()).amax() < 1e-14);
+        assert!((u * u - f.transpose() * f).amax() < 1e-14);
+        assert!(right_stretch(&Matrix::<f64, 2>::new(0.0, 1.0, 1.0, 0.0)).is_none());
     }
 
     #[test]

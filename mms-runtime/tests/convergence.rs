@@ -3,13 +3,14 @@
 mod common;
 
 use common::{Bar, levels, method};
-use mms_runtime::study::{Level, Method, TOLERANCE, judge, orders};
-use mms_runtime::{Errors, IntegratorName, ShapeName, Verdict};
+use mms_runtime::study::{Level, TOLERANCE, judge, orders};
+use mms_runtime::{Errors, IntegratorName, Method, ShapeName, Verdict};
 
 const CELLS: [usize; 5] = [8, 16, 32, 64, 128];
 
 fn study(shape: ShapeName, integrator: IntegratorName, courant: f64) -> Vec<Level> {
-    let method = Method { courant, ..method(shape, integrator) };
+    let mut method = method(shape, integrator);
+    method.setup.courant = courant;
     levels::<f64, 1>(&Bar::default(), &method, &CELLS)
 }
 

@@ -5,12 +5,14 @@ mod common;
 use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Affine, Bar, method};
+use common::{Affine, Bar, method, methods, wave::Wave};
+use mms_runtime::formulation::Updated;
 use mms_runtime::shape::Cpgimp;
-use mms_runtime::study::{Level, Method, run_level};
+use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
-    Body, Cause, Condition, Domain, Face, Failure, IntegratorName, ManufacturedField, Material,
-    Matrix, Real, Refusal, Resolution, ShapeName, Solver, Vector,
+    Body, Cause, Condition, Division, Domain, Face, Failure, Fill, FormulationName, IntegratorName,
+    ManufacturedField, Material, Matrix, Method, Real, Refusal, Setup, ShapeName, Solver, Transfer,
+    Vector,
 };
 
 /// The bar, with something spoilt.
@@ -78,34 +80,135 @@ fn run<T: Real>(
     method: &Method,
     cells: usize,
 ) -> Result<Level, Refusal> {
-    run_level(field, method, cells, &mut |_, _| {})
+    run_level(field, method, &cells.into(), &mut |_, _| {})
 }
 
 fn refusal(domain: fn(&mut Domain<f64, 1>)) -> Refusal {
     run(&Spoilt::domain(domain), &Method::default(), 8).unwrap_err()
 }
 
+/// The default method with these numbers.
+fn with(setup: Setup) -> Method {
+    Method { setup, ..Method::default() }
+}
+
+/// Why the default method with these numbers is refused.
+fn refused<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    setup: Setup,
+    cells: &Division,
+) -> Refusal {
+    run_level(field, &with(setup), cells, &mut |_, _| {}).unwrap_err()
+}
+
 fn failure(level: Level) -> Failure {
     level.errors.unwrap_err()
 }
 
+/// A quarter of a ring, with one claim.
+fn sector(face: Face, condition: Condition) -> Wave<2> {
+    let theta = [0.0, std::f64::consts::FRAC_PI_2];
+    Wave::on(Body::Annulus { inner: 0.5, outer: 1.0, theta }).with_faces(&[(face, condition)])
+}
+
+/// Particles on a lattice of boxes do not lie along a circle; only boxes have rollers.
 #[test]
-fn unsupported_scenes_are_refused_by_name() {
-    let traction = refusal(|domain| domain.faces[1].1 = Condition::Traction);
-    let (face, condition) = (Face::Max(0), Condition::Traction);
-    assert_eq!(traction, Refusal::UnsupportedCondition { face, condition });
-    let text = traction.to_string();
-    assert!(text.contains("x_max") && text.contains("not supported by this solver"), "{text}");
+fn conditions_that_an_annulus_cannot_meet_are_refused_by_name() {
+    let cartesian = || Setup { fill: Some(Fill::Cartesian), ..Setup::default() };
+    for face in [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax] {
+        let condition = Condition::Traction;
+        let refusal = refused(&sector(face, condition), cartesian(), &8.into());
+        assert_eq!(refusal, Refusal::RaggedFace { face, condition });
+        let text = refusal.to_string();
+        assert!(text.contains(&face.to_string()) && text.contains("--fill fitted"), "{text}");
+        let fitted =
+            run_level(&sector(face, condition), &Method::default(), &8.into(), &mut |_, _| {});
+        assert!(fitted.is_ok(), "{fitted:?}");
 
-    let refused = refusal(|domain| {
-        domain.body = Body::Annulus { inner: 0.4, outer: 0.6, theta: [0.0, 1.0] };
-    });
-    assert_eq!(refused, Refusal::UnsupportedBody);
-    assert!(refused.to_string().contains("not supported by this solver"));
+        let condition = Condition::Roller;
+        let refusal = refused(&sector(face, condition), Setup::default(), &8.into());
+        assert_eq!(refusal, Refusal::UnsupportedCondition { face, condition });
+        assert!(refusal.to_string().contains("claim `prescribed` there"), "{refusal}");
+    }
+}
 
+#[test]
+fn claims_about_faces_that_the_body_lacks_are_refused() {
     let face = Face::Min(1);
-    let refused = refusal(|domain| domain.faces.push((Face::Min(1), Condition::Free)));
-    assert_eq!(refused, Refusal::NoSuchFace { face, dimension: 1 });
+    let missing = refusal(|domain| domain.faces.push((Face::Min(1), Condition::Free)));
+    assert_eq!(missing, Refusal::NoSuchFace { face, dimension: 1 });
+    assert!(missing.to_string().contains("y_min"), "{missing}");
+
+    let face = Face::Max(0);
+    let missing = refused(&sector(face, Condition::Free), Setup::default(), &8.into());
+    assert_eq!(missing, Refusal::NoSuchFace { face, dimension: 2 });
+
+    // A full ring has no first angle.
+    let theta = [0.0, std::f64::consts::TAU];
+    let ring = Wave::on(Body::Annulus { inner: 0.5, outer: 1.0, theta });
+    let face = Face::ThetaMin;
+    let ring = ring.with_faces(&[(face, Condition::Free)]);
+    let missing = refused(&ring, Setup::default(), &8.into());
+    assert_eq!(missing, Refusal::NoSuchFace { face, dimension: 2 });
+}
+
+/// Where nothing moves, a domain has nothing to follow; everything else goes together.
+#[test]
+fn a_domain_that_follows_is_refused_in_the_total_formulation() {
+    for &shape in ShapeName::ALL {
+        let formulation = FormulationName::Total;
+        let method = Method { shape, formulation, ..Method::default() };
+        let result = run::<f64>(&Bar::default(), &method, 8);
+        if [ShapeName::Cpgimp, ShapeName::Cpdi].contains(&shape) {
+            let refusal = result.unwrap_err();
+            assert_eq!(refusal, Refusal::NothingToFollow { shape });
+            assert!(refusal.to_string().contains("the nearest is `ugimp`"), "{refusal}");
+        } else {
+            assert!(result.is_ok(), "{shape}: {result:?}");
+        }
+    }
+}
+
+#[test]
+fn numbers_for_another_dimension_are_refused() {
+    let two = || "8x4".parse::<Division>().unwrap();
+    let refusal = refused(&Wave::bar(), Setup::default(), &two());
+    let (what, given) = ("cells", 2);
+    assert_eq!(refusal, Refusal::WrongDimension { what, given, dimension: 1 });
+    let setup = Setup { particles_per_cell: two(), ..Setup::default() };
+    let refusal = refused(&Wave::bar(), setup, &8.into());
+    let what = "particles per cell";
+    assert_eq!(refusal, Refusal::WrongDimension { what, given, dimension: 1 });
+}
+
+#[test]
+fn fractions_outside_their_range_are_refused() {
+    for value in [-0.1, 1.1, f64::NAN] {
+        let flip = Transfer::Flip { fraction: value };
+        for setup in [
+            Setup { transfer: flip, ..Setup::default() },
+            Setup { jitter: value, ..Setup::default() },
+            Setup { offset: [0.0, value, 0.0], ..Setup::default() },
+        ] {
+            let refusal = refused(&Wave::bar(), setup, &8.into());
+            let Refusal::OutOfRange { value: found, .. } = refusal else { panic!("{refusal}") };
+            assert!(found == value || found.is_nan() && value.is_nan(), "{found}");
+        }
+    }
+}
+
+/// A period is a whole number of cells, of a box; and the field has to repeat itself.
+#[test]
+fn axes_that_are_not_periodic_are_refused() {
+    let periodic =
+        |axis: usize| Setup { periodic: std::array::from_fn(|a| a == axis), ..Setup::default() };
+    let refusal = refused(&sector(Face::Outer, Condition::Free), periodic(0), &8.into());
+    assert!(matches!(refusal, Refusal::NoPeriod { axis: 0, is_box: false, .. }), "{refusal}");
+    let refusal = refused(&Wave::on_box([1.0, 0.55]), periodic(1), &8.into());
+    assert!(matches!(refusal, Refusal::NoPeriod { axis: 1, is_box: true, .. }), "{refusal}");
+    assert!(refusal.to_string().starts_with("axis 2 cannot be periodic"), "{refusal}");
+    let refusal = refused(&Wave::on_box([1.0, 0.5]), periodic(1), &8.into());
+    assert_eq!(refusal, Refusal::NotPeriodic { axis: 1 });
 }
 
 #[test]
@@ -117,20 +220,28 @@ fn nonsense_is_refused() {
         domain.body = Body::Box { lower: Vector::zeros(), upper: Vector::zeros() };
     })));
     let bar = Bar::default();
-    let refused = |method: &Method, cells: usize| run::<f64>(&bar, method, cells).unwrap_err();
-    assert!(not_positive(refused(&Method::default(), 0)));
-    assert!(not_positive(refused(&Method { particles_per_cell: 0, ..Method::default() }, 8)));
-    for courant in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(not_positive(refused(&Method { courant, ..Method::default() }, 8)), "{courant}");
+    let of_bar = |setup: Setup, cells: usize| refused(&bar, setup, &cells.into());
+    assert!(not_positive(of_bar(Setup::default(), 0)));
+    let none = Division::Uniform(0);
+    assert!(not_positive(of_bar(Setup { particles_per_cell: none, ..Setup::default() }, 8)));
+    for number in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(not_positive(of_bar(Setup { courant: number, ..Setup::default() }, 8)), "{number}");
+        let time_step = Some(number);
+        assert!(not_positive(of_bar(Setup { time_step, ..Setup::default() }, 8)), "{number}");
     }
+    let end_time = Some(0.0); // the window starts there
+    assert!(not_positive(of_bar(Setup { end_time, ..Setup::default() }, 8)));
+    let theta = [0.0, 1.0];
+    let inside_out = Wave::on(Body::Annulus { inner: 1.0, outer: 0.5, theta });
+    assert!(not_positive(refused(&inside_out, Setup::default(), &8.into())));
     let too_large = |refusal: Refusal| matches!(refusal, Refusal::TooLarge { .. });
-    assert!(too_large(refused(&Method::default(), usize::MAX)));
-    assert!(too_large(refused(&Method { courant: 1e-300, ..Method::default() }, 8)));
+    assert!(too_large(of_bar(Setup::default(), usize::MAX)));
+    assert!(too_large(of_bar(Setup { courant: 1e-300, ..Setup::default() }, 8)));
     let amplitude = Bar { amplitude: 1e300, ..Bar::default() };
-    assert!(too_large(run::<f64>(&amplitude, &Method::default(), 8).unwrap_err()));
+    assert!(too_large(refused(&amplitude, Setup::default(), &8.into())));
     let amplitude = Bar { amplitude: f64::NAN, ..Bar::default() };
-    let refused = run::<f64>(&amplitude, &Method::default(), 8).unwrap_err();
-    assert!(matches!(refused, Refusal::FieldNotFinite { quantity: "displacement", .. }));
+    let odd = refused(&amplitude, Setup::default(), &8.into());
+    assert!(matches!(odd, Refusal::FieldNotFinite { quantity: "displacement", .. }));
 }
 
 /// F = 1 + 2 (L - X) A/L^2 is negative near X = 0 for A = -0.6, half a period after the start.
@@ -164,7 +275,8 @@ fn a_value_that_is_not_a_number_stops_the_run_in_its_step() {
         let field = Spoilt { spoilt_from: 5, body_force: f64::NAN, ..Spoilt::domain(|_| ()) };
         let method = method(ShapeName::Cpgimp, integrator);
         let progress = Cell::new(0);
-        let level = run_level(&field, &method, 8, &mut |step, _| progress.set(step)).unwrap();
+        let level =
+            run_level(&field, &method, &8.into(), &mut |step, _| progress.set(step)).unwrap();
         assert_eq!(progress.get(), 5, "{integrator}");
         let failure = failure(level);
         assert_eq!(failure.step, 6);
@@ -181,14 +293,13 @@ fn a_particle_that_leaves_the_grid_is_lost() {
     assert!(failure.to_string().contains("left the grid"));
 }
 
+/// Far above every method's largest stable Courant number.
 #[test]
 fn an_unstable_run_stops() {
-    for &shape in ShapeName::ALL {
-        for &integrator in IntegratorName::ALL {
-            let method = Method { courant: 5.0, ..method(shape, integrator) };
-            let failure = failure(run::<f64>(&Bar::default(), &method, 64).unwrap());
-            assert!(failure.step > 0, "{shape} {integrator}: {failure}");
-        }
+    for mut method in methods() {
+        method.setup.courant = 5.0;
+        let failure = failure(run::<f64>(&Bar::default(), &method, 64).unwrap());
+        assert!(failure.step > 0, "{method:?}: {failure}");
     }
 }
 
@@ -196,22 +307,30 @@ fn an_unstable_run_stops() {
 #[test]
 fn a_domain_wider_than_the_stencil_stops_the_run() {
     let bar = Bar { amplitude: 0.9, ..Bar::default() };
-    let method = Method { particles_per_cell: 1, ..Method::default() };
+    let method = with(Setup { particles_per_cell: 1.into(), ..Setup::default() });
     let failure = failure(run::<f64>(&bar, &method, 16).unwrap());
     assert!(matches!(failure.cause, Cause::HalfWidth { .. }), "{failure}");
     assert!(failure.to_string().contains("more particles per cell"));
 }
 
-/// A wall on an upper face has to be on a plane of nodes.
+/// A wall has to be on a plane of nodes, whether the number of cells or the grid's offset puts it there.
 #[test]
 fn a_wall_between_nodes_is_refused() {
     let field = Affine { upper: [1.0, 0.55, 1.0], ..Affine::flight([0.0; 3]) };
     let field = Affine { faces: vec![(Face::Max(1), Condition::Roller)], ..field };
-    let resolution = |cells| Resolution { cells, particles_per_cell: 2, courant: 0.4 };
     let field: &dyn ManufacturedField<f64, 2> = &field;
-    let refused = Solver::<f64, 2, _, Cpgimp>::new(field, &resolution(8)).err();
-    assert!(matches!(refused, Some(Refusal::WallBetweenNodes { face: Face::Max(1), .. })));
-    let solver = Solver::<f64, 2, _, Cpgimp>::new(field, &resolution(20)).unwrap();
-    let volume: f64 = solver.particles().reference_volume.iter().sum();
-    assert!((volume - 0.55).abs() < 1e-12, "the particles' domains fill the body: {volume}");
+    let solver = |cells: usize, offset: f64| {
+        let setup = Setup { offset: [0.0, offset, 0.0], ..Setup::default() };
+        Solver::<f64, 2, _, Cpgimp, Updated>::new(field, &setup, &cells.into())
+    };
+    for (cells, offset) in [(8, 0.0), (20, 0.5)] {
+        let refused = solver(cells, offset).err();
+        assert!(matches!(refused, Some(Refusal::WallBetweenNodes { face: Face::Max(1), .. })));
+    }
+    // 4.4 cells, and 0.6 of one before them.
+    for (cells, offset) in [(20, 0.0), (8, 0.6)] {
+        let solver = solver(cells, offset).unwrap_or_else(|refusal| panic!("{refusal}"));
+        let volume: f64 = solver.particles().reference_volume.iter().sum();
+        assert!((volume - 0.55).abs() < 1e-12, "the particles' domains fill the body: {volume}");
+    }
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Bar, levels};
-use mms_runtime::study::Method;
+use mms_runtime::Method;
 
 /// Bardenhagen & Kober's weight and gradient at distance x from a node, l <= h/2, case by case.
 fn weight(x: f64, l: f64, h: f64) -> (f64, f64) {

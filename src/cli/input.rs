@@ -10,13 +10,16 @@ use clap::Args;
 use dashu_ratio::RBig;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
+use mms_codegen::program::interpret::Number;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
+use mms_runtime::Real;
 
 use crate::gallery::{self, Entry};
+use crate::scene::Scene;
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";
@@ -108,6 +111,21 @@ impl Input {
             .entry()
             .filter(|_| options.selection.twin == Twin::Nothing && options.form == Form::Stable);
         Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry })
+    }
+
+    /// The compiled field, where it is of the gallery, and the interpreted one otherwise; with the parameters
+    /// of `name=value` settings. `build` takes the entry's of the precision.
+    pub fn scene<T: Real + Number>(
+        &self,
+        settings: &[String],
+        build: impl Fn(&Entry) -> fn(&[T]) -> Option<Scene<T>>,
+    ) -> anyhow::Result<Scene<T>> {
+        let set = self.settings(settings)?;
+        match self.entry {
+            Some(entry) => build(entry)(&self.compiled.parameters::<T>(&set))
+                .context("the gallery is out of step with its field files: build again"),
+            None => Ok(crate::interpreted::scene(self.compiled.clone(), &set)),
+        }
     }
 
     /// The parameters that `name=value` settings set, by position.

@@ -5,7 +5,7 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use mms_codegen::compile::MATERIALS;
 use mms_codegen::spec::{Claim, FieldSpec, StudySpec};
-use mms_runtime::{IntegratorName, ShapeName};
+use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use serde_json::{Map, Value, json};
 
 use super::{Outcome, print, print_json};
@@ -32,15 +32,19 @@ impl List {
                 "materials": materials,
                 "shapes": ShapeName::NAMES,
                 "integrators": IntegratorName::NAMES,
+                "formulations": FormulationName::NAMES,
+                "transfers": Transfer::NAMES,
             }))?;
             return Ok(Outcome::AsExpected);
         }
         print(&format!(
-            "{}\n\nmaterials:   {}\nshapes:      {}\nintegrators: {}",
+            "{}\n\nmaterials:    {}\nshapes:       {}\nintegrators:  {}\nformulations: {}\ntransfers:    {}",
             table(&fields),
             materials.join(", "),
             ShapeName::NAMES.join(", "),
-            IntegratorName::NAMES.join(", ")
+            IntegratorName::NAMES.join(", "),
+            FormulationName::NAMES.join(", "),
+            Transfer::NAMES.join(", ")
         ))?;
         Ok(Outcome::AsExpected)
     }

@@ -6,7 +6,10 @@ mod emit;
 mod eval;
 mod input;
 mod list;
+mod method;
 mod new;
+mod progress;
+mod run;
 mod schema;
 mod show;
 mod study;
@@ -38,6 +41,7 @@ enum Command {
     Eval(eval::Eval),
     Emit(emit::Emit),
     Accuracy(accuracy::Accuracy),
+    Run(run::Run),
     Study(study::Study),
     New(new::New),
     Schema(schema::Schema),
@@ -67,6 +71,7 @@ pub fn run() -> ExitCode {
         Some(Command::Eval(eval)) => eval.run(),
         Some(Command::Emit(emit)) => emit.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
+        Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),

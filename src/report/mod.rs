@@ -1,7 +1,9 @@
 //! A study as a table, a JSON document, a CSV file and a picture.
 
 pub mod accuracy;
+mod method;
 mod picture;
+pub mod run;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -10,7 +12,7 @@ use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_runtime::study::{Judgement, Orders, orders};
-use mms_runtime::{Level, Method, Refusal};
+use mms_runtime::{Division, Level, Method, Refusal};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -37,8 +39,8 @@ pub struct Study {
 /// A level that was not started.
 #[derive(Clone, Debug)]
 pub struct Refused {
-    /// Cells along the longest edge of the body.
-    pub cells: usize,
+    /// Cells of the body.
+    pub cells: Division,
     /// Why it was not started.
     pub reason: Refusal,
 }
@@ -46,7 +48,7 @@ pub struct Refused {
 /// One level as a record: a row of the CSV file, and an entry of the JSON document.
 #[derive(Default, Serialize)]
 struct Row {
-    cells: usize,
+    cells: Value,
     cell_size: Option<f64>,
     time_step: Option<f64>,
     steps: Option<usize>,
@@ -66,7 +68,7 @@ impl Row {
         let observed = before.map_or_else(Orders::default, |before| orders(before, level));
         let errors = level.errors.as_ref().ok();
         Row {
-            cells: level.cells,
+            cells: method::division(&level.cells),
             cell_size: Some(level.cell_size),
             time_step: Some(level.time_step),
             steps: Some(level.steps),
@@ -84,7 +86,7 @@ impl Row {
 
     fn of_refused(refused: &Refused) -> Self {
         Row {
-            cells: refused.cells,
+            cells: method::division(&refused.cells),
             failure: Some(format!("not started: {}", refused.reason)),
             ..Row::default()
         }
@@ -113,30 +115,12 @@ impl Study {
     pub fn document(&self) -> Value {
         json!({
             "field": self.field,
-            "method": {
-                "shape": self.method.shape.name(),
-                "integrator": self.method.integrator.name(),
-                "precision": self.precision,
-                "particles_per_cell": self.method.particles_per_cell,
-                "courant": self.method.courant,
-            },
+            "method": method::document(&self.method, self.precision),
             "levels": self.rows(),
             "expected_order": self.expected_order,
             "observed_order": self.judgement.observed_order,
             "verdict": self.judgement.verdict.to_string(),
         })
-    }
-
-    /// The method in words.
-    fn method_line(&self) -> String {
-        format!(
-            "{} {}, {}, {} particles per cell and direction, Courant {}",
-            self.method.shape.name(),
-            self.method.integrator.name(),
-            self.precision,
-            self.method.particles_per_cell,
-            self.method.courant
-        )
     }
 
     /// The table for a terminal, with the verdict.
@@ -160,7 +144,7 @@ impl Study {
             let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{o:.2}"));
             let count = |count: Option<usize>| count.map_or("-".into(), |c| c.to_string());
             table.add_row([
-                row.cells.to_string(),
+                row.cells.to_string().replace('"', ""),
                 count(row.particles),
                 count(row.steps),
                 error(row.l1),
@@ -183,7 +167,7 @@ impl Study {
             "{}: {}\n{}\n\n{table}\n\n{}: {observed}, expected {} within {}",
             self.field,
             self.title,
-            self.method_line(),
+            method::line(&self.method, self.precision),
             self.judgement.verdict,
             self.expected_order,
             self.tolerance

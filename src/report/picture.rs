@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use super::Study;
+use super::{Study, method};
 
 const SIZE: (u32, u32) = (760, 520);
 /// Colours that are told apart without seeing colour well (Okabe & Ito 2008).
@@ -43,7 +43,7 @@ fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::
     let errors = span(all.iter().chain(&slope).map(|(_, error)| *error), 2.0);
     let sizes_shown = apart(study.started().map(|level| level.cell_size), sizes);
     let (errors_shown, errors_between) = ticks(errors);
-    let caption = format!("{}: {}", study.field, study.method_line());
+    let caption = format!("{}: {}", study.field, method::line(&study.method, study.precision));
     let mut chart = ChartBuilder::on(&root)
         .caption(caption, ("sans-serif", 18))
         .margin(16)

@@ -12,6 +12,7 @@ mod mms;
 mod new;
 mod overview;
 mod rigid;
+mod run;
 mod show;
 mod study;
 mod study_files;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mms::gallery::FIELDS;
 use mms_codegen::compile::MATERIALS;
-use mms_runtime::{IntegratorName, ShapeName};
+use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use serde_json::{Map, Value, json};
 
 use super::mms::Folder;
@@ -28,6 +28,8 @@ fn list_as_a_document_has_the_same_names() {
     assert_eq!(fields, FIELDS.iter().map(|entry| entry.name).collect::<Vec<_>>());
     assert_eq!(document["shapes"], json!(ShapeName::NAMES));
     assert_eq!(document["integrators"], json!(IntegratorName::NAMES));
+    assert_eq!(document["formulations"], json!(FormulationName::NAMES));
+    assert_eq!(document["transfers"], json!(Transfer::NAMES));
     let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
     assert_eq!(document["materials"], json!(materials));
 }

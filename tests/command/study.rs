@@ -18,7 +18,23 @@ fn the_document_has_the_promised_keys_in_their_order() {
     );
     assert_eq!(
         keys(&document["method"]),
-        ["shape", "integrator", "precision", "particles_per_cell", "courant"]
+        [
+            "shape",
+            "integrator",
+            "formulation",
+            "transfer",
+            "flip_fraction",
+            "precision",
+            "particles_per_cell",
+            "fill",
+            "jitter",
+            "seed",
+            "offset",
+            "periodic",
+            "courant",
+            "time_step",
+            "end_time",
+        ]
     );
     let level = [
         "cells",

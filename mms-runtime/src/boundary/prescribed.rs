@@ -1,91 +1,173 @@
 //! Nodes at a face where the field prescribes the motion: they take the field's velocity and acceleration.
 //!
-//! Held are the nodes on and beyond the face, and those nearer to it than their hat function is wide:
-//! the balance of momentum of such a node misses the traction on the part of the face inside its
-//! support. Where the face runs along a plane of nodes, these are just the nodes on and beyond it.
-//! A node's reference position comes from inverting x = X + u(X, t) by Newton's method.
+//! Held are the nodes on and beyond the face, and those nearer to it than their weights are wide: the
+//! balance of momentum of such a node misses the traction on the part of the face inside its support.
+//! Where the face runs along a plane of nodes at which splines end, these are just the nodes on it.
+//! A node's reference position comes from inverting x = X + u(X, t) by Newton's method; in the total
+//! formulation it is where it is. Beyond a face at rest a node moves opposite to its mirror image inside, for
+//! the field may be wild beyond its body.
 
+use super::surface::Surface;
 use crate::tensor::{components, inverse_deformation_gradient, is_finite};
-use crate::{Cause, Failure, Grid, ManufacturedField, Matrix, Real, Vector};
+use crate::{Cause, Failure, Grid, Lattice, ManufacturedField, Matrix, Real, Vector};
 
 const NEWTON_ITERATIONS: usize = 30;
 
-/// A face of the reference body.
-struct Plane<T> {
-    axis: usize,
-    upper: bool,
-    position: T,
-}
+/// How many nodes along an axis, to either side of a sample of a face, it may hold: as far as particles
+/// inside give them mass.
+const NEIGHBOURS: usize = 2;
 
 /// The prescribed faces, and the nodes that they hold at the present time. Without faces it is empty.
 pub struct Prescribed<T, const D: usize> {
-    faces: Vec<Plane<T>>,
-    /// Per node: the reference position found last, where the next search starts.
-    start: Vec<Vector<T, D>>,
+    moves: bool,
+    /// The faces, and whether each is at rest.
+    faces: Vec<(Surface<T>, bool)>,
+    /// Points on all faces, one for every cell.
+    samples: Vec<Vector<T, D>>,
+    /// Where they are.
+    present: Vec<Vector<T, D>>,
+    /// Per node: its distance from the nearest sample, and which that is.
+    nearest: Vec<Option<(T, usize)>>,
     /// The nodes that are held.
     nodes: Vec<usize>,
-    /// Their reference positions.
+    /// Where they are, or their images in faces at rest.
+    target: Vec<Vector<T, D>>,
+    /// 1, or -1 for an image.
+    sign: Vec<T>,
+    /// The reference positions there.
     reference: Vec<Vector<T, D>>,
-    /// Their images on a face.
+    /// Their nearest points on a face.
     foot: Vec<Vector<T, D>>,
+    /// The reference normals there.
+    normal: Vec<Vector<T, D>>,
     held: Vec<bool>,
     value: Vec<Vector<T, D>>,
     displacement_gradient: Vec<Matrix<T, D>>,
 }
 
 impl<T: Real, const D: usize> Prescribed<T, D> {
-    /// No face.
-    pub fn none() -> Self {
+    /// No face; `moves` says whether the body moves through the grid.
+    pub fn new(moves: bool) -> Self {
         Self {
+            moves,
             faces: Vec::new(),
-            start: Vec::new(),
+            samples: Vec::new(),
+            present: Vec::new(),
+            nearest: Vec::new(),
             nodes: Vec::new(),
+            target: Vec::new(),
+            sign: Vec::new(),
             reference: Vec::new(),
             foot: Vec::new(),
+            normal: Vec::new(),
             held: Vec::new(),
             value: Vec::new(),
             displacement_gradient: Vec::new(),
         }
     }
 
-    /// Prescribes the motion of a face of the reference box.
-    pub fn add_face(&mut self, grid: &Grid<T, D>, axis: usize, upper: bool, position: T) {
+    /// Prescribes the motion of a face, which may be at rest. There is a sample of it for every cell.
+    pub fn add_face(
+        &mut self,
+        surface: Surface<T>,
+        at_rest: bool,
+        samples: impl Iterator<Item = Vector<T, D>>,
+        lattice: &Lattice<T, D>,
+    ) {
         if self.faces.is_empty() {
-            self.start = (0..grid.len()).map(|node| grid.position(node)).collect();
-            self.nodes.reserve(grid.len());
-            self.reference.reserve(grid.len());
-            self.foot.reserve(grid.len());
-            self.held.reserve(grid.len());
-            self.value.reserve(grid.len());
-            self.displacement_gradient.reserve(grid.len());
+            let count = lattice.len();
+            self.nearest.resize(count, None);
+            self.nodes.reserve(count);
+            self.target.reserve(count);
+            self.sign.reserve(count);
+            self.reference.reserve(count);
+            self.foot.reserve(count);
+            self.normal.reserve(count);
+            self.held.reserve(count);
+            self.value.reserve(count);
+            self.displacement_gradient.reserve(count);
         }
-        self.faces.push(Plane { axis, upper, position });
+        self.faces.push((surface, at_rest));
+        self.samples.extend(samples);
+        self.present.resize(self.samples.len(), Vector::zeros());
     }
 
     /// Finds the nodes with mass that the faces hold at `time`, and their reference positions.
+    ///
+    /// # Errors
+    /// The motion cannot be inverted at a node.
     pub fn locate<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        if self.faces.is_empty() {
+        let located = !self.moves && !self.nodes.is_empty();
+        if self.faces.is_empty() || located {
             return Ok(());
         }
-        self.nodes.clear();
-        self.nodes.extend((0..grid.len()).filter(|&node| grid.mass[node] > grid.mass_floor));
-        let count = self.nodes.len();
+        self.find_nodes_nearby(field, time, grid);
         self.reference.clear();
-        self.reference.extend(self.nodes.iter().map(|&node| self.start[node]));
-        self.value.resize(count, Vector::zeros());
-        self.displacement_gradient.resize(count, Matrix::zeros());
-        self.invert_motion(field, time, grid)?;
-        for (&node, reference) in self.nodes.iter().zip(&self.reference) {
-            self.start[node] = *reference;
+        self.target.clear();
+        self.sign.clear();
+        for &node in &self.nodes {
+            let position = grid.lattice.position(node);
+            let at_rest = self.faces.iter().filter(|(_, at_rest)| *at_rest);
+            let image = at_rest.filter_map(|(surface, _)| surface.image(&position)).next();
+            let target = image.unwrap_or(position);
+            self.sign.push(if image.is_some() { -T::one() } else { T::one() });
+            self.target.push(target);
+            let nearest = self.nearest[node].take().filter(|_| self.moves);
+            let moved = nearest.map_or(Vector::zeros(), |(_, k)| self.present[k] - self.samples[k]);
+            self.reference.push(target - moved);
+        }
+        self.value.resize(self.nodes.len(), Vector::zeros());
+        self.displacement_gradient.resize(self.nodes.len(), Matrix::zeros());
+        if self.moves {
+            self.invert_motion(field, time, grid)?;
         }
         self.keep_held_nodes(field, time, grid);
         Ok(())
     }
 
-    /// Newton's method for x = X + u(X, t), all nodes at once; x is the node's position.
+    /// The nodes with mass that are near a sample, and which is the nearest.
+    fn find_nodes_nearby<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>)
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let Self { samples, present, nearest, nodes, .. } = self;
+        let lattice = &grid.lattice;
+        present.clone_from(samples);
+        if self.moves {
+            field.displacement(time, samples, present);
+            present.iter_mut().zip(samples).for_each(|(position, sample)| *position += *sample);
+        }
+        nodes.clear();
+        for (k, position) in present.iter().enumerate() {
+            let cells = lattice.in_cells(position);
+            let first: [usize; D] = std::array::from_fn(|a| {
+                (cells[a].to_f64().max(0.0) as usize).saturating_sub(NEIGHBOURS)
+            });
+            let width = 2 * NEIGHBOURS + 2;
+            for number in 0..width.pow(D as u32) {
+                let along = |a: usize| first[a] + number / width.pow(a as u32) % width;
+                if (0..D).any(|a| along(a) >= lattice.count[a]) {
+                    continue;
+                }
+                let node = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>();
+                if grid.mass[node] <= grid.mass_floor {
+                    continue;
+                }
+                let distance = (lattice.position(node) - position).norm();
+                match nearest[node] {
+                    None => nodes.push(node),
+                    Some((least, _)) if distance >= least => continue,
+                    Some(_) => {}
+                }
+                nearest[node] = Some((distance, k));
+            }
+        }
+    }
+
+    /// Newton's method for x = X + u(X, t), all nodes at once, with x the targets.
     fn invert_motion<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -95,12 +177,10 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
             field.displacement(time, &self.reference, &mut self.value);
             field.displacement_gradient(time, &self.reference, &mut self.displacement_gradient);
             unsettled = None;
-            for (k, &node) in self.nodes.iter().enumerate() {
-                let position = grid.position(node);
+            for (k, position) in self.target.iter().enumerate() {
                 let residual = self.reference[k] + self.value[k] - position;
-                let size = position.amax() + self.value[k].amax() + grid.cell_size;
-                let settled = residual.amax() <= T::of(32.0) * T::default_epsilon() * size;
-                if settled {
+                let size = position.amax() + self.value[k].amax() + grid.lattice.cell_size.amax();
+                if residual.amax() <= T::of(32.0) * T::default_epsilon() * size {
                     continue;
                 }
                 unsettled = Some(k);
@@ -124,31 +204,42 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
             particle: None,
             reference_position: components(&self.reference[k]),
             cause: Cause::NoReferencePosition {
-                position: components(&grid.position(self.nodes[k])),
+                position: components(&grid.lattice.position(self.nodes[k])),
             },
         }
     }
 
-    /// Drops the nodes whose hat functions lie inside the body.
+    /// Drops the nodes whose weights are 0 on all faces.
     ///
-    /// For each node and face, the foot is the point of the face with the node's other reference
-    /// coordinates: the node is held if the foot's present position is nearer than one cell, or behind.
+    /// A node is held by a face if the face's nearest point, where it is at present, is behind the node or
+    /// nearer along the present normal than the node's weights reach.
     fn keep_held_nodes<F>(&mut self, field: &F, time: T, grid: &Grid<T, D>)
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        // Where the hat just touches the face, round-off must not decide.
-        let reach = grid.cell_size * T::of(1.0 - 1e-3);
         self.held.clear();
         self.held.resize(self.nodes.len(), false);
-        for &Plane { axis, upper, position } in &self.faces {
+        for (surface, _) in &self.faces {
             self.foot.clone_from(&self.reference);
-            self.foot.iter_mut().for_each(|foot| foot[axis] = position);
-            field.displacement(time, &self.foot, &mut self.value);
+            self.normal.clone_from(&self.reference);
+            for (foot, normal) in self.foot.iter_mut().zip(&mut self.normal) {
+                [*foot, *normal] = surface.foot(foot);
+            }
+            if self.moves {
+                let gradient = &mut self.displacement_gradient;
+                field.displacement_gradient(time, &self.foot, gradient);
+                field.displacement(time, &self.foot, &mut self.value);
+                self.foot.iter_mut().zip(&self.value).for_each(|(foot, u)| *foot += *u);
+                for (normal, gradient) in self.normal.iter_mut().zip(&*gradient) {
+                    // Nanson: n is along F^-T N.
+                    if let Some(inverse) = inverse_deformation_gradient(gradient) {
+                        *normal = inverse.tr_mul(normal).normalize();
+                    }
+                }
+            }
             for (k, &node) in self.nodes.iter().enumerate() {
-                let above = grid.position(node)[axis] - position - self.value[k][axis];
-                let depth = if upper { -above } else { above };
-                self.held[k] |= depth < reach;
+                let depth = (self.foot[k] - grid.lattice.position(node)).dot(&self.normal[k]);
+                self.held[k] |= depth < surface.reach(&self.normal[k], &grid.lattice);
             }
         }
         let mut kept = 0;
@@ -156,6 +247,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
             if self.held[k] {
                 self.nodes[kept] = self.nodes[k];
                 self.reference[kept] = self.reference[k];
+                self.sign[kept] = self.sign[k];
                 kept += 1;
             }
         }
@@ -174,8 +266,8 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
             return;
         }
         exact(&self.reference, &mut self.value);
-        for (&node, value) in self.nodes.iter().zip(&self.value) {
-            nodal[node] = *value;
+        for ((&node, value), &sign) in self.nodes.iter().zip(&self.value).zip(&self.sign) {
+            nodal[node] = value * sign;
         }
     }
 }

@@ -4,7 +4,7 @@
 //! antisymmetrically, so nodes inside receive what their images (ghost nodes) got, and ghost nodes move
 //! opposite to the nodes inside, in velocity and acceleration alike.
 
-use crate::{Condition, Face, Grid, Real, Refusal, Vector};
+use crate::{Condition, Face, Lattice, Real, Refusal, Vector};
 
 /// A wall: which nodes are on it, which are behind it, and which components it reflects.
 pub struct Wall {
@@ -18,38 +18,42 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// The wall at a `face` of a box with its lower corner at the grid's `body_node`; `edge` is the
-    /// length of the box along the face's normal.
+    /// The wall at a `face` of a box.
+    ///
+    /// # Errors
+    /// The face lies between planes of nodes, or is none of a box.
     pub fn new<T: Real, const D: usize>(
-        grid: &Grid<T, D>,
+        lattice: &Lattice<T, D>,
         face: Face,
         condition: Condition,
-        edge: f64,
     ) -> Result<Self, Refusal> {
         let (axis, upper) = match face {
             Face::Min(axis) => (axis, false),
             Face::Max(axis) => (axis, true),
-            _ => return Err(Refusal::NoSuchFace { face, dimension: D }),
+            _ => return Err(Refusal::UnsupportedCondition { face, condition }),
         };
-        let cells = edge / grid.cell_size.to_f64();
-        if upper && (cells - cells.round()).abs() > 1e-4 {
+        let [from, to] = lattice.axes[axis].body;
+        let Some(plane) = lattice.node_on_face(axis, upper) else {
+            let cells = if upper { to - from } else { from.fract() };
             return Err(Refusal::WallBetweenNodes { face, condition, cells });
-        }
-        let plane = grid.body_node[axis] + if upper { cells.round() as usize } else { 0 };
+        };
         let mut wall = Self {
             on_wall: Vec::new(),
             images: Vec::new(),
             axis,
             fixed: condition == Condition::Fixed,
         };
-        for node in 0..grid.len() {
-            let k = grid.coordinates(node)[axis];
-            let behind = if upper { k > plane } else { k < plane };
+        // Splines of a higher degree end at the wall, and nothing reaches past it.
+        let reaches_past = lattice.degree == 1;
+        for node in 0..lattice.len() {
+            let k = lattice.coordinates(node)[axis];
+            let behind = reaches_past && if upper { k > plane } else { k < plane };
             if k == plane {
                 wall.on_wall.push(node);
-            } else if behind && (2 * plane).checked_sub(k).is_some_and(|m| m < grid.count[axis]) {
-                let inside = node + 2 * plane * grid.stride[axis] - 2 * k * grid.stride[axis];
-                wall.images.push((node, inside));
+            } else if behind && (2 * plane).checked_sub(k).is_some_and(|m| m < lattice.count[axis])
+            {
+                let stride = lattice.stride[axis];
+                wall.images.push((node, node + 2 * plane * stride - 2 * k * stride));
             }
         }
         Ok(wall)

@@ -5,29 +5,26 @@
 //! 10.1016/j.jcp.2008.07.019: with v at t^(n+1/2), and x, F and forces at t^n, every update is centred,
 //! and USL is of second order in time.
 
-use super::Integrator;
-use crate::shape::Shape;
-use crate::{Failure, ManufacturedField, Real, Solver};
+use super::{Integrator, Operations};
+use crate::{Failure, Real};
 
 /// USL whose first kick is half a step, from the exact initial velocity to v at dt/2.
 pub struct Leapfrog;
 
 impl Integrator for Leapfrog {
     const FORMAL_ORDER: i32 = 2;
+    const LAG: f64 = 0.5;
 
-    fn step<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized, S: Shape>(
-        solver: &mut Solver<'_, T, D, F, S>,
-    ) -> Result<(), Failure> {
+    fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
         let half = T::ratio(1, 2) * dt;
         let (t_velocity, kick) = if solver.step_number() == 0 { (t, half) } else { (t - half, dt) };
-        solver.map_mass()?; //                  m_i = sum w m
-        solver.map_velocity(t_velocity); //     v_i = sum w m v / m_i, at t^(n-1/2)
-        solver.map_acceleration(t); //          a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.kick(kick, t + half); //         v_i += dt a_i, at t^(n+1/2)
-        solver.move_particles(kick, dt); //     v += dt sum w a_i,  d += dt sum w v_i
-        solver.deform(dt); //                   H += dt L F,  L = sum v_i (x) grad w
-        solver.update_stress(); //              tau = tau(H)
-        Ok(())
+        solver.map_mass()?; //              m_i = sum w m
+        solver.map_velocity(t_velocity); // v_i = sum w m v / m_i, at t^(n-1/2)
+        solver.map_acceleration(t)?; //     a_i = (- sum V0 tau grad w + sum w m b) / m_i
+        solver.kick(kick, t + half); //     v_i += dt a_i, at t^(n+1/2)
+        solver.move_particles(kick, dt); // v += dt sum w a_i,  d += dt sum w v_i
+        solver.deform(dt); //               H += dt L F,  L = sum v_i (x) grad w
+        solver.update_stress() //           tau = tau(H)
     }
 }

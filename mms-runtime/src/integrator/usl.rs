@@ -5,9 +5,8 @@
 //! the material point method for solid mechanics", J. Comput. Phys. 180 (2002) 383-403. First order in time: particle
 //! velocities are those of the exact initial time, one half step off where the scheme is centred.
 
-use super::Integrator;
-use crate::shape::Shape;
-use crate::{Failure, ManufacturedField, Real, Solver};
+use super::{Integrator, Operations};
+use crate::{Failure, Real};
 
 /// Forces from the stress at t^n, then the deformation from the grid's new velocity.
 pub struct Usl;
@@ -15,17 +14,14 @@ pub struct Usl;
 impl Integrator for Usl {
     const FORMAL_ORDER: i32 = 1;
 
-    fn step<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized, S: Shape>(
-        solver: &mut Solver<'_, T, D, F, S>,
-    ) -> Result<(), Failure> {
+    fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
-        solver.map_mass()?; //                m_i = sum w m
-        solver.map_velocity(t); //            v_i = sum w m v / m_i
-        solver.map_acceleration(t); //        a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.kick(dt, t + dt); //           v_i += dt a_i
-        solver.move_particles(dt, dt); //     v += dt sum w a_i,  d += dt sum w v_i
-        solver.deform(dt); //                 H += dt L F,  L = sum v_i (x) grad w
-        solver.update_stress(); //            tau = tau(H)
-        Ok(())
+        solver.map_mass()?; //            m_i = sum w m
+        solver.map_velocity(t); //        v_i = sum w m v / m_i
+        solver.map_acceleration(t)?; //   a_i = (- sum V0 tau grad w + sum w m b) / m_i
+        solver.kick(dt, t + dt); //       v_i += dt a_i
+        solver.move_particles(dt, dt); // v += dt sum w a_i,  d += dt sum w v_i
+        solver.deform(dt); //             H += dt L F,  L = sum v_i (x) grad w
+        solver.update_stress() //         tau = tau(H)
     }
 }

@@ -6,29 +6,36 @@
 //!
 //! w = 1/(2 l) int hat(x) dx,  grad w = 1/(2 l) int hat'(x) dx,  x from x_p - l to x_p + l.
 
-use super::{AxisWeights, Shape};
-use crate::{Matrix, Real, Vector};
+use super::{MAX_NODES, Shape, gimp_stencil, half_widths};
+use crate::stencil::{AxisWeights, Tensor};
+use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// GIMP with half widths fixed at their initial values (undeformed, "uniform" GIMP).
 ///
-/// Gaps and overlaps appear between stretched particles, so that the order is lost on fine grids.
+/// Gaps and overlaps appear between stretched particles, so that the order is lost on fine grids. In the
+/// total formulation there are none.
 pub struct Ugimp;
 
 impl Shape for Ugimp {
-    fn half_width<T: Real, const D: usize>(
-        initial: &Vector<T, D>,
-        _: &Matrix<T, D>,
-    ) -> Vector<T, D> {
-        *initial
+    type Domain<T: Real, const D: usize> = Vector<T, D>;
+    type Stencil<T: Real, const D: usize> = Tensor<T, D, MAX_NODES>;
+
+    fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
+        half_widths(half_edges)
     }
 
-    fn axis_weights<T: Real>(position: T, half_width: T) -> AxisWeights<T> {
-        averages_of_hat(position, half_width)
+    fn stencil<T: Real, const D: usize>(
+        lattice: &Lattice<T, D>,
+        position: &Vector<T, D>,
+        half_width: &Vector<T, D>,
+        _: &Matrix<T, D>,
+    ) -> Result<Tensor<T, D, MAX_NODES>, Cause> {
+        gimp_stencil(lattice, position, half_width)
     }
 }
 
 /// The averages of the hat functions, and of their slopes, over [position - l, position + l].
-pub(super) fn averages_of_hat<T: Real>(position: T, half_width: T) -> AxisWeights<T> {
+pub(super) fn averages_of_hat<T: Real>(position: T, half_width: T) -> AxisWeights<T, MAX_NODES> {
     let first = (position - half_width).floor();
     let last = (position + half_width).floor() + T::one();
     let count = (last - first).to_f64() as usize + 1;

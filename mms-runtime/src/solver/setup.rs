@@ -1,46 +1,210 @@
 //! The state that a run starts from.
 
-use crate::failure::{at_most, positive};
+use super::Solver;
+use super::clock::{Clock, Seconds};
+use super::exchange::Exchange;
+use crate::body::{Fill, Filling, Piece, bounding_box};
+use crate::boundary::{Boundary, is_wall};
+use crate::failure::positive;
+use crate::formulation::Formulation;
+use crate::lattice::Axis;
+use crate::method::{Division, Setup};
 use crate::particle::Particles;
+use crate::shape::{MAX_NODES, Shape};
 use crate::tensor::{components, is_finite, matrix_is_finite};
-use crate::{ManufacturedField, Real, Refusal, Vector};
-
-/// More steps than this are refused.
-const STEP_LIMIT: f64 = u32::MAX as f64;
+use crate::{Body, Domain, Face, Grid, Lattice, ManufacturedField, Real, Refusal, Vector};
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;
 
-/// Times are computed from the step number, never accumulated.
-pub(super) struct Clock {
-    pub start: f64,
-    pub time_step: f64,
-    pub steps: usize,
-    pub step: usize,
+/// Cells around the body's motion, on top of what its particles' stencils reach.
+const MARGIN: f64 = 2.0;
+
+impl<'f, T: Real, const D: usize, F, S, L> Solver<'f, T, D, F, S, L>
+where
+    F: ManufacturedField<T, D> + ?Sized,
+    S: Shape,
+    L: Formulation,
+{
+    /// The field's body at the start of its time window, divided into `cells`: displacement, velocity and H
+    /// are the field's.
+    ///
+    /// # Errors
+    /// What cannot be started, and why.
+    pub fn new(field: &'f F, setup: &Setup, cells: &Division) -> Result<Self, Refusal> {
+        setup.validate()?;
+        let domain = field.domain();
+        let [lower, upper] = bounding_box(&domain.body)?;
+        let cell_size = cell_size(&(upper - lower), cells)?;
+        let filling = fill(&domain.body, setup, &cell_size)?;
+
+        let mut particles = Particles::new(&filling);
+        let speed = largest_wave_speed(field, &particles)?;
+        let [start, end] = domain.time.map(|time| time.to_f64());
+        let courant = positive("the Courant number", setup.courant)?;
+        let time_step = setup.time_step.unwrap_or(courant * cell_size.min() / speed);
+        let clock = Clock::new([start, setup.end_time.unwrap_or(end)], time_step)?;
+
+        let mut motion = [lower, upper];
+        if L::MOVES {
+            motion = extent_of_motion(field, &mut particles, &clock)?;
+        }
+        let axis = |a: usize| {
+            let body = [lower[a], upper[a]];
+            let reach = [motion[0][a], motion[1][a]];
+            cells_along::<T, D, S, L>(&domain, setup, a, cell_size[a], body, reach)
+        };
+        let periodic = std::array::from_fn(|a| setup.periodic[a]);
+        let lattice = Lattice::new(std::array::from_fn(axis), S::DEGREE, periodic)?;
+        let boundary = Boundary::new(&domain, &lattice, &filling.pieces, L::MOVES)?;
+        repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
+        let count = particles.len();
+        let exchange = Exchange::new(setup.transfer, count, &lattice);
+        initialise(field, &mut particles, T::of(clock.start))?;
+        let mut grid = Grid::new(lattice);
+        let smallest = particles.mass.iter().fold(particles.mass[0], |a, &b| a.min(b));
+        let widest = grid.lattice.count.iter().fold(0, |a, &b| a.max(b));
+        // A domain that overlaps a node by the round-off of its position gives it that, squared.
+        let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
+        grid.mass_floor = smallest * round_off * round_off;
+        let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
+        let mut solver = Self {
+            field,
+            clock,
+            domains: domains.collect(),
+            particles,
+            grid,
+            boundary,
+            stencils: Vec::with_capacity(count),
+            exchange,
+            seconds: Seconds::default(),
+            formulation: std::marker::PhantomData,
+        };
+        // Where F is singular there is none; a run begins with a check of J.
+        solver.find_stress();
+        Ok(solver)
+    }
 }
 
-impl Clock {
-    pub fn new(
-        window: [f64; 2],
-        courant: f64,
-        cell_size: f64,
-        speed: f64,
-    ) -> Result<Self, Refusal> {
-        let duration = positive("the length of the time window", window[1] - window[0])?;
-        let target = positive("the time step", courant * cell_size / speed)?;
-        // Round-off must not add a step to a duration of a whole number of steps.
-        let steps = (duration / target * (1.0 - 1e-6)).ceil().max(1.0);
-        at_most("steps", steps, STEP_LIMIT)?;
-        Ok(Self { start: window[0], time_step: duration / steps, steps: steps as usize, step: 0 })
+/// The edges of a cell.
+fn cell_size<const D: usize>(
+    edges: &Vector<f64, D>,
+    cells: &Division,
+) -> Result<Vector<f64, D>, Refusal> {
+    for number in cells.numbers() {
+        positive("the number of cells", number as f64)?;
     }
+    match *cells {
+        Division::Uniform(number) => Ok(Vector::repeat(edges.max() / number as f64)),
+        Division::PerAxis(_, given) if given != D => {
+            Err(Refusal::WrongDimension { what: "cells", given, dimension: D })
+        }
+        Division::PerAxis(numbers, _) => Ok(Vector::from_fn(|a, _| edges[a] / numbers[a] as f64)),
+    }
+}
 
-    pub fn time_of(&self, step: usize) -> f64 {
-        self.start + step as f64 * self.time_step
+/// The body full of particles.
+fn fill<T: Real, const D: usize>(
+    body: &Body<T, D>,
+    setup: &Setup,
+    cell_size: &Vector<f64, D>,
+) -> Result<Filling<D>, Refusal> {
+    let per_cell = &setup.particles_per_cell;
+    match *per_cell {
+        Division::PerAxis(_, given) if given != D => {
+            let what = "particles per cell";
+            return Err(Refusal::WrongDimension { what, given, dimension: D });
+        }
+        _ => {}
     }
+    for number in per_cell.numbers() {
+        positive("the number of particles per cell", number as f64)?;
+    }
+    let spacing = Vector::from_fn(|a, _| cell_size[a] / per_cell.along(a) as f64);
+    let along_faces = match body {
+        Body::Box { .. } => Fill::Cartesian,
+        Body::Annulus { .. } => Fill::Fitted,
+    };
+    let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), &spacing)?;
+    if setup.jitter != 0.0 {
+        filling.jitter(setup.jitter, setup.seed);
+    }
+    Ok(filling)
+}
+
+/// The cells of an axis: enough for the `motion` of a body between `body`.
+fn cells_along<T: Real, const D: usize, S: Shape, L: Formulation>(
+    domain: &Domain<T, D>,
+    setup: &Setup,
+    a: usize,
+    cell_size: f64,
+    body: [f64; 2],
+    motion: [f64; 2],
+) -> Axis {
+    let whole = |distance: f64| (distance / cell_size).ceil().max(0.0);
+    let padding = MAX_NODES as f64 + MARGIN;
+    let [mut before, mut after] = [body[0] - motion[0], motion[1] - body[1]].map(whole);
+    if setup.periodic[a] {
+        (before, after) = (0.0, 0.0);
+    }
+    let first = before + padding + setup.offset[a];
+    let last = first + (body[1] - body[0]) / cell_size;
+    // Far too many are refused when they are counted; a conversion saturates.
+    let cells = (last.ceil() + after + padding).min(f64::from(u32::MAX)) as usize;
+    let is_box = matches!(domain.body, Body::Box { .. });
+    let ends = |face: Face, knot: f64, else_at: i64| {
+        let rests = is_box && (!L::MOVES || is_wall(domain, face)) && !setup.periodic[a];
+        let on_knot = (knot - knot.round()).abs() < 1e-4;
+        if S::DEGREE > 1 && rests && on_knot { knot.round() as i64 } else { else_at }
+    };
+    Axis {
+        lower: body[0] - first * cell_size,
+        cell_size,
+        cells,
+        ends: [ends(Face::Min(a), first, 0), ends(Face::Max(a), last, cells as i64)],
+        body: [first, last],
+    }
+}
+
+/// Whether the field repeats itself along the periodic axes, at three times, wherever particles lie along
+/// a face; and whether the grid does.
+fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
+    field: &F,
+    setup: &Setup,
+    pieces: &[Piece<D>],
+    lattice: &Lattice<T, D>,
+    window: [f64; 2],
+) -> Result<(), Refusal> {
+    let is_box = matches!(field.domain().body, Body::Box { .. });
+    for axis in (0..D).filter(|&axis| setup.periodic[axis]) {
+        let [first, last] = lattice.axes[axis].body;
+        let cells = last - first;
+        if !is_box || (cells - cells.round()).abs() > 1e-4 {
+            return Err(Refusal::NoPeriod { axis, is_box, cells });
+        }
+        let face = |face: Face| {
+            let pieces = pieces.iter().filter(move |piece| piece.face == face);
+            pieces.map(|piece| piece.position.map(T::of)).collect::<Vec<Vector<T, D>>>()
+        };
+        let [near, far] = [face(Face::Min(axis)), face(Face::Max(axis))];
+        let mut values = [&near, &far].map(|face| vec![Vector::zeros(); face.len()]);
+        for time in [0.1, 0.4, 0.8].map(|part| window[0] + part * (window[1] - window[0])) {
+            for (points, values) in [&near, &far].into_iter().zip(&mut values) {
+                field.displacement(T::of(time), points, values);
+            }
+            let largest = values[0].iter().fold(T::zero(), |most, u| most.max(u.amax()));
+            let tolerance = largest * T::of(1e4) * T::default_epsilon();
+            let apart = |(a, b): (&Vector<T, D>, &Vector<T, D>)| (a - b).amax() > tolerance;
+            if values[0].iter().zip(&values[1]).any(apart) {
+                return Err(Refusal::NotPeriodic { axis });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// c0, the largest over the particles.
-pub(super) fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
+fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     particles: &Particles<T, D>,
 ) -> Result<f64, Refusal> {
@@ -54,12 +218,12 @@ pub(super) fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T
 }
 
 /// The smallest and the largest coordinates that the field moves a particle to.
-pub(super) fn extent_of_motion<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
+fn extent_of_motion<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     particles: &mut Particles<T, D>,
     clock: &Clock,
-) -> Result<[[f64; D]; 2], Refusal> {
-    let mut extent = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+) -> Result<[Vector<f64, D>; 2], Refusal> {
+    let mut extent = [f64::INFINITY, f64::NEG_INFINITY].map(Vector::<f64, D>::repeat);
     let samples = clock.steps.min(MOTION_SAMPLES);
     for sample in 0..=samples {
         let fraction = sample as f64 / samples as f64;
@@ -68,18 +232,15 @@ pub(super) fn extent_of_motion<T: Real, const D: usize, F: ManufacturedField<T, 
         field.displacement(time, reference, &mut particles.displacement);
         finite_vectors("displacement", time, reference, &particles.displacement)?;
         for p in 0..particles.len() {
-            let position = particles.position(p);
-            for a in 0..D {
-                extent[0][a] = extent[0][a].min(position[a].to_f64());
-                extent[1][a] = extent[1][a].max(position[a].to_f64());
-            }
+            let position = particles.position(p).map(Real::to_f64);
+            extent = [extent[0].inf(&position), extent[1].sup(&position)];
         }
     }
     Ok(extent)
 }
 
-/// Mass, displacement, velocity, H and stress at the time `start`.
-pub(super) fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
+/// Mass, displacement, velocity and H at the time `start`.
+fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
     particles: &mut Particles<T, D>,
     start: T,
@@ -92,18 +253,13 @@ pub(super) fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?
         positive("the mass of a particle", mass.to_f64())?;
     }
     field.displacement(start, reference, &mut particles.displacement);
+    finite_vectors("displacement", start, reference, &particles.displacement)?;
     field.velocity(start, reference, &mut particles.velocity);
     finite_vectors("velocity", start, reference, &particles.velocity)?;
     field.displacement_gradient(start, reference, &mut particles.displacement_gradient);
     let mut gradients = particles.displacement_gradient.iter();
     let odd = gradients.position(|h| !matrix_is_finite(h));
-    refuse_at("displacement gradient", start, reference, odd)?;
-    field.kirchhoff_stress(
-        reference,
-        &particles.displacement_gradient,
-        &mut particles.kirchhoff_stress,
-    );
-    Ok(())
+    refuse_at("displacement gradient", start, reference, odd)
 }
 
 fn finite_vectors<T: Real, const D: usize>(

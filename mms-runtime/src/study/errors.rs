@@ -1,10 +1,9 @@
-//! Error norms of the displacement.
+//! Error norms.
 
-use crate::{Real, Vector};
+use crate::{Matrix, Real, Vector};
 
-/// Norms of delta_p = |d_p - u(X_p, t)| over the particles; of a run, the largest over its steps.
-///
-/// Lengths, in the unit of the field. Computed in double precision whatever the solver's.
+/// Norms over the particles of the distance between a computed and an exact value, such as delta_p =
+/// |d_p - u(X_p, t)|; of a run, the largest over its steps. In the unit of the quantity, computed in double precision whatever the solver's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
     /// mean_p delta_p.
@@ -16,15 +15,33 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The norms of `displacement` against the `exact` one, both with one entry per particle; or the
-    /// first particle whose error is not finite.
+    /// The norms of `computed` against `exact` vectors, both with one entry per particle; or the first
+    /// particle whose error is not finite.
     pub fn of<T: Real, const D: usize>(
-        displacement: &[Vector<T, D>],
+        computed: &[Vector<T, D>],
         exact: &[Vector<T, D>],
     ) -> Result<Self, usize> {
+        let square = |(a, b): (&Vector<T, D>, &Vector<T, D>)| {
+            a.iter().zip(b).map(|(a, b)| (a.to_f64() - b.to_f64()).powi(2)).sum()
+        };
+        Self::of_squares(computed.iter().zip(exact).map(square))
+    }
+
+    /// The same of tensors, in the norm of Frobenius.
+    pub fn of_tensors<T: Real, const D: usize>(
+        computed: &[Matrix<T, D>],
+        exact: &[Matrix<T, D>],
+    ) -> Result<Self, usize> {
+        let square = |(a, b): (&Matrix<T, D>, &Matrix<T, D>)| {
+            a.iter().zip(b).map(|(a, b)| (a.to_f64() - b.to_f64()).powi(2)).sum()
+        };
+        Self::of_squares(computed.iter().zip(exact).map(square))
+    }
+
+    fn of_squares(squares: impl ExactSizeIterator<Item = f64>) -> Result<Self, usize> {
+        let count = squares.len().max(1) as f64;
         let (mut sum, mut sum_of_squares, mut largest) = (0.0, 0.0, 0.0_f64);
-        for (p, (d, u)) in displacement.iter().zip(exact).enumerate() {
-            let square: f64 = (0..D).map(|a| (d[a].to_f64() - u[a].to_f64()).powi(2)).sum();
+        for (p, square) in squares.enumerate() {
             if !square.is_finite() {
                 return Err(p);
             }
@@ -32,7 +49,6 @@ impl Errors {
             sum_of_squares += square;
             largest = largest.max(square.sqrt());
         }
-        let count = displacement.len().max(1) as f64;
         Ok(Self { l1: sum / count, l2: (sum_of_squares / count).sqrt(), linf: largest })
     }
 

@@ -79,7 +79,7 @@ mod tests {
     /// Levels with 8, 16, ... cells and these errors, the same in all norms.
     fn levels(errors: &[f64]) -> Vec<Level> {
         let level = |(k, &e): (usize, &f64)| Level {
-            cells: 8 << k,
+            cells: (8 << k).into(),
             cell_size: 1.0 / (8 << k) as f64,
             time_step: 0.1,
             steps: 10,

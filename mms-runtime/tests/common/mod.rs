@@ -1,10 +1,14 @@
 //! Fields typed by hand for the runtime's tests.
 #![allow(dead_code)]
 
-use mms_runtime::study::{Level, Method, run_level};
+pub mod spin;
+pub mod wave;
+pub mod weights;
+
+use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
-    Body, Condition, Domain, Face, IntegratorName, ManufacturedField, Material, Matrix, Real,
-    ShapeName, Vector,
+    Body, Condition, Domain, Face, FormulationName, IntegratorName, ManufacturedField, Material,
+    Matrix, Method, Real, ShapeName, Vector,
 };
 
 /// The 1D bar of Wallstedt & Guilkey: u = X (2L - X)/L^2 A(t), F = 1 + 2 (L - X) A/L^2,
@@ -344,12 +348,26 @@ pub fn method(shape: ShapeName, integrator: IntegratorName) -> Method {
     Method { shape, integrator, ..Method::default() }
 }
 
+/// Every formulation, shape function and integrator that go together.
+pub fn methods() -> Vec<Method> {
+    let mut methods = Vec::new();
+    for &formulation in FormulationName::ALL {
+        for &shape in ShapeName::ALL {
+            for &integrator in IntegratorName::ALL {
+                methods.push(Method { formulation, ..method(shape, integrator) });
+            }
+        }
+    }
+    methods.retain(|method| method.validate().is_ok());
+    methods
+}
+
 /// The levels of a study.
 pub fn levels<T: Real, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
     cells: &[usize],
 ) -> Vec<Level> {
-    let level = |&cells: &usize| run_level(field, method, cells, &mut |_, _| {}).unwrap();
+    let level = |&cells: &usize| run_level(field, method, &cells.into(), &mut |_, _| {}).unwrap();
     cells.iter().map(level).collect()
 }

@@ -14,13 +14,20 @@ impl Emitter<'_> {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
         let domain = self.domain();
-        let vectors = [
-            Quantity::Displacement,
-            Quantity::Velocity,
-            Quantity::Acceleration,
-            Quantity::BodyForce,
-        ]
-        .map(|quantity| {
+        // A solver asks for these two at every particle in every step, and for the others at some points or
+        // times: loops over many points are long to compile.
+        let batches = [Quantity::Displacement, Quantity::BodyForce].map(|quantity| {
+            let name = format_ident!("{}", quantity.name());
+            let batch = format_ident!("{name}_batch_aos");
+            quote! {
+                fn #name(&self, time: T, reference: &[Vector<T>], out: &mut [Vector<T>]) {
+                    let (points, out) =
+                        (::#runtime::arrays(reference), ::#runtime::arrays_mut(out));
+                    self.at_time(time).#batch(points, out);
+                }
+            }
+        });
+        let vectors = [Quantity::Velocity, Quantity::Acceleration].map(|quantity| {
             let name = format_ident!("{}", quantity.name());
             quote! {
                 fn #name(&self, time: T, reference: &[Vector<T>], out: &mut [Vector<T>]) {
@@ -74,6 +81,7 @@ impl Emitter<'_> {
 
             impl<T: ::#runtime::Real> ::#runtime::ManufacturedField<T, #dimension> for Field<T> {
                 #domain
+                #(#batches)*
                 #(#vectors)*
 
                 fn displacement_gradient(

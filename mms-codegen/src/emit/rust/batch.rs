@@ -48,8 +48,8 @@ impl Emitter<'_> {
                 #[inline(always)]
                 fn standing<S: batch::Stand<T>>(&self) -> Field<S> {
                     Field {
-                        #(#field: S::of(self.#field),)*
-                        #(#wide: S::of(T::narrow(self.#wide)).widen(),)*
+                        #(#field: S::standing_for(self.#field),)*
+                        #(#wide: S::standing_for(T::narrow(self.#wide)).widen(),)*
                         #marker
                     }
                 }
@@ -58,7 +58,7 @@ impl Emitter<'_> {
             impl<T: Real> AtTime<'_, T> {
                 #[inline(always)]
                 fn standing<'a, S: batch::Stand<T>>(&self, field: &'a Field<S>) -> AtTime<'a, S> {
-                    AtTime { field, #(#time: S::of(self.#time),)* }
+                    AtTime { field, #(#time: S::standing_for(self.#time),)* }
                 }
             }
         }

@@ -1,0 +1,213 @@
+//! What is run, and what is expected of it.
+
+use mms_runtime::{Fill, Method, UnknownName};
+
+/// A row of a table.
+pub struct Row {
+    /// The field.
+    pub field: &'static str,
+    /// A rigid motion on top, as `--rigid` takes it; empty for none.
+    pub twin: &'static str,
+    /// Formulation, shape function, integrator, and what else differs from the default.
+    pub method: &'static str,
+    /// The levels, coarse to fine.
+    pub levels: &'static [usize],
+    /// How far from 2 is still as expected, if that is more than usual.
+    pub tolerance: f64,
+    /// Why.
+    pub reason: &'static str,
+}
+
+impl Row {
+    /// The words of `method`, one after the other.
+    pub fn method(&self) -> Result<Method, UnknownName> {
+        let mut method = Method::default();
+        for word in self.method.split(' ') {
+            match word.split_once('=') {
+                Some(("courant", value)) => {
+                    method.setup.courant = value.parse().unwrap_or(f64::NAN);
+                }
+                Some((_, value)) => {
+                    method.setup.particles_per_cell =
+                        value.parse().unwrap_or(method.setup.particles_per_cell);
+                }
+                None => match word {
+                    "updated" | "total" => method.formulation = word.parse()?,
+                    "usl" | "usf" | "musl" | "leapfrog" => method.integrator = word.parse()?,
+                    "cartesian" | "fitted" => method.setup.fill = Some(word.parse::<Fill>()?),
+                    "pic" | "apic" | "xpic2" | "xpic3" => method.setup.transfer = word.parse()?,
+                    shape => method.shape = shape.parse()?,
+                },
+            }
+        }
+        Ok(method)
+    }
+}
+
+/// A row in space.
+const fn space(
+    field: &'static str,
+    method: &'static str,
+    levels: &'static [usize],
+    reason: &'static str,
+) -> Row {
+    Row { field, twin: "", method, levels, tolerance: 0.0, reason }
+}
+
+/// The same on a rigid twin.
+const fn twin(
+    field: &'static str,
+    twin: &'static str,
+    method: &'static str,
+    levels: &'static [usize],
+    reason: &'static str,
+) -> Row {
+    Row { twin, tolerance: 0.2, ..space(field, method, levels, reason) }
+}
+
+const LINE: &[usize] = &[16, 32, 64, 128];
+const PLANE: &[usize] = &[8, 16, 32, 64];
+const SPACE: &[usize] = &[4, 8, 16, 32];
+const RING: &[usize] = &[16, 32, 64, 128];
+
+/// A translation by three lengths, ever faster, in the standard twin of a bar; a rotation by two radians
+/// as well in two dimensions.
+pub const STANDARD: &str = "standard";
+
+/// Titles, texts, rows.
+pub const GROUPS: &[(&str, &str, &[Row])] = &[
+    (
+        "Aligned motion, contiguous particles",
+        "Second order in space and time: the domains of particles stay boxes without gaps.",
+        &[
+            space("bar_1d", "updated cpgimp leapfrog", LINE, ""),
+            space("axis_aligned_1d", "updated cpgimp leapfrog", LINE, ""),
+            space("axis_aligned_2d", "updated cpgimp leapfrog", PLANE, ""),
+            space("axis_aligned_3d", "updated cpgimp leapfrog", SPACE, ""),
+            space("bar_1d", "updated cpdi leapfrog", LINE, ""),
+            space("axis_aligned_2d", "updated cpdi leapfrog", PLANE, ""),
+        ],
+    ),
+    (
+        "Total Lagrangian",
+        "Nothing crosses a cell. Second order, which lumped mass caps.",
+        &[
+            space("bar_1d", "total linear leapfrog", LINE, ""),
+            space("bar_1d", "total ugimp leapfrog", LINE, ""),
+            space("bar_1d", "total quadratic_bspline leapfrog", LINE, ""),
+            space(
+                "bar_1d",
+                "total cubic_bspline leapfrog",
+                LINE,
+                "lumped mass where the knots end",
+            ),
+            space("axis_aligned_1d", "total linear leapfrog", LINE, ""),
+            space("axis_aligned_2d", "total linear leapfrog", PLANE, ""),
+            space("axis_aligned_3d", "total linear leapfrog", SPACE, ""),
+            space("axis_aligned_1d", "total quadratic_bspline leapfrog", LINE, ""),
+            space("axis_aligned_2d", "total quadratic_bspline leapfrog", PLANE, ""),
+            space("axis_aligned_3d", "total quadratic_bspline leapfrog", SPACE, ""),
+        ],
+    ),
+    (
+        "Rigid twins",
+        "The same stresses in a body that moves and turns through the grid, or with the total formulation \
+         does not.",
+        &[
+            twin("bar_1d", STANDARD, "total linear leapfrog", LINE, ""),
+            twin("bar_1d", STANDARD, "total quadratic_bspline leapfrog", LINE, ""),
+            twin("bar_1d", STANDARD, "updated cpgimp leapfrog", LINE, ""),
+            twin("quiet_boundary_2d", STANDARD, "total linear leapfrog", &[8, 16, 32], ""),
+            twin(
+                "quiet_boundary_2d",
+                STANDARD,
+                "total quadratic_bspline leapfrog",
+                &[8, 16, 32],
+                "",
+            ),
+            twin("quiet_boundary_2d", STANDARD, "updated cpdi leapfrog", &[8, 16, 32], "reported"),
+        ],
+    ),
+    (
+        "Curved bodies",
+        "Particles lie along the circles. Splines on a grid that the faces cut have few particles in some \
+         cells; more of them restore the order.",
+        &[
+            space(
+                "generalized_vortex",
+                "total quadratic_bspline leapfrog courant=0.05",
+                &[32, 64, 128],
+                "",
+            ),
+            space("generalized_vortex_third", "total quadratic_bspline leapfrog", RING, ""),
+            space("generalized_vortex_third", "updated cpdi leapfrog", RING, ""),
+            space(
+                "generalized_vortex_third",
+                "updated cpgimp leapfrog",
+                RING,
+                "boxes follow no shear of order 2",
+            ),
+            space("expanding_ring", "updated cpdi leapfrog", RING, ""),
+            space(
+                "expanding_ring",
+                "total quadratic_bspline leapfrog",
+                RING,
+                "few particles in cut cells",
+            ),
+            space(
+                "expanding_ring",
+                "total quadratic_bspline leapfrog particles=4",
+                &[16, 32, 64],
+                "",
+            ),
+            space(
+                "expanding_ring",
+                "updated cpgimp leapfrog",
+                RING,
+                "boxes overlap and gap along a circle",
+            ),
+            space("expanding_ring", "updated cpgimp leapfrog cartesian", RING, "and ragged edges"),
+        ],
+    ),
+    (
+        "Moved and loaded faces",
+        "",
+        &[
+            space("uniform_stretch", "total linear leapfrog", LINE, ""),
+            space("uniform_stretch", "updated cpdi leapfrog", LINE, ""),
+            space(
+                "uniform_stretch",
+                "updated cpgimp leapfrog",
+                LINE,
+                "a particle's box gets as wide as a cell",
+            ),
+            space("travelling_wave_2d", "updated cpgimp leapfrog", PLANE, ""),
+            space("cyclic_shear_3d", "total linear leapfrog", &[4, 8, 16], ""),
+            space("sheared_block_2d", "updated cpdi leapfrog particles=3", &[8, 16, 32, 64], ""),
+            space("plane_strain_mooney_rivlin", "total linear leapfrog", &[8, 16, 32], ""),
+        ],
+    ),
+    (
+        "What must fail",
+        "Judged against order 2 all the same.",
+        &[
+            space("bar_1d", "updated cpgimp usl", LINE, "velocities half a step off: order 1"),
+            space("bar_1d", "updated cpgimp usf", LINE, "order 1"),
+            space("bar_1d", "updated cpgimp musl", LINE, "order 1"),
+            space("bar_1d", "updated cpgimp leapfrog pic", LINE, "order 1"),
+            space("bar_1d", "updated linear leapfrog", LINE, "particles cross cells"),
+            space("bar_1d", "updated ugimp leapfrog", LINE, "gaps and overlaps"),
+            space("bar_1d", "updated quadratic_bspline leapfrog", LINE, "a free end between knots"),
+        ],
+    ),
+    (
+        "Other transfers",
+        "",
+        &[
+            space("bar_1d", "updated cpgimp leapfrog apic", LINE, ""),
+            space("bar_1d", "updated cpgimp leapfrog xpic2", LINE, ""),
+            space("bar_1d", "total quadratic_bspline leapfrog apic", LINE, ""),
+            space("bar_1d", "total quadratic_bspline leapfrog xpic3", LINE, ""),
+        ],
+    ),
+];

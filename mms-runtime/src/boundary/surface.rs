@@ -1,0 +1,100 @@
+//! The faces of a reference body, as surfaces.
+
+use crate::{Body, Face, Lattice, Real, Vector};
+
+/// A face of the reference body.
+pub enum Surface<T> {
+    /// Of a box.
+    Plane {
+        /// The axis that it stands on.
+        axis: usize,
+        /// Whether the body is below.
+        upper: bool,
+        /// Its coordinate.
+        position: T,
+    },
+    /// Of an annulus.
+    Circle {
+        /// Whether the body is inside.
+        outer: bool,
+        /// Its radius.
+        radius: T,
+    },
+    /// Of a sector.
+    Ray {
+        /// Whether the body is at smaller angles.
+        last: bool,
+        /// Cosine and sine of its angle.
+        direction: [T; 2],
+    },
+}
+
+impl<T: Real> Surface<T> {
+    /// The surface of a `face` that the body has.
+    pub fn new<const D: usize>(body: &Body<T, D>, face: Face) -> Self {
+        match (body, face) {
+            (Body::Box { upper, .. }, Face::Max(axis)) => {
+                Surface::Plane { axis, upper: true, position: upper[axis] }
+            }
+            (Body::Box { lower, .. }, Face::Min(axis)) => {
+                Surface::Plane { axis, upper: false, position: lower[axis] }
+            }
+            (Body::Annulus { inner, .. }, Face::Inner) => {
+                Surface::Circle { outer: false, radius: *inner }
+            }
+            (Body::Annulus { theta, .. }, Face::ThetaMin | Face::ThetaMax) => {
+                let last = face == Face::ThetaMax;
+                let angle = theta[usize::from(last)].to_f64();
+                Surface::Ray { last, direction: [angle.cos(), angle.sin()].map(T::of) }
+            }
+            (Body::Annulus { outer, .. }, _) => Surface::Circle { outer: true, radius: *outer },
+            (Body::Box { .. }, _) => unreachable!("a box has no such face"),
+        }
+    }
+
+    /// The mirror image in the surface of a point beyond it.
+    pub fn image<const D: usize>(&self, position: &Vector<T, D>) -> Option<Vector<T, D>> {
+        let [foot, normal] = self.foot(position);
+        let beyond = (position - foot).dot(&normal) > T::zero();
+        beyond.then(|| foot + foot - position)
+    }
+
+    /// The point of the surface nearest to X, and the outward normal there.
+    pub fn foot<const D: usize>(&self, reference: &Vector<T, D>) -> [Vector<T, D>; 2] {
+        let (mut foot, mut normal) = (*reference, Vector::zeros());
+        match *self {
+            Surface::Plane { axis, upper, position } => {
+                foot[axis] = position;
+                normal[axis] = if upper { T::one() } else { -T::one() };
+            }
+            Surface::Circle { outer, radius } => {
+                let length = foot.norm();
+                let along_x = Vector::from_fn(|a, _| if a == 0 { T::one() } else { T::zero() });
+                let radial = if length > T::zero() { foot / length } else { along_x };
+                foot = radial * radius;
+                normal = if outer { radial } else { -radial };
+            }
+            Surface::Ray { last, direction: [cosine, sine] } => {
+                let along = Vector::from_fn(|a, _| [cosine, sine, T::zero()][a.min(2)]);
+                let around = Vector::from_fn(|a, _| [-sine, cosine, T::zero()][a.min(2)]);
+                foot = along * foot.dot(&along);
+                normal = if last { around } else { -around };
+            }
+        }
+        [foot, normal]
+    }
+
+    /// How far the weights of a node reach along a unit normal.
+    pub fn reach<const D: usize>(&self, normal: &Vector<T, D>, lattice: &Lattice<T, D>) -> T {
+        let ended = match *self {
+            Surface::Plane { axis, upper, .. } => {
+                lattice.degree > 1 && lattice.node_on_face(axis, upper).is_some()
+            }
+            _ => false,
+        };
+        let width = normal.abs().dot(&lattice.cell_size);
+        // Where weights just touch the face, round-off must not decide.
+        let (half_support, slack) = (T::ratio(lattice.degree as i32 + 1, 2), T::of(1e-3));
+        if ended { width * slack } else { width * (half_support - slack) }
+    }
+}

@@ -1,0 +1,109 @@
+//! Tractions of the field on the faces of the body.
+//!
+//! f_i += sum over the pieces of a face of w_i(x_s) sigma n a, with sigma the stress that the material has
+//! at the field's H at X_s. In the updated formulation a piece is carried by the particle next to it, to
+//! x_s = x_p + F_p (X_s - X_p), and n a = cof(F_p) N A0 (Nanson): a load that turns with the surface. Loads
+//! P N A0, whose directions are given, let a body under pressure on all sides turn over. In the total
+//! formulation F_p is the field's, and they are just that.
+
+use crate::body::Piece;
+use crate::shape::Shape;
+use crate::stencil::Stencil as _;
+use crate::tensor::{cofactor, components, jacobian};
+use crate::{
+    Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
+};
+
+/// Where a piece of a face is at present.
+pub struct Place<T, const D: usize> {
+    /// x_s, where its force acts.
+    pub position: Vector<T, D>,
+    /// H of the particle that carries it, or the field's.
+    pub carrier: Option<Matrix<T, D>>,
+}
+
+/// The pieces of the faces with tractions; entry `k` of every array belongs to piece `k`.
+pub struct Traction<T, const D: usize> {
+    particle: Vec<usize>,
+    /// X_s.
+    reference: Vec<Vector<T, D>>,
+    /// N A0.
+    area: Vec<Vector<T, D>>,
+    displacement_gradient: Vec<Matrix<T, D>>,
+    kirchhoff_stress: Vec<Matrix<T, D>>,
+}
+
+impl<T: Real, const D: usize> Traction<T, D> {
+    /// No face.
+    pub fn none() -> Self {
+        Self {
+            particle: Vec::new(),
+            reference: Vec::new(),
+            area: Vec::new(),
+            displacement_gradient: Vec::new(),
+            kirchhoff_stress: Vec::new(),
+        }
+    }
+
+    /// Takes the pieces of a face.
+    ///
+    /// # Errors
+    /// There are none: particles do not lie along the face.
+    pub fn add_face(&mut self, face: Face, pieces: &[Piece<D>]) -> Result<(), Refusal> {
+        let before = self.particle.len();
+        for piece in pieces.iter().filter(|piece| piece.face == face) {
+            self.particle.push(piece.particle);
+            self.reference.push(piece.position.map(T::of));
+            self.area.push(piece.area.map(T::of));
+        }
+        let count = self.particle.len();
+        if count == before {
+            return Err(Refusal::RaggedFace { face, condition: Condition::Traction });
+        }
+        self.displacement_gradient.resize(count, Matrix::zeros());
+        self.kirchhoff_stress.resize(count, Matrix::zeros());
+        Ok(())
+    }
+
+    /// Adds the forces at `time`. `place` says where the piece of a face at X, carried by a particle, is.
+    ///
+    /// # Errors
+    /// A piece is off the grid, or the field's F is singular there.
+    pub fn apply<F, S>(
+        &mut self,
+        field: &F,
+        time: T,
+        lattice: &Lattice<T, D>,
+        place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
+        force: &mut [Vector<T, D>],
+    ) -> Result<(), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+        S: Shape,
+    {
+        if self.particle.is_empty() {
+            return Ok(());
+        }
+        let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
+        field.displacement_gradient(time, reference, displacement_gradient);
+        field.kirchhoff_stress(reference, displacement_gradient, kirchhoff_stress);
+        for (k, &particle) in particle.iter().enumerate() {
+            let fail = |cause: Cause| Failure {
+                step: 0, // the solver knows
+                time: time.to_f64(),
+                particle: Some(particle),
+                reference_position: components(&reference[k]),
+                cause,
+            };
+            let exact = &displacement_gradient[k];
+            let Place { position, carrier } = place(particle, &reference[k]);
+            let present_area = cofactor(&carrier.unwrap_or(*exact))
+                .map(|cofactor| cofactor * area[k])
+                .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
+            let traction = kirchhoff_stress[k] * present_area / jacobian(exact);
+            let stencil = S::point(lattice, &position).map_err(fail)?;
+            stencil.each(|i, w, _| force[i] += traction * w);
+        }
+        Ok(())
+    }
+}

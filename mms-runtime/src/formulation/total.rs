@@ -1,0 +1,32 @@
+//! The total Lagrangian formulation: the grid is in the reference configuration.
+//!
+//! de Vaucorbeil, Nguyen, Hutchinson, "A Total-Lagrangian Material Point Method for solid mechanics
+//! problems involving large deformations", Comput. Methods Appl. Mech. Engrg. 360 (2020), doi
+//! 10.1016/j.cma.2019.112783. Weights are those of the reference positions, once and for all:
+//! f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
+
+use super::Formulation;
+use crate::tensor::inverse_deformation_gradient;
+use crate::{Matrix, Real};
+
+/// Particles stay where they are in the grid; nothing crosses a cell.
+pub struct Total;
+
+impl Formulation for Total {
+    const MOVES: bool = false;
+
+    fn stress<T: Real, const D: usize>(
+        kirchhoff: &Matrix<T, D>,
+        displacement_gradient: &Matrix<T, D>,
+    ) -> Option<Matrix<T, D>> {
+        let inverse = inverse_deformation_gradient(displacement_gradient)?;
+        Some(kirchhoff * inverse.transpose())
+    }
+
+    fn rate<T: Real, const D: usize>(
+        velocity_gradient: &Matrix<T, D>,
+        _: &Matrix<T, D>,
+    ) -> Matrix<T, D> {
+        *velocity_gradient
+    }
+}

@@ -1,0 +1,30 @@
+//! The updated Lagrangian formulation: the grid is in space.
+//!
+//! Sulsky, Chen, Schreyer, "A particle method for history-dependent materials", Comput. Methods Appl.
+//! Mech. Engrg. 118 (1994) 179-196. Weights are those of the present positions, and change with them:
+//! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
+
+use super::Formulation;
+use crate::tensor::deformation_gradient;
+use crate::{Matrix, Real};
+
+/// Particles move through the grid.
+pub struct Updated;
+
+impl Formulation for Updated {
+    const MOVES: bool = true;
+
+    fn stress<T: Real, const D: usize>(
+        kirchhoff: &Matrix<T, D>,
+        _: &Matrix<T, D>,
+    ) -> Option<Matrix<T, D>> {
+        Some(*kirchhoff)
+    }
+
+    fn rate<T: Real, const D: usize>(
+        velocity_gradient: &Matrix<T, D>,
+        displacement_gradient: &Matrix<T, D>,
+    ) -> Matrix<T, D> {
+        velocity_gradient * deformation_gradient(displacement_gradient)
+    }
+}

@@ -1,0 +1,146 @@
+//! The geometry of the background grid: cells, and the nodes that shape functions have on them.
+//!
+//! Along an axis, cells lie between knots, one cell size apart; a spline of degree p has one node per cell
+//! and p more. Node `j` is at the mean of the p inner knots of its spline (Greville 1967), so that
+//! sum_i w_i x_i = x. For degree 1 these are the knots themselves.
+
+use crate::failure::at_most;
+use crate::{Real, Refusal, Vector};
+
+/// More nodes than this are refused.
+const NODE_LIMIT: f64 = (1u64 << 28) as f64;
+
+/// The cells along one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// Coordinate of the first knot.
+    pub lower: f64,
+    /// Distance between knots.
+    pub cell_size: f64,
+    /// How many cells there are.
+    pub cells: usize,
+    /// The first and the last knot of splines. Where it is not the first or last of the axis, splines
+    /// end there with knots of full multiplicity: at the faces of a body that do not move.
+    pub ends: [i64; 2],
+    /// Where the faces of the body lie, in cells from the first knot.
+    pub body: [f64; 2],
+}
+
+/// A regular grid of equal boxes, the first axis running fastest in every array.
+#[derive(Clone, Debug)]
+pub struct Lattice<T, const D: usize> {
+    /// Position of the first knot.
+    pub lower: Vector<T, D>,
+    /// Distance h between knots along each axis.
+    pub cell_size: Vector<T, D>,
+    /// Nodes along each axis.
+    pub count: [usize; D],
+    /// Distance in the arrays between neighbours along each axis.
+    pub stride: [usize; D],
+    /// The degree of the shape functions that the nodes are for.
+    pub degree: usize,
+    /// The cells along each axis.
+    pub axes: [Axis; D],
+    /// The period along each axis, in cells, where there is one.
+    pub period: [Option<T>; D],
+    coordinate: [Vec<T>; D],
+}
+
+impl<T: Real, const D: usize> Lattice<T, D> {
+    /// The nodes of shape functions of `degree` on these cells.
+    ///
+    /// # Errors
+    /// More than 2^28 nodes.
+    pub fn new(mut axes: [Axis; D], degree: usize, periodic: [bool; D]) -> Result<Self, Refusal> {
+        for axis in axes.iter_mut().filter(|_| degree == 1) {
+            // Hat functions go on beyond a face, for its images.
+            axis.ends = [0, axis.cells as i64];
+        }
+        let nodes: f64 = axes.iter().map(|axis| (axis.cells + degree) as f64).product();
+        at_most("grid nodes", nodes, NODE_LIMIT)?;
+        let count: [usize; D] = std::array::from_fn(|a| axes[a].cells + degree);
+        let coordinate = std::array::from_fn(|a| {
+            let Axis { lower, cell_size, .. } = axes[a];
+            (0..count[a])
+                .map(|j| T::of(lower + greville(j, degree, axes[a].ends) * cell_size))
+                .collect()
+        });
+        Ok(Self {
+            lower: Vector::from_fn(|a, _| T::of(axes[a].lower)),
+            cell_size: Vector::from_fn(|a, _| T::of(axes[a].cell_size)),
+            stride: std::array::from_fn(|a| count[..a].iter().product()),
+            period: std::array::from_fn(|a| {
+                periodic[a].then(|| T::of(axes[a].body[1] - axes[a].body[0]))
+            }),
+            count,
+            degree,
+            axes,
+            coordinate,
+        })
+    }
+
+    /// How many nodes there are.
+    pub fn len(&self) -> usize {
+        self.count.iter().product()
+    }
+
+    /// Whether there is no node; a grid always has some.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The node's number along each axis.
+    pub fn coordinates(&self, node: usize) -> [usize; D] {
+        std::array::from_fn(|a| node / self.stride[a] % self.count[a])
+    }
+
+    /// The node's position.
+    pub fn position(&self, node: usize) -> Vector<T, D> {
+        let coordinates = self.coordinates(node);
+        Vector::from_fn(|a, _| self.coordinate[a][coordinates[a]])
+    }
+
+    /// A position in cells from the first knot, within the period where there is one.
+    pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
+        let mut cells = (position - self.lower).component_div(&self.cell_size);
+        for a in 0..D {
+            if let Some(period) = self.period[a] {
+                let start = T::of(self.axes[a].body[0]);
+                let periods = ((cells[a] - start) / period).floor();
+                cells[a] -= periods * period;
+            }
+        }
+        cells
+    }
+
+    /// x_i - x_p, between the nearest of their images where there is a period.
+    pub fn difference(&self, node: usize, position: &Vector<T, D>) -> Vector<T, D> {
+        let mut difference = self.position(node) - position;
+        for a in 0..D {
+            if let Some(period) = self.period[a] {
+                let length = period * self.cell_size[a];
+                let periods = (difference[a] / length).round();
+                difference[a] -= periods * length;
+            }
+        }
+        difference
+    }
+
+    /// The node on the lower (`false`) or upper face of the body along an axis, where there is one: the
+    /// face lies on a knot, and splines of a higher degree than 1 end there.
+    pub fn node_on_face(&self, axis: usize, upper: bool) -> Option<usize> {
+        let Axis { body, ends, .. } = &self.axes[axis];
+        let knot = body[usize::from(upper)].round();
+        let on_knot = (body[usize::from(upper)] - knot).abs() < 1e-4;
+        let ended = self.degree == 1 || ends[usize::from(upper)] == knot as i64;
+        let node = knot as usize + if upper { self.degree - 1 } else { 0 };
+        (on_knot && ended).then_some(node)
+    }
+}
+
+/// The mean of the inner knots of node `j`, in cells: the knots j - p + 1 to j, held between the ends.
+fn greville(j: usize, degree: usize, ends: [i64; 2]) -> f64 {
+    let knot = |k: i64| k.clamp(ends[0], ends[1]) as f64;
+    let first = j as i64 - degree as i64 + 1;
+    (first..=j as i64).map(knot).sum::<f64>() / degree as f64
+}

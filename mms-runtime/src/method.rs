@@ -1,0 +1,175 @@
+//! A method: everything about a run but the field and the number of cells.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::body::Fill;
+use crate::shape::{Shape, ShapeVisitor};
+use crate::{FormulationName, IntegratorName, Refusal, ShapeName, Transfer};
+
+/// Numbers of cells, or of particles per cell, along the axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Division {
+    /// One number: of cells along the longest edge, all of them cubes; of particles along every axis.
+    Uniform(usize),
+    /// One for each of this many axes, the first one running first; what is beyond means nothing.
+    PerAxis([usize; 3], usize),
+}
+
+impl Division {
+    /// The number along an axis, where one is given for each.
+    pub fn along(&self, axis: usize) -> usize {
+        match *self {
+            Division::Uniform(number) => number,
+            Division::PerAxis(numbers, _) => numbers[axis],
+        }
+    }
+
+    /// The numbers, as given.
+    pub fn numbers(&self) -> Vec<usize> {
+        match *self {
+            Division::Uniform(number) => vec![number],
+            Division::PerAxis(numbers, given) => numbers[..given].to_vec(),
+        }
+    }
+}
+
+impl From<usize> for Division {
+    fn from(number: usize) -> Self {
+        Division::Uniform(number)
+    }
+}
+
+impl fmt::Display for Division {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let numbers: Vec<String> = self.numbers().iter().map(usize::to_string).collect();
+        f.pad(&numbers.join("x"))
+    }
+}
+
+/// A text that is no [`Division`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected a number from 1, or one per axis as in `32x16`; found `{given}`")]
+pub struct NoDivision {
+    given: String,
+}
+
+impl FromStr for Division {
+    type Err = NoDivision;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let error = || NoDivision { given: text.to_owned() };
+        let number = |text: &str| text.parse().ok().filter(|&number: &usize| number > 0);
+        let numbers: Option<Vec<usize>> = text.split('x').map(number).collect();
+        match numbers.as_deref() {
+            Some(&[number]) => Ok(Division::Uniform(number)),
+            Some(&[first, second]) => Ok(Division::PerAxis([first, second, 1], 2)),
+            Some(&[first, second, third]) => Ok(Division::PerAxis([first, second, third], 3)),
+            _ => Err(error()),
+        }
+    }
+}
+
+/// The numbers of a method: what it does not need a type for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// How particles take the grid's velocity.
+    pub transfer: Transfer,
+    /// Particles per cell along each axis.
+    pub particles_per_cell: Division,
+    /// How the body is filled; by default along the faces of an annulus.
+    pub fill: Option<Fill>,
+    /// How far each particle is moved at random, as a fraction of half its domain.
+    pub jitter: f64,
+    /// What the random numbers follow from.
+    pub seed: u64,
+    /// How far the grid is moved against the body along each axis, in cells.
+    pub offset: [f64; 3],
+    /// The axes along which the body repeats itself, instead of having faces.
+    pub periodic: [bool; 3],
+    /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
+    pub courant: f64,
+    /// The time step, instead of that of the Courant number.
+    pub time_step: Option<f64>,
+    /// When the run ends, instead of at the end of the field's time window.
+    pub end_time: Option<f64>,
+}
+
+impl Setup {
+    /// Refuses numbers that mean nothing.
+    pub(crate) fn validate(&self) -> Result<(), Refusal> {
+        let within = |what, value: f64, from, to| {
+            let inside = (from..=to).contains(&value);
+            inside.then_some(()).ok_or(Refusal::OutOfRange { what, value, from, to })
+        };
+        if let Transfer::Flip { fraction } = self.transfer {
+            within("the fraction of FLIP", fraction, 0.0, 1.0)?;
+        }
+        within("the jitter", self.jitter, 0.0, 1.0)?;
+        self.offset.iter().try_for_each(|&part| within("the grid's offset", part, 0.0, 1.0))
+    }
+}
+
+impl Default for Setup {
+    /// FLIP, 2 particles per cell and axis, Courant number 0.4, the field's time window.
+    fn default() -> Self {
+        Self {
+            transfer: Transfer::FLIP,
+            particles_per_cell: Division::Uniform(2),
+            fill: None,
+            jitter: 0.0,
+            seed: 0,
+            offset: [0.0; 3],
+            periodic: [false; 3],
+            courant: 0.4,
+            time_step: None,
+            end_time: None,
+        }
+    }
+}
+
+/// A method: what stays the same on all levels of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Method {
+    /// The shape function.
+    pub shape: ShapeName,
+    /// The time integrator.
+    pub integrator: IntegratorName,
+    /// The formulation.
+    pub formulation: FormulationName,
+    /// All else.
+    pub setup: Setup,
+}
+
+impl Method {
+    /// Refuses what makes no sense together, and names the nearest that does.
+    ///
+    /// # Errors
+    /// A domain that follows the deformation, where nothing moves.
+    pub fn validate(&self) -> Result<(), Refusal> {
+        struct Follows;
+        impl ShapeVisitor for Follows {
+            type Output = bool;
+            fn visit<S: Shape>(self) -> bool {
+                S::FOLLOWS
+            }
+        }
+        let follows = self.shape.visit(Follows);
+        if self.formulation == FormulationName::Total && follows {
+            return Err(Refusal::NothingToFollow { shape: self.shape });
+        }
+        Ok(())
+    }
+}
+
+impl Default for Method {
+    /// Contiguous-particle GIMP and leapfrog, updated.
+    fn default() -> Self {
+        Self {
+            shape: ShapeName::Cpgimp,
+            integrator: IntegratorName::Leapfrog,
+            formulation: FormulationName::Updated,
+            setup: Setup::default(),
+        }
+    }
+}

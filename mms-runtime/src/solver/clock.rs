@@ -1,0 +1,61 @@
+//! Time: that of the run, and what it takes.
+
+use std::time::Instant;
+
+use crate::Refusal;
+use crate::failure::{at_most, positive};
+
+/// More steps than this are refused.
+const STEP_LIMIT: f64 = u32::MAX as f64;
+
+/// Times are computed from the step number, never accumulated.
+pub(super) struct Clock {
+    pub start: f64,
+    pub time_step: f64,
+    pub steps: usize,
+    pub step: usize,
+    /// How many time steps the velocities are behind.
+    pub lag: f64,
+}
+
+impl Clock {
+    /// As many steps as fill the window, none longer than `time_step`.
+    pub fn new(window: [f64; 2], time_step: f64) -> Result<Self, Refusal> {
+        let duration = positive("the length of the time window", window[1] - window[0])?;
+        let target = positive("the time step", time_step)?;
+        // Round-off must not add a step to a duration of a whole number of steps.
+        let steps = (duration / target * (1.0 - 1e-6)).ceil().max(1.0);
+        at_most("steps", steps, STEP_LIMIT)?;
+        let (start, time_step) = (window[0], duration / steps);
+        Ok(Self { start, time_step, steps: steps as usize, step: 0, lag: 0.0 })
+    }
+
+    pub fn window(&self) -> [f64; 2] {
+        [self.start, self.time_of(self.steps)]
+    }
+
+    pub fn time_of(&self, step: usize) -> f64 {
+        self.start + step as f64 * self.time_step
+    }
+}
+
+/// Wall-clock seconds of the parts of all steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seconds {
+    /// The field's body force and tractions.
+    pub forcing: f64,
+    /// Weights, and sums between particles and nodes.
+    pub transfer: f64,
+    /// The nodes.
+    pub grid: f64,
+    /// The material.
+    pub stress: f64,
+}
+
+/// Runs a part of a step, and adds what it takes.
+pub(super) fn timed<R>(seconds: &mut f64, part: impl FnOnce() -> R) -> R {
+    let start = Instant::now();
+    let result = part();
+    *seconds += start.elapsed().as_secs_f64();
+    result
+}

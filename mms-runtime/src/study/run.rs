@@ -1,0 +1,185 @@
+//! One run of a method on a field, and what is said of it.
+
+use std::time::Instant;
+
+use super::deviations::{Deviations, Watcher};
+use super::{Errors, Level};
+use crate::formulation::{Formulation, FormulationVisitor};
+use crate::integrator::{Integrator, IntegratorVisitor};
+use crate::shape::{Shape, ShapeVisitor};
+use crate::solver::Seconds;
+use crate::tensor::jacobian;
+use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
+
+/// Which errors are measured in a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watch {
+    /// Those of the displacement.
+    Displacement,
+    /// Those of displacement, velocity, F and P; more work than a step in some scenes.
+    Everything,
+}
+
+/// A run and, if it reached its end, what it ended with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The run as one level of a study.
+    pub level: Level,
+    /// What was measured, unless the run stopped.
+    pub details: Option<Details>,
+    /// What the parts of its steps took.
+    pub seconds: Seconds,
+}
+
+/// What was measured in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Details {
+    /// The largest of each error norm over all steps, the initial state included.
+    pub largest: Deviations,
+    /// The errors at the end.
+    pub last: Deviations,
+    /// The state at the end.
+    pub diagnostics: Diagnostics,
+}
+
+/// Sums over the particles at the end of a run, in double precision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostics {
+    /// sum m.
+    pub mass: f64,
+    /// sum m v, `D` components.
+    pub momentum: Vec<f64>,
+    /// sum m v.v/2.
+    pub kinetic_energy: f64,
+    /// The least and the greatest J.
+    pub jacobian: [f64; 2],
+}
+
+impl Diagnostics {
+    fn of<T: Real, const D: usize, F, S, L>(solver: &Solver<'_, T, D, F, S, L>) -> Self
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+        S: Shape,
+        L: Formulation,
+    {
+        let particles = solver.particles();
+        let (mut momentum, mut kinetic_energy) = (Vector::<f64, D>::zeros(), 0.0);
+        for (m, v) in particles.mass.iter().zip(&particles.velocity) {
+            let (m, v) = (m.to_f64(), v.map(Real::to_f64));
+            momentum += v * m;
+            kinetic_energy += m * v.norm_squared() / 2.0;
+        }
+        let all = particles.displacement_gradient.iter().map(|h| jacobian(h).to_f64());
+        Self {
+            mass: particles.mass.iter().map(|m| m.to_f64()).sum(),
+            momentum: momentum.as_slice().to_vec(),
+            kinetic_energy,
+            jacobian: all.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], j| {
+                [least.min(j), most.max(j)]
+            }),
+        }
+    }
+}
+
+/// Runs a method through the time window, with the body divided into `cells`.
+///
+/// Calls `progress(step, steps)` after each step. A run that stops has a [`Failure`].
+///
+/// # Errors
+/// A scene that cannot be started.
+pub fn run<T: Real, const D: usize>(
+    field: &dyn ManufacturedField<T, D>,
+    method: &Method,
+    cells: &Division,
+    watch: Watch,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Run, Refusal> {
+    method.validate()?;
+    method.formulation.visit(WithFormulation { field, method, cells, watch, progress })
+}
+
+/// From names to the solver compiled for them: first the formulation,
+struct WithFormulation<'a, T, const D: usize> {
+    field: &'a dyn ManufacturedField<T, D>,
+    method: &'a Method,
+    cells: &'a Division,
+    watch: Watch,
+    progress: &'a mut dyn FnMut(usize, usize),
+}
+
+impl<T: Real, const D: usize> FormulationVisitor for WithFormulation<'_, T, D> {
+    type Output = Result<Run, Refusal>;
+
+    fn visit<L: Formulation>(self) -> Self::Output {
+        self.method
+            .shape
+            .visit(WithShape { scene: self, formulation: std::marker::PhantomData::<L> })
+    }
+}
+
+/// then the shape function,
+struct WithShape<'a, T, const D: usize, L> {
+    scene: WithFormulation<'a, T, D>,
+    formulation: std::marker::PhantomData<L>,
+}
+
+impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, D, L> {
+    type Output = Result<Run, Refusal>;
+
+    fn visit<S: Shape>(self) -> Self::Output {
+        let WithFormulation { field, method, cells, watch, progress } = self.scene;
+        let start = Instant::now();
+        let solver = Solver::<T, D, _, S, L>::new(field, &method.setup, cells)?;
+        let lattice = &solver.grid().lattice;
+        let level = Level {
+            cells: *cells,
+            cell_size: lattice.cell_size.max().to_f64(),
+            time_step: solver.time_step_length(),
+            steps: solver.steps(),
+            particles: solver.particles().len(),
+            errors: Ok(Errors::default()),
+            seconds: 0.0,
+        };
+        let watcher = Watcher::new(watch, &solver);
+        let mut run = Run { level, details: None, seconds: Seconds::default() };
+        let result = method.integrator.visit(WithIntegrator { solver, watcher, progress });
+        run.level.seconds = start.elapsed().as_secs_f64();
+        run.level.errors = match result {
+            Ok((details, seconds)) => {
+                let errors = details.largest.displacement;
+                (run.details, run.seconds) = (Some(details), seconds);
+                Ok(errors)
+            }
+            Err(failure) => Err(failure),
+        };
+        Ok(run)
+    }
+}
+
+/// and last the integrator.
+struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
+    solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S, L>,
+    watcher: Watcher<T, D>,
+    progress: &'a mut dyn FnMut(usize, usize),
+}
+
+impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
+    for WithIntegrator<'_, T, D, S, L>
+{
+    type Output = Result<(Details, Seconds), Failure>;
+
+    fn visit<I: Integrator>(self) -> Self::Output {
+        let Self { mut solver, mut watcher, progress } = self;
+        solver.check()?;
+        let mut last = watcher.measure(&solver)?;
+        let mut largest = last;
+        for step in 1..=solver.steps() {
+            solver.step::<I>()?;
+            last = watcher.measure(&solver)?;
+            largest = largest.larger(&last);
+            progress(step, solver.steps());
+        }
+        let details = Details { largest, last, diagnostics: Diagnostics::of(&solver) };
+        Ok((details, solver.seconds()))
+    }
+}

@@ -1,0 +1,272 @@
+//! Bodies full of particles: volumes, faces and domains.
+
+mod common;
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use mms_runtime::body::{Filling, bounding_box};
+use mms_runtime::{Body, Face, Fill, Matrix, Vector};
+
+fn cuboid<const D: usize>(lower: [f64; 3], upper: [f64; 3]) -> Body<f64, D> {
+    let corner = |values: [f64; 3]| Vector::from_fn(|a, _| values[a]);
+    Body::Box { lower: corner(lower), upper: corner(upper) }
+}
+
+fn annulus(theta: [f64; 2]) -> Body<f64, 2> {
+    Body::Annulus { inner: 0.4, outer: 1.1, theta }
+}
+
+fn fill<const D: usize>(body: &Body<f64, D>, fill: Fill, spacing: [f64; 3]) -> Filling<D> {
+    Filling::new(body, fill, &Vector::from_fn(|a, _| spacing[a])).unwrap()
+}
+
+/// Of one face: how many pieces, their total area, and the sum of their areas times normals.
+fn face<const D: usize>(filling: &Filling<D>, face: Face) -> (usize, f64, Vector<f64, D>) {
+    let pieces = filling.pieces.iter().filter(|piece| piece.face == face);
+    pieces.fold((0, 0.0, Vector::zeros()), |(count, area, sum), piece| {
+        (count + 1, area + piece.area.norm(), sum + piece.area)
+    })
+}
+
+/// sum A = 0 over a closed surface, and sum x.A = D V: the theorem of Gauss, exact for these pieces.
+fn closed_surface<const D: usize>(filling: &Filling<D>, tolerance: f64) {
+    let sum: Vector<f64, D> = filling.pieces.iter().map(|piece| piece.area).sum();
+    assert!(sum.amax() < tolerance, "{sum}");
+    let flux: f64 = filling.pieces.iter().map(|piece| piece.position.dot(&piece.area)).sum();
+    let volume: f64 = filling.volume.iter().sum();
+    assert!((flux - D as f64 * volume).abs() < 1e-12, "{flux} {volume}");
+}
+
+/// Every array has one entry per particle, and a domain the volume of its edges.
+fn domains<const D: usize>(filling: &Filling<D>) {
+    assert!(!filling.is_empty());
+    for length in [filling.len(), filling.volume.len(), filling.half_edges.len()] {
+        assert_eq!(length, filling.position.len());
+    }
+    for (edges, volume) in filling.half_edges.iter().zip(&filling.volume) {
+        let product = mms_runtime::tensor::determinant(&(edges * 2.0));
+        assert!((product / volume - 1.0).abs() < 1e-12, "{product} {volume}");
+    }
+    for piece in &filling.pieces {
+        assert!(piece.particle < filling.len());
+        // It is on its particle's domain, outwards of its middle.
+        let outward = piece.position - filling.position[piece.particle];
+        assert!(outward.dot(&piece.area) > 0.0, "{piece:?}");
+    }
+}
+
+/// Both fills of a box are the same; as many particles as leave no gap, whatever the spacing.
+fn full_box<const D: usize>() {
+    let (lower, upper) = ([-0.3, 0.1, 2.0], [0.7, 0.65, 2.3]);
+    let body = cuboid::<D>(lower, upper);
+    let spacing = [0.11, 0.1, 0.07]; // 9.1, 5.5 and 4.3 of them
+    let filling = fill(&body, Fill::Cartesian, spacing);
+    let counts = [9, 6, 4];
+    assert_eq!(filling.len(), counts[..D].iter().product::<usize>());
+    assert_eq!(filling.position, fill(&body, Fill::Fitted, spacing).position);
+    domains(&filling);
+    let edges: Vec<f64> = (0..D).map(|a| upper[a] - lower[a]).collect();
+    let volume: f64 = edges.iter().product();
+    assert!((filling.volume.iter().sum::<f64>() / volume - 1.0).abs() < 1e-12);
+    closed_surface(&filling, 1e-12);
+    for a in 0..D {
+        for (name, side) in [(Face::Min(a), -1.0), (Face::Max(a), 1.0)] {
+            let (pieces, area, sum) = face(&filling, name);
+            assert_eq!(pieces, filling.len() / counts[a]);
+            assert!((area - volume / edges[a]).abs() < 1e-12, "{name}: {area}");
+            let mut normal = Vector::<f64, D>::zeros();
+            normal[a] = side;
+            assert!((sum - normal * area).amax() < 1e-12, "{name}: {sum}");
+            let plane = if side < 0.0 { lower[a] } else { upper[a] };
+            for piece in filling.pieces.iter().filter(|piece| piece.face == name) {
+                assert!((piece.position[a] - plane).abs() < 1e-12, "{piece:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn boxes_are_full() {
+    full_box::<1>();
+    full_box::<2>();
+    full_box::<3>();
+}
+
+/// Rings divided by rays have exact volumes and exact arcs.
+#[test]
+fn fitted_annuli_are_full() {
+    for theta in [[0.0, FRAC_PI_2], [0.3, 1.1], [-2.0, 2.5], [0.0, TAU], [1.0, 1.0 + TAU]] {
+        let turn = theta[1] - theta[0];
+        let filling = fill(&annulus(theta), Fill::Fitted, [0.05, 0.06, 0.0]);
+        domains(&filling);
+        let volume = turn / 2.0 * (1.1 * 1.1 - 0.4 * 0.4);
+        assert!((filling.volume.iter().sum::<f64>() / volume - 1.0).abs() < 1e-12);
+        let is_ring = turn > TAU - 1e-9;
+        let faces = [
+            (Face::Inner, 0.4 * turn),
+            (Face::Outer, 1.1 * turn),
+            (Face::ThetaMin, if is_ring { 0.0 } else { 0.7 }),
+            (Face::ThetaMax, if is_ring { 0.0 } else { 0.7 }),
+        ];
+        for (name, length) in faces {
+            let (_, area, _) = face(&filling, name);
+            assert!((area - length).abs() < 1e-12, "{name}: {area}");
+        }
+        // An arc's length times its middle's normal, for the chord: longer by turn^2/24 of one piece.
+        let rays = face(&filling, Face::Outer).0 as f64;
+        closed_surface(&filling, 1.1 * turn * (turn / rays).powi(2) / 20.0);
+        let outward = |piece: &&mms_runtime::body::Piece<2>| match piece.face {
+            Face::Inner => -piece.position,
+            Face::Outer => piece.position,
+            Face::ThetaMin => Vector::<f64, 2>::new(theta[0].sin(), -theta[0].cos()),
+            _ => Vector::<f64, 2>::new(-theta[1].sin(), theta[1].cos()),
+        };
+        for piece in &filling.pieces {
+            let normal = outward(&piece).normalize();
+            assert!((piece.area.normalize() - normal).amax() < 1e-12, "{piece:?}");
+        }
+    }
+}
+
+/// The sum of areas of a ring's pieces is zero; of a sector's, up to O(h^2).
+#[test]
+fn the_surface_of_a_sector_closes_with_second_order() {
+    let gap = |spacing: f64| {
+        let filling = fill(&annulus([0.3, 1.7]), Fill::Fitted, [spacing; 3]);
+        filling.pieces.iter().map(|piece| piece.area).sum::<Vector<f64, 2>>().norm()
+    };
+    let order = (gap(0.07) / gap(0.035)).log2();
+    assert!((order - 2.0).abs() < 0.05, "{order}");
+    let ring = fill(&annulus([0.0, TAU]), Fill::Fitted, [0.07; 3]);
+    closed_surface(&ring, 1e-13);
+}
+
+/// A Cartesian fill is ragged: it has no faces, and its volume is right only in the limit, with a random
+/// share of each cell on the rim: the relative error is some h^1.5, and no more than the rim's cells.
+#[test]
+fn a_cartesian_annulus_converges() {
+    let theta = [0.2, 2.0];
+    let volume = 0.9 * (1.1 * 1.1 - 0.4 * 0.4);
+    let rim = 1.8 * 1.5 + 1.4;
+    for spacing in [0.1, 0.03, 0.01, 0.003] {
+        let filling = fill(&annulus(theta), Fill::Cartesian, [spacing; 3]);
+        domains(&filling);
+        assert!(filling.pieces.is_empty());
+        let error = (filling.volume.iter().sum::<f64>() - volume).abs();
+        assert!(error < 0.5 * rim * spacing, "{spacing}: {error}");
+        let spread = 2.0 * (rim / spacing).sqrt() * spacing.powi(2);
+        assert!(error < spread, "{spacing}: {error}, not {spread}");
+        for x in &filling.position {
+            assert!((0.4..1.1).contains(&x.norm()), "{x}");
+            assert!((0.2..2.0).contains(&x[1].atan2(x[0])), "{x}");
+        }
+    }
+}
+
+/// Particles move within their domains, at most half an edge times the fraction; all else stays.
+fn jitters<const D: usize>(body: &Body<f64, D>) {
+    let still = fill(body, Fill::Fitted, [0.07; 3]);
+    let moved = |fraction: f64, seed: u64| {
+        let mut filling = still.clone();
+        filling.jitter(fraction, seed);
+        filling
+    };
+    for fraction in [0.2, 1.0] {
+        let filling = moved(fraction, 7);
+        assert_eq!(filling.position, moved(fraction, 7).position);
+        assert_ne!(filling.position, moved(fraction, 8).position);
+        assert_eq!((&filling.volume, &filling.pieces), (&still.volume, &still.pieces));
+        assert_eq!(filling.half_edges, still.half_edges);
+        let mut farthest = 0.0_f64;
+        let mut mean = Vector::<f64, D>::zeros();
+        for (p, edges) in still.half_edges.iter().enumerate() {
+            let shift = filling.position[p] - still.position[p];
+            let inside: Vector<f64, D> = edges.try_inverse().unwrap() * shift;
+            farthest = farthest.max(inside.amax());
+            mean += inside / still.len() as f64;
+        }
+        assert!(farthest <= fraction * (1.0 + 1e-9), "{farthest}");
+        assert!(farthest > 0.9 * fraction, "uses its range: {farthest}");
+        // Five standard deviations of a mean of uniform numbers.
+        let deviation = fraction / (3.0 * still.len() as f64).sqrt();
+        assert!(mean.amax() < 5.0 * deviation, "{mean}");
+    }
+    assert_eq!(moved(0.0, 7).position, still.position);
+}
+
+#[test]
+fn jitter_stays_in_the_domains_and_repeats_itself() {
+    jitters(&cuboid::<1>([0.0; 3], [10.0; 3]));
+    jitters(&cuboid::<2>([0.0; 3], [1.0; 3]));
+    jitters(&cuboid::<3>([0.0; 3], [0.7; 3]));
+    jitters(&annulus([0.3, 1.9]));
+}
+
+/// The box around a sector: its corners, and where it crosses an axis.
+#[test]
+fn boxes_around_sectors() {
+    let around = |theta: [f64; 2]| bounding_box(&annulus(theta)).unwrap();
+    let close = |theta: [f64; 2], expected: [f64; 4]| {
+        let [lower, upper] = around(theta);
+        let found = [lower[0], lower[1], upper[0], upper[1]];
+        let apart = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-12, "{theta:?}: {found:?}, not {expected:?}");
+    };
+    close([0.0, TAU], [-1.1, -1.1, 1.1, 1.1]);
+    close([0.5, 0.5 + TAU], [-1.1, -1.1, 1.1, 1.1]);
+    close([0.0, FRAC_PI_2], [0.0, 0.0, 1.1, 1.1]);
+    close([FRAC_PI_2, PI], [-1.1, 0.0, 0.0, 1.1]);
+    close([PI / 3.0, 2.0 * PI / 3.0], [-0.55, 0.4 * 0.75_f64.sqrt(), 0.55, 1.1]);
+    close(
+        [-PI / 4.0, PI / 4.0],
+        [0.4 * 0.5_f64.sqrt(), -1.1 * 0.5_f64.sqrt(), 1.1, 1.1 * 0.5_f64.sqrt()],
+    );
+    close([-0.75 * PI, 0.75 * PI], [-1.1 * 0.5_f64.sqrt(), -1.1, 1.1, 1.1]);
+    close(
+        [0.1, 0.2],
+        [0.4 * 0.2_f64.cos(), 0.4 * 0.1_f64.sin(), 1.1 * 0.1_f64.cos(), 1.1 * 0.2_f64.sin()],
+    );
+    // Round-off puts no corner beside an axis.
+    assert_eq!(around([0.0, FRAC_PI_2])[0], Vector::<f64, 2>::zeros());
+    // Every particle of a sector is inside.
+    for theta in [[0.3, 2.9], [-3.0, 0.2], [2.0, 5.0]] {
+        let [lower, upper] = around(theta);
+        for x in &fill(&annulus(theta), Fill::Fitted, [0.05; 3]).position {
+            assert!(x.inf(&lower) == lower && x.sup(&upper) == upper, "{theta:?}: {x}");
+        }
+    }
+}
+
+/// A rotation of a sector turns its fill.
+#[test]
+fn fitted_fills_turn_with_their_sector() {
+    let [one, other] =
+        [0.0, 0.8].map(|by| fill(&annulus([0.1 + by, 1.3 + by]), Fill::Fitted, [0.1, 0.08, 0.0]));
+    let (sine, cosine) = 0.8_f64.sin_cos();
+    let turn = Matrix::<f64, 2>::new(cosine, -sine, sine, cosine);
+    assert_eq!(one.len(), other.len());
+    for p in 0..one.len() {
+        assert!((turn * one.position[p] - other.position[p]).amax() < 1e-14);
+        assert!((turn * one.half_edges[p] - other.half_edges[p]).amax() < 1e-14);
+    }
+}
+
+/// Particles per cell along each axis, of cells that are not cubes.
+#[test]
+fn particles_per_cell_along_each_axis() {
+    use mms_runtime::formulation::Updated;
+    use mms_runtime::shape::Cpgimp;
+    use mms_runtime::{Division, Setup, Solver};
+    let field = common::wave::Wave::on_box([1.0, 0.5]);
+    let particles_per_cell: Division = "3x1".parse().unwrap();
+    let setup = Setup { particles_per_cell, ..Setup::default() };
+    let cells: Division = "4x8".parse().unwrap();
+    let solver = Solver::<f64, 2, _, Cpgimp, Updated>::new(&field, &setup, &cells).unwrap();
+    assert_eq!(solver.particles().len(), 12 * 8);
+    assert_eq!(solver.grid().lattice.cell_size, Vector::<f64, 2>::new(0.25, 0.0625));
+    let mut columns: Vec<f64> =
+        solver.particles().reference_position.iter().map(|x| x[0]).collect();
+    columns.sort_by(f64::total_cmp);
+    columns.dedup();
+    assert_eq!(columns.len(), 12);
+}

@@ -1,0 +1,156 @@
+//! The options of a method, the same in every command that runs one.
+
+use std::str::FromStr;
+
+use anyhow::bail;
+use clap::Args;
+use mms_runtime::{
+    Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
+};
+
+/// The precision of the solver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Precision {
+    /// Single.
+    F32,
+    /// Double.
+    #[default]
+    F64,
+}
+
+impl Precision {
+    /// The word of the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        }
+    }
+}
+
+/// How to solve.
+#[derive(Args, Clone, Debug)]
+pub struct MethodOptions {
+    /// The shape function: linear, ugimp, cpgimp, cpdi, quadratic_bspline or cubic_bspline.
+    #[arg(long, default_value_t = ShapeName::Cpgimp)]
+    pub shape: ShapeName,
+    /// The time integrator: usf, usl, musl or leapfrog.
+    #[arg(long, default_value_t = IntegratorName::Leapfrog)]
+    pub integrator: IntegratorName,
+    /// The formulation: updated, whose grid is in space, or total, whose grid is in the reference
+    /// configuration.
+    #[arg(long, default_value_t = FormulationName::Updated)]
+    pub formulation: FormulationName,
+    /// How particles take the grid's velocity: flip, pic, apic, or xpic2 to xpic5.
+    #[arg(long, default_value_t = Transfer::FLIP)]
+    transfer: Transfer,
+    /// The part of flip, from 0 to 1; the rest is pic.
+    #[arg(long, value_name = "PART")]
+    flip_fraction: Option<f64>,
+    /// Particles per cell along each axis, as in 2 or 3x2.
+    #[arg(long, value_name = "N[xN..]", default_value = "2")]
+    particles_per_cell: Division,
+    /// How to lay out particles: cartesian, or fitted to the faces of an annulus; by default fitted
+    /// there.
+    #[arg(long)]
+    fill: Option<Fill>,
+    /// Move each particle at random by up to this part of half its domain, from 0 to 1.
+    #[arg(long, value_name = "PART", default_value_t = 0.0)]
+    jitter: f64,
+    /// What the random numbers follow from.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Move the grid against the body by this part of a cell, from 0 to 1; one for all axes or one for
+    /// each.
+    #[arg(long, value_name = "PART[,..]", value_delimiter = ',')]
+    offset: Vec<f64>,
+    /// The axes along which the body repeats itself: x, y, z.
+    #[arg(long, value_name = "AXIS[,..]", value_delimiter = ',')]
+    periodic: Vec<Axis>,
+    /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
+    #[arg(long, default_value_t = 0.4)]
+    courant: f64,
+    /// The time step, shortened to fill the time window, instead of that of the Courant number.
+    #[arg(long, value_name = "DT", conflicts_with = "courant")]
+    time_step: Option<f64>,
+    /// When to end, instead of at the end of the field's time window.
+    #[arg(long = "time", value_name = "T")]
+    end_time: Option<f64>,
+    /// The precision to compute in.
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
+}
+
+/// The name of an axis.
+#[derive(Clone, Copy, Debug)]
+struct Axis(usize);
+
+impl FromStr for Axis {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let axis = ["x", "y", "z"].iter().position(|&name| name == text);
+        axis.map(Axis).ok_or("expected x, y or z")
+    }
+}
+
+impl MethodOptions {
+    /// The method, or what of it cannot be for a body of this dimension.
+    pub fn method(&self, dimension: usize) -> anyhow::Result<Method> {
+        let positive = |option: &str, value: f64| match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => bail!("`{option} {value}`: expected a positive number"),
+        };
+        positive("--courant", self.courant)?;
+        self.time_step.map_or(Ok(()), |step| positive("--time-step", step))?;
+        let within = |option: &str, value: f64| match (0.0..=1.0).contains(&value) {
+            true => Ok(()),
+            false => bail!("`{option} {value}`: expected a number from 0 to 1"),
+        };
+        within("--jitter", self.jitter)?;
+        self.offset.iter().try_for_each(|&part| within("--offset", part))?;
+        let transfer = match (self.transfer, self.flip_fraction) {
+            (transfer, None) => transfer,
+            (Transfer::Flip { .. }, Some(fraction)) => {
+                within("--flip-fraction", fraction)?;
+                Transfer::Flip { fraction }
+            }
+            (other, Some(_)) => {
+                bail!(
+                    "`--flip-fraction` is a part of flip, and the transfer is {other}: leave one out"
+                )
+            }
+        };
+        let offset = match *self.offset.as_slice() {
+            [] => [0.0; 3],
+            [one] => [one; 3],
+            ref all if all.len() == dimension => {
+                std::array::from_fn(|axis| all.get(axis).copied().unwrap_or(0.0))
+            }
+            ref all => bail!("`--offset`: {} numbers for {dimension} dimension(s)", all.len()),
+        };
+        let mut periodic = [false; 3];
+        for Axis(axis) in &self.periodic {
+            if *axis >= dimension {
+                bail!("`--periodic`: a body of {dimension} dimension(s) has no such axis");
+            }
+            periodic[*axis] = true;
+        }
+        let setup = Setup {
+            transfer,
+            particles_per_cell: self.particles_per_cell,
+            fill: self.fill,
+            jitter: self.jitter,
+            seed: self.seed,
+            offset,
+            periodic,
+            courant: self.courant,
+            time_step: self.time_step,
+            end_time: self.end_time,
+        };
+        let Self { shape, integrator, formulation, .. } = *self;
+        let method = Method { shape, integrator, formulation, setup };
+        method.validate()?;
+        Ok(method)
+    }
+}

@@ -1,0 +1,153 @@
+//! One run as a text and as a JSON document.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_runtime::study::{Details, Deviations};
+use mms_runtime::{Errors, Method};
+use serde_json::{Map, Value, json};
+
+use super::{duration, method};
+
+/// A run that was started.
+pub struct Run {
+    /// The field's name.
+    pub field: String,
+    /// The field's title.
+    pub title: String,
+    /// The method.
+    pub method: Method,
+    /// `f32` or `f64`.
+    pub precision: &'static str,
+    /// What came of it.
+    pub run: mms_runtime::Run,
+}
+
+/// What errors are of: symbol, key and value.
+fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
+    [
+        ("u", "displacement", deviations.displacement),
+        ("v", "velocity", deviations.velocity),
+        ("F", "deformation_gradient", deviations.deformation_gradient),
+        ("P", "first_piola_kirchhoff", deviations.first_piola_kirchhoff),
+    ]
+}
+
+impl Run {
+    /// Nanoseconds of all particles and steps; 0 of a run without steps.
+    fn ns_per_particle_step(&self) -> f64 {
+        let work = (self.run.level.particles * self.run.level.steps).max(1) as f64;
+        let seconds = self.run.seconds;
+        (seconds.forcing + seconds.transfer + seconds.grid + seconds.stress) * 1e9 / work
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        let (level, seconds) = (&self.run.level, self.run.seconds);
+        let details = self.run.details.as_ref();
+        json!({
+            "field": self.field,
+            "method": method::document(&self.method, self.precision),
+            "cells": method::division(&level.cells),
+            "cell_size": level.cell_size,
+            "time_step": level.time_step,
+            "steps": level.steps,
+            "particles": level.particles,
+            "errors": details.map(errors),
+            "diagnostics": details.map(|details| json!({
+                "mass": details.diagnostics.mass,
+                "momentum": details.diagnostics.momentum,
+                "kinetic_energy": details.diagnostics.kinetic_energy,
+                "jacobian": details.diagnostics.jacobian,
+            })),
+            "ns_per_particle_step": details.map(|_| self.ns_per_particle_step()),
+            "seconds": details.map(|_| json!({
+                "forcing": seconds.forcing,
+                "transfer": seconds.transfer,
+                "grid": seconds.grid,
+                "stress": seconds.stress,
+            })),
+            "failure": level.errors.as_ref().err().map(ToString::to_string),
+        })
+    }
+
+    /// The text for a terminal.
+    pub fn text(&self) -> String {
+        let level = &self.run.level;
+        let head = format!(
+            "{}: {}\n{}\n\n{} cells, {} particles, {} steps of {:.3e}",
+            self.field,
+            self.title,
+            method::line(&self.method, self.precision),
+            level.cells,
+            level.particles,
+            level.steps,
+            level.time_step
+        );
+        let Some(details) = &self.run.details else {
+            return format!("{head}\nstopped after {}", duration(level.seconds));
+        };
+        let state = &details.diagnostics;
+        format!(
+            "{head}\n\n{}\n\nat the end: J from {:.4} to {:.4}, kinetic energy {:.4e}, mass {:.4e}\n{}",
+            table(details),
+            state.jacobian[0],
+            state.jacobian[1],
+            state.kinetic_energy,
+            state.mass,
+            self.times()
+        )
+    }
+
+    /// What the parts of a step took.
+    fn times(&self) -> String {
+        let seconds = self.run.seconds;
+        let parts = [
+            ("forcing", seconds.forcing),
+            ("transfer", seconds.transfer),
+            ("grid", seconds.grid),
+            ("stress", seconds.stress),
+        ];
+        let whole: f64 = parts.iter().map(|(_, seconds)| seconds).sum();
+        let share =
+            |(name, seconds): (&str, f64)| format!("{name} {:.0} %", 100.0 * seconds / whole);
+        format!(
+            "{} in all, {:.0} ns per particle and step: {}",
+            duration(self.run.level.seconds),
+            self.ns_per_particle_step(),
+            parts.map(share).join(", ")
+        )
+    }
+}
+
+fn table(details: &Details) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header([
+        "error of",
+        "l1",
+        "l2",
+        "linf",
+        "at the end: l1",
+        "l2",
+        "linf",
+    ]);
+    let rows = quantities(&details.largest).into_iter().zip(quantities(&details.last));
+    for ((symbol, _, largest), (_, _, last)) in rows {
+        let norms = [largest, last].map(|errors| [errors.l1, errors.l2, errors.linf]);
+        let numbers = norms.concat().into_iter().map(|error| format!("{error:.2e}"));
+        table.add_row(std::iter::once(symbol.to_owned()).chain(numbers));
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// Of each quantity the largest over time, and those at the end.
+fn errors(details: &Details) -> Value {
+    let norms = |errors: Errors| json!({ "l1": errors.l1, "l2": errors.l2, "linf": errors.linf });
+    let pairs = quantities(&details.largest).into_iter().zip(quantities(&details.last));
+    let entries = pairs.map(|((_, key, largest), (_, _, last))| {
+        (key.to_owned(), json!({ "over_time": norms(largest), "at_end": norms(last) }))
+    });
+    Value::Object(entries.collect::<Map<_, _>>())
+}

@@ -1,0 +1,166 @@
+//! `mms run`: its document, its options, and how it ends.
+
+use serde_json::Value;
+
+use super::mms::{Folder, keys};
+
+/// The document of a run that ends well.
+fn document(arguments: &str) -> Value {
+    Folder::new().mms(&format!("run {arguments} --json")).exits(0).json()
+}
+
+/// A norm over time.
+fn error(document: &Value, quantity: &str) -> f64 {
+    document["errors"][quantity]["over_time"]["linf"].as_f64().expect("an error")
+}
+
+#[test]
+fn the_document_has_the_promised_keys_in_their_order() {
+    let document = document("bar_1d --cells 16");
+    let own = [
+        "field",
+        "method",
+        "cells",
+        "cell_size",
+        "time_step",
+        "steps",
+        "particles",
+        "errors",
+        "diagnostics",
+        "ns_per_particle_step",
+        "seconds",
+        "failure",
+    ];
+    assert_eq!(keys(&document), own);
+    let quantities = ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
+    assert_eq!(keys(&document["errors"]), quantities);
+    for quantity in quantities {
+        for when in ["over_time", "at_end"] {
+            assert_eq!(keys(&document["errors"][quantity][when]), ["l1", "l2", "linf"]);
+        }
+        let at_end = document["errors"][quantity]["at_end"]["linf"].as_f64().expect("an error");
+        assert!(at_end > 0.0 && at_end <= error(&document, quantity), "{quantity}");
+    }
+    assert_eq!(keys(&document["seconds"]), ["forcing", "transfer", "grid", "stress"]);
+    let state = ["mass", "momentum", "kinetic_energy", "jacobian"];
+    assert_eq!(keys(&document["diagnostics"]), state);
+    assert!((document["diagnostics"]["mass"].as_f64().expect("a mass") - 1e3).abs() < 1e-9);
+    assert_eq!([&document["particles"], &document["steps"]], [32, 80]);
+}
+
+/// A run has the errors of that level of a study.
+#[test]
+fn a_run_is_a_level_of_a_study() {
+    let options = "bar_1d --shape quadratic_bspline --formulation total --courant 0.2";
+    let run = document(&format!("{options} --cells 32"));
+    let study = Folder::new().mms(&format!("study {options} --cells 16,32 --json")).exits(0).json();
+    let level = &study["levels"][1];
+    for norm in ["l1", "l2", "linf"] {
+        assert_eq!(run["errors"]["displacement"]["over_time"][norm], level[norm], "{norm}");
+    }
+    assert_eq!(run["method"], study["method"]);
+}
+
+/// Every shape function, formulation and transfer that go together follow the bar.
+#[test]
+fn methods_that_go_together_follow_the_bar() {
+    let methods = [
+        "--shape cpdi",
+        "--formulation total --shape linear",
+        "--formulation total --shape ugimp --fill cartesian",
+        "--formulation total --shape cubic_bspline",
+        "--transfer apic",
+        "--transfer xpic2 --precision f32",
+        "--transfer flip --flip-fraction 0.99 --time-step 1e-4",
+        "--particles-per-cell 3 --time 0.01",
+    ];
+    for method in methods {
+        let document = document(&format!("bar_1d --cells 32 {method}"));
+        let error = error(&document, "displacement");
+        assert!(error < 5e-3, "{method}: {error}");
+    }
+}
+
+#[test]
+fn cells_and_particles_are_counted_along_each_axis() {
+    let document = document("axis_aligned_2d --cells 8x4 --particles-per-cell 2x3 --time 0.02");
+    assert_eq!(document["cells"], "8x4");
+    assert_eq!(document["method"]["particles_per_cell"], "2x3");
+    assert_eq!(document["particles"], 8 * 2 * 4 * 3);
+}
+
+#[test]
+fn jitter_follows_from_its_seed() {
+    let error = |seed: u32| {
+        error(&document(&format!("bar_1d --cells 16 --jitter 0.2 --seed {seed}")), "displacement")
+    };
+    assert_eq!(error(1), error(1));
+    assert_ne!(error(1), error(2));
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_the_reason() {
+    let cases = [
+        ("bar_1d --formulation total", "the nearest is `ugimp`"),
+        ("bar_1d --transfer pic --flip-fraction 0.5", "the transfer is pic"),
+        ("bar_1d --flip-fraction 2", "from 0 to 1"),
+        ("bar_1d --jitter -1", "expected a number from 0 to 1"),
+        ("bar_1d --offset 0.1,0.2", "2 numbers for 1 dimension"),
+        ("bar_1d --periodic y", "has no such axis"),
+        ("bar_1d --cells 0", "expected a number from 1"),
+        ("bar_1d --cells 4x", "expected a number from 1"),
+        ("bar_1d --transfer xpic9", "unknown transfer"),
+        ("bar_1d --time-step 0.1 --courant 0.2", "cannot be used with"),
+        ("bar_1d --courant 0", "expected a positive number"),
+    ];
+    for (arguments, reason) in cases {
+        let arguments = arguments.replace("--jitter -1", "--jitter=-1");
+        Folder::new().mms(&format!("run {arguments}")).exits(2).complains(reason);
+    }
+}
+
+#[test]
+fn a_scene_that_cannot_be_started_is_refused_with_the_reason() {
+    let cases = [
+        ("bar_1d --cells 4x4", "2 numbers of cells for a body in 1 dimension"),
+        ("bar_1d --periodic x", "displacement differs between its two faces"),
+        ("bar_1d --offset 0.5", "lies between grid nodes"),
+        ("conformal_sector_2d --fill cartesian", "fill the body with"),
+        ("bar_1d --time -1", "the length of the time window is"),
+    ];
+    for (arguments, reason) in cases {
+        let arguments = arguments.replace("--time -1", "--time=-1");
+        Folder::new().mms(&format!("run {arguments}")).exits(3).complains(reason).prints_nothing();
+    }
+}
+
+/// What could be measured before is still printed.
+#[test]
+fn a_run_that_stops_says_where_and_why() {
+    let folder = Folder::new();
+    let run = folder.mms("run bar_1d --courant 5 --json").exits(3);
+    for part in ["stopped in step", "particle", "X = [", "try a smaller Courant number"] {
+        run.complains(part);
+    }
+    let document = run.json();
+    assert!(document["errors"].is_null() && document["steps"].is_u64(), "{document:#}");
+    assert!(document["failure"].as_str().is_some_and(|text| text.contains("stopped in step")));
+}
+
+/// The ends of a period are no faces: a grid that is moved by a fraction of a cell sees the same wave.
+#[test]
+fn a_periodic_axis_has_no_walls() {
+    let walls = document("periodic_bar --cells 64");
+    let periodic = document("periodic_bar --cells 64 --periodic x --offset 0.3");
+    let [walls, periodic] = [walls, periodic].map(|document| error(&document, "displacement"));
+    assert!(periodic < 1.5 * walls && walls < 1.5 * periodic, "{walls}, {periodic}");
+}
+
+#[test]
+fn the_text_has_a_line_for_every_quantity() {
+    let folder = Folder::new();
+    let run = folder.mms("run axis_aligned_2d --cells 8").exits(0);
+    for part in [" u ", " v ", " F ", " P ", "ns per particle and step: forcing"] {
+        run.prints(part);
+    }
+}
