@@ -3,6 +3,8 @@
 //! The workbench is a temporary folder with `mms-math`, whose sources are embedded, compiled by the
 //! `rustc` of the user. Nothing else is needed, and nothing is fetched.
 
+mod code;
+mod module;
 mod timing;
 
 use std::ffi::OsStr;
@@ -14,7 +16,9 @@ use std::process::{Command, Stdio};
 use anyhow::{Context as _, bail};
 use tempfile::TempDir;
 
-pub use timing::{Module, Time, Way, time};
+pub use code::object;
+pub use module::{Module, Way};
+pub use timing::{Time, time};
 
 /// The sources of `mms-math`: paths below `src/`, and texts.
 const MATH: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/math.rs"));
@@ -25,6 +29,7 @@ const RUSTC: &str = "rustc";
 /// A folder with a compiled `mms-math`.
 pub struct Workbench {
     folder: TempDir,
+    compiler: String,
 }
 
 impl Workbench {
@@ -34,16 +39,24 @@ impl Workbench {
             bail!("this program was built without the sources of mms-math");
         }
         let version = Command::new(RUSTC).arg("--version").output();
-        if !version.is_ok_and(|output| output.status.success()) {
+        let Some(version) = version.ok().filter(|output| output.status.success()) else {
             bail!("no `rustc` on the PATH to compile emitted code with");
-        }
-        let bench = Workbench { folder: tempfile::tempdir()? };
+        };
+        // Behind its name and number are a hash and a date.
+        let version = String::from_utf8_lossy(&version.stdout);
+        let compiler = version.split_whitespace().take(2).collect::<Vec<_>>().join(" ");
+        let bench = Workbench { folder: tempfile::tempdir()?, compiler };
         for (path, text) in MATH {
             bench.write(&format!("mms_math/{path}"), text)?;
         }
         let std = ["--cfg", "feature=\"std\"", "--crate-type", "rlib"];
         bench.compile("mms_math/lib.rs", "libmms_math.rlib", &std)?;
         Ok(bench)
+    }
+
+    /// The name of the compiler and its version.
+    pub fn compiler(&self) -> &str {
+        &self.compiler
     }
 
     /// Writes a source file, and the folders above it.

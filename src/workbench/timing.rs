@@ -4,38 +4,21 @@
 use std::fmt::Write as _;
 
 use anyhow::Context as _;
+use mms_codegen::Compiled;
 use mms_codegen::accuracy::{Input, Place, Precision, inputs};
-use mms_codegen::emit::rust;
 use mms_codegen::quantity::Quantity;
-use mms_codegen::{Compiled, program::Output};
 
 use super::Workbench;
+use super::module::{Call, Module, Way, scalar};
 
-/// How many points an evaluation of a batch has, and how many one by one.
-const POINTS: [usize; 2] = [4096, 256];
+/// How many points an evaluation of a batch has.
+const POINTS: usize = 4096;
 
 /// How often every contender takes a turn.
 const ROUNDS: usize = 21;
 
 /// What the program that is compiled has beside the contenders.
 const HEAD: &str = include_str!("timing_head.rs");
-
-/// Emitted code that takes part, as a module of its own.
-pub struct Module<'a> {
-    /// The name of the module.
-    pub name: &'a str,
-    /// The field, or a part of it.
-    pub compiled: &'a Compiled,
-}
-
-/// How code is called.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// Point by point.
-    Single,
-    /// All points at once.
-    Batch,
-}
 
 /// The time of one contender.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,93 +29,104 @@ pub struct Time {
     pub quantity: Quantity,
     /// The precision.
     pub precision: Precision,
+    /// How it was called.
+    pub way: Way,
     /// The median, in nanoseconds.
     pub ns_per_point: f64,
 }
 
-/// The times of every quantity of some modules of one dimension: in each way a precision.
+/// The times of every quantity of some modules, in each precision and way that is asked for.
 pub fn time(
     bench: &Workbench,
     modules: &[Module<'_>],
     ways: &[(Precision, Way)],
 ) -> anyhow::Result<Vec<Time>> {
     let mut source = HEAD.to_string();
-    let mut contenders = String::new();
-    let mut expected = Vec::new();
-    for Module { name, compiled } in modules {
-        bench.write(&format!("{name}.rs"), &rust::file(compiled).text)?;
-        writeln!(source, "mod {name};")?;
-        for (precision, way) in ways {
-            for quantity in timed(compiled) {
-                expected.push((name.to_string(), quantity, *precision));
-                contenders +=
-                    &contender(name, compiled.field.dimension, quantity, *precision, *way);
-            }
+    let (mut input, mut contenders) = (String::new(), String::new());
+    let mut calls = Vec::new();
+    for (index, module) in modules.iter().enumerate() {
+        module.write(bench)?;
+        input += &points(module.compiled);
+        writeln!(source, "mod {};", module.name)?;
+        writeln!(contenders, "    let input = &inputs[{index}];")?;
+        for call in ways.iter().flat_map(|(precision, way)| Call::all(module, *precision, *way)) {
+            contenders += &contender(&call);
+            calls.push(call);
         }
     }
     writeln!(
         source,
-        "\nfn main() {{\n    let input = Input::read();\n    let mut turns: Turns = Vec::new();"
+        "\nfn main() {{\n    let inputs = Input::read();\n    let mut turns = Vec::new();"
     )?;
     writeln!(source, "{contenders}    run(turns, {ROUNDS});\n}}")?;
     bench.write("timing.rs", &source)?;
-    let first = modules.first().context("nothing to time")?.compiled;
-    let output = bench.run("timing.rs", &points(first))?;
+    let output = bench.run("timing.rs", &input)?;
     let numbers = output.lines().map(|line| line.trim().parse::<f64>());
     let numbers = numbers.collect::<Result<Vec<_>, _>>().context("no times were printed")?;
-    let times = expected.into_iter().zip(numbers);
-    Ok(times
-        .map(|((module, quantity, precision), ns_per_point)| Time {
-            module,
-            quantity,
-            precision,
-            ns_per_point,
-        })
-        .collect())
+    let times = calls.into_iter().zip(numbers).map(|(call, ns_per_point)| Time {
+        module: call.module.name.to_string(),
+        quantity: call.quantity,
+        precision: call.precision,
+        way: call.way,
+        ns_per_point,
+    });
+    Ok(times.collect())
 }
 
-/// The quantities that a program computes.
-fn timed(compiled: &Compiled) -> impl Iterator<Item = Quantity> {
-    let outputs = &compiled.program.outputs;
-    let known = |quantity: &Quantity| outputs.contains_key(&Output::Quantity(*quantity));
-    Quantity::ALL.iter().copied().filter(known)
-}
-
-fn contender(
-    module: &str,
-    dimension: usize,
-    quantity: Quantity,
-    precision: Precision,
-    way: Way,
-) -> String {
-    let scalar = match precision {
-        Precision::F32 => "f32",
-        Precision::F64 => "f64",
-        Precision::Wide => "Double",
+/// The statement that adds a contender.
+fn contender(call: &Call<'_>) -> String {
+    let (name, scalar, function) = (call.module.name, scalar(call.precision), call.function());
+    let (dimension, components) = (call.module.dimension(), call.components());
+    let inputs = if call.way.is_batch() { "columns" } else { "rows" };
+    let (given, argument) = match call.way {
+        Way::Single => ("points", "given[index]"),
+        Way::SingleKept => ("points.map(|point| field.at_point(point))", "&given[index]"),
+        Way::Batch => ("points", "slices(&given)"),
+        Way::BatchKept => ("field.at_points(slices(&points))", "&given"),
     };
-    let normals = if quantity == Quantity::Traction { ", normals" } else { "" };
-    let components = quantity.shape().components(dimension);
-    let name = quantity.name();
-    match way {
-        Way::Single => format!(
-            "    single!(turns, input, {module}, {scalar}, {dimension}, {name}, {});\n",
-            normals.trim_start_matches(", ")
-        ),
-        Way::Batch => format!(
-            "    batch!(turns, input, {module}, {scalar}, {dimension}, {components}, {name}_batch{normals});\n"
-        ),
-    }
+    let normal = match (call.takes_normals(), call.way.is_batch()) {
+        (false, _) => "",
+        (true, false) => ", normals[index]",
+        (true, true) => ", slices(&normals)",
+    };
+    let turn = if call.way.is_batch() {
+        format!(
+            "batch(input.count(), move |out: [&mut [{scalar}]; {components}]| {{
+            field.at_time(black_box(time)).{function}({argument}{normal}, out);
+        }})"
+        )
+    } else {
+        format!(
+            "single(move || {{
+            let now = field.at_time(black_box(time));
+            for index in 0..FEW {{
+                black_box(now.{function}({argument}{normal}));
+            }}
+        }})"
+        )
+    };
+    format!(
+        "    turns.push({{
+        let field: {name}::Field<{scalar}> = {name}::prepare(&Default::default());
+        let time = <{scalar} as Scalar>::from_f64(input.time);
+        let points = input.{inputs}::<{scalar}, {dimension}>(0);
+        let normals = input.{inputs}::<{scalar}, {dimension}>({dimension});
+        let given = {given};
+        {turn}
+    }});\n"
+    )
 }
 
-/// A time in the middle of the window, and as many points as a batch has: a line for each.
+/// A time in the middle of the window, and as many points as a batch has: a line for each,
+/// and an empty one.
 fn points(compiled: &Compiled) -> String {
     let parameters = compiled.parameters::<f64>(&Default::default());
-    let all = inputs(compiled, &parameters, Place::Body, POINTS[0]);
+    let all = inputs(compiled, &parameters, Place::Body, POINTS);
     let time = all.iter().map(|input| input.time).sum::<f64>() / all.len().max(1) as f64;
-    let mut text = format!("{time:?} {}\n", POINTS[1]);
+    let mut text = format!("{time:?}\n");
     for Input { coordinates, normal, .. } in all {
         let numbers = coordinates.iter().chain(&normal).map(|number| format!("{number:?}"));
         text += &(numbers.collect::<Vec<_>>().join(" ") + "\n");
     }
-    text
+    text + "\n"
 }

@@ -7,25 +7,36 @@ use std::hint::black_box;
 use std::time::Instant;
 
 /// A contender: how many points it evaluates in a turn, and a turn.
-type Turns = Vec<(usize, Box<dyn FnMut()>)>;
+type Turn = (usize, Box<dyn FnMut()>);
+
+/// How many points are evaluated in a turn one by one.
+const FEW: usize = 256;
 
 struct Input {
     time: f64,
-    few: usize,
     columns: Vec<Vec<f64>>,
 }
 
 impl Input {
-    fn read() -> Self {
+    /// Those of all modules, an empty line after each.
+    fn read() -> Vec<Self> {
         let text = std::io::read_to_string(std::io::stdin()).expect("input");
+        text.split_terminator("\n\n").map(Input::of).collect()
+    }
+
+    fn of(text: &str) -> Self {
         let numbers = |line: &str| -> Vec<f64> {
             line.split_whitespace().map(|number| number.parse().expect("a number")).collect()
         };
         let mut lines = text.lines();
-        let first = numbers(lines.next().expect("a line"));
+        let time = numbers(lines.next().expect("a line"))[0];
         let rows: Vec<Vec<f64>> = lines.map(numbers).collect();
         let columns = (0..rows[0].len()).map(|k| rows.iter().map(|row| row[k]).collect());
-        Input { time: first[0], few: first[1] as usize, columns: columns.collect() }
+        Input { time, columns: columns.collect() }
+    }
+
+    fn count(&self) -> usize {
+        self.columns[0].len()
     }
 
     fn columns<T: Scalar, const D: usize>(&self, from: usize) -> [Vec<T>; D] {
@@ -34,50 +45,37 @@ impl Input {
         })
     }
 
-    fn rows<T: Scalar + Copy, const D: usize>(&self, from: usize) -> Vec<[T; D]> {
+    fn rows<T: Scalar + Copy, const D: usize>(&self, from: usize) -> [[T; D]; FEW] {
         let columns: [Vec<T>; D] = self.columns(from);
-        (0..self.few).map(|index| core::array::from_fn(|axis| columns[axis][index])).collect()
+        core::array::from_fn(|index| core::array::from_fn(|axis| columns[axis][index]))
     }
 }
 
-macro_rules! batch {
-    ($turns:ident, $input:ident, $module:ident, $float:ident, $dimension:literal, $results:literal,
-     $function:ident $(, $normals:ident)?) => {{
-        let field: $module::Field<$float> = $module::prepare(&$module::Parameters::default());
-        let time = $input.time as $float;
-        let points: [Vec<$float>; $dimension] = $input.columns(0);
-        $(let $normals: [Vec<$float>; $dimension] = $input.columns($dimension);)?
-        let count = points[0].len();
-        let mut out: [Vec<$float>; $results] = core::array::from_fn(|_| vec![0.0; count]);
-        $turns.push((count, Box::new(move || {
-            field.at_time(black_box(time)).$function(
-                core::array::from_fn(|axis| &points[axis][..])
-                $(, core::array::from_fn(|axis| &$normals[axis][..]))?,
-                out.each_mut().map(|column| &mut column[..]),
-            );
-            black_box(&mut out);
-        })));
-    }};
+/// All columns as slices.
+fn slices<T, const N: usize>(columns: &[Vec<T>; N]) -> [&[T]; N] {
+    columns.each_ref().map(|column| &column[..])
 }
 
-macro_rules! single {
-    ($turns:ident, $input:ident, $module:ident, $scalar:ident, $dimension:literal,
-     $function:ident, $($normals:ident)?) => {{
-        let field: $module::Field<$scalar> = $module::prepare(&$module::Parameters::default());
-        let time = <$scalar as Scalar>::from_f64($input.time);
-        let points: Vec<[$scalar; $dimension]> = $input.rows(0);
-        $(let $normals: Vec<[$scalar; $dimension]> = $input.rows($dimension);)?
-        $turns.push((points.len(), Box::new(move || {
-            let now = field.at_time(black_box(time));
-            for index in 0..points.len() {
-                black_box(now.$function(points[index] $(, $normals[index])?));
-            }
-        })));
-    }};
+/// A contender that evaluates [`FEW`] points one by one.
+fn single(turn: impl FnMut() + 'static) -> Turn {
+    (FEW, Box::new(turn))
+}
+
+/// A contender that writes its results into columns.
+fn batch<T: Scalar + Copy + 'static, const N: usize>(
+    count: usize,
+    mut evaluate: impl FnMut([&mut [T]; N]) + 'static,
+) -> Turn {
+    let mut out: [Vec<T>; N] = core::array::from_fn(|_| vec![T::from_f64(0.0); count]);
+    let turn = move || {
+        evaluate(out.each_mut().map(|column| &mut column[..]));
+        black_box(&mut out);
+    };
+    (count, Box::new(turn))
 }
 
 /// Prints the median of the rounds of each contender, in nanoseconds a point.
-fn run(mut turns: Turns, rounds: usize) {
+fn run(mut turns: Vec<Turn>, rounds: usize) {
     let mut times = vec![Vec::new(); turns.len()];
     for _ in 0..=rounds {
         for ((count, turn), times) in turns.iter_mut().zip(&mut times) {

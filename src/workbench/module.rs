@@ -1,0 +1,104 @@
+//! Emitted code, and the ways to call it.
+
+use mms_codegen::Compiled;
+use mms_codegen::accuracy::Precision;
+use mms_codegen::emit::rust;
+use mms_codegen::program::Output;
+use mms_codegen::quantity::Quantity;
+
+use super::Workbench;
+
+/// Emitted code that takes part, as a module of its own.
+pub struct Module<'a> {
+    /// The name of the module.
+    pub name: &'a str,
+    /// The field, or a part of it.
+    pub compiled: &'a Compiled,
+}
+
+impl Module<'_> {
+    /// Emits the module into the workbench.
+    pub(super) fn write(&self, bench: &Workbench) -> anyhow::Result<()> {
+        bench.write(&format!("{}.rs", self.name), &rust::file(self.compiled).text)
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.compiled.field.dimension
+    }
+
+    /// The quantities that its program computes.
+    fn quantities(&self) -> impl Iterator<Item = Quantity> {
+        let outputs = &self.compiled.program.outputs;
+        let known = |quantity: &Quantity| outputs.contains_key(&Output::Quantity(*quantity));
+        Quantity::ALL.iter().copied().filter(known)
+    }
+}
+
+/// How code is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Point by point.
+    Single,
+    /// Point by point, from what was kept of each.
+    SingleKept,
+    /// All points at once.
+    Batch,
+    /// All points at once, from what was kept of them.
+    BatchKept,
+}
+
+impl Way {
+    /// Whether results go to columns.
+    pub(super) fn is_batch(self) -> bool {
+        matches!(self, Way::Batch | Way::BatchKept)
+    }
+}
+
+/// A function of a module, in a precision.
+pub(super) struct Call<'a> {
+    pub module: &'a Module<'a>,
+    pub quantity: Quantity,
+    pub precision: Precision,
+    pub way: Way,
+}
+
+impl<'a> Call<'a> {
+    /// Those of all quantities.
+    pub fn all(
+        module: &'a Module<'a>,
+        precision: Precision,
+        way: Way,
+    ) -> impl Iterator<Item = Call<'a>> {
+        module.quantities().map(move |quantity| Call { module, quantity, precision, way })
+    }
+
+    /// The name of the function.
+    pub fn function(&self) -> String {
+        let suffix = match self.way {
+            Way::Single => "",
+            Way::SingleKept => "_at",
+            Way::Batch => "_batch",
+            Way::BatchKept => "_batch_at",
+        };
+        format!("{}{suffix}", self.quantity.name())
+    }
+
+    /// How many columns the results are.
+    pub fn components(&self) -> usize {
+        self.quantity.shape().components(self.module.dimension())
+    }
+
+    /// Whether it takes normals beside positions.
+    pub fn takes_normals(&self) -> bool {
+        self.quantity == Quantity::Traction
+    }
+}
+
+/// The type of a number in emitted code.
+pub(super) fn scalar(precision: Precision) -> &'static str {
+    match precision {
+        Precision::F32 => "f32",
+        Precision::F64 => "f64",
+        Precision::Wide => "Double",
+    }
+}
