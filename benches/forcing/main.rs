@@ -2,9 +2,11 @@
 //! `-- --json` for a program.
 //!
 //! Contenders take turns, round by round, so that all see the same machine; the median of a
-//! contender's rounds counts. Errors are those of the timed results, against 77 digits.
+//! contender's rounds counts. Errors are those of the timed results, against 77 digits. The floor is
+//! what the arithmetic of a batch takes alone: see [`floor`].
 
 mod dual;
+mod floor;
 mod hand;
 mod ours;
 mod peer;
@@ -12,6 +14,7 @@ mod single;
 
 use std::error::Error;
 
+use floor::Slot;
 use mms_codegen::compile::compile;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
@@ -53,6 +56,8 @@ pub struct Run {
     pub mode: &'static str,
     /// The seconds of each round.
     pub seconds: Vec<f64>,
+    /// The operations at a point, where a loop has been counted.
+    pub slots: Option<usize>,
     /// b, one column for each component.
     pub results: Vec<Vec<f64>>,
 }
@@ -148,14 +153,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut contenders = peer::contenders(&case)?;
         contenders.extend([hand::contender(&case), dual::contender(&case)]);
         contenders.extend(ours::contenders(&case));
+        let mut slots = Slot::all();
         for _ in 0..ROUNDS {
             for contender in &mut contenders {
                 contender.round()?;
             }
+            slots.iter_mut().for_each(Slot::round);
         }
         let runs: Vec<Run> = contenders.into_iter().map(Contender::finish).collect();
         let expected = reference(&case)?;
         let time = |run: &Run| 1e9 * median(run.seconds.clone()) / COUNT as f64;
+        let floor = |run: &Run| {
+            let slot = slots.iter().find(|slot| slot.precision == run.precision)?;
+            Some(run.slots? as f64 * slot.nanoseconds())
+        };
         let peer = runs.iter().find(|run| run.contender == peer::REFERENCE).map(time);
         for run in &runs {
             let (median_eps, max_scaled_eps) = errors(run, &expected);
@@ -166,6 +177,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 "precision": run.precision,
                 "mode": run.mode,
                 "ns_per_point": nanoseconds,
+                "floor_ns": floor(run),
                 "ratio": peer.map(|peer| peer / nanoseconds),
                 "median_eps": median_eps,
                 "max_scaled_eps": max_scaled_eps,
@@ -193,23 +205,32 @@ fn print(rows: &[serde_json::Value]) {
         "precision",
         "mode",
         "ns/point",
+        "floor",
+        "reached",
         "ratio",
         "median eps",
         "max eps",
     ]);
     for row in rows {
         let text = |key: &str| row[key].as_str().unwrap_or_default().to_string();
+        let reached = match (row["floor_ns"].as_f64(), row["ns_per_point"].as_f64()) {
+            (Some(floor), Some(time)) => format!("{:.0} %", 100.0 * floor / time),
+            _ => "-".into(),
+        };
         table.add_row([
             text("field"),
             text("contender"),
             text("precision"),
             text("mode"),
             number(&row["ns_per_point"], 2),
+            number(&row["floor_ns"], 2),
+            reached,
             number(&row["ratio"], 1),
             number(&row["median_eps"], 2),
             number(&row["max_scaled_eps"], 1),
         ]);
     }
     println!("{table}");
-    println!("\nmedian eps: |error| / |b|. max eps: the greatest error over the greatest |b|.");
+    println!("\nfloor: additions and multiplications alone, none waiting for another, in ns.");
+    println!("median eps: |error| / |b|. max eps: the greatest error over the greatest |b|.");
 }

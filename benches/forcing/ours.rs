@@ -2,6 +2,9 @@
 
 use std::time::Instant;
 
+use mms_runtime::math::Scalar as _;
+
+use crate::floor::{Counted, Tally};
 use crate::{COUNT, Case, Contender, Run};
 
 mms_macros::field!("benches/forcing/fields/a.toml", quantities = [body_force]);
@@ -17,6 +20,7 @@ struct Ours<T> {
     out: Vec<Vec<T>>,
     seconds: Vec<f64>,
     work: Work<T>,
+    slots: Option<usize>,
 }
 
 impl<T: Copy + Into<f64>> Contender for Ours<T> {
@@ -34,9 +38,28 @@ impl<T: Copy + Into<f64>> Contender for Ours<T> {
             precision: self.precision,
             mode: self.mode,
             seconds: self.seconds,
+            slots: self.slots,
             results: self.out.iter().map(widened).collect(),
         }
     }
+}
+
+/// The operations at a point: of a batch, and of one from what was kept.
+macro_rules! slots {
+    ($module:ident, $float:ident, $case:expr) => {{
+        let tally = Tally::new(stringify!($float));
+        let constant = |value: &f64| Counted::from_f64(*value);
+        let parameters = core::array::from_fn(|index| constant(&$case.parameters[index]));
+        let field = $module::prepare(&$module::Parameters::from_array(parameters));
+        let now = field.at_time(constant(&$case.time));
+        let position = core::array::from_fn(|axis| tally.number($case.points[axis][0]));
+        now.body_force(position);
+        let batch = tally.take();
+        let point = field.at_point(position);
+        tally.take();
+        now.body_force_at(&point);
+        [batch, tally.take()]
+    }};
 }
 
 macro_rules! field {
@@ -73,7 +96,10 @@ macro_rules! field {
                 .at_time(time)
                 .body_force_batch_at(&kept, out.each_mut().map(|column| &mut column[..]));
         });
-        [("scalar", scalar), ("batch", batch), ("cached", cached)].map(|(mode, work)| {
+        let [slots, slots_kept] = slots!($module, $float, $case).map(Some);
+        let modes =
+            [("scalar", scalar, None), ("batch", batch, slots), ("cached", cached, slots_kept)];
+        modes.map(|(mode, work, slots)| {
             let contender: Box<dyn Contender> = Box::new(Ours {
                 mode,
                 precision: stringify!($float),
@@ -81,6 +107,7 @@ macro_rules! field {
                 out: vec![vec![0.0; COUNT]; $dimension],
                 seconds: Vec::new(),
                 work,
+                slots,
             });
             contender
         })

@@ -52,6 +52,7 @@ impl Contender for Peer {
             precision: "f64",
             mode: "scalar",
             seconds: self.seconds,
+            slots: None,
             results: self.results,
         }
     }

@@ -47,6 +47,7 @@ impl Contender for Single {
             precision: "f64",
             mode: "scalar",
             seconds: self.seconds,
+            slots: None,
             results: self.out,
         }
     }

@@ -1,0 +1,256 @@
+//! The least that a loop over points can take on this machine: the additions, multiplications and
+//! fused multiply-adds of the emitted code, times what one of them takes where none waits for
+//! another. A division counts as one of them, although it takes longer; loads and stores, integers
+//! and selections are free.
+
+use std::cell::{Cell, RefCell};
+use std::hint::black_box;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::time::Instant;
+
+use mms_runtime::math::batch::{self, Float, Function, Kernel, Points, Stand};
+use mms_runtime::math::{Real, Scalar};
+
+use crate::median;
+
+/// The operations of a function in `f64` and in `f32`, counted in `mms-math/src/quick/` where products
+/// are fused with sums.
+type Slots = [usize; 2];
+
+/// Sine and cosine of an angle: one reduction, two polynomials.
+const SINE_AND_COSINE: Slots = [27, 24];
+/// The same in half turns.
+const OF_HALF_TURNS: Slots = [21, 15];
+/// The logarithm.
+const LN: Slots = [18, 14];
+/// A root and its inverse.
+const ROOT: Slots = [20, 18];
+
+/// The operations that were done with numbers of a point.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// The column of the tables: 0 for `f64`, 1 for `f32`.
+    format: usize,
+    slots: Cell<usize>,
+    /// What has its sine and cosine already, in half turns or not.
+    angles: RefCell<Vec<(f64, bool)>>,
+}
+
+impl Tally {
+    /// Nothing yet, of `f64` or `f32`.
+    pub fn new(precision: &str) -> Self {
+        Tally { format: usize::from(precision == "f32"), ..Tally::default() }
+    }
+
+    /// A number whose operations count, and those of all that is made of it.
+    pub fn number(&self, value: f64) -> Counted<'_> {
+        Counted { value, tally: Some(self) }
+    }
+
+    /// How many there were since the last call.
+    pub fn take(&self) -> usize {
+        self.angles.take();
+        self.slots.take()
+    }
+
+    fn add(&self, slots: usize) {
+        self.slots.set(self.slots.get() + slots);
+    }
+
+    /// A sine or a cosine; the second one of an angle is there.
+    fn turn(&self, angle: f64, in_half_turns: bool) {
+        let mut angles = self.angles.borrow_mut();
+        if !angles.contains(&(angle, in_half_turns)) {
+            angles.push((angle, in_half_turns));
+            let table = if in_half_turns { OF_HALF_TURNS } else { SINE_AND_COSINE };
+            self.add(table[self.format]);
+        }
+    }
+}
+
+/// A number that knows where its operations are counted; those of parameters and of the time are not.
+#[derive(Clone, Copy, Debug)]
+pub struct Counted<'a> {
+    value: f64,
+    tally: Option<&'a Tally>,
+}
+
+impl<'a> Counted<'a> {
+    /// The result of one operation on both.
+    fn with(self, other: Self, value: f64) -> Self {
+        let tally = self.tally.or(other.tally);
+        tally.inspect(|tally| tally.add(1));
+        Counted { value, tally }
+    }
+
+    /// The result of a function.
+    fn of(self, slots: Slots, value: f64) -> Self {
+        self.tally.inspect(|tally| tally.add(slots[tally.format]));
+        Counted { value, ..self }
+    }
+
+    fn turned(self, in_half_turns: bool, value: f64) -> Self {
+        self.tally.inspect(|tally| tally.turn(self.value, in_half_turns));
+        Counted { value, ..self }
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $operator:tt),*) => {
+        $(
+            impl $trait for Counted<'_> {
+                type Output = Self;
+                fn $method(self, other: Self) -> Self {
+                    self.with(other, self.value $operator other.value)
+                }
+            }
+        )*
+    };
+}
+
+operators!(Add add +, Sub sub -, Mul mul *, Div div /);
+
+impl Neg for Counted<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Counted { value: -self.value, ..self }
+    }
+}
+
+macro_rules! not_counted {
+    ($($function:ident($($argument:ty)?))*) => {
+        $(
+            fn $function(self $(, _: $argument)?) -> Self {
+                unimplemented!("the operations of `{}` are not counted yet", stringify!($function))
+            }
+        )*
+    };
+}
+
+impl Scalar for Counted<'_> {
+    type Wide = Self;
+    fn widen(self) -> Self {
+        self
+    }
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+    fn from_f64(value: f64) -> Self {
+        Counted { value, tally: None }
+    }
+    fn pi() -> Self {
+        Self::from_f64(core::f64::consts::PI)
+    }
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        let tally = self.tally.or(factor.tally);
+        Counted { tally, ..self }.with(term, self.value * factor.value + term.value)
+    }
+    fn quotients<const N: usize>(above: [Self; N], below: [Self; N]) -> [Self; N] {
+        // One division, and for each quotient seven products and sums.
+        let slots = if N > 1 { 7 * N + 1 } else { N };
+        let mut numbers = above.iter().chain(&below);
+        let tally = numbers.find_map(|number| number.tally);
+        tally.inspect(|tally| tally.add(slots));
+        core::array::from_fn(|index| Counted {
+            value: above[index].value / below[index].value,
+            tally,
+        })
+    }
+    fn sqrt(self) -> Self {
+        self.of([1, 1], self.value.sqrt())
+    }
+    fn root(self) -> [Self; 2] {
+        [self.of(ROOT, self.value.sqrt()); 2]
+    }
+    fn over_root(self, root: Self) -> Self {
+        self / root
+    }
+    fn ln(self) -> Self {
+        self.of(LN, self.value.ln())
+    }
+    fn sin(self) -> Self {
+        self.turned(false, self.value.sin())
+    }
+    fn cos(self) -> Self {
+        self.turned(false, self.value.cos())
+    }
+    fn sin_pi(self) -> Self {
+        self.turned(true, Scalar::sin_pi(self.value))
+    }
+    fn cos_pi(self) -> Self {
+        self.turned(true, Scalar::cos_pi(self.value))
+    }
+    not_counted! {
+        cbrt() exp() exp_m1() ln_1p() tan() sinh() cosh() tanh() asin() acos() atan()
+        atan2(Self) powf(Self)
+    }
+}
+
+/// Multiply-adds of which few wait for each other.
+struct Chains;
+
+/// How many chains of multiply-adds there are, and their length.
+const CHAINS: [usize; 2] = [16, 8];
+
+impl<S: Real> Function<S, 1, 1> for Chains {
+    #[inline(always)]
+    fn at(&self, [x]: [S; 1]) -> [S; 1] {
+        let mut sum = x;
+        for chain in 0..CHAINS[0] {
+            let start = S::from_f64(chain as f64 / CHAINS[0] as f64);
+            let mut value = start;
+            for _ in 0..CHAINS[1] {
+                value = value.mul_add(x, start);
+            }
+            sum = sum + value;
+        }
+        [sum]
+    }
+}
+
+impl<T: Float> Kernel<T, 1, 1> for Chains {
+    #[inline(always)]
+    fn drive<S: Stand<T>>(&self, points: &mut impl Points<S, 1, 1>) {
+        points.each(self);
+    }
+}
+
+/// What one operation takes in the loop that a batch of this machine is.
+pub struct Slot {
+    /// `f64` or `f32`.
+    pub precision: &'static str,
+    turn: Box<dyn FnMut() -> f64>,
+    rounds: Vec<f64>,
+}
+
+impl Slot {
+    /// In both precisions.
+    pub fn all() -> [Slot; 2] {
+        [Slot::of::<f64>("f64"), Slot::of::<f32>("f32")]
+    }
+
+    fn of<T: Float + 'static>(precision: &'static str) -> Slot {
+        let tally = Tally::new(precision);
+        Chains.at([tally.number(0.5)]);
+        let points: Vec<T> =
+            (0..4096).map(|index| T::from_f64(f64::from(index) / 4096.0)).collect();
+        let mut out = points.clone();
+        let count = (tally.take() * points.len()) as f64;
+        let turn = move || {
+            let start = Instant::now();
+            batch::run(&Chains, &[black_box(&points[..])], &mut [black_box(&mut out[..])]);
+            1e9 * start.elapsed().as_secs_f64() / count
+        };
+        Slot { precision, turn: Box::new(turn), rounds: Vec::new() }
+    }
+
+    /// One more round.
+    pub fn round(&mut self) {
+        self.rounds.push((self.turn)());
+    }
+
+    /// The median of the rounds, in nanoseconds.
+    pub fn nanoseconds(&self) -> f64 {
+        median(self.rounds.clone())
+    }
+}
