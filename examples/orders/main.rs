@@ -21,7 +21,8 @@ const INTRODUCTION: &str = "\
 What the solver shows on the fields of the gallery, and what theory says. Errors are those of the
 displacement: the largest over time of the root mean square (l2) and of the maximum (linf) over the
 particles. An order is that between two neighbouring levels, coarse to fine. The verdict is that of
-`mms study` against order 2; where a row says why it cannot be, `fail` is what theory expects. Made by `cargo run --release --example orders > docs/orders.md`.
+`mms study` against order 2; where a row says why it cannot be, `fail` is what theory expects. Made by
+`cargo run --release --example orders > docs/orders.md`.
 ";
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -39,7 +39,10 @@ fn the_same_energy_in_a_file_gives_the_same_numbers_and_errors() {
         let document = folder.mms(&format!("study {field} --cells 8,16 --json")).exits(0).json();
         [0, 1].map(|level| document["levels"][level]["l2"].as_f64().expect("an error"))
     };
-    assert_eq!(errors("own/bar.toml"), errors("bar_1d"));
+    // Compiled forcing is that of loops over many points, some eps away from the interpreter's.
+    for (own, shipped) in errors("own/bar.toml").into_iter().zip(errors("bar_1d")) {
+        assert_close(own, shipped, 1e4 * f64::EPSILON);
+    }
 }
 
 #[test]
