@@ -1,6 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::study::{Watch, run};
+use mms_runtime::study::{Solve, Watch};
 use mms_runtime::{Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// A field of one, two or three dimensions in the precision `T`.
@@ -42,7 +42,7 @@ impl<T> Scene<T> {
     }
 }
 
-impl<T: Real> Scene<T> {
+impl<T: Solve> Scene<T> {
     /// Runs a method on the field; see [`mms_runtime::run`].
     ///
     /// # Errors
@@ -55,9 +55,9 @@ impl<T: Real> Scene<T> {
         progress: &mut dyn FnMut(usize, usize),
     ) -> Result<Run, Refusal> {
         match self {
-            Scene::Line(field) => run(field.as_ref(), method, cells, watch, progress),
-            Scene::Plane(field) => run(field.as_ref(), method, cells, watch, progress),
-            Scene::Space(field) => run(field.as_ref(), method, cells, watch, progress),
+            Scene::Line(field) => T::line(field.as_ref(), method, cells, watch, progress),
+            Scene::Plane(field) => T::plane(field.as_ref(), method, cells, watch, progress),
+            Scene::Space(field) => T::space(field.as_ref(), method, cells, watch, progress),
         }
     }
 

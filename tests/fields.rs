@@ -15,8 +15,8 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::StudySpec;
 use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_runtime::math::Scalar as _;
-use mms_runtime::study::{TOLERANCE, judge};
-use mms_runtime::{Level, Method, Real, Verdict};
+use mms_runtime::study::{Solve, TOLERANCE, judge};
+use mms_runtime::{Level, Method, Verdict};
 
 use current::both_frames;
 use support::dual::Dual;
@@ -483,7 +483,7 @@ fn method(study: &StudySpec) -> Method {
     method
 }
 
-fn levels<T: Real>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
+fn levels<T: Solve>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
     let scene = scene.expect("parameters in the order of the file");
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {

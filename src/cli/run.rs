@@ -1,8 +1,8 @@
 //! `mms run`: one simulation.
 
 use clap::Args;
-use mms_runtime::study::Watch;
-use mms_runtime::{Division, Method, Real, Refusal};
+use mms_runtime::study::{Solve, Watch};
+use mms_runtime::{Division, Method, Refusal};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
@@ -72,7 +72,7 @@ impl Run {
         Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
     }
 
-    fn solve<T: Real>(
+    fn solve<T: Solve>(
         &self,
         scene: &Scene<T>,
         method: &Method,

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_runtime::study::{TOLERANCE, judge};
-use mms_runtime::{Division, Level, Method, Real, Verdict};
+use mms_runtime::study::{Solve, TOLERANCE, judge};
+use mms_runtime::{Division, Level, Method, Verdict};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
@@ -123,7 +123,7 @@ impl Study {
         Ok(())
     }
 
-    fn levels<T: Real>(&self, scene: &Scene<T>, method: &Method) -> Vec<Result<Level, Refused>> {
+    fn levels<T: Solve>(&self, scene: &Scene<T>, method: &Method) -> Vec<Result<Level, Refused>> {
         let mut cells = self.cells.clone();
         if cells.is_empty() {
             cells.extend(scene.default_cells().iter().map(|&cells| Division::Uniform(cells)));

@@ -9,7 +9,7 @@ mod verdict;
 pub use deviations::Deviations;
 pub use errors::Errors;
 pub use order::{Orders, observed_order, orders};
-pub use run::{Details, Diagnostics, Run, Watch, run};
+pub use run::{Details, Diagnostics, Run, Solve, Watch, run};
 pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
 
 use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal};

@@ -98,6 +98,66 @@ pub fn run<T: Real, const D: usize>(
     method.formulation.visit(WithFormulation { field, method, cells, watch, progress })
 }
 
+/// [`run`], compiled in this crate once for each precision and dimension: who calls it through this trait
+/// compiles no solver.
+pub trait Solve: Real {
+    /// [`run`] in one dimension.
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
+    fn line(
+        field: &dyn ManufacturedField<Self, 1>,
+        method: &Method,
+        cells: &Division,
+        watch: Watch,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Run, Refusal>;
+
+    /// [`run`] in two dimensions.
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
+    fn plane(
+        field: &dyn ManufacturedField<Self, 2>,
+        method: &Method,
+        cells: &Division,
+        watch: Watch,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Run, Refusal>;
+
+    /// [`run`] in three dimensions.
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
+    fn space(
+        field: &dyn ManufacturedField<Self, 3>,
+        method: &Method,
+        cells: &Division,
+        watch: Watch,
+        progress: &mut dyn FnMut(usize, usize),
+    ) -> Result<Run, Refusal>;
+}
+
+/// One method of [`Solve`].
+macro_rules! solve {
+    ($float:ident: $($name:ident $dimension:literal),*) => {
+        impl Solve for $float {
+            $(fn $name(
+                field: &dyn ManufacturedField<$float, $dimension>,
+                method: &Method,
+                cells: &Division,
+                watch: Watch,
+                progress: &mut dyn FnMut(usize, usize),
+            ) -> Result<Run, Refusal> {
+                run(field, method, cells, watch, progress)
+            })*
+        }
+    };
+}
+
+solve!(f32: line 1, plane 2, space 3);
+solve!(f64: line 1, plane 2, space 3);
+
 /// From names to the solver compiled for them: first the formulation,
 struct WithFormulation<'a, T, const D: usize> {
     field: &'a dyn ManufacturedField<T, D>,
