@@ -1,6 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::study::{Solve, Watch};
+use mms_runtime::study::{Progress, Solve, Watch};
 use mms_runtime::{Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// A field of one, two or three dimensions in the precision `T`.
@@ -31,6 +31,11 @@ impl<T: Real> From<Box<dyn ManufacturedField<T, 3>>> for Scene<T> {
     }
 }
 
+/// A precision that there is a solver for, in every dimension.
+pub trait Solvable: Solve<1> + Solve<2> + Solve<3> {}
+
+impl<T: Solve<1> + Solve<2> + Solve<3>> Solvable for T {}
+
 impl<T> Scene<T> {
     /// The levels of a study that names none: cells along the longest edge of the body.
     pub fn default_cells(&self) -> &'static [usize] {
@@ -42,8 +47,8 @@ impl<T> Scene<T> {
     }
 }
 
-impl<T: Solve> Scene<T> {
-    /// Runs a method on the field; see [`mms_runtime::run`].
+impl<T: Solvable> Scene<T> {
+    /// Runs a method on the field; see [`Solve::run`].
     ///
     /// # Errors
     /// A scene that cannot be started.
@@ -52,12 +57,12 @@ impl<T: Solve> Scene<T> {
         method: &Method,
         cells: &Division,
         watch: Watch,
-        progress: &mut dyn FnMut(usize, usize),
+        progress: &mut Progress<'_>,
     ) -> Result<Run, Refusal> {
         match self {
-            Scene::Line(field) => T::line(field.as_ref(), method, cells, watch, progress),
-            Scene::Plane(field) => T::plane(field.as_ref(), method, cells, watch, progress),
-            Scene::Space(field) => T::space(field.as_ref(), method, cells, watch, progress),
+            Scene::Line(field) => T::run(field.as_ref(), method, cells, watch, progress),
+            Scene::Plane(field) => T::run(field.as_ref(), method, cells, watch, progress),
+            Scene::Space(field) => T::run(field.as_ref(), method, cells, watch, progress),
         }
     }
 
@@ -69,7 +74,7 @@ impl<T: Solve> Scene<T> {
         &self,
         method: &Method,
         cells: &Division,
-        progress: &mut dyn FnMut(usize, usize),
+        progress: &mut Progress<'_>,
     ) -> Result<Level, Refusal> {
         self.run(method, cells, Watch::Displacement, progress).map(|run| run.level)
     }

@@ -6,7 +6,7 @@ mod support;
 
 use std::collections::BTreeSet;
 
-use mms::scene::Scene;
+use mms::scene::{Scene, Solvable};
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
@@ -15,7 +15,7 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::StudySpec;
 use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_runtime::math::Scalar as _;
-use mms_runtime::study::{Solve, TOLERANCE, judge};
+use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Level, Method, Verdict};
 
 use current::both_frames;
@@ -483,7 +483,7 @@ fn method(study: &StudySpec) -> Method {
     method
 }
 
-fn levels<T: Solve>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
+fn levels<T: Solvable>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
     let scene = scene.expect("parameters in the order of the file");
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {

@@ -8,6 +8,8 @@
 //! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
 //! value is computed again, number by number, with the careful functions of the scalar itself.
 
+use crate::dispatch::Drive;
+use crate::machine::{Fused, Machine};
 use crate::{Lane, Real};
 
 /// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
@@ -31,6 +33,8 @@ pub trait Float: Real + Stand<Self> + PartialOrd + Send + Sync {
     type Fused: Stand<Self>;
     /// Its stand-in elsewhere.
     type Plain: Stand<Self>;
+    /// Four of it at a time, where the processor does that.
+    type Machine: Machine<Self> + From<Fused>;
 }
 
 macro_rules! float {
@@ -60,6 +64,7 @@ macro_rules! float {
         impl Float for $float {
             type Fused = Lane<$float, true>;
             type Plain = Lane<$float, false>;
+            type Machine = Fused;
         }
     };
 }
@@ -176,8 +181,10 @@ impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
     }
 }
 
-/// Positions and normals as two arrays of structures.
-impl<T: Copy, const D: usize, const N: usize> Source<T, N> for (&[[T; D]], &[[T; D]]) {
+/// Two arrays of structures: positions, and what comes with them.
+impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
+    for (&[[T; A]], &[[T; B]])
+{
     fn count(&self) -> usize {
         one_length([self.0.len(), self.1.len()].into_iter())
     }
@@ -267,7 +274,8 @@ pub fn run<T: Float, const I: usize, const O: usize>(
             kernel.drive::<T>(&mut Single { inputs, outputs });
         },
     };
-    crate::dispatch::drive(kernel, &mut blocks);
+    let scalar = core::marker::PhantomData::<T>;
+    crate::dispatch::wide(Drive { kernel, points: &mut blocks, scalar });
 }
 
 /// All points, block by block.

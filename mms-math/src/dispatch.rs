@@ -1,33 +1,49 @@
-//! Compiles a loop over points for several instruction sets, and takes the best one that the
-//! processor has.
+//! Compiles work for several instruction sets, and takes the best one that the processor has.
 
 use crate::batch::{Float, Kernel, Points};
+use crate::machine::{Fused, Plain};
 
-/// Drives a kernel over points, with vector instructions.
-pub(crate) fn drive<T: Float, K: Kernel<T, I, O>, P, const I: usize, const O: usize>(
-    kernel: &K,
-    points: &mut P,
-) where
-    P: Points<T::Fused, I, O> + Points<T::Plain, I, O>,
-{
+/// Work on many numbers, in two versions of the same code: everything it calls has to be inlined, or is not
+/// compiled for the instruction set.
+pub trait Work {
+    /// What comes of it.
+    type Output;
+
+    /// Where the processor multiplies and adds in one step: with [`Float::Fused`], or four numbers at a time.
+    fn fused(self, machine: Fused) -> Self::Output;
+
+    /// Where it does not: with [`Float::Plain`].
+    fn plain(self, machine: Plain) -> Self::Output;
+}
+
+/// Does work with vectors of up to 256 bits: for what has fewer numbers beside each other than wider ones
+/// hold.
+#[inline]
+pub fn narrow<W: Work>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    {
-        if has_avx512() {
-            // Safety: the processor has what the function is compiled for.
-            #[allow(unsafe_code)]
-            return unsafe { avx512::<T, K, P, I, O>(kernel, points) };
-        }
-        if has_avx2() {
-            // Safety: as above.
-            #[allow(unsafe_code)]
-            return unsafe { avx2::<T, K, P, I, O>(kernel, points) };
-        }
+    if has_avx2() {
+        // Safety: the processor has what the function is compiled for.
+        #[allow(unsafe_code)]
+        return unsafe { avx2(work) };
     }
+    baseline(work)
+}
+
+/// Does work with the widest vectors there are.
+#[inline]
+pub fn wide<W: Work>(work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if has_avx512() {
+        // Safety: the processor has what the function is compiled for.
+        #[allow(unsafe_code)]
+        return unsafe { avx512(work) };
+    }
+    narrow(work)
+}
+
+fn baseline<W: Work>(work: W) -> W::Output {
     // Every processor of these multiplies and adds in one step.
-    #[cfg(target_arch = "aarch64")]
-    kernel.drive::<T::Fused>(points);
-    #[cfg(not(target_arch = "aarch64"))]
-    kernel.drive::<T::Plain>(points);
+    if cfg!(target_arch = "aarch64") { work.fused(Fused::known()) } else { work.plain(Plain) }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -45,24 +61,37 @@ fn has_avx2() -> bool {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<
-    T: Float,
-    K: Kernel<T, I, O>,
-    P: Points<T::Fused, I, O>,
-    const I: usize,
-    const O: usize,
->(
-    kernel: &K,
-    points: &mut P,
-) {
-    kernel.drive::<T::Fused>(points);
+fn avx512<W: Work>(work: W) -> W::Output {
+    work.fused(Fused::known())
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2<T: Float, K: Kernel<T, I, O>, P: Points<T::Fused, I, O>, const I: usize, const O: usize>(
-    kernel: &K,
-    points: &mut P,
-) {
-    kernel.drive::<T::Fused>(points);
+fn avx2<W: Work>(work: W) -> W::Output {
+    work.fused(Fused::known())
+}
+
+/// A kernel, and the points that it is driven over.
+pub(crate) struct Drive<'a, T, K, P, const I: usize, const O: usize> {
+    pub kernel: &'a K,
+    pub points: &'a mut P,
+    pub scalar: core::marker::PhantomData<T>,
+}
+
+impl<T: Float, K: Kernel<T, I, O>, P, const I: usize, const O: usize> Work
+    for Drive<'_, T, K, P, I, O>
+where
+    P: Points<T::Fused, I, O> + Points<T::Plain, I, O>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn fused(self, _: Fused) {
+        self.kernel.drive::<T::Fused>(self.points);
+    }
+
+    #[inline(always)]
+    fn plain(self, _: Plain) {
+        self.kernel.drive::<T::Plain>(self.points);
+    }
 }

@@ -14,7 +14,7 @@ extern crate std;
 #[cfg(feature = "std")]
 pub mod batch;
 #[cfg(feature = "std")]
-mod dispatch;
+pub mod dispatch;
 mod double;
 #[cfg(feature = "std")]
 mod float;
@@ -22,6 +22,8 @@ mod float;
 mod generate;
 #[cfg(feature = "std")]
 mod lane;
+#[cfg(feature = "std")]
+pub mod machine;
 #[cfg(feature = "std")]
 mod quick;
 

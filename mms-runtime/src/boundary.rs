@@ -14,6 +14,7 @@ pub mod traction;
 pub mod wall;
 
 use crate::body::{Fill, Filling, Piece};
+use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::{
     Body, Condition, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
@@ -100,14 +101,8 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         Ok(boundary)
     }
 
-    /// Adds the images' mass to the nodes inside.
-    pub fn fold_mass(&self, mass: &mut [T]) {
-        self.periods.iter().for_each(|period| period.fold_mass(mass));
-        self.walls.iter().for_each(|wall| wall.fold_mass(mass));
-    }
-
-    /// Adds the images' momentum or force to the nodes inside.
-    pub fn fold(&self, extensive: &mut [Vector<T, D>]) {
+    /// Adds the images' mass and momentum, or force, to the nodes inside.
+    pub fn fold(&self, extensive: &mut [Nodal<T>]) {
         self.periods.iter().for_each(|period| period.fold(extensive));
         self.walls.iter().for_each(|wall| wall.fold(extensive));
     }
@@ -134,7 +129,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         time: T,
         lattice: &Lattice<T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
-        force: &mut [Vector<T, D>],
+        force: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -144,7 +139,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
     }
 
     /// Imposes the velocity at `time`.
-    pub fn velocity<F>(&mut self, field: &F, time: T, velocity: &mut [Vector<T, D>])
+    pub fn velocity<F>(&mut self, field: &F, time: T, velocity: &mut [Nodal<T>])
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -153,7 +148,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
     }
 
     /// Imposes the acceleration at `time`.
-    pub fn acceleration<F>(&mut self, field: &F, time: T, acceleration: &mut [Vector<T, D>])
+    pub fn acceleration<F>(&mut self, field: &F, time: T, acceleration: &mut [Nodal<T>])
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
@@ -163,13 +158,13 @@ impl<T: Real, const D: usize> Boundary<T, D> {
     }
 
     /// Imposes what is left of a velocity that the boundary takes no part in.
-    pub fn residual(&mut self, residual: &mut [Vector<T, D>]) {
+    pub fn residual(&mut self, residual: &mut [Nodal<T>]) {
         self.prescribed.impose(residual, |_, out| out.fill(Vector::zeros()));
         self.mirror(residual);
     }
 
     /// Wall after wall; at edges the last one sees what the others have mirrored.
-    fn mirror(&self, intensive: &mut [Vector<T, D>]) {
+    fn mirror(&self, intensive: &mut [Nodal<T>]) {
         self.walls.iter().for_each(|wall| wall.mirror(intensive));
         self.periods.iter().for_each(|period| period.copy(intensive));
     }

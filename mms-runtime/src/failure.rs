@@ -40,6 +40,14 @@ pub enum Refusal {
         /// The shape function.
         shape: ShapeName,
     },
+    /// Threads that the system does not give.
+    #[error("cannot run on {threads} thread(s): {reason}; use fewer")]
+    NoThreads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the system says.
+        reason: String,
+    },
     /// Numbers for another dimension.
     #[error("{given} numbers of {what} for a body in {dimension} dimension(s)")]
     WrongDimension {

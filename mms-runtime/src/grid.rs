@@ -1,6 +1,7 @@
 //! The background grid: what its nodes carry.
 
-use crate::{Lattice, Real, Vector};
+use crate::nodal::Nodal;
+use crate::{Lattice, Real};
 
 /// The nodes of a [`Lattice`]; entry `i` of every array belongs to node `i`.
 #[derive(Clone, Debug)]
@@ -9,59 +10,68 @@ pub struct Grid<T, const D: usize> {
     pub lattice: Lattice<T, D>,
     /// A node with no more mass than this is taken as empty, and nothing is divided by its mass.
     pub mass_floor: T,
-    /// m_i.
-    pub mass: Vec<T>,
-    /// (mv)_i.
-    pub momentum: Vec<Vector<T, D>>,
+    /// (mv)_i and m_i.
+    pub momentum: Vec<Nodal<T>>,
     /// f_i, internal and external.
-    pub force: Vec<Vector<T, D>>,
+    pub force: Vec<Nodal<T>>,
     /// v_i.
-    pub velocity: Vec<Vector<T, D>>,
+    pub velocity: Vec<Nodal<T>>,
     /// a_i.
-    pub acceleration: Vec<Vector<T, D>>,
+    pub acceleration: Vec<Nodal<T>>,
 }
 
 impl<T: Real, const D: usize> Grid<T, D> {
     /// Empty nodes at rest.
     pub fn new(lattice: Lattice<T, D>) -> Self {
-        let total = lattice.len();
+        let nothing = vec![Nodal::zero(); lattice.len()];
         Self {
             lattice,
             mass_floor: T::zero(),
-            mass: vec![T::zero(); total],
-            momentum: vec![Vector::zeros(); total],
-            force: vec![Vector::zeros(); total],
-            velocity: vec![Vector::zeros(); total],
-            acceleration: vec![Vector::zeros(); total],
+            momentum: nothing.clone(),
+            force: nothing.clone(),
+            velocity: nothing.clone(),
+            acceleration: nothing,
         }
+    }
+
+    /// m_i of a node.
+    pub fn mass(&self, node: usize) -> T {
+        self.momentum[node].last()
     }
 
     /// v_i = (mv)_i / m_i; 0 on empty nodes.
     pub fn velocity_from_momentum(&mut self) {
-        divide_by_mass(&self.momentum, &self.mass, self.mass_floor, &mut self.velocity);
+        divide_by_mass(&self.momentum, &self.momentum, self.mass_floor, &mut self.velocity);
     }
 
     /// a_i = f_i / m_i; 0 on empty nodes.
     pub fn acceleration_from_force(&mut self) {
-        divide_by_mass(&self.force, &self.mass, self.mass_floor, &mut self.acceleration);
+        divide_by_mass(&self.force, &self.momentum, self.mass_floor, &mut self.acceleration);
     }
 
     /// v_i += dt a_i.
     pub fn kick(&mut self, time_step: T) {
         for (velocity, acceleration) in self.velocity.iter_mut().zip(&self.acceleration) {
-            *velocity += acceleration * time_step;
+            *velocity += *acceleration * time_step;
         }
     }
 }
 
-/// `extensive` / `mass`; 0 on nodes with no more mass than `mass_floor`.
-pub(crate) fn divide_by_mass<T: Real, const D: usize>(
-    extensive: &[Vector<T, D>],
-    mass: &[T],
+/// The vectors of `extensive` over the masses along with `momentum`; 0 on nodes with no more mass than
+/// `mass_floor`.
+pub(crate) fn divide_by_mass<T: Real>(
+    extensive: &[Nodal<T>],
+    momentum: &[Nodal<T>],
     mass_floor: T,
-    out: &mut [Vector<T, D>],
+    out: &mut [Nodal<T>],
 ) {
-    for ((out, extensive), &mass) in out.iter_mut().zip(extensive).zip(mass) {
-        *out = if mass > mass_floor { extensive / mass } else { Vector::zeros() };
+    for ((out, extensive), momentum) in out.iter_mut().zip(extensive).zip(momentum) {
+        let mass = momentum.last();
+        *out = if mass > mass_floor {
+            let Nodal([x, y, z, _]) = *extensive / mass;
+            Nodal([x, y, z, T::zero()])
+        } else {
+            Nodal::zero()
+        };
     }
 }

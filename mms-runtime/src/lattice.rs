@@ -33,6 +33,8 @@ pub struct Lattice<T, const D: usize> {
     pub lower: Vector<T, D>,
     /// Distance h between knots along each axis.
     pub cell_size: Vector<T, D>,
+    /// 1/h.
+    pub per_length: Vector<T, D>,
     /// Nodes along each axis.
     pub count: [usize; D],
     /// Distance in the arrays between neighbours along each axis.
@@ -41,9 +43,12 @@ pub struct Lattice<T, const D: usize> {
     pub degree: usize,
     /// The cells along each axis.
     pub axes: [Axis; D],
+    /// [`Axis::ends`] as lengths in cells.
+    pub ends: [[T; 2]; D],
     /// The period along each axis, in cells, where there is one.
     pub period: [Option<T>; D],
-    coordinate: [Vec<T>; D],
+    /// The coordinates of the nodes along each axis.
+    pub coordinate: [Vec<T>; D],
 }
 
 impl<T: Real, const D: usize> Lattice<T, D> {
@@ -68,6 +73,8 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         Ok(Self {
             lower: Vector::from_fn(|a, _| T::of(axes[a].lower)),
             cell_size: Vector::from_fn(|a, _| T::of(axes[a].cell_size)),
+            per_length: Vector::from_fn(|a, _| T::of(1.0 / axes[a].cell_size)),
+            ends: std::array::from_fn(|a| axes[a].ends.map(|end| T::of(end as f64))),
             stride: std::array::from_fn(|a| count[..a].iter().product()),
             period: std::array::from_fn(|a| {
                 periodic[a].then(|| T::of(axes[a].body[1] - axes[a].body[0]))
@@ -101,9 +108,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     }
 
     /// A position in cells from the first knot, within the period where there is one.
+    #[inline(always)]
     pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
-        let mut cells = (position - self.lower).component_div(&self.cell_size);
+        let mut cells = *position;
         for a in 0..D {
+            cells[a] = (position[a] - self.lower[a]) * self.per_length[a];
             if let Some(period) = self.period[a] {
                 let start = T::of(self.axes[a].body[0]);
                 let periods = ((cells[a] - start) / period).floor();

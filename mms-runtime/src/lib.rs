@@ -17,19 +17,20 @@
 //! consistent system works.
 
 mod extension;
-mod spline;
+pub mod spline;
 
 pub mod body;
 pub mod boundary;
 pub mod failure;
 pub mod field;
 pub mod formulation;
+pub mod gimp;
 pub mod grid;
 pub mod integrator;
 pub mod lattice;
-pub mod mapping;
 pub mod material;
 pub mod method;
+pub mod nodal;
 pub mod particle;
 pub mod shape;
 pub mod solver;
@@ -53,7 +54,7 @@ pub use material::Material;
 pub use method::{Division, Method, Setup};
 pub use shape::ShapeName;
 pub use solver::Solver;
-pub use study::{Errors, Judgement, Level, Run, Verdict, run, run_level};
+pub use study::{Errors, Judgement, Level, Run, Solve, Verdict, run_level};
 pub use transfer::Transfer;
 
 /// A vector with `D` components.

@@ -7,6 +7,9 @@ use crate::body::Fill;
 use crate::shape::{Shape, ShapeVisitor};
 use crate::{FormulationName, IntegratorName, Refusal, ShapeName, Transfer};
 
+/// More threads than this are refused.
+const MOST_THREADS: f64 = 1024.0;
+
 /// Numbers of cells, or of particles per cell, along the axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Division {
@@ -93,6 +96,8 @@ pub struct Setup {
     pub time_step: Option<f64>,
     /// When the run ends, instead of at the end of the field's time window.
     pub end_time: Option<f64>,
+    /// How many threads work on one run, from 1. Its results do not depend on it.
+    pub threads: usize,
 }
 
 impl Setup {
@@ -105,6 +110,7 @@ impl Setup {
         if let Transfer::Flip { fraction } = self.transfer {
             within("the fraction of FLIP", fraction, 0.0, 1.0)?;
         }
+        within("the number of threads", self.threads as f64, 1.0, MOST_THREADS)?;
         within("the jitter", self.jitter, 0.0, 1.0)?;
         self.offset.iter().try_for_each(|&part| within("the grid's offset", part, 0.0, 1.0))
     }
@@ -124,6 +130,7 @@ impl Default for Setup {
             courant: 0.4,
             time_step: None,
             end_time: None,
+            threads: 1,
         }
     }
 }

@@ -1,14 +1,16 @@
 //! The particles: structure of arrays, entry `p` of every array belongs to particle `p`.
 
 use crate::body::Filling;
-use crate::{Matrix, Real, Vector};
+use crate::{Matrix, Real, Transfer, Vector};
 
 /// The state of all particles.
 ///
 /// The displacement is stored, not the position, and H, not F: so `f32` loses nothing to x - X and to
-/// F - I, and X never has to be recovered.
+/// F - I, and X never has to be recovered. The stress is not stored, for it follows from H.
 #[derive(Clone, Debug)]
 pub struct Particles<T, const D: usize> {
+    /// The number that a particle started with: the solver may change their order.
+    pub id: Vec<u32>,
     /// X.
     pub reference_position: Vec<Vector<T, D>>,
     /// d = x - X.
@@ -17,29 +19,40 @@ pub struct Particles<T, const D: usize> {
     pub velocity: Vec<Vector<T, D>>,
     /// H = F - I.
     pub displacement_gradient: Vec<Matrix<T, D>>,
-    /// tau in the updated formulation, P in the total one.
-    pub stress: Vec<Matrix<T, D>>,
     /// b, per unit mass.
     pub body_force: Vec<Vector<T, D>>,
     /// m.
     pub mass: Vec<T>,
     /// V0.
     pub reference_volume: Vec<T>,
+    /// C, the linear velocity on each particle; only with APIC.
+    pub affine: Vec<Matrix<T, D>>,
+    /// (I - S S+)^m v, what the grid does not represent of the velocity; only with XPIC.
+    pub residual: Vec<Vector<T, D>>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
-    /// The particles that fill a body, undeformed, at rest and without mass.
-    pub fn new(filling: &Filling<D>) -> Self {
+    /// The particles that fill a body, undeformed, at rest and without mass. C is 0: the first map of APIC
+    /// loses what is of second order in h.
+    pub fn new(filling: &Filling<D>, transfer: Transfer) -> Self {
         let count = filling.len();
+        let (affine, residual) = match transfer {
+            Transfer::Apic => (count, 0),
+            Transfer::Xpic { .. } => (0, count),
+            Transfer::Flip { .. } | Transfer::Pic => (0, 0),
+        };
         Self {
+            // Fillings are limited to less than that.
+            id: (0..count as u32).collect(),
             reference_position: filling.position.iter().map(|x| x.map(T::of)).collect(),
             displacement: vec![Vector::zeros(); count],
             velocity: vec![Vector::zeros(); count],
             displacement_gradient: vec![Matrix::zeros(); count],
-            stress: vec![Matrix::zeros(); count],
             body_force: vec![Vector::zeros(); count],
             mass: vec![T::zero(); count],
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
+            affine: vec![Matrix::zeros(); affine],
+            residual: vec![Vector::zeros(); residual],
         }
     }
 
@@ -54,7 +67,141 @@ impl<T: Real, const D: usize> Particles<T, D> {
     }
 
     /// x = X + d of one particle.
+    #[inline(always)]
     pub fn position(&self, particle: usize) -> Vector<T, D> {
         self.reference_position[particle] + self.displacement[particle]
+    }
+
+    /// What is kept of one particle, in bytes.
+    pub fn bytes_per_particle(&self) -> usize {
+        let held = |one: usize, len: usize| one * len / self.len().max(1);
+        size_of::<u32>()
+            + 3 * size_of::<Vector<T, D>>()
+            + size_of::<Matrix<T, D>>()
+            + held(size_of::<Vector<T, D>>(), self.body_force.len())
+            + 2 * size_of::<T>()
+            + held(size_of::<Matrix<T, D>>(), self.affine.len())
+            + held(size_of::<Vector<T, D>>(), self.residual.len())
+    }
+
+    /// Puts particle `order[p]` in place `p`, in every array.
+    pub(crate) fn reorder(&mut self, order: &mut [u32]) {
+        let Self {
+            id,
+            reference_position,
+            displacement,
+            velocity,
+            displacement_gradient,
+            body_force,
+            mass,
+            reference_volume,
+            affine,
+            residual,
+        } = self;
+        reorder(id, order);
+        reorder(reference_position, order);
+        reorder(displacement, order);
+        reorder(velocity, order);
+        reorder(displacement_gradient, order);
+        reorder(body_force, order);
+        reorder(mass, order);
+        reorder(reference_volume, order);
+        reorder(affine, order);
+        reorder(residual, order);
+    }
+
+    /// X, and what a step changes.
+    pub(crate) fn columns(&mut self) -> (&[Vector<T, D>], Columns<'_, T, D>) {
+        let columns = Columns {
+            start: 0,
+            displacement: &mut self.displacement,
+            velocity: &mut self.velocity,
+            displacement_gradient: &mut self.displacement_gradient,
+            affine: &mut self.affine,
+            residual: &mut self.residual,
+        };
+        (&self.reference_position, columns)
+    }
+}
+
+/// Marks, in an order, the places that are done.
+const DONE: u32 = 1 << 31;
+
+/// Puts item `order[p]` in place `p`, cycle by cycle; an array that is empty stays so.
+pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
+    if items.is_empty() {
+        return;
+    }
+    for first in 0..order.len() {
+        let mut place = first;
+        while order[place] & DONE == 0 {
+            let from = order[place] as usize;
+            order[place] |= DONE;
+            if from != first {
+                items.swap(place, from);
+            }
+            place = from;
+        }
+    }
+    order.iter_mut().for_each(|from| *from &= !DONE);
+}
+
+/// What a step changes of the particles from `start` on.
+pub(crate) struct Columns<'a, T, const D: usize> {
+    pub start: usize,
+    pub displacement: &'a mut [Vector<T, D>],
+    pub velocity: &'a mut [Vector<T, D>],
+    pub displacement_gradient: &'a mut [Matrix<T, D>],
+    pub affine: &'a mut [Matrix<T, D>],
+    pub residual: &'a mut [Vector<T, D>],
+}
+
+impl<T, const D: usize> Columns<'_, T, D> {
+    pub fn len(&self) -> usize {
+        self.displacement.len()
+    }
+
+    /// The first `count` particles, and the others.
+    pub fn split(self, count: usize) -> [Self; 2] {
+        let (displacement, displacements) = self.displacement.split_at_mut(count);
+        let (velocity, velocities) = self.velocity.split_at_mut(count);
+        let (gradient, gradients) = self.displacement_gradient.split_at_mut(count);
+        let (affine, affines) = self.affine.split_at_mut(count.min(self.affine.len()));
+        let (residual, residuals) = self.residual.split_at_mut(count.min(self.residual.len()));
+        let first = Self {
+            start: self.start,
+            displacement,
+            velocity,
+            displacement_gradient: gradient,
+            affine,
+            residual,
+        };
+        let others = Self {
+            start: self.start + count,
+            displacement: displacements,
+            velocity: velocities,
+            displacement_gradient: gradients,
+            affine: affines,
+            residual: residuals,
+        };
+        [first, others]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reorder;
+
+    #[test]
+    fn an_order_is_applied_to_every_array_alike() {
+        let mut order = [3, 0, 1, 2, 5, 4, 6];
+        let mut letters = ['a', 'b', 'c', 'd', 'e', 'f', 'g'];
+        let mut nothing: [char; 0] = [];
+        reorder(&mut nothing, &mut order);
+        reorder(&mut letters, &mut order);
+        assert_eq!(letters, ['d', 'a', 'b', 'c', 'f', 'e', 'g']);
+        let mut numbers = [0, 1, 2, 3, 4, 5, 6];
+        reorder(&mut numbers, &mut order);
+        assert_eq!(numbers, [3, 0, 1, 2, 5, 4, 6]);
     }
 }

@@ -1,23 +1,28 @@
 //! The explicit MPM/GIMP solver.
 //!
-//! The solver owns particles and grid; [`mapping`](crate::mapping) computes the sums between them over
-//! plain slices, the [`Integrator`] says in which order, through
+//! The solver owns particles and grid; `map` and `advance` compute the sums between them, each in one pass
+//! over the particles, and the [`Integrator`] says in which order, through
 //! [`Operations`](crate::integrator::Operations). A step allocates nothing.
 
+mod advance;
 mod clock;
-mod exchange;
+mod map;
 mod operations;
+mod scene;
 mod setup;
+mod slabs;
+mod threads;
 
 use crate::boundary::Boundary;
 use crate::formulation::Formulation;
 use crate::integrator::Integrator;
+use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
-use crate::{Cause, Failure, Grid, ManufacturedField, Real, Vector};
+use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
-use exchange::Exchange;
+use slabs::Slabs;
 
 pub use clock::Seconds;
 
@@ -30,8 +35,16 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape, L> {
     domains: Vec<S::Domain<T, D>>,
     grid: Grid<T, D>,
     boundary: Boundary<T, D>,
-    stencils: Vec<S::Stencil<T, D>>,
-    exchange: Exchange<T, D>,
+    transfer: Transfer,
+    slabs: Slabs,
+    /// The weights at the beginning of the step, if the integrator asks for them once more when the state has
+    /// changed; or for good, in the total formulation.
+    weights: Vec<S::Stencil<T, D>>,
+    keeps_weights: bool,
+    /// XPIC: what is left of the velocity, mapped to nodes, and over their mass.
+    residual: [Vec<Nodal<T>>; 2],
+    /// Whether a state may be bad.
+    suspect: bool,
     seconds: Seconds,
     formulation: std::marker::PhantomData<L>,
 }
@@ -48,13 +61,14 @@ where
     /// What the step led to, or could not do.
     pub fn step<I: Integrator>(&mut self) -> Result<(), Failure> {
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
+        self.keeps_weights = I::KEEPS_WEIGHTS || !L::MOVES;
         I::step::<T>(self).map_err(|failure| Failure { step, time, ..failure })?;
         self.clock.step += 1;
         self.clock.lag = I::LAG;
-        self.check()
+        if std::mem::take(&mut self.suspect) { self.check() } else { Ok(()) }
     }
 
-    /// Checks the state: J > 0, and displacement, velocity, H and stress finite.
+    /// Checks the state: J > 0, and displacement, velocity and H finite.
     ///
     /// # Errors
     /// The first particle that is not so.
@@ -73,7 +87,6 @@ where
                 ("displacement", is_finite(&particles.displacement[p])),
                 ("velocity", is_finite(&particles.velocity[p])),
                 ("displacement gradient", matrix_is_finite(&particles.displacement_gradient[p])),
-                ("stress", matrix_is_finite(&particles.stress[p])),
             ];
             if let Some((quantity, _)) = suspect.into_iter().find(|(_, finite)| !finite) {
                 return Err(self.failure(p, Cause::NotFinite { quantity }));
@@ -87,7 +100,7 @@ where
         Failure {
             step: self.clock.step,
             time: self.clock.time_of(self.clock.step),
-            particle: Some(particle),
+            particle: Some(self.particles.id[particle] as usize),
             reference_position: components(&self.particles.reference_position[particle]),
             cause,
         }
@@ -131,10 +144,5 @@ where
     /// What the parts of the steps so far have taken.
     pub fn seconds(&self) -> Seconds {
         self.seconds
-    }
-
-    /// Where the weights of a particle are taken.
-    fn place(particles: &Particles<T, D>, p: usize) -> Vector<T, D> {
-        if L::MOVES { particles.position(p) } else { particles.reference_position[p] }
     }
 }

@@ -1,108 +1,72 @@
-//! The nodes of one particle, with their weights w_ip and weight gradients grad w_ip.
+//! The nodes of one particle, with their weights w_ip and weight gradients grad w_ip; the sums between it
+//! and its nodes.
+//!
+//! There are two sums, each the transpose of the other: [`Stencil::spread`] adds
+//! w q + sum_a (grad w)_a Q_a to the nodes, and [`Stencil::collect`] returns sum_i w q_i and
+//! sum_i (grad w)_a q_i. Mass, momentum and forces, interpolated velocities and their gradients are all
+//! of that kind, and so is the linear velocity of APIC, with the moments w (x_i - x_p)_a in place of
+//! (grad w)_a.
 
+mod tensor;
+
+use mms_math::machine::Machine;
+
+use crate::nodal::Nodal;
 use crate::{Lattice, Real, Vector};
 
+pub use tensor::Tensor;
+
 /// The nodes that a particle touches.
-pub trait Stencil<T: Real, const D: usize>: Clone + Send + Sync {
+///
+/// The sums go over four numbers of a node at a time, by a `machine` of the processor.
+pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     /// Calls `visit(i, w_ip, grad w_ip)` for every node i; a node may come more than once, and its
     /// weights then add up.
     fn each(&self, visit: impl FnMut(usize, T, Vector<T, D>));
 
-    /// sum_i w_ip q_i: the nodal quantity at the particle.
-    fn interpolate(&self, nodal: &[Vector<T, D>]) -> Vector<T, D> {
-        let mut sum = Vector::zeros();
-        self.each(|i, w, _| sum += nodal[i] * w);
-        sum
-    }
-}
+    /// Counts nodes from `first` on, if none is before.
+    fn shift(&mut self, first: usize);
 
-/// The weights along one axis: those of the nodes `first`, `first + 1`, ...
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisWeights<T, const N: usize> {
-    /// The first node with a weight.
-    pub first: i64,
-    /// How many nodes there are, `first` included; at most `N`.
-    pub count: usize,
-    /// The weights; those past `count` mean nothing.
-    pub weight: [T; N],
-    /// Their derivatives by the position in cells.
-    pub slope: [T; N],
-}
+    /// q_i += w q for every node i.
+    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: &mut [Nodal<T>]);
 
-impl<T: Real, const N: usize> AxisWeights<T, N> {
-    /// `count` weights from node `first` on; `formula` gives the weight and its derivative for a
-    /// particle at the given offset (in cells) from a node.
-    pub fn new(position: T, first: T, count: usize, formula: impl Fn(T) -> (T, T)) -> Self {
-        let node = first.to_f64();
-        let mut weights = Self {
-            // What is not finite is on no grid.
-            first: if node.is_finite() { node as i64 } else { i64::MIN },
-            count: count.min(N),
-            weight: [T::zero(); N],
-            slope: [T::zero(); N],
-        };
-        let mut offset = position - first;
-        for k in 0..weights.count {
-            (weights.weight[k], weights.slope[k]) = formula(offset);
-            offset -= T::one();
-        }
-        weights
-    }
-}
+    /// q_i += w q + sum_a (grad w)_a Q_a for every node i, with q the `value` and Q the `slopes`.
+    fn spread<M: Machine<T>>(
+        &self,
+        machine: M,
+        value: M::Four,
+        slopes: [M::Four; D],
+        nodes: &mut [Nodal<T>],
+    );
 
-/// A stencil that is the product of the weights along the axes.
-#[derive(Clone, Copy, Debug)]
-pub struct Tensor<T, const D: usize, const N: usize> {
-    /// Index of the first node in the grid's arrays.
-    first: usize,
-    /// Distance in the grid's arrays between neighbours along each axis.
-    stride: [usize; D],
-    /// Weights along each axis; their slopes are per length here, not per cell.
-    axes: [AxisWeights<T, N>; D],
-}
+    /// sum_i w q_i.
+    fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four;
 
-impl<T: Real, const D: usize, const N: usize> Tensor<T, D, N> {
-    /// The stencil with these weights along each axis, or `None` if it does not fit on the grid.
-    pub fn new(
+    /// sum_i w q_i, and sum_i (grad w)_a q_i for every axis a.
+    fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]);
+
+    /// As [`spread`](Stencil::spread), with the moments w (x_i - x_p)_a in place of (grad w)_a.
+    fn spread_moments<M: Machine<T>>(
+        &self,
+        machine: M,
         lattice: &Lattice<T, D>,
-        weights: impl Fn(usize) -> AxisWeights<T, N>,
-    ) -> Option<Self> {
-        let mut first = 0;
-        let mut axes = std::array::from_fn(weights);
-        for (a, axis) in axes.iter_mut().enumerate() {
-            let start = usize::try_from(axis.first).ok()?;
-            if start + axis.count > lattice.count[a] {
-                return None;
-            }
-            first += start * lattice.stride[a];
-            let per_length = T::one() / lattice.cell_size[a];
-            axis.slope.iter_mut().for_each(|slope| *slope *= per_length);
-        }
-        Some(Self { first, stride: lattice.stride, axes })
-    }
+        value: M::Four,
+        slopes: [M::Four; D],
+        nodes: &mut [Nodal<T>],
+    );
+
+    /// The slopes of the linear function that is nearest to q_i, as the weights measure it:
+    /// (sum_i w q_i (x) (x_i - x_p)) (sum_i w (x_i - x_p) (x) (x_i - x_p))^-1, if there is such.
+    fn collect_slopes<M: Machine<T>>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        nodes: &[Nodal<T>],
+    ) -> [M::Four; D];
 }
 
-impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> {
-    #[inline(always)]
-    fn each(&self, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
-        let Self { first, stride, axes } = self;
-        let counts = |a: usize| if a < D { axes[a].count } else { 1 };
-        let factor = |a: usize, k: usize| if a < D { axes[a].weight[k] } else { T::one() };
-        for k2 in 0..counts(2) {
-            for k1 in 0..counts(1) {
-                for k0 in 0..counts(0) {
-                    let k = [k0, k1, k2];
-                    let node = (0..D).map(|a| k[a] * stride[a]).sum::<usize>() + first;
-                    let weight = factor(0, k0) * factor(1, k1) * factor(2, k2);
-                    let gradient = Vector::from_fn(|a, _| {
-                        (0..D).fold(T::one(), |product, b| {
-                            let axis = &axes[b];
-                            product * if a == b { axis.slope[k[b]] } else { axis.weight[k[b]] }
-                        })
-                    });
-                    visit(node, weight, gradient);
-                }
-            }
-        }
-    }
+/// node += a x.
+#[inline(always)]
+fn add<T: Real, M: Machine<T>>(machine: M, node: &mut Nodal<T>, a: M::Four, x: M::Four) {
+    *node = Nodal(machine.numbers(machine.times_plus(a, x, machine.four(&node.0))));
 }

@@ -5,7 +5,7 @@ mod common;
 use FormulationName::{Total, Updated};
 use ShapeName::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Ugimp};
 use common::{AxisAligned, Bar, method, wave::Wave};
-use mms_runtime::study::{Level, observed_order, run_level};
+use mms_runtime::study::{Level, Solve, observed_order, run_level};
 use mms_runtime::{
     Body, Condition, Errors, Face, FormulationName, IntegratorName, ManufacturedField, Method,
     Setup, ShapeName, Vector,
@@ -21,7 +21,10 @@ fn level<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     method: &Method,
     cells: &str,
-) -> Level {
+) -> Level
+where
+    f64: Solve<D>,
+{
     run_level(field, method, &cells.parse().unwrap(), &mut |_, _| {}).unwrap()
 }
 
@@ -31,7 +34,9 @@ fn check_order<const D: usize>(
     method: &Method,
     cells: [&str; 2],
     bounds: std::ops::Range<f64>,
-) {
+) where
+    f64: Solve<D>,
+{
     let levels = cells.map(|cells| level(field, method, cells));
     let sizes = [0, 1].map(|k| levels[k].cell_size);
     let errors = levels.map(|level| level.errors.unwrap_or_else(|e| panic!("{method:?}: {e}")));

@@ -4,11 +4,14 @@ mod common;
 
 use common::{AxisAligned, levels, method};
 use mms_runtime::study::orders;
-use mms_runtime::{IntegratorName, Method, ShapeName};
+use mms_runtime::{IntegratorName, Method, ShapeName, Solve};
 
 const UNIT_CUBE: AxisAligned = AxisAligned { amplitude: 0.05, lower: 0.0 };
 
-fn finest_orders<const D: usize>(cells: &[usize]) -> [f64; 2] {
+fn finest_orders<const D: usize>(cells: &[usize]) -> [f64; 2]
+where
+    f64: Solve<D>,
+{
     let levels = levels::<f64, D>(&UNIT_CUBE, &Method::default(), cells);
     let orders = orders(&levels[levels.len() - 2], &levels[levels.len() - 1]);
     [orders.l2.unwrap(), orders.linf.unwrap()]
@@ -30,7 +33,10 @@ fn axis_aligned_motion_converges_in_three_dimensions() {
 
 /// The motion is odd in every X_i: the cube from -1 to 1 without inner walls, and one of its 2^D parts with
 /// rollers, are the same; splines end at the walls instead. With fixed domains and compression at the walls, weights do reach past them.
-fn parts_and_whole<const D: usize>(cells: usize) {
+fn parts_and_whole<const D: usize>(cells: usize)
+where
+    f64: Solve<D>,
+{
     let whole_cube = AxisAligned { lower: -1.0, ..UNIT_CUBE };
     for shape in [ShapeName::Linear, ShapeName::Ugimp, ShapeName::Cpgimp, ShapeName::Cpdi] {
         for &integrator in IntegratorName::ALL {

@@ -2,7 +2,6 @@
 
 mod common;
 
-use std::cell::Cell;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Affine, Bar, method, methods, wave::Wave};
@@ -11,8 +10,8 @@ use mms_runtime::shape::Cpgimp;
 use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
     Body, Cause, Condition, Division, Domain, Face, Failure, Fill, FormulationName, IntegratorName,
-    ManufacturedField, Material, Matrix, Method, Real, Refusal, Setup, ShapeName, Solver, Transfer,
-    Vector,
+    ManufacturedField, Material, Matrix, Method, Refusal, Setup, ShapeName, Solve, Solver,
+    Transfer, Vector,
 };
 
 /// The bar, with something spoilt.
@@ -75,7 +74,7 @@ impl ManufacturedField<f64, 1> for Spoilt {
     }
 }
 
-fn run<T: Real>(
+fn run<T: Solve<1>>(
     field: &dyn ManufacturedField<T, 1>,
     method: &Method,
     cells: usize,
@@ -97,7 +96,10 @@ fn refused<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     setup: Setup,
     cells: &Division,
-) -> Refusal {
+) -> Refusal
+where
+    f64: Solve<D>,
+{
     run_level(field, &with(setup), cells, &mut |_, _| {}).unwrap_err()
 }
 
@@ -274,10 +276,9 @@ fn a_value_that_is_not_a_number_stops_the_run_in_its_step() {
     for &integrator in IntegratorName::ALL {
         let field = Spoilt { spoilt_from: 5, body_force: f64::NAN, ..Spoilt::domain(|_| ()) };
         let method = method(ShapeName::Cpgimp, integrator);
-        let progress = Cell::new(0);
-        let level =
-            run_level(&field, &method, &8.into(), &mut |step, _| progress.set(step)).unwrap();
-        assert_eq!(progress.get(), 5, "{integrator}");
+        let mut progress = 0;
+        let level = run_level(&field, &method, &8.into(), &mut |step, _| progress = step).unwrap();
+        assert_eq!(progress, 5, "{integrator}");
         let failure = failure(level);
         assert_eq!(failure.step, 6);
         assert!(matches!(failure.cause, Cause::NotFinite { .. }), "{failure}");

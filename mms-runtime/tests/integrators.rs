@@ -9,8 +9,8 @@ use mms_runtime::integrator::{Integrator, IntegratorVisitor};
 use mms_runtime::shape::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Shape};
 use mms_runtime::study::observed_order;
 use mms_runtime::{
-    Condition, Division, Face, FormulationName, IntegratorName, ManufacturedField, Method, Real,
-    Setup, ShapeName, Solver, Transfer,
+    Condition, Division, Face, FormulationName, IntegratorName, ManufacturedField, Method, Setup,
+    ShapeName, Solve, Solver, Transfer,
 };
 
 const EIGHT: Division = Division::Uniform(8);
@@ -22,7 +22,7 @@ fn transfers() -> Vec<Transfer> {
 }
 
 /// A uniform velocity is what all transfers give back; nothing may be left but round-off.
-fn free_flight<T: Real, const D: usize>(cells: usize, methods: &[Method]) {
+fn free_flight<T: Solve<D>, const D: usize>(cells: usize, methods: &[Method]) {
     let field = Affine::flight([0.7, -0.4, 0.3]);
     for method in methods {
         let level = &levels::<T, D>(&field, method, &[cells])[0];
@@ -157,7 +157,7 @@ fn is_contiguous(method: &Method) -> bool {
 }
 
 /// A uniformly stretched body at rest stays at rest.
-fn patch<T: Real, const D: usize>(stretch: f64) {
+fn patch<T: Solve<D>, const D: usize>(stretch: f64) {
     let field = Affine::patch(stretch);
     for method in methods().into_iter().filter(is_contiguous) {
         let level = &levels::<T, D>(&field, &method, &[4])[0];
@@ -233,7 +233,10 @@ fn runs_repeat_bit_for_bit() {
 }
 
 /// A reflected scene runs as the reflection of its run: nothing prefers a direction.
-fn reflections<const D: usize>(wave: &Wave<D>, cells: usize, transfers: &[Transfer]) {
+fn reflections<const D: usize>(wave: &Wave<D>, cells: usize, transfers: &[Transfer])
+where
+    f64: Solve<D>,
+{
     for mut method in methods() {
         method.setup.end_time = Some(0.2); // before linear weights have gone wild
         for &transfer in transfers {

@@ -6,9 +6,9 @@ use common::{Affine, levels, method, methods, spin::Spin, wave::Wave};
 use mms_runtime::formulation::{Formulation, Total, Updated};
 use mms_runtime::integrator::Leapfrog;
 use mms_runtime::shape::{Cpdi, Cpgimp, Linear, QuadraticBspline, Shape};
-use mms_runtime::study::{Details, Watch, run};
+use mms_runtime::study::{Details, Watch};
 use mms_runtime::{
-    FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName, Solver,
+    FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName, Solve, Solver,
 };
 
 /// What is measured of a run that reaches its end.
@@ -16,8 +16,11 @@ fn details<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     method: &Method,
     cells: usize,
-) -> Details {
-    let run = run(field, method, &cells.into(), Watch::Everything, &mut |_, _| {}).unwrap();
+) -> Details
+where
+    f64: Solve<D>,
+{
+    let run = f64::run(field, method, &cells.into(), Watch::Everything, &mut |_, _| {}).unwrap();
     run.details.unwrap_or_else(|| panic!("{method:?}: {:?}", run.level.errors))
 }
 
@@ -26,7 +29,10 @@ const SHEAR: [[f64; 3]; 3] = [[0.3, 0.4, 0.0], [-0.1, -0.2, 0.1], [0.0, 0.0, 0.1
 
 /// x = (I + t H1) X: velocities that stay as they are and are linear in X. In the reference configuration hat
 /// functions represent them, particles lie alike on both sides of a node, and every integrator is exact.
-fn uniform_rates<const D: usize>() {
+fn uniform_rates<const D: usize>()
+where
+    f64: Solve<D>,
+{
     for rate in [STRETCH, SHEAR] {
         let field = Affine { h1: rate, ..Affine::patch(0.0) };
         for method in methods() {

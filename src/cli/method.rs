@@ -76,6 +76,10 @@ pub struct MethodOptions {
     /// When to end, instead of at the end of the field's time window.
     #[arg(long = "time", value_name = "T")]
     end_time: Option<f64>,
+    /// How many threads work on one run; by default as many as there are processors. Results do not
+    /// depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<std::num::NonZeroUsize>,
     /// The precision to compute in.
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
@@ -147,6 +151,10 @@ impl MethodOptions {
             courant: self.courant,
             time_step: self.time_step,
             end_time: self.end_time,
+            threads: self
+                .threads
+                .or(std::thread::available_parallelism().ok())
+                .map_or(1, Into::into),
         };
         let Self { shape, integrator, formulation, .. } = *self;
         let method = Method { shape, integrator, formulation, setup };

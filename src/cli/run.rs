@@ -1,7 +1,7 @@
 //! `mms run`: one simulation.
 
 use clap::Args;
-use mms_runtime::study::{Solve, Watch};
+use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method, Refusal};
 
 use super::input::{Input, Variant};
@@ -9,7 +9,7 @@ use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, print, print_json};
 use crate::report::run::Run as Report;
-use crate::scene::Scene;
+use crate::scene::{Scene, Solvable};
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
 #[derive(Args)]
@@ -72,7 +72,7 @@ impl Run {
         Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
     }
 
-    fn solve<T: Solve>(
+    fn solve<T: Solvable>(
         &self,
         scene: &Scene<T>,
         method: &Method,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_runtime::study::{Solve, TOLERANCE, judge};
+use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Division, Level, Method, Verdict};
 
 use super::input::{Input, Variant};
@@ -12,7 +12,7 @@ use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, print, print_json};
 use crate::report::{Refused, Study as Report};
-use crate::scene::Scene;
+use crate::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///
@@ -123,7 +123,11 @@ impl Study {
         Ok(())
     }
 
-    fn levels<T: Solve>(&self, scene: &Scene<T>, method: &Method) -> Vec<Result<Level, Refused>> {
+    fn levels<T: Solvable>(
+        &self,
+        scene: &Scene<T>,
+        method: &Method,
+    ) -> Vec<Result<Level, Refused>> {
         let mut cells = self.cells.clone();
         if cells.is_empty() {
             cells.extend(scene.default_cells().iter().map(|&cells| Division::Uniform(cells)));

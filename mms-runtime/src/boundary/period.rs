@@ -3,7 +3,8 @@
 //! Weights reach past both ends of the period. What nodes outside it receive goes to those inside, and
 //! nodes outside move like them.
 
-use crate::{Lattice, Real, Vector};
+use crate::nodal::Nodal;
+use crate::{Lattice, Real};
 
 /// Pairs of a node outside the period and the one inside that it repeats.
 pub struct Period {
@@ -25,24 +26,16 @@ impl Period {
         Some(Self { pairs: pairs.collect() })
     }
 
-    /// m_inside += m_outside, which leaves the nodes outside empty.
-    pub fn fold_mass<T: Real>(&self, mass: &mut [T]) {
+    /// q_inside += q_outside, for mass, momentum and force, which leaves the nodes outside empty.
+    pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
         for &(outside, inside) in &self.pairs {
-            let image = std::mem::replace(&mut mass[outside], T::zero());
-            mass[inside] += image;
-        }
-    }
-
-    /// q_inside += q_outside, for momentum and force.
-    pub fn fold<T: Real, const D: usize>(&self, extensive: &mut [Vector<T, D>]) {
-        for &(outside, inside) in &self.pairs {
-            let image = extensive[outside];
+            let image = std::mem::replace(&mut extensive[outside], Nodal::zero());
             extensive[inside] += image;
         }
     }
 
     /// q_outside = q_inside, for velocity and acceleration.
-    pub fn copy<T: Real, const D: usize>(&self, intensive: &mut [Vector<T, D>]) {
+    pub fn copy<T: Real>(&self, intensive: &mut [Nodal<T>]) {
         for &(outside, inside) in &self.pairs {
             intensive[outside] = intensive[inside];
         }

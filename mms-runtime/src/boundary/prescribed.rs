@@ -8,6 +8,7 @@
 //! the field may be wild beyond its body.
 
 use super::surface::Surface;
+use crate::nodal::Nodal;
 use crate::tensor::{components, inverse_deformation_gradient, is_finite};
 use crate::{Cause, Failure, Grid, Lattice, ManufacturedField, Matrix, Real, Vector};
 
@@ -153,7 +154,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
                     continue;
                 }
                 let node = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>();
-                if grid.mass[node] <= grid.mass_floor {
+                if grid.mass(node) <= grid.mass_floor {
                     continue;
                 }
                 let distance = (lattice.position(node) - position).norm();
@@ -259,7 +260,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
     /// Writes the field's `exact` values to the nodes that are held.
     pub fn impose(
         &mut self,
-        nodal: &mut [Vector<T, D>],
+        nodal: &mut [Nodal<T>],
         exact: impl FnOnce(&[Vector<T, D>], &mut [Vector<T, D>]),
     ) {
         if self.nodes.is_empty() {
@@ -267,7 +268,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         }
         exact(&self.reference, &mut self.value);
         for ((&node, value), &sign) in self.nodes.iter().zip(&self.value).zip(&self.sign) {
-            nodal[node] = value * sign;
+            nodal[node] = Nodal::new(&(value * sign), T::zero());
         }
     }
 }

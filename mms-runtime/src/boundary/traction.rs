@@ -6,7 +6,10 @@
 //! P N A0, whose directions are given, let a body under pressure on all sides turn over. In the total
 //! formulation F_p is the field's, and they are just that.
 
+use mms_math::machine::Plain;
+
 use crate::body::Piece;
+use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::stencil::Stencil as _;
 use crate::tensor::{cofactor, components, jacobian};
@@ -75,7 +78,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         time: T,
         lattice: &Lattice<T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
-        force: &mut [Vector<T, D>],
+        force: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -102,7 +105,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
             let traction = kirchhoff_stress[k] * present_area / jacobian(exact);
             let stencil = S::point(lattice, &position).map_err(fail)?;
-            stencil.each(|i, w, _| force[i] += traction * w);
+            let traction = Nodal::new(&traction, T::zero());
+            stencil.spread_value(Plain, traction.0, force);
         }
         Ok(())
     }

@@ -4,7 +4,8 @@
 //! antisymmetrically, so nodes inside receive what their images (ghost nodes) got, and ghost nodes move
 //! opposite to the nodes inside, in velocity and acceleration alike.
 
-use crate::{Condition, Face, Lattice, Real, Refusal, Vector};
+use crate::nodal::{LAST, Nodal};
+use crate::{Condition, Face, Lattice, Real, Refusal};
 
 /// A wall: which nodes are on it, which are behind it, and which components it reflects.
 pub struct Wall {
@@ -59,31 +60,23 @@ impl Wall {
         Ok(wall)
     }
 
-    /// m_inside += m_ghost, which leaves the ghost nodes empty.
-    pub fn fold_mass<T: Real>(&self, mass: &mut [T]) {
+    /// q_inside += reflected q_ghost, for mass, momentum and force, which leaves the ghost nodes empty.
+    pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
         for &(ghost, inside) in &self.images {
-            let image = std::mem::replace(&mut mass[ghost], T::zero());
-            mass[inside] += image;
-        }
-    }
-
-    /// q_inside += reflected q_ghost, for momentum and force.
-    pub fn fold<T: Real, const D: usize>(&self, extensive: &mut [Vector<T, D>]) {
-        for &(ghost, inside) in &self.images {
-            let image = self.reflect(extensive[ghost]);
-            extensive[inside] += image;
+            let image = std::mem::replace(&mut extensive[ghost], Nodal::zero());
+            extensive[inside] += self.reflect(image);
         }
     }
 
     /// q_ghost = reflected q_inside, and 0 on the wall, for velocity and acceleration.
-    pub fn mirror<T: Real, const D: usize>(&self, intensive: &mut [Vector<T, D>]) {
+    pub fn mirror<T: Real>(&self, intensive: &mut [Nodal<T>]) {
         for &(ghost, inside) in &self.images {
             intensive[ghost] = self.reflect(intensive[inside]);
         }
         for &node in &self.on_wall {
             // Half of (q + reflected q) would do too, but leaves round-off.
-            for a in (0..D).filter(|&a| self.reflects(a)) {
-                intensive[node][a] = T::zero();
+            for a in (0..LAST).filter(|&a| self.reflects(a)) {
+                intensive[node].0[a] = T::zero();
             }
         }
     }
@@ -92,7 +85,10 @@ impl Wall {
         self.fixed || axis == self.axis
     }
 
-    fn reflect<T: Real, const D: usize>(&self, vector: Vector<T, D>) -> Vector<T, D> {
-        Vector::from_fn(|a, _| if self.reflects(a) { -vector[a] } else { vector[a] })
+    fn reflect<T: Real>(&self, mut node: Nodal<T>) -> Nodal<T> {
+        for a in (0..LAST).filter(|&a| self.reflects(a)) {
+            node.0[a] = -node.0[a];
+        }
+        node
     }
 }

@@ -11,9 +11,9 @@ extension_list! {
 }
 
 /// In which configuration weights and stresses are taken.
-pub trait Formulation: 'static {
-    /// Whether weights follow the present positions; otherwise they are those of the reference
-    /// positions, and computed once.
+pub trait Formulation: Send + Sync + 'static {
+    /// Whether weights follow the present positions, and dF/dt = L F with L = sum_i v_i (x) grad w;
+    /// otherwise weights are those of the reference positions, computed once, and dF/dt is that sum.
     const MOVES: bool;
 
     /// The stress that works on grad w per reference volume, from tau and H; `None` where F is singular.
@@ -21,10 +21,4 @@ pub trait Formulation: 'static {
         kirchhoff: &Matrix<T, D>,
         displacement_gradient: &Matrix<T, D>,
     ) -> Option<Matrix<T, D>>;
-
-    /// dF/dt, from sum_i v_i (x) grad w and H.
-    fn rate<T: Real, const D: usize>(
-        velocity_gradient: &Matrix<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Matrix<T, D>;
 }

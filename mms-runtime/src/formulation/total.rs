@@ -22,11 +22,4 @@ impl Formulation for Total {
         let inverse = inverse_deformation_gradient(displacement_gradient)?;
         Some(kirchhoff * inverse.transpose())
     }
-
-    fn rate<T: Real, const D: usize>(
-        velocity_gradient: &Matrix<T, D>,
-        _: &Matrix<T, D>,
-    ) -> Matrix<T, D> {
-        *velocity_gradient
-    }
 }

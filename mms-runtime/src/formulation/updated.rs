@@ -5,7 +5,6 @@
 //! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
 
 use super::Formulation;
-use crate::tensor::deformation_gradient;
 use crate::{Matrix, Real};
 
 /// Particles move through the grid.
@@ -19,12 +18,5 @@ impl Formulation for Updated {
         _: &Matrix<T, D>,
     ) -> Option<Matrix<T, D>> {
         Some(*kirchhoff)
-    }
-
-    fn rate<T: Real, const D: usize>(
-        velocity_gradient: &Matrix<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Matrix<T, D> {
-        velocity_gradient * deformation_gradient(displacement_gradient)
     }
 }

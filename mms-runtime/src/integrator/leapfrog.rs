@@ -5,7 +5,7 @@
 //! 10.1016/j.jcp.2008.07.019: with v at t^(n+1/2), and x, F and forces at t^n, every update is centred,
 //! and USL is of second order in time.
 
-use super::{Integrator, Operations};
+use super::{Integrator, Operations, Sum, Update};
 use crate::{Failure, Real};
 
 /// USL whose first kick is half a step, from the exact initial velocity to v at dt/2.
@@ -19,12 +19,11 @@ impl Integrator for Leapfrog {
         let (t, dt) = (solver.time(), solver.time_step());
         let half = T::ratio(1, 2) * dt;
         let (t_velocity, kick) = if solver.step_number() == 0 { (t, half) } else { (t - half, dt) };
-        solver.map_mass()?; //              m_i = sum w m
-        solver.map_velocity(t_velocity); // v_i = sum w m v / m_i, at t^(n-1/2)
-        solver.map_acceleration(t)?; //     a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.kick(kick, t + half); //     v_i += dt a_i, at t^(n+1/2)
-        solver.move_particles(kick, dt); // v += dt sum w a_i,  d += dt sum w v_i
-        solver.deform(dt); //               H += dt L F,  L = sum v_i (x) grad w
-        solver.update_stress() //           tau = tau(H)
+        // m_i = sum w m,  v_i = sum w m v / m_i at t^(n-1/2),  a_i = (- sum V0 tau grad w + sum w m b) / m_i
+        solver.map(&[Sum::Mass, Sum::Velocity(t_velocity), Sum::Acceleration(t)])?;
+        // v_i += dt a_i, at t^(n+1/2)
+        solver.kick(kick, t + half);
+        // v += dt sum w a_i,  d += dt sum w v_i,  H += dt L F,  L = sum v_i (x) grad w
+        solver.advance(&[Update::Velocity(kick), Update::Position(dt), Update::Deformation(dt)])
     }
 }

@@ -29,6 +29,11 @@ pub trait Integrator: 'static {
     /// done.
     const LAG: f64 = 0.0;
 
+    /// Whether a step asks for weights after it has moved or deformed the particles: they are those at t^n, and
+    /// so have to be kept. Else they are computed where they are used, twice a step, which takes less time
+    /// than to read them.
+    const KEEPS_WEIGHTS: bool = false;
+
     /// Advances particles and grid from t^n = `solver.time()` by one time step dt.
     ///
     /// The solver has checked the state before, and checks it afterwards.
@@ -38,7 +43,30 @@ pub trait Integrator: 'static {
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure>;
 }
 
-/// What integrators are made of; w = w_ip and grad w = grad w_ip are those at t^n throughout a step.
+/// A sum over particles, for the nodes; w = w_ip and grad w = grad w_ip are those at t^n throughout a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sum<T> {
+    /// m_i = sum_p w m_p, with weights at the present positions.
+    Mass,
+    /// v_i = sum_p w m_p v_p / m_i, with the boundary's velocity at this time.
+    Velocity(T),
+    /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, t) + tractions) / m_i at this time, with the boundary's
+    /// acceleration; S is tau(H), or P(H) in the total formulation.
+    Acceleration(T),
+}
+
+/// A change of the particles' state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Update<T> {
+    /// v += dt sum_i w a_i, or what the transfer has instead.
+    Velocity(T),
+    /// d += dt sum_i w v_i.
+    Position(T),
+    /// H += dt L F, L = sum_i v_i (x) grad w; without F in the total formulation.
+    Deformation(T),
+}
+
+/// What integrators are made of.
 ///
 /// It does not depend on dimension, shape function or field: an integrator is compiled once.
 pub trait Operations<T> {
@@ -51,34 +79,18 @@ pub trait Operations<T> {
     /// How many steps have been made.
     fn step_number(&self) -> usize;
 
-    /// Weights at the present positions, and m_i = sum_p w m_p.
+    /// These sums, in one pass over the particles.
     ///
     /// # Errors
-    /// A particle that the grid does not hold.
-    fn map_mass(&mut self) -> Result<(), Failure>;
-
-    /// v_i = sum_p w m_p v_p / m_i, with the boundary's velocity at `time`.
-    fn map_velocity(&mut self, time: T);
-
-    /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, time) + tractions) / m_i, with the boundary's
-    /// acceleration; S is tau, or P in the total formulation.
-    ///
-    /// # Errors
-    /// A piece of a face that the grid does not hold.
-    fn map_acceleration(&mut self, time: T) -> Result<(), Failure>;
+    /// A particle, or a piece of a face, that the grid does not hold; a particle without stress.
+    fn map(&mut self, sums: &[Sum<T>]) -> Result<(), Failure>;
 
     /// v_i += `time_step` a_i, with the boundary's velocity at `time`.
     fn kick(&mut self, time_step: T, time: T);
 
-    /// v += `kick` sum_i w a_i as the transfer has it, d += `time_step` sum_i w v_i.
-    fn move_particles(&mut self, kick: T, time_step: T);
-
-    /// H += `time_step` L F, L = sum_i v_i (x) grad w; without F in the total formulation.
-    fn deform(&mut self, time_step: T);
-
-    /// The stress of H.
+    /// These changes, in one pass over the particles.
     ///
     /// # Errors
-    /// F is singular, where the stress needs its inverse.
-    fn update_stress(&mut self) -> Result<(), Failure>;
+    /// A particle that the grid does not hold.
+    fn advance(&mut self, updates: &[Update<T>]) -> Result<(), Failure>;
 }

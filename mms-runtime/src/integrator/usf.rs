@@ -3,7 +3,7 @@
 //! Bardenhagen, "Energy conservation error in the material point method for solid mechanics", J. Comput.
 //! Phys. 180 (2002) 383-403. First order in time.
 
-use super::{Integrator, Operations};
+use super::{Integrator, Operations, Sum, Update};
 use crate::{Failure, Real};
 
 /// The deformation from the grid's velocity at t^n, then forces from the stress at t^(n+1).
@@ -11,16 +11,19 @@ pub struct Usf;
 
 impl Integrator for Usf {
     const FORMAL_ORDER: i32 = 1;
+    const KEEPS_WEIGHTS: bool = true;
 
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
-        solver.map_mass()?; //            m_i = sum w m
-        solver.map_velocity(t); //        v_i = sum w m v / m_i
-        solver.deform(dt); //             H += dt L F,  L = sum v_i (x) grad w
-        solver.update_stress()?; //       tau = tau(H)
-        solver.map_acceleration(t)?; //   a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.kick(dt, t + dt); //       v_i += dt a_i
-        solver.move_particles(dt, dt); // v += dt sum w a_i,  d += dt sum w v_i
-        Ok(())
+        // m_i = sum w m,  v_i = sum w m v / m_i
+        solver.map(&[Sum::Mass, Sum::Velocity(t)])?;
+        // H += dt L F,  L = sum v_i (x) grad w
+        solver.advance(&[Update::Deformation(dt)])?;
+        // a_i = (- sum V0 tau grad w + sum w m b) / m_i
+        solver.map(&[Sum::Acceleration(t)])?;
+        // v_i += dt a_i
+        solver.kick(dt, t + dt);
+        // v += dt sum w a_i,  d += dt sum w v_i
+        solver.advance(&[Update::Velocity(dt), Update::Position(dt)])
     }
 }

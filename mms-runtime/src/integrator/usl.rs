@@ -5,7 +5,7 @@
 //! the material point method for solid mechanics", J. Comput. Phys. 180 (2002) 383-403. First order in time: particle
 //! velocities are those of the exact initial time, one half step off where the scheme is centred.
 
-use super::{Integrator, Operations};
+use super::{Integrator, Operations, Sum, Update};
 use crate::{Failure, Real};
 
 /// Forces from the stress at t^n, then the deformation from the grid's new velocity.
@@ -16,12 +16,11 @@ impl Integrator for Usl {
 
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
-        solver.map_mass()?; //            m_i = sum w m
-        solver.map_velocity(t); //        v_i = sum w m v / m_i
-        solver.map_acceleration(t)?; //   a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.kick(dt, t + dt); //       v_i += dt a_i
-        solver.move_particles(dt, dt); // v += dt sum w a_i,  d += dt sum w v_i
-        solver.deform(dt); //             H += dt L F,  L = sum v_i (x) grad w
-        solver.update_stress() //         tau = tau(H)
+        // m_i = sum w m,  v_i = sum w m v / m_i,  a_i = (- sum V0 tau grad w + sum w m b) / m_i
+        solver.map(&[Sum::Mass, Sum::Velocity(t), Sum::Acceleration(t)])?;
+        // v_i += dt a_i
+        solver.kick(dt, t + dt);
+        // v += dt sum w a_i,  d += dt sum w v_i,  H += dt L F,  L = sum v_i (x) grad w
+        solver.advance(&[Update::Velocity(dt), Update::Position(dt), Update::Deformation(dt)])
     }
 }

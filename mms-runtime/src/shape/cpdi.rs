@@ -7,7 +7,11 @@
 //!
 //! w = 2^-D sum_c N_i(x_c),   grad w = 2^-D sum_c N_i(x_c) R^-T s_c,   s_c the signs of xi at the corner.
 
-use super::{Shape, linear};
+use mms_math::machine::Machine;
+
+use super::Shape;
+use crate::nodal::Nodal;
+use crate::spline;
 use crate::stencil::{Stencil, Tensor};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
@@ -25,10 +29,13 @@ pub struct Corners<T, const D: usize> {
     hats: [Tensor<T, D, 2>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
     direction: [Vector<T, D>; MOST_CORNERS],
+    /// R s_c, from the particle to the corner.
+    apart: [Vector<T, D>; MOST_CORNERS],
 }
 
 impl Shape for Cpdi {
     const FOLLOWS: bool = true;
+    const NEAR: bool = false;
     type Domain<T: Real, const D: usize> = Matrix<T, D>;
     type Stencil<T: Real, const D: usize> = Corners<T, D>;
 
@@ -36,30 +43,35 @@ impl Shape for Cpdi {
         *half_edges
     }
 
-    fn stencil<T: Real, const D: usize>(
+    fn place<T: Real, const D: usize>(
+        corners: &mut Corners<T, D>,
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
         half_edges: &Matrix<T, D>,
         displacement_gradient: &Matrix<T, D>,
-    ) -> Result<Corners<T, D>, Cause> {
+    ) -> Result<(), Cause> {
         let present = deformation_gradient(displacement_gradient) * half_edges;
         let inverse = present.try_inverse().filter(matrix_is_finite).ok_or(Cause::FlatDomain)?;
         let share = T::ratio(1, 1 << D);
-        let hats_at = |corner: &Vector<T, D>| {
-            let cells = lattice.in_cells(corner);
-            Tensor::new(lattice, |a| linear::hats(cells[a])).ok_or_else(|| Cause::lost(corner))
-        };
-        let mut corners = Corners {
-            hats: [hats_at(position)?; MOST_CORNERS],
-            direction: [Vector::zeros(); MOST_CORNERS],
-        };
         for c in 0..1 << D {
             let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
             let signs = Vector::from_fn(|a, _| sign(a));
-            corners.hats[c] = hats_at(&(position + present * signs))?;
+            let apart = present * signs;
+            spline::place::<T, D, 1, 2>(&mut corners.hats[c], lattice, &(position + apart))?;
             corners.direction[c] = inverse.tr_mul(&signs) * share;
+            corners.apart[c] = apart;
         }
-        Ok(corners)
+        Ok(())
+    }
+}
+
+impl<T: Real, const D: usize> Default for Corners<T, D> {
+    fn default() -> Self {
+        Self {
+            hats: [Tensor::new(); MOST_CORNERS],
+            direction: [Vector::zeros(); MOST_CORNERS],
+            apart: [Vector::zeros(); MOST_CORNERS],
+        }
     }
 }
 
@@ -70,5 +82,91 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
             hats.each(|node, w, _| visit(node, w * share, direction * w));
         }
+    }
+
+    fn shift(&mut self, first: usize) {
+        self.hats.iter_mut().take(1 << D).for_each(|hats| hats.shift(first));
+    }
+
+    #[inline(always)]
+    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: &mut [Nodal<T>]) {
+        let of_corner = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
+        for hats in self.hats.iter().take(1 << D) {
+            hats.spread_value(machine, of_corner, nodes);
+        }
+    }
+
+    #[inline(always)]
+    fn spread<M: Machine<T>>(
+        &self,
+        machine: M,
+        value: M::Four,
+        slopes: [M::Four; D],
+        nodes: &mut [Nodal<T>],
+    ) {
+        let share = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
+        for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
+            let mut of_corner = share;
+            for a in 0..D {
+                of_corner = machine.times_plus(machine.splat(direction[a]), slopes[a], of_corner);
+            }
+            hats.spread_value(machine, of_corner, nodes);
+        }
+    }
+
+    #[inline(always)]
+    fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four {
+        self.collect(machine, nodes).0
+    }
+
+    #[inline(always)]
+    fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]) {
+        let nothing = machine.splat(T::zero());
+        let (mut value, mut slopes) = (nothing, [nothing; D]);
+        let share = machine.splat(T::ratio(1, 1 << D));
+        for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
+            let of_corner = hats.collect_value(machine, nodes);
+            value = machine.times_plus(share, of_corner, value);
+            for a in 0..D {
+                slopes[a] = machine.times_plus(machine.splat(direction[a]), of_corner, slopes[a]);
+            }
+        }
+        (value, slopes)
+    }
+
+    /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
+    /// has its own from the particle.
+    #[inline(always)]
+    fn spread_moments<M: Machine<T>>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        value: M::Four,
+        slopes: [M::Four; D],
+        nodes: &mut [Nodal<T>],
+    ) {
+        let share = machine.splat(T::ratio(1, 1 << D));
+        let mut of_node = slopes;
+        for a in 0..D {
+            of_node[a] = machine.times(share, slopes[a]);
+        }
+        for (hats, edges) in self.hats.iter().zip(&self.apart).take(1 << D) {
+            let mut of_corner = machine.times(share, value);
+            for a in 0..D {
+                of_corner = machine.times_plus(machine.splat(edges[a]), of_node[a], of_corner);
+            }
+            hats.spread_moments(machine, lattice, of_corner, of_node, nodes);
+        }
+    }
+
+    /// The gradient: hat functions know no nearer linear function.
+    #[inline(always)]
+    fn collect_slopes<M: Machine<T>>(
+        &self,
+        machine: M,
+        _: &Lattice<T, D>,
+        nodes: &[Nodal<T>],
+    ) -> [M::Four; D] {
+        self.collect(machine, nodes).1
     }
 }

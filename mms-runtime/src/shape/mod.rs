@@ -4,11 +4,9 @@
 //! and what of a particle's domain they need), and add `name::Type` to the list below. The property
 //! tests and the `mms` command then find it by itself.
 
-use nalgebra::ComplexField;
-
 use crate::extension::extension_list;
+use crate::spline;
 use crate::stencil::{Stencil, Tensor};
-use crate::tensor::determinant;
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 extension_list! {
@@ -40,6 +38,10 @@ pub trait Shape: 'static {
     /// formulation, where nothing moves.
     const FOLLOWS: bool = false;
 
+    /// Whether a stencil reaches no further than from one node before a particle's cell to one beyond
+    /// the cell after it, along every axis.
+    const NEAR: bool = true;
+
     /// What is kept of a particle's undeformed domain.
     type Domain<T: Real, const D: usize>: Copy + Send + Sync;
 
@@ -49,16 +51,33 @@ pub trait Shape: 'static {
     /// What is kept of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns.
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Self::Domain<T, D>;
 
-    /// The nodes and weights of a particle at `position` (a length), with displacement gradient H.
+    /// Writes the nodes and weights of a particle at `position` (a length), with displacement gradient H, to
+    /// `stencil`.
     ///
     /// # Errors
     /// The domain does not fit on the grid, or is too large for the stencil.
+    fn place<T: Real, const D: usize>(
+        stencil: &mut Self::Stencil<T, D>,
+        lattice: &Lattice<T, D>,
+        position: &Vector<T, D>,
+        domain: &Self::Domain<T, D>,
+        displacement_gradient: &Matrix<T, D>,
+    ) -> Result<(), Cause>;
+
+    /// The nodes and weights of a particle; see [`place`](Shape::place).
+    ///
+    /// # Errors
+    /// Likewise.
     fn stencil<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
         domain: &Self::Domain<T, D>,
         displacement_gradient: &Matrix<T, D>,
-    ) -> Result<Self::Stencil<T, D>, Cause>;
+    ) -> Result<Self::Stencil<T, D>, Cause> {
+        let mut stencil = Self::Stencil::default();
+        Self::place(&mut stencil, lattice, position, domain, displacement_gradient)?;
+        Ok(stencil)
+    }
 
     /// The nodes and weights of a point: of a piece of a face, say.
     ///
@@ -68,34 +87,6 @@ pub trait Shape: 'static {
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
     ) -> Result<PointStencil<T, D>, Cause> {
-        let cells = lattice.in_cells(position);
-        Tensor::new(lattice, |a| linear::hats(cells[a])).ok_or_else(|| Cause::lost(position))
+        spline::point::<T, D, 1>(lattice, position)
     }
-}
-
-/// The half widths of the box that stands for a domain in GIMP: its own if its edges run along the
-/// axes, else those of the cube of its volume. (A body-fitted domain is turned; a box is not.)
-fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
-    let diagonal = half_edges.diagonal();
-    if *half_edges == Matrix::from_diagonal(&diagonal) {
-        return diagonal;
-    }
-    let volume = determinant(half_edges).abs();
-    Vector::repeat(ComplexField::powf(volume, T::ratio(1, D as i32)))
-}
-
-/// GIMP's stencil for a box of half widths `half_width`.
-fn gimp_stencil<T: Real, const D: usize>(
-    lattice: &Lattice<T, D>,
-    position: &Vector<T, D>,
-    half_width: &Vector<T, D>,
-) -> Result<Tensor<T, D, MAX_NODES>, Cause> {
-    for (&l, &h) in half_width.iter().zip(&lattice.cell_size) {
-        if !(l > T::zero() && l < h) {
-            return Err(Cause::HalfWidth { half_width: l.to_f64(), cell_size: h.to_f64() });
-        }
-    }
-    let (cells, half) = (lattice.in_cells(position), half_width.component_div(&lattice.cell_size));
-    Tensor::new(lattice, |a| ugimp::averages_of_hat(cells[a], half[a]))
-        .ok_or_else(|| Cause::lost(position))
 }

@@ -1,36 +1,10 @@
 //! Quadratic B-splines: the particle is a point, and its weights have a continuous gradient.
 //!
 //! Steffen, Kirby, Berzins, "Analysis and reduction of quadrature errors in the material point method
-//! (MPM)", Int. J. Numer. Meth. Engng 76 (2008), doi 10.1002/nme.2360. Nodes are those of [`Lattice`], and
-//! knots end at the faces of a body that do not move ([`crate::spline`]).
+//! (MPM)", Int. J. Numer. Meth. Engng 76 (2008), doi 10.1002/nme.2360. Nodes are those of
+//! [`Lattice`](crate::Lattice), and knots end at the faces of a body that do not move.
 
-use super::{MAX_NODES, PointStencil, Shape};
-use crate::stencil::Tensor;
-use crate::{Cause, Lattice, Matrix, Real, Vector, spline};
+use crate::spline::Spline;
 
 /// Quadratic B-splines, 3 nodes per axis.
-pub struct QuadraticBspline;
-
-impl Shape for QuadraticBspline {
-    const DEGREE: usize = 2;
-    type Domain<T: Real, const D: usize> = ();
-    type Stencil<T: Real, const D: usize> = Tensor<T, D, 3>;
-
-    fn domain<T: Real, const D: usize>(_: &Matrix<T, D>) {}
-
-    fn stencil<T: Real, const D: usize>(
-        lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-        (): &(),
-        _: &Matrix<T, D>,
-    ) -> Result<Tensor<T, D, 3>, Cause> {
-        spline::stencil::<T, D, 2, 3>(lattice, position)
-    }
-
-    fn point<T: Real, const D: usize>(
-        lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-    ) -> Result<PointStencil<T, D>, Cause> {
-        spline::stencil::<T, D, 2, MAX_NODES>(lattice, position)
-    }
-}
+pub type QuadraticBspline = Spline<2, 3>;

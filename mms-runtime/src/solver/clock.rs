@@ -39,7 +39,7 @@ impl Clock {
     }
 }
 
-/// Wall-clock seconds of the parts of all steps.
+/// Seconds of the parts of all steps. Stress, and the sums onto nodes, count once for every thread.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seconds {
     /// The field's body force and tractions.
@@ -50,6 +50,18 @@ pub struct Seconds {
     pub grid: f64,
     /// The material.
     pub stress: f64,
+}
+
+impl Seconds {
+    /// Both together.
+    pub(super) fn sum(self, other: Self) -> Self {
+        Self {
+            forcing: self.forcing + other.forcing,
+            transfer: self.transfer + other.transfer,
+            grid: self.grid + other.grid,
+            stress: self.stress + other.stress,
+        }
+    }
 }
 
 /// Runs a part of a step, and adds what it takes.

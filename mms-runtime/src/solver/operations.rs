@@ -1,13 +1,23 @@
 //! The operations that integrators are made of.
 
-use super::{Solver, clock::timed};
+use std::marker::PhantomData;
+
+use mms_math::dispatch::narrow;
+
+use super::Solver;
+use super::advance::{Advance, Residual, Sound, Source, Steps};
+use super::clock::{Seconds, timed};
+use super::map::{Carried, Map};
+use super::scene::Scene;
+use super::threads::{each_pair, each_part};
 use crate::boundary::traction::Place;
 use crate::formulation::Formulation;
-use crate::integrator::Operations;
+use crate::grid::divide_by_mass;
+use crate::integrator::{Operations, Sum, Update};
+use crate::nodal::Nodal;
 use crate::shape::Shape;
-use crate::stencil::Stencil as _;
 use crate::tensor::deformation_gradient;
-use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Vector, mapping};
+use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
 impl<T: Real, const D: usize, F, S, L> Operations<T> for Solver<'_, T, D, F, S, L>
 where
@@ -27,50 +37,241 @@ where
         self.clock.step
     }
 
-    fn map_mass(&mut self) -> Result<(), Failure> {
-        if L::MOVES || self.stencils.is_empty() {
-            let mut seconds = self.seconds;
-            timed(&mut seconds.transfer, || self.weigh())?;
-            self.seconds = seconds;
+    fn map(&mut self, sums: &[Sum<T>]) -> Result<(), Failure> {
+        let with_mass = sums.contains(&Sum::Mass);
+        let velocity = sums.iter().find_map(|sum| match sum {
+            Sum::Velocity(time) => Some(*time),
+            _ => None,
+        });
+        let acceleration = sums.iter().find_map(|sum| match sum {
+            Sum::Acceleration(time) => Some(*time),
+            _ => None,
+        });
+        if with_mass {
+            self.weigh()?;
         }
-        let time = self.time();
-        let Self { boundary, field, grid, seconds, .. } = self;
-        timed(&mut seconds.grid, || boundary.locate(*field, time, grid))
+        if let Some(time) = acceleration {
+            self.force_particles(time);
+        }
+        let carried = match (with_mass || velocity.is_some(), acceleration.is_some()) {
+            (true, true) => Carried::Everything,
+            (false, true) => Carried::Force,
+            (true, false) => Carried::Momentum,
+            (false, false) => return Ok(()),
+        };
+        self.add_to_nodes(carried)?;
+        if with_mass || velocity.is_some() {
+            let Self { grid, boundary, seconds, .. } = self;
+            timed(&mut seconds.grid, || boundary.fold(&mut grid.momentum));
+        }
+        if with_mass {
+            let time = self.time();
+            let Self { grid, boundary, field, seconds, .. } = self;
+            timed(&mut seconds.grid, || boundary.locate(*field, time, grid))?;
+        }
+        if let Some(time) = velocity {
+            self.find_velocity(time)?;
+        }
+        acceleration.map_or(Ok(()), |time| self.find_acceleration(time))
     }
 
-    fn map_velocity(&mut self, time: T) {
-        let Self { grid, particles, stencils, exchange, boundary, seconds, .. } = self;
-        timed(&mut seconds.transfer, || {
-            grid.momentum.fill(Vector::zeros());
-            let (mass, velocity) = (&particles.mass, &particles.velocity);
-            mapping::weighted_by_mass(stencils, mass, velocity, &mut grid.momentum);
-            exchange.map_momentum(stencils, particles, |p| Self::place(particles, p), grid);
-        });
+    fn kick(&mut self, time_step: T, time: T) {
+        let Self { grid, field, boundary, seconds, .. } = self;
         timed(&mut seconds.grid, || {
-            boundary.fold(&mut grid.momentum);
-            grid.velocity_from_momentum();
-            boundary.velocity(self.field, time, &mut grid.velocity);
-        });
-        timed(&mut seconds.transfer, || {
-            exchange.find_residual(stencils, particles, boundary, grid);
+            grid.kick(time_step);
+            boundary.velocity(*field, time, &mut grid.velocity);
         });
     }
 
-    fn map_acceleration(&mut self, time: T) -> Result<(), Failure> {
-        let Self { grid, particles, stencils, field, boundary, seconds, .. } = self;
-        timed(&mut seconds.forcing, || {
-            field.body_force(time, &particles.reference_position, &mut particles.body_force);
+    fn advance(&mut self, updates: &[Update<T>]) -> Result<(), Failure> {
+        let mut steps = Steps { velocity: None, position: None, deformation: None };
+        for update in updates {
+            match *update {
+                Update::Velocity(kick) => steps.velocity = Some(kick),
+                Update::Position(time_step) => steps.position = Some(time_step),
+                Update::Deformation(time_step) => steps.deformation = Some(time_step),
+            }
+        }
+        let Self { grid, particles, domains, weights, transfer, seconds, .. } = self;
+        let Grid { lattice, velocity, acceleration, .. } = &*grid;
+        let (reference_position, columns) = particles.columns();
+        let scene = Scene::<T, D, S> {
+            lattice,
+            moves: L::MOVES,
+            transfer: *transfer,
+            reference_position,
+            domains,
+            weights,
+        };
+        let sound = timed(&mut seconds.transfer, || {
+            each_part(
+                columns,
+                &|particles| narrow(Advance { scene, particles, steps, velocity, acceleration }),
+                &both_sound,
+            )
         });
+        self.suspect |= !sound.map_err(|(p, cause)| self.failure(p, cause))?;
+        Ok(())
+    }
+}
+
+fn both_sound(
+    first: Result<Sound, (usize, Cause)>,
+    second: Result<Sound, (usize, Cause)>,
+) -> Result<Sound, (usize, Cause)> {
+    Ok(first? & second?)
+}
+
+impl<T: Real, const D: usize, F, S, L> Solver<'_, T, D, F, S, L>
+where
+    F: ManufacturedField<T, D> + ?Sized,
+    S: Shape,
+    L: Formulation,
+{
+    /// Sorts the particles if they have moved too far, and finds their weights if those are kept.
+    fn weigh(&mut self) -> Result<(), Failure> {
+        let Self { grid, particles, domains, slabs, seconds, .. } = self;
+        let lattice = &grid.lattice;
         timed(&mut seconds.transfer, || {
-            grid.force.fill(Vector::zeros());
-            let (mass, volume) = (&particles.mass, &particles.reference_volume);
-            mapping::internal_force(stencils, volume, &particles.stress, &mut grid.force);
-            mapping::weighted_by_mass(stencils, mass, &particles.body_force, &mut grid.force);
+            if L::MOVES && slabs.is_stale(lattice, |p| particles.position(p)) {
+                slabs.sort(lattice, particles, domains, |all, p| all.position(p));
+            }
         });
-        let place = |p: usize, reference: &Vector<T, D>| {
+        let once = !L::MOVES && !self.weights.is_empty();
+        if !self.keeps_weights || once {
+            return Ok(());
+        }
+        let Self { grid, particles, domains, weights, transfer, seconds, .. } = self;
+        let scene = Scene::<T, D, S> {
+            lattice: &grid.lattice,
+            moves: L::MOVES,
+            transfer: *transfer,
+            reference_position: &particles.reference_position,
+            domains,
+            weights: &[],
+        };
+        weights.clear();
+        let found = timed(&mut seconds.transfer, || {
+            (0..particles.len()).try_for_each(|p| {
+                let (d, h) = (&particles.displacement[p], &particles.displacement_gradient[p]);
+                let mut stencil = S::Stencil::default();
+                scene.place(&mut stencil, p, d, h)?;
+                weights.push(stencil);
+                Ok(())
+            })
+        });
+        found.map_err(|(p, cause)| self.failure(p, cause))
+    }
+
+    /// b of every particle.
+    fn force_particles(&mut self, time: T) {
+        let Self { particles, field, seconds, .. } = self;
+        let reference = &particles.reference_position;
+        timed(&mut seconds.forcing, || {
+            each_pair(reference, &mut particles.body_force, &|reference, body_force| {
+                field.body_force(time, reference, body_force);
+            });
+        });
+    }
+
+    /// The sums onto nodes, which hold nothing else afterwards.
+    fn add_to_nodes(&mut self, carried: Carried) -> Result<(), Failure> {
+        let Self { field, grid, particles, domains, weights, slabs, transfer, .. } = self;
+        let Grid { lattice, momentum, force, .. } = grid;
+        let nodes: [&mut [Nodal<T>]; 2] = match carried {
+            Carried::Momentum => [momentum, &mut []],
+            Carried::Residual => [&mut self.residual[0], &mut []],
+            Carried::Force => [&mut [], force],
+            Carried::Everything => [momentum, force],
+        };
+        let seconds = &mut self.seconds;
+        let [first, second] = nodes;
+        timed(&mut seconds.grid, || {
+            first.fill(Nodal::zero());
+            second.fill(Nodal::zero());
+        });
+        let reference_position = &particles.reference_position;
+        let scene = Scene::<T, D, S> {
+            lattice,
+            moves: L::MOVES,
+            transfer: *transfer,
+            reference_position,
+            domains,
+            weights,
+        };
+        let formulation = PhantomData::<L>;
+        let map = Map::<T, D, F, S, L> { scene, particles, field, carried, formulation };
+        let taken =
+            slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum);
+        let taken = taken.map_err(|(p, cause)| self.failure(p, cause))?;
+        self.seconds = self.seconds.sum(taken);
+        Ok(())
+    }
+
+    /// v_i, and what XPIC has to know of it.
+    fn find_velocity(&mut self, time: T) -> Result<(), Failure> {
+        let Self { grid, boundary, field, seconds, .. } = self;
+        timed(&mut seconds.grid, || {
+            grid.velocity_from_momentum();
+            boundary.velocity(*field, time, &mut grid.velocity);
+        });
+        let Transfer::Xpic { order } = self.transfer else { return Ok(()) };
+        self.find_residual(Source::Velocity)?;
+        for _ in 1..order {
+            self.map_residual()?;
+            self.find_residual(Source::Residual)?;
+        }
+        Ok(())
+    }
+
+    /// r = v - S v_i, or r -= S S+ r.
+    fn find_residual(&mut self, source: Source) -> Result<(), Failure> {
+        let Self { grid, particles, domains, weights, transfer, residual, seconds, .. } = self;
+        let (reference_position, columns) = particles.columns();
+        let lattice = &grid.lattice;
+        let scene = Scene::<T, D, S> {
+            lattice,
+            moves: L::MOVES,
+            transfer: *transfer,
+            reference_position,
+            domains,
+            weights,
+        };
+        let nodal = match source {
+            Source::Velocity => &grid.velocity,
+            Source::Residual => &residual[1],
+        };
+        let found = timed(&mut seconds.transfer, || {
+            each_part(
+                columns,
+                &|particles| narrow(Residual { scene, particles, nodal, source }),
+                &both_sound,
+            )
+        });
+        found.map_err(|(p, cause)| self.failure(p, cause))?;
+        Ok(())
+    }
+
+    /// S+ r.
+    fn map_residual(&mut self) -> Result<(), Failure> {
+        self.add_to_nodes(Carried::Residual)?;
+        let Self { grid, boundary, residual: [sum, image], seconds, .. } = self;
+        timed(&mut seconds.grid, || {
+            boundary.fold(sum);
+            divide_by_mass(sum, &grid.momentum, grid.mass_floor, image);
+            boundary.residual(image);
+        });
+        Ok(())
+    }
+
+    /// a_i, with the tractions at `time`.
+    fn find_acceleration(&mut self, time: T) -> Result<(), Failure> {
+        let Self { grid, particles, slabs, field, boundary, seconds, .. } = self;
+        let place = |id: usize, reference: &Vector<T, D>| {
             if !L::MOVES {
                 return Place { position: *reference, carrier: None };
             }
+            let p = slabs.place_of(id);
             let h = particles.displacement_gradient[p];
             let apart = reference - particles.reference_position[p];
             let position = particles.position(p) + deformation_gradient(&h) * apart;
@@ -84,79 +285,6 @@ where
             grid.acceleration_from_force();
             boundary.acceleration(*field, time, &mut grid.acceleration);
         });
-        Ok(())
-    }
-
-    fn kick(&mut self, time_step: T, time: T) {
-        let Self { grid, field, boundary, seconds, .. } = self;
-        timed(&mut seconds.grid, || {
-            grid.kick(time_step);
-            boundary.velocity(*field, time, &mut grid.velocity);
-        });
-    }
-
-    fn move_particles(&mut self, kick: T, time_step: T) {
-        let Self { grid, particles, stencils, exchange, seconds, .. } = self;
-        timed(&mut seconds.transfer, || {
-            for (displacement, stencil) in particles.displacement.iter_mut().zip(&*stencils) {
-                *displacement += stencil.interpolate(&grid.velocity) * time_step;
-            }
-            exchange.update_velocity(stencils, particles, grid, kick);
-        });
-    }
-
-    fn deform(&mut self, time_step: T) {
-        let Self { grid, particles, stencils, seconds, .. } = self;
-        timed(&mut seconds.transfer, || {
-            for (h, stencil) in particles.displacement_gradient.iter_mut().zip(&*stencils) {
-                let velocity_gradient = mapping::gradient(stencil, &grid.velocity);
-                *h += L::rate(&velocity_gradient, h) * time_step;
-            }
-        });
-    }
-
-    fn update_stress(&mut self) -> Result<(), Failure> {
-        let mut seconds = self.seconds;
-        let singular = timed(&mut seconds.stress, || self.find_stress());
-        self.seconds = seconds;
-        singular.map_or(Ok(()), |p| Err(self.failure(p, Cause::Inverted { jacobian: 0.0 })))
-    }
-}
-
-impl<T: Real, const D: usize, F, S, L> Solver<'_, T, D, F, S, L>
-where
-    F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
-    L: Formulation,
-{
-    /// The stress of every particle's H, or the first particle whose F is singular where that has none.
-    pub(super) fn find_stress(&mut self) -> Option<usize> {
-        let Self { particles, field, .. } = self;
-        let gradients = &particles.displacement_gradient;
-        field.kirchhoff_stress(&particles.reference_position, gradients, &mut particles.stress);
-        particles.stress.iter_mut().zip(gradients).position(|(stress, h)| {
-            let working = L::stress(stress, h);
-            *stress = working.unwrap_or(*stress);
-            working.is_none()
-        })
-    }
-
-    /// The weights, and the mass of the nodes.
-    fn weigh(&mut self) -> Result<(), Failure> {
-        self.stencils.clear();
-        for p in 0..self.particles.len() {
-            let undeformed = Matrix::zeros();
-            let gradient =
-                if L::MOVES { &self.particles.displacement_gradient[p] } else { &undeformed };
-            let position = Self::place(&self.particles, p);
-            let stencil = S::stencil(&self.grid.lattice, &position, &self.domains[p], gradient)
-                .map_err(|cause| self.failure(p, cause))?;
-            self.stencils.push(stencil);
-        }
-        let Self { grid, particles, stencils, boundary, .. } = self;
-        grid.mass.fill(T::zero());
-        mapping::mass(stencils, &particles.mass, &mut grid.mass);
-        boundary.fold_mass(&mut grid.mass);
         Ok(())
     }
 }

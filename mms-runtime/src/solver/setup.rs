@@ -2,13 +2,14 @@
 
 use super::Solver;
 use super::clock::{Clock, Seconds};
-use super::exchange::Exchange;
+use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
 use crate::failure::positive;
 use crate::formulation::Formulation;
 use crate::lattice::Axis;
 use crate::method::{Division, Setup};
+use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::{MAX_NODES, Shape};
 use crate::tensor::{components, is_finite, matrix_is_finite};
@@ -38,7 +39,7 @@ where
         let cell_size = cell_size(&(upper - lower), cells)?;
         let filling = fill(&domain.body, setup, &cell_size)?;
 
-        let mut particles = Particles::new(&filling);
+        let mut particles = Particles::new(&filling, setup.transfer);
         let speed = largest_wave_speed(field, &particles)?;
         let [start, end] = domain.time.map(|time| time.to_f64());
         let courant = positive("the Courant number", setup.courant)?;
@@ -59,7 +60,8 @@ where
         let boundary = Boundary::new(&domain, &lattice, &filling.pieces, L::MOVES)?;
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
         let count = particles.len();
-        let exchange = Exchange::new(setup.transfer, count, &lattice);
+        let residual_nodes = if particles.residual.is_empty() { 0 } else { lattice.len() };
+        let mut slabs = Slabs::new(&lattice, count, S::NEAR);
         initialise(field, &mut particles, T::of(clock.start))?;
         let mut grid = Grid::new(lattice);
         let smallest = particles.mass.iter().fold(particles.mass[0], |a, &b| a.min(b));
@@ -68,21 +70,26 @@ where
         let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
         grid.mass_floor = smallest * round_off * round_off;
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
-        let mut solver = Self {
+        let mut domains: Vec<_> = domains.collect();
+        slabs.sort(&grid.lattice, &mut particles, &mut domains, |all, p| {
+            if L::MOVES { all.position(p) } else { all.reference_position[p] }
+        });
+        Ok(Self {
             field,
             clock,
-            domains: domains.collect(),
+            domains,
             particles,
             grid,
             boundary,
-            stencils: Vec::with_capacity(count),
-            exchange,
+            transfer: setup.transfer,
+            slabs,
+            weights: Vec::new(),
+            keeps_weights: false,
+            residual: std::array::from_fn(|_| vec![Nodal::zero(); residual_nodes]),
+            suspect: false,
             seconds: Seconds::default(),
             formulation: std::marker::PhantomData,
-        };
-        // Where F is singular there is none; a run begins with a check of J.
-        solver.find_stress();
-        Ok(solver)
+        })
     }
 }
 

@@ -9,10 +9,10 @@ mod verdict;
 pub use deviations::Deviations;
 pub use errors::Errors;
 pub use order::{Orders, observed_order, orders};
-pub use run::{Details, Diagnostics, Run, Solve, Watch, run};
+pub use run::{Details, Diagnostics, Progress, Run, Solve, Watch};
 pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
 
-use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal};
+use crate::{Division, Failure, ManufacturedField, Method, Refusal};
 
 /// One level of a study: a run at one resolution.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,15 +33,15 @@ pub struct Level {
     pub seconds: f64,
 }
 
-/// Runs one level: the whole time window, with the body divided into `cells`; see [`run`].
+/// Runs one level: the whole time window, with the body divided into `cells`; see [`Solve::run`].
 ///
 /// # Errors
 /// A scene that cannot be started.
-pub fn run_level<T: Real, const D: usize>(
+pub fn run_level<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
     cells: &Division,
-    progress: &mut dyn FnMut(usize, usize),
+    progress: &mut Progress<'_>,
 ) -> Result<Level, Refusal> {
-    run(field, method, cells, Watch::Displacement, progress).map(|run| run.level)
+    T::run(field, method, cells, Watch::Displacement, progress).map(|run| run.level)
 }

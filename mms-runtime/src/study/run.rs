@@ -81,82 +81,46 @@ impl Diagnostics {
     }
 }
 
-/// Runs a method through the time window, with the body divided into `cells`.
-///
-/// Calls `progress(step, steps)` after each step. A run that stops has a [`Failure`].
-///
-/// # Errors
-/// A scene that cannot be started.
-pub fn run<T: Real, const D: usize>(
-    field: &dyn ManufacturedField<T, D>,
-    method: &Method,
-    cells: &Division,
-    watch: Watch,
-    progress: &mut dyn FnMut(usize, usize),
-) -> Result<Run, Refusal> {
-    method.validate()?;
-    method.formulation.visit(WithFormulation { field, method, cells, watch, progress })
-}
+/// Called with the number of the step and the number of steps, after each step.
+pub type Progress<'a> = dyn FnMut(usize, usize) + Send + 'a;
 
-/// [`run`], compiled in this crate once for each precision and dimension: who calls it through this trait
-/// compiles no solver.
-pub trait Solve: Real {
-    /// [`run`] in one dimension.
+/// A precision that there is a solver for in `D` dimensions. It is compiled in this crate, once: who calls
+/// it through this trait compiles none.
+pub trait Solve<const D: usize>: Real {
+    /// Runs a method through the time window, with the body divided into `cells`.
+    ///
+    /// A run that stops has a [`Failure`].
     ///
     /// # Errors
     /// A scene that cannot be started.
-    fn line(
-        field: &dyn ManufacturedField<Self, 1>,
+    fn run(
+        field: &dyn ManufacturedField<Self, D>,
         method: &Method,
         cells: &Division,
         watch: Watch,
-        progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Run, Refusal>;
-
-    /// [`run`] in two dimensions.
-    ///
-    /// # Errors
-    /// A scene that cannot be started.
-    fn plane(
-        field: &dyn ManufacturedField<Self, 2>,
-        method: &Method,
-        cells: &Division,
-        watch: Watch,
-        progress: &mut dyn FnMut(usize, usize),
-    ) -> Result<Run, Refusal>;
-
-    /// [`run`] in three dimensions.
-    ///
-    /// # Errors
-    /// A scene that cannot be started.
-    fn space(
-        field: &dyn ManufacturedField<Self, 3>,
-        method: &Method,
-        cells: &Division,
-        watch: Watch,
-        progress: &mut dyn FnMut(usize, usize),
+        progress: &mut Progress<'_>,
     ) -> Result<Run, Refusal>;
 }
 
-/// One method of [`Solve`].
 macro_rules! solve {
-    ($float:ident: $($name:ident $dimension:literal),*) => {
-        impl Solve for $float {
-            $(fn $name(
-                field: &dyn ManufacturedField<$float, $dimension>,
+    ($($float:ident $dimension:literal),*) => {
+        $(impl Solve<$dimension> for $float {
+            fn run(
+                field: &dyn ManufacturedField<Self, $dimension>,
                 method: &Method,
                 cells: &Division,
                 watch: Watch,
-                progress: &mut dyn FnMut(usize, usize),
+                progress: &mut Progress<'_>,
             ) -> Result<Run, Refusal> {
-                run(field, method, cells, watch, progress)
-            })*
-        }
+                method.validate()?;
+                let scene = WithFormulation { field, method, cells, watch, progress };
+                method.formulation.visit(scene)
+            }
+        })*
     };
 }
 
-solve!(f32: line 1, plane 2, space 3);
-solve!(f64: line 1, plane 2, space 3);
+solve!(f32 1, f32 2, f32 3, f64 1, f64 2, f64 3);
 
 /// From names to the solver compiled for them: first the formulation,
 struct WithFormulation<'a, T, const D: usize> {
@@ -164,7 +128,7 @@ struct WithFormulation<'a, T, const D: usize> {
     method: &'a Method,
     cells: &'a Division,
     watch: Watch,
-    progress: &'a mut dyn FnMut(usize, usize),
+    progress: &'a mut Progress<'a>,
 }
 
 impl<T: Real, const D: usize> FormulationVisitor for WithFormulation<'_, T, D> {
@@ -202,7 +166,11 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
         };
         let watcher = Watcher::new(watch, &solver);
         let mut run = Run { level, details: None, seconds: Seconds::default() };
-        let result = method.integrator.visit(WithIntegrator { solver, watcher, progress });
+        let scene = WithIntegrator { solver, watcher, progress };
+        let result = match method.setup.threads {
+            1 => method.integrator.visit(scene),
+            threads => pool(threads)?.install(|| method.integrator.visit(scene)),
+        };
         run.level.seconds = start.elapsed().as_secs_f64();
         run.level.errors = match result {
             Ok((details, seconds)) => {
@@ -216,11 +184,17 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
     }
 }
 
+/// Threads for the passes over particles.
+fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Refusal::NoThreads { threads, reason: error.to_string() })
+}
+
 /// and last the integrator.
 struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
     solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S, L>,
     watcher: Watcher<T, D>,
-    progress: &'a mut dyn FnMut(usize, usize),
+    progress: &'a mut Progress<'a>,
 }
 
 impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor

@@ -5,7 +5,7 @@ pub mod spin;
 pub mod wave;
 pub mod weights;
 
-use mms_runtime::study::{Level, run_level};
+use mms_runtime::study::{Level, Solve, run_level};
 use mms_runtime::{
     Body, Condition, Domain, Face, FormulationName, IntegratorName, ManufacturedField, Material,
     Matrix, Method, Real, ShapeName, Vector,
@@ -363,7 +363,7 @@ pub fn methods() -> Vec<Method> {
 }
 
 /// The levels of a study.
-pub fn levels<T: Real, const D: usize>(
+pub fn levels<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
     cells: &[usize],

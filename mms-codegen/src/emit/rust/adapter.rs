@@ -1,9 +1,10 @@
 //! The adapter: the kernels as the runtime's contract, over batches of points.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens as _, format_ident, quote};
 
-use super::{Emitter, RUNTIME};
+use super::{Emitter, RUNTIME, input};
+use crate::expr::Symbol;
 use crate::mechanics::model::Body;
 use crate::quantity::Quantity;
 use crate::spec::{Claim, Face};
@@ -13,9 +14,10 @@ impl Emitter<'_> {
     pub(super) fn contract(&self) -> TokenStream {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
-        let domain = self.domain();
-        // A solver asks for these two at every particle in every step, and for the others at some points or
-        // times: loops over many points are long to compile.
+        let (domain, response) = (self.domain(), self.response());
+        let components = Literal::usize_unsuffixed(self.axes().len().pow(2));
+        // A solver asks for these two, and for the stress, at every particle in every step, and for the others
+        // at some points or times: loops over many points are long to compile.
         let batches = [Quantity::Displacement, Quantity::BodyForce].map(|quantity| {
             let name = format_ident!("{}", quantity.name());
             let batch = format_ident!("{name}_batch_aos");
@@ -49,6 +51,8 @@ impl Emitter<'_> {
                 }
             }
 
+            #response
+
             impl<T: ::#runtime::Real> ::#runtime::Material<T, #dimension> for Field<T> {
                 fn density(&self, reference: &[Vector<T>], density: &mut [T]) {
                     for (density, point) in density.iter_mut().zip(reference) {
@@ -68,14 +72,10 @@ impl Emitter<'_> {
                     displacement_gradient: &[Matrix<T>],
                     stress: &mut [Matrix<T>],
                 ) {
-                    let points = reference.iter().zip(displacement_gradient);
-                    for (stress, (point, gradient)) in stress.iter_mut().zip(points) {
-                        let rows = ::core::array::from_fn(|i| {
-                            ::core::array::from_fn(|j| gradient[(i, j)])
-                        });
-                        let rows = self.material_kirchhoff_stress((*point).into(), rows);
-                        *stress = Matrix::from_fn(|i, j| rows[i][j]);
-                    }
+                    let points: &[[T; #dimension]] = ::#runtime::arrays(reference);
+                    let gradients: &[[T; #components]] = ::#runtime::arrays(displacement_gradient);
+                    let mut stress: &mut [[T; #components]] = ::#runtime::arrays_mut(stress);
+                    batch::run(&Response(self), &(points, gradients), &mut stress);
                 }
             }
 
@@ -95,6 +95,50 @@ impl Emitter<'_> {
                         let rows = field.displacement_gradient((*point).into());
                         *out = Matrix::from_fn(|i, j| rows[i][j]);
                     }
+                }
+            }
+        }
+    }
+
+    /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices go by columns here.
+    fn response(&self) -> TokenStream {
+        let columns = |symbol: &dyn Fn(usize, usize) -> TokenStream| -> Vec<TokenStream> {
+            self.axes()
+                .flat_map(|j| self.axes().map(move |i| (i, j)))
+                .map(|(i, j)| symbol(i, j))
+                .collect()
+        };
+        let gradients = columns(&|i, j| input(Symbol::Gradient(i, j)).into_token_stream());
+        let stresses = columns(&|i, j| {
+            let [i, j] = [i, j].map(Literal::usize_unsuffixed);
+            quote!(stress[#i][#j])
+        });
+        let rows = self.axes().map(|i| {
+            let row = self.axes().map(|j| input(Symbol::Gradient(i, j)));
+            quote!([#(#row),*])
+        });
+        let point: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let inputs = Literal::usize_unsuffixed(point.len() + gradients.len());
+        let results = Literal::usize_unsuffixed(gradients.len());
+        quote! {
+            struct Response<'a, T: Real>(&'a Field<T>);
+
+            impl<T: Real> batch::Function<T, #inputs, #results> for Response<'_, T> {
+                #[inline(always)]
+                fn at(&self, [#(#point,)* #(#gradients),*]: [T; #inputs]) -> [T; #results] {
+                    let stress =
+                        self.0.material_kirchhoff_stress([#(#point),*], [#(#rows),*]);
+                    [#(#stresses),*]
+                }
+            }
+
+            impl<T: batch::Float> batch::Kernel<T, #inputs, #results> for Response<'_, T> {
+                #[inline(always)]
+                fn drive<S: batch::Stand<T>>(
+                    &self,
+                    points: &mut impl batch::Points<S, #inputs, #results>,
+                ) {
+                    points.each(&Response(&self.0.standing()));
                 }
             }
         }

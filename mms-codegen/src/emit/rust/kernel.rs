@@ -180,7 +180,7 @@ impl Emitter<'_> {
             let body = self.body(&[output], &place);
             quote! {
                 #[doc = #doc]
-                #[inline]
+                #[inline(always)]
                 pub fn #name(&self, #point #gradient) -> #kind { #body #value }
             }
         };

@@ -1,0 +1,117 @@
+//! An elastic block: a field of the gallery, without what drives it.
+
+use mms::scene::Scene;
+use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
+
+/// A field of the gallery as a block.
+#[derive(Clone, Copy)]
+pub struct Body {
+    field: &'static str,
+    /// Whether the field's body force acts, and its faces are as it says. Else there is no force, and they are
+    /// free.
+    pub forced: bool,
+}
+
+impl Body {
+    /// A block that nothing acts on.
+    pub fn free(field: &'static str) -> Self {
+        Self { field, forced: false }
+    }
+}
+
+/// A scene of `D` dimensions.
+pub trait Of<T, const D: usize>: Sized {
+    /// The field of that name.
+    fn find(name: &str) -> Option<Box<dyn ManufacturedField<T, D>>>;
+}
+
+macro_rules! of {
+    ($($float:ident $member:ident: $($dimension:literal $variant:ident),*;)*) => {
+        $($(impl Of<$float, $dimension> for Scene<$float> {
+            fn find(name: &str) -> Option<Box<dyn ManufacturedField<$float, $dimension>>> {
+                let entry = mms::gallery::find(name)?;
+                let values = entry.compile().ok()?.parameters::<$float>(&Default::default());
+                match (entry.$member)(&values)? {
+                    Scene::$variant(field) => Some(field),
+                    _ => None,
+                }
+            }
+        })*)*
+    };
+}
+
+of! {
+    f32 single: 2 Plane, 3 Space;
+    f64 double: 2 Plane, 3 Space;
+}
+
+/// A block of `D` dimensions.
+pub struct Block<T, const D: usize> {
+    field: Box<dyn ManufacturedField<T, D>>,
+    forced: bool,
+}
+
+impl<T, const D: usize> Block<T, D>
+where
+    Scene<T>: Of<T, D>,
+{
+    /// The block of a field.
+    pub fn new(body: &Body) -> Self {
+        let field = Scene::<T>::find(body.field);
+        let field = field.unwrap_or_else(|| panic!("no field `{}` of that dimension", body.field));
+        Self { field, forced: body.forced }
+    }
+}
+
+impl<T: Real, const D: usize> Material<T, D> for Block<T, D> {
+    fn density(&self, reference: &[Vector<T, D>], density: &mut [T]) {
+        self.field.density(reference, density);
+    }
+
+    fn wave_speed(&self, reference: &[Vector<T, D>], speed: &mut [T]) {
+        self.field.wave_speed(reference, speed);
+    }
+
+    fn kirchhoff_stress(
+        &self,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) {
+        self.field.kirchhoff_stress(reference, displacement_gradient, stress);
+    }
+}
+
+impl<T: Real, const D: usize> ManufacturedField<T, D> for Block<T, D> {
+    fn domain(&self) -> Domain<T, D> {
+        let mut domain = self.field.domain();
+        if !self.forced {
+            domain.faces.iter_mut().for_each(|(_, condition)| *condition = Condition::Free);
+        }
+        domain
+    }
+
+    fn displacement(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.displacement(time, reference, out);
+    }
+
+    fn velocity(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.velocity(time, reference, out);
+    }
+
+    fn acceleration(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        self.field.acceleration(time, reference, out);
+    }
+
+    fn body_force(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
+        if self.forced {
+            self.field.body_force(time, reference, out);
+        } else {
+            out.fill(Vector::zeros());
+        }
+    }
+
+    fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]) {
+        self.field.displacement_gradient(time, reference, out);
+    }
+}

@@ -1,0 +1,232 @@
+//! The order of the particles, and which of them may be added to the nodes at the same time.
+//!
+//! The layers of cells along the last axis are cut into slabs. Particles stand in the order of the cells they
+//! were in when they were sorted, so that those of a slab stand together; the nodes that they can reach are a
+//! window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
+//! same time: first the even ones, then the odd ones. Sums onto nodes have one order whatever the number of
+//! threads is.
+
+use std::ops::Range;
+
+use crate::nodal::Nodal;
+use crate::particle::{Particles, reorder};
+use crate::{Lattice, Real, Vector};
+
+/// At least so many layers in a slab, and ...
+const FEWEST_LAYERS: usize = 8;
+
+/// ... at most so many slabs.
+const MOST_SLABS: usize = 64;
+
+/// For fewer particles than this there is one slab.
+const FEWEST_PARTICLES: usize = 4096;
+
+/// Layers of nodes, from the first to the last that a particle in one layer of cells may reach.
+const REACH: [usize; 2] = [1, 3];
+
+/// Particles, and the nodes that they may reach.
+pub(super) struct Slab {
+    pub particles: Range<usize>,
+    /// Indices of nodes.
+    pub window: Range<usize>,
+    /// The layers that its particles may be in.
+    layers: Range<i64>,
+}
+
+/// What is done for a slab, with its part of two arrays of nodes.
+type Work<'a, T, R, E> = dyn Fn(&Slab, [&mut [Nodal<T>]; 2]) -> Result<R, E> + Sync + 'a;
+
+/// All slabs, and the order of the particles.
+pub(super) struct Slabs {
+    pub all: Vec<Slab>,
+    /// Layers of a slab.
+    thickness: usize,
+    /// Where each particle is, by its number; empty if they are in their first order.
+    place: Vec<u32>,
+    order: Vec<u32>,
+    /// The cell of each particle.
+    cell: Vec<u64>,
+}
+
+impl Slabs {
+    /// Slabs of a grid, not yet with particles. Stencils that are not `near` make it one slab.
+    pub fn new<T: Real, const D: usize>(
+        lattice: &Lattice<T, D>,
+        particles: usize,
+        near: bool,
+    ) -> Self {
+        let layers = lattice.count[D - 1];
+        let thickness = layers.div_ceil(MOST_SLABS).max(FEWEST_LAYERS);
+        let slabs = layers / thickness;
+        let stride = lattice.stride[D - 1];
+        if slabs < 3 || particles < FEWEST_PARTICLES || !near {
+            let layers = i64::MIN..i64::MAX;
+            let slab = Slab { particles: 0..particles, window: 0..lattice.len(), layers };
+            let (place, order, cell) = (Vec::new(), Vec::new(), Vec::new());
+            return Self { all: vec![slab], thickness: usize::MAX, place, order, cell };
+        }
+        // Windows are two slabs wide. What is left of that, particles may drift.
+        let drift = (thickness - REACH[0] - REACH[1]) / 2;
+        let slab = |s: usize| {
+            let (from, to) = (s * thickness, (s + 1) * thickness);
+            let before = from.saturating_sub(drift + REACH[0]);
+            let is_last = s + 1 == slabs;
+            let after = if is_last { layers } else { to + drift + REACH[1] };
+            Slab {
+                particles: 0..0,
+                window: before * stride..after * stride,
+                layers: if s == 0 { i64::MIN } else { (from - drift) as i64 }..if is_last {
+                    i64::MAX
+                } else {
+                    (to + drift) as i64
+                },
+            }
+        };
+        Self {
+            all: (0..slabs).map(slab).collect(),
+            thickness,
+            place: (0..particles as u32).collect(),
+            order: (0..particles as u32).collect(),
+            cell: vec![0; particles],
+        }
+    }
+
+    /// Where the particle of that number is.
+    pub fn place_of(&self, id: usize) -> usize {
+        self.place.get(id).map_or(id, |&place| place as usize)
+    }
+
+    /// Sorts the particles, with their `domains`, by the cells of their positions.
+    pub fn sort<T: Real, V, const D: usize>(
+        &mut self,
+        lattice: &Lattice<T, D>,
+        particles: &mut Particles<T, D>,
+        domains: &mut [V],
+        position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
+    ) {
+        if self.all.len() == 1 {
+            return;
+        }
+        for (p, cell) in self.cell.iter_mut().enumerate() {
+            let cells = lattice.in_cells(&position(particles, p));
+            let along = |a: usize| (cells[a].to_f64().max(0.0) as usize).min(lattice.count[a] - 1);
+            *cell = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>() as u64;
+        }
+        let Self { order, cell, .. } = self;
+        order.iter_mut().zip(0..).for_each(|(from, p)| *from = p);
+        order.sort_unstable_by_key(|&p| (cell[p as usize], particles.id[p as usize]));
+        reorder(cell, order);
+        reorder(domains, order);
+        particles.reorder(order);
+        for (p, &id) in particles.id.iter().enumerate() {
+            self.place[id as usize] = p as u32;
+        }
+        let stride = lattice.stride[D - 1] as u64;
+        let mut first = 0;
+        let slabs = self.all.len();
+        for (s, slab) in self.all.iter_mut().enumerate() {
+            let next = ((s + 1) * self.thickness) as u64 * stride;
+            let after = self.cell.partition_point(|&cell| cell < next);
+            slab.particles = first..if s + 1 == slabs { self.cell.len() } else { after };
+            first = slab.particles.end;
+        }
+    }
+
+    /// Whether a particle has left its slab.
+    pub fn is_stale<T: Real, const D: usize>(
+        &self,
+        lattice: &Lattice<T, D>,
+        position: impl Fn(usize) -> Vector<T, D>,
+    ) -> bool {
+        let strayed = |slab: &Slab| {
+            slab.particles.clone().any(|p| {
+                let layer = lattice.in_cells(&position(p))[D - 1].to_f64();
+                !slab.layers.contains(&(layer.floor() as i64))
+            })
+        };
+        self.all.len() > 1 && self.all.iter().any(strayed)
+    }
+
+    /// Does `work` for every slab, with its part of the nodes.
+    ///
+    /// # Errors
+    /// What the first slab that has an error has.
+    pub fn each<T, R, E>(
+        &self,
+        nodes: [&mut [Nodal<T>]; 2],
+        work: &Work<'_, T, R, E>,
+        join: &(dyn Fn(R, R) -> R + Sync),
+    ) -> Result<R, E>
+    where
+        T: Real,
+        R: Default + Send,
+        E: Send,
+    {
+        let mut done = R::default();
+        let [first, second] = nodes;
+        for colour in 0..self.all.len().min(2) {
+            let nodes = Window { start: 0, nodes: [&mut *first, &mut *second] };
+            let colour = Colour { slabs: &self.all, colour };
+            let part = colour.each(0..colour.len(), nodes, work, join)?;
+            done = join(done, part);
+        }
+        Ok(done)
+    }
+}
+
+/// Every other slab.
+struct Colour<'a> {
+    slabs: &'a [Slab],
+    colour: usize,
+}
+
+/// Nodes from `start` on; an array that is not in use is empty.
+struct Window<'a, T> {
+    start: usize,
+    nodes: [&'a mut [Nodal<T>]; 2],
+}
+
+impl<T> Window<'_, T> {
+    fn split(self, at: usize) -> [Self; 2] {
+        let count = at - self.start;
+        let [first, second] = self.nodes;
+        let (first, first_rest) = first.split_at_mut(count.min(first.len()));
+        let (second, second_rest) = second.split_at_mut(count.min(second.len()));
+        [
+            Self { start: self.start, nodes: [first, second] },
+            Self { start: at, nodes: [first_rest, second_rest] },
+        ]
+    }
+}
+
+impl Colour<'_> {
+    fn len(&self) -> usize {
+        (self.slabs.len() - self.colour).div_ceil(2)
+    }
+
+    fn get(&self, number: usize) -> &Slab {
+        &self.slabs[2 * number + self.colour]
+    }
+
+    fn each<T: Real, R: Send, E: Send>(
+        &self,
+        numbers: Range<usize>,
+        nodes: Window<'_, T>,
+        work: &Work<'_, T, R, E>,
+        join: &(dyn Fn(R, R) -> R + Sync),
+    ) -> Result<R, E> {
+        if numbers.len() == 1 {
+            let slab = self.get(numbers.start);
+            let [_, own] = nodes.split(slab.window.start);
+            let [own, _] = own.split(slab.window.end);
+            return work(slab, own.nodes);
+        }
+        let middle = numbers.start + numbers.len() / 2;
+        let [before, after] = nodes.split(self.get(middle).window.start);
+        let (first, second) = super::threads::both(
+            || self.each(numbers.start..middle, before, work, join),
+            || self.each(middle..numbers.end, after, work, join),
+        );
+        Ok(join(first?, second?))
+    }
+}

@@ -1,0 +1,50 @@
+//! Two things at once, if there are threads for it.
+//!
+//! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Everything is cut
+//! into the same parts, whatever their number: so results do not depend on it.
+
+use crate::Real;
+use crate::particle::Columns;
+
+/// Particles that are worked on by one thread at a time.
+const PART: usize = 2048;
+
+/// Both results; at the same time in a pool of more than one thread.
+pub(super) fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    let alone = rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1;
+    if alone { (first(), second()) } else { rayon::join(first, second) }
+}
+
+/// Does `work` for all particles, part by part, and joins what comes of it.
+pub(super) fn each_part<T: Real, R: Send, const D: usize>(
+    particles: Columns<'_, T, D>,
+    work: &(dyn Fn(Columns<'_, T, D>) -> R + Sync),
+    join: &(dyn Fn(R, R) -> R + Sync),
+) -> R {
+    let count = particles.len();
+    if count <= PART {
+        return work(particles);
+    }
+    let [first, others] = particles.split((count / 2).next_multiple_of(PART));
+    let (first, others) = both(|| each_part(first, work, join), || each_part(others, work, join));
+    join(first, others)
+}
+
+/// Does `work` for the entries of two arrays of the same length, part by part.
+pub(super) fn each_pair<A: Sync, B: Send>(
+    given: &[A],
+    wanted: &mut [B],
+    work: &(dyn Fn(&[A], &mut [B]) + Sync),
+) {
+    let count = given.len();
+    if count <= PART {
+        return work(given, wanted);
+    }
+    let middle = (count / 2).next_multiple_of(PART);
+    let (given, other_given) = given.split_at(middle);
+    let (wanted, other_wanted) = wanted.split_at_mut(middle);
+    both(|| each_pair(given, wanted, work), || each_pair(other_given, other_wanted, work));
+}
