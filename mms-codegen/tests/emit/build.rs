@@ -1,0 +1,116 @@
+//! Writes bundles, builds them as their line says, and runs them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::{LazyLock, Mutex};
+
+use mms_codegen::Compiled;
+use mms_codegen::emit::{Bundle, TARGETS, Target};
+
+/// The targets that come with a check program.
+pub fn ports() -> impl Iterator<Item = &'static Target> {
+    TARGETS.iter().filter(|target| target.name != "rust")
+}
+
+/// Whether a program is installed. One that is not is named, or fails the test where
+/// `MMS_REQUIRE_COMPILERS` is 1.
+pub fn is_installed(program: &str) -> bool {
+    static KNOWN: LazyLock<Mutex<BTreeMap<String, bool>>> = LazyLock::new(Mutex::default);
+    let mut known = KNOWN.lock().expect("no panic while it is held");
+    *known.entry(program.into()).or_insert_with(|| {
+        let found = Command::new("sh").args(["-c", &format!("{program} >/dev/null 2>&1")]).status();
+        let found = found.is_ok_and(|status| status.success());
+        if !found {
+            println!("SKIPPED: {program}");
+        }
+        found
+    }) || {
+        let required = std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1");
+        assert!(!required, "`{program}` does not run, and MMS_REQUIRE_COMPILERS is 1");
+        false
+    }
+}
+
+/// Whether what a target's line needs is installed.
+pub fn can_build(target: &Target) -> bool {
+    match target.name {
+        "numpy" => is_installed(&format!("{} -c 'import numpy'", python())),
+        "python" => is_installed(&format!("{} --version", python())),
+        name => {
+            let compiler = match name {
+                "c" => "cc",
+                "cpp" => "c++",
+                "fortran" => "gfortran",
+                name => name,
+            };
+            is_installed(&format!("{compiler} --version"))
+        }
+    }
+}
+
+/// The Python that has what the tests need.
+fn python() -> String {
+    std::env::var("MMS_PYTHON").unwrap_or("python3".into())
+}
+
+/// An empty folder for a test.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("emit").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Writes a bundle.
+pub fn write(bundle: &Bundle, folder: &Path) {
+    for file in &bundle.files {
+        fs::write(folder.join(&file.name), &file.text).expect("a written file");
+    }
+}
+
+/// Runs a line of the shell in a folder.
+pub fn shell(line: &str, folder: &Path) -> Output {
+    let line = line.replace("python3", &python());
+    Command::new("sh").args(["-c", &line]).current_dir(folder).output().expect("a shell")
+}
+
+/// Emits a field, and asserts that its check program passes; `change` may change its line. Returns
+/// the worst error in eps.
+pub fn prove(
+    target: &Target,
+    compiled: &Compiled,
+    folder: &str,
+    change: impl Fn(String) -> String,
+) -> f64 {
+    let folder = scratch(&format!("{folder}/{}", target.name));
+    let bundle = (target.emit)(compiled);
+    write(&bundle, &folder);
+    let line = change(bundle.verify.expect("a check program"));
+    let run = shell(&line, &folder);
+    let [out, err] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(run.status.success(), "{}: {line}\n{out}{err}", folder.display());
+    assert_eq!(err, "", "{}: {line}", folder.display());
+    let (_, rest) = out.split_once("worst error ").expect("a worst error");
+    rest.split(' ').next().and_then(|word| word.parse().ok()).expect("a number")
+}
+
+/// Without optimisation: warnings come all the same, and numbers are the same but for round-off.
+pub fn quick(line: String) -> String {
+    line.replace("-O2", "-O0")
+}
+
+/// Calls a function for every item, on two threads.
+pub fn in_pairs<T: Sync>(items: &[T], each: impl Fn(&T) + Sync) {
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        while let Some(item) = items.get(next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)) {
+            each(item);
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        work();
+    });
+}
