@@ -51,7 +51,7 @@ macro_rules! targets {
     };
 }
 
-targets! { rust c cpp }
+targets! { rust c cpp fortran python numpy }
 
 impl Target {
     /// The target of that name.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use mms_codegen::Compiled;
 use mms_codegen::emit::{Bundle, TARGETS, Target};
@@ -14,23 +14,27 @@ pub fn ports() -> impl Iterator<Item = &'static Target> {
     TARGETS.iter().filter(|target| target.name != "rust")
 }
 
-/// Whether a program is installed. One that is not is named, or fails the test where
-/// `MMS_REQUIRE_COMPILERS` is 1.
-pub fn is_installed(program: &str) -> bool {
+/// Whether everything must be tried, and nothing may be skipped.
+pub fn all_are_required() -> bool {
+    std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1")
+}
+
+/// Whether a command succeeds. One that does not is named, or fails the test where all are required.
+pub fn is_installed(command: &str) -> bool {
     static KNOWN: LazyLock<Mutex<BTreeMap<String, bool>>> = LazyLock::new(Mutex::default);
-    let mut known = KNOWN.lock().expect("no panic while it is held");
-    *known.entry(program.into()).or_insert_with(|| {
-        let found = Command::new("sh").args(["-c", &format!("{program} >/dev/null 2>&1")]).status();
-        let found = found.is_ok_and(|status| status.success());
-        if !found {
-            println!("SKIPPED: {program}");
+    let runs = || {
+        let line = format!("{command} >/dev/null 2>&1");
+        let status = Command::new("sh").args(["-c", &line]).status();
+        let runs = status.is_ok_and(|status| status.success());
+        if !runs {
+            println!("SKIPPED: {command}");
         }
-        found
-    }) || {
-        let required = std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1");
-        assert!(!required, "`{program}` does not run, and MMS_REQUIRE_COMPILERS is 1");
-        false
-    }
+        runs
+    };
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = *known.entry(command.into()).or_insert_with(runs);
+    assert!(found || !all_are_required(), "`{command}` fails, and MMS_REQUIRE_COMPILERS is 1");
+    found
 }
 
 /// Whether what a target's line needs is installed.

@@ -6,4 +6,5 @@ mod coverage;
 mod gallery;
 mod literals;
 mod names;
+mod page;
 mod strict;

@@ -180,9 +180,8 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
     let mut arguments = vec![subject(callable, body.reads_kept)];
     let mut doc = format!("{} Unit: {}.", callable.doc, callable.unit);
     for (array, count) in callable.arrays() {
-        let reads = body.inputs.iter().any(|symbol| {
-            dialect.input(&input(*symbol)).starts_with(array)
-        });
+        let reads =
+            body.inputs.iter().any(|symbol| dialect.input(&input(*symbol)).starts_with(array));
         arguments.push(named("const T *", array, reads));
         let _ = write!(doc, " {array}: {count}.");
     }

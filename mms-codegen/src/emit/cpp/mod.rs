@@ -20,7 +20,7 @@ pub const TARGET: Target = Target {
 
 /// Names that C++ takes.
 const RULES: Rules = Rules {
-    words: &[C_KEYWORDS, CPP_KEYWORDS, MACROS],
+    words: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, "T Parameters"],
     modules: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, HEADERS],
     folds_case: false,
     longest: 120,

@@ -1,7 +1,8 @@
 //! The text that a language lacks: functions in its own words, of which only those are emitted that
 //! are called.
 
-/// The parts of a support text: blocks between blank lines, each the definition of one name.
+/// The parts of a support text: blocks between blank lines, two where the language leaves two, each the
+/// definition of one name.
 pub struct Support {
     blocks: Vec<(String, &'static str)>,
 }
@@ -10,7 +11,8 @@ impl Support {
     /// The blocks of a text. One that defines no name is left out: it makes the file stand alone.
     /// `comment` is what a line of a comment begins with.
     pub fn new(text: &'static str, comment: &[&str]) -> Self {
-        let blocks = text.split("\n\n").map(|block| block.trim_matches('\n'));
+        let between = if text.contains("\n\n\n") { "\n\n\n" } else { "\n\n" };
+        let blocks = text.split(between).map(|block| block.trim_matches('\n'));
         let blocks = blocks.filter_map(|block| Some((defined(block, comment)?, block))).collect();
         Support { blocks }
     }
@@ -21,7 +23,7 @@ impl Support {
         let mut open = vec![text];
         while let Some(text) = open.pop() {
             for (index, (name, block)) in self.blocks.iter().enumerate() {
-                if !needed[index] && words(text).any(|word| word == name) {
+                if !needed[index] && called(text).any(|word| word == name) {
                     needed[index] = true;
                     open.push(block);
                 }
@@ -42,6 +44,14 @@ fn defined(block: &str, comment: &[&str]) -> Option<String> {
     words(before).last().map(String::from)
 }
 
+/// The names in a text but for those of members: they are a user's.
+fn called(text: &str) -> impl Iterator<Item = &str> {
+    words(text).filter(|word| {
+        let before = &text[..word.as_ptr() as usize - text.as_ptr() as usize];
+        !(before.ends_with('.') || before.ends_with("->") || before.ends_with('%'))
+    })
+}
+
 /// The names in a text.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
@@ -59,6 +69,8 @@ mod tests {
         assert_eq!(support.needed("x = two();").len(), 2);
         assert_eq!(support.needed("x = one();").len(), 1);
         assert_eq!(support.needed("other[0]").len(), 1);
-        assert!(support.needed("x = twofold();").is_empty());
+        for other in ["x = twofold();", "p.one", "p->one", "p%one"] {
+            assert!(support.needed(other).is_empty(), "{other}");
+        }
     }
 }
