@@ -70,7 +70,9 @@ fn a_bundle_is_written_with_the_line_that_checks_it() {
     let folder = Folder::new();
     let run = folder.mms("emit bar_1d --target c -o a/b").exits(0);
     assert_eq!(run.stdout, "a/b/bar_1d.h\na/b/bar_1d.c\na/b/bar_1d_check.c\n");
-    run.complains("to check the build: cd a/b && cc -std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off ");
+    run.complains(
+        "to check the build: cd a/b && cc -std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off ",
+    );
     let run = folder.mms("emit bar_1d --target c -o a/b --json").exits(0).json();
     let paths: Vec<_> =
         run["files"].as_array().expect("files").iter().map(|file| file["path"].as_str()).collect();

@@ -40,6 +40,32 @@ fn c_has_no_warning_in_two_compilers_and_two_precisions() {
     }
 }
 
+#[test]
+fn cpp_has_no_warning_in_two_compilers() {
+    let field = field("conformal_sector_2d", &Options::default());
+    for compiler in ["g++", "clang++"] {
+        if is_installed(&format!("{compiler} --version")) {
+            prove(target("cpp"), &field, &format!("strict/{compiler}"), |line| {
+                line.replacen("c++ ", &format!("{compiler} {MORE_CPP_WARNINGS} "), 1)
+            });
+        }
+    }
+}
+
+const MORE_CPP_WARNINGS: &str = "-Wpedantic -Wconversion -Wshadow -Wcast-qual -Wold-style-cast \
+    -Wdouble-promotion -Wextra-semi -Wnon-virtual-dtor -Wformat=2";
+
+#[test]
+fn fortran_proves_itself_in_single_precision() {
+    if !is_installed("gfortran --version") {
+        return;
+    }
+    let field = field("bar_1d", &Options::default());
+    prove(target("fortran"), &field, "strict/single", |line| {
+        format!("sed -i.bak 's/wp = real64/wp = kind(1.0)/' bar_1d.f90 && {line}")
+    });
+}
+
 /// Where multiplications are fused with sums, as some compilers do unless they are told not to.
 #[test]
 fn c_keeps_its_digits_where_operations_are_fused() {

@@ -46,7 +46,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     }
     let _ = write!(
         text,
-        "  print '(a, es9.3, a, a)', '{name}: worst error ', worst, ' eps, of ', trim(worst_name)\n  \
+        "  print '(a, es9.3, a, a)', &\n    '{name}: worst error ', worst, ' eps, of ', trim(worst_name)\n  \
          if (failures > 0) error stop 1\n\n"
     );
     text += include_str!("support/check.f90");

@@ -30,12 +30,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let support = [needed(WIDE), needed(POINT)];
     let mut header = port.header();
     header.push(format!(
-        "Numbers are of the kind wp: change its line for another. Compile with -ffp-contract=off: what needs only parameters and the time is computed with twice the digits of a double. {name}_check.f90 checks the result."
+        "Numbers are of the kind wp, real64, which is c_double of iso_c_binding; for single precision change its line to kind(1.0). Compile with -ffp-contract=off: what needs only parameters and the time is computed with twice the digits of a double. {name}_check.f90 checks the result."
     ));
     let mut text = comment(&header, "");
     let _ = write!(
         text,
-        "module {name}\n  use, intrinsic :: iso_fortran_env, only: real32, real64\n  implicit none\n  private\n\n"
+        "module {name}\n  use, intrinsic :: iso_fortran_env, only: real64\n  implicit none\n  private\n\n"
     );
     let mut public: Vec<&str> = vec!["default_parameters", "prepare", "at_time"];
     public.extend(port.callables.iter().map(|callable| callable.name.as_str()));
@@ -62,8 +62,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
         let _ = write!(text, "\n{part}\n");
     }
     let _ = writeln!(text, "\nend module {name}");
-    // A kind that nothing uses would be warned of.
-    text.replace("only: real32, real64", "only: real64")
+    text
 }
 
 fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {

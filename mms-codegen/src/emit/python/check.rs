@@ -28,9 +28,8 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
         "import {name} as field\n\nEPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n"
     );
     text += "# Parameters: the defaults, others, and extremes.\n";
-    let sets: Vec<Vec<f64>> = vectors.sets.clone();
-    let _ = write!(text, "SETS = [\n");
-    for set in &sets {
+    text += "SETS = [\n";
+    for set in &vectors.sets {
         let numbers: Vec<String> = set.iter().map(|value| hexadecimal(*value)).collect();
         let _ = writeln!(text, "    \"{}\",", numbers.join(" "));
     }
