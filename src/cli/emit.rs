@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use mms_codegen::emit::{Bundle, TARGETS, Target};
+use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
 use mms_codegen::selection::{Freeze, Selection};
 use serde_json::{Value, json};
 
@@ -70,7 +70,7 @@ impl Emit {
         let options = self.variant.options(self.selection()?);
         let emitted = |field: &str| {
             let input = Input::find_with(field, &options)?;
-            let bundle = (target.emit)(&input.compiled);
+            let bundle = (target.emit)(&Subject::new(&input.compiled));
             Ok::<_, anyhow::Error>((input.name, bundle))
         };
         let names = match &self.field {

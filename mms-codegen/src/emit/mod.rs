@@ -8,7 +8,32 @@ mod layout;
 pub mod port;
 mod text;
 
+use std::sync::OnceLock;
+
+use self::port::Port;
+use self::port::names::Rules;
+use self::port::vectors::Vectors;
 use crate::compile::Compiled;
+
+/// A field that is emitted, in one language or more: its test vectors are computed once.
+#[derive(Clone, Debug)]
+pub struct Subject<'a> {
+    compiled: &'a Compiled,
+    vectors: OnceLock<Vectors>,
+}
+
+impl<'a> Subject<'a> {
+    /// What a field was compiled for.
+    pub fn new(compiled: &'a Compiled) -> Self {
+        Subject { compiled, vectors: OnceLock::new() }
+    }
+
+    /// The test vectors, which are the same in every language.
+    pub fn vectors(&self) -> &Vectors {
+        const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
+        self.vectors.get_or_init(|| Port::new(self, &ANY).compute_vectors())
+    }
+}
 
 /// A file that a target made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +61,7 @@ pub struct Target {
     /// What comes out, in one line.
     pub doc: &'static str,
     /// Emits what a field was compiled for.
-    pub emit: fn(&Compiled) -> Bundle,
+    pub emit: fn(&Subject<'_>) -> Bundle,
     /// The words that mean something in the language or in what is emitted: parameters that are called
     /// so are renamed.
     pub words: &'static [&'static str],

@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-use mms_codegen::Compiled;
-use mms_codegen::emit::{Bundle, TARGETS, Target};
+use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
 
 /// The targets that come with a check program.
 pub fn ports() -> impl Iterator<Item = &'static Target> {
@@ -84,12 +83,12 @@ pub fn shell(line: &str, folder: &Path) -> Output {
 /// the worst error in eps.
 pub fn prove(
     target: &Target,
-    compiled: &Compiled,
+    subject: &Subject<'_>,
     folder: &str,
     change: impl Fn(String) -> String,
 ) -> f64 {
     let folder = scratch(&format!("{folder}/{}", target.name));
-    let bundle = (target.emit)(compiled);
+    let bundle = (target.emit)(subject);
     write(&bundle, &folder);
     let line = change(bundle.verify.expect("a check program"));
     let run = shell(&line, &folder);

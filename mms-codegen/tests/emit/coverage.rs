@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use mms_codegen::emit::Subject;
 use mms_codegen::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_codegen::program::interpret::Interpreter;
 use mms_codegen::program::precise::Precise;
@@ -177,10 +178,11 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
                 seen.insert((function, instr.stage));
             }
         }
+        let subject = Subject::new(&field);
         for target in ports().filter(|target| can_build(target)) {
             // A compiler takes long to optimise functions of a hundred formulas.
             let line = |line| if target.name == "c" { line } else { quick(line) };
-            let error = prove(target, &field, &format!("coverage/{index}"), line);
+            let error = prove(target, &subject, &format!("coverage/{index}"), line);
             println!("{} {index}: {error} eps", target.name);
         }
     }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
 
+use mms_codegen::emit::Subject;
 use mms_codegen::{Compiled, Options, compile_with};
 
 use super::build::{all_are_required, can_build, in_pairs, ports, prove, quick};
@@ -40,6 +41,7 @@ fn compiled(path: &Path) -> Compiled {
 #[test]
 fn every_field_proves_itself_in_every_language() {
     let fields = gallery();
+    let subjects: Vec<_> = fields.iter().map(Subject::new).collect();
     let targets: Vec<_> = ports().filter(|target| can_build(target)).collect();
     let others = targets.iter().filter(|target| target.name != "c").count().max(1);
     let is_tried = |field: usize, target: usize| {
@@ -51,9 +53,8 @@ fn every_field_proves_itself_in_every_language() {
         .collect();
     let worst = Mutex::new(BTreeMap::new());
     in_pairs(&pairs, |(field, target)| {
-        let (field, target) = (&fields[*field], targets[*target]);
-        let name = &field.field.name;
-        let error = prove(target, field, &format!("gallery/{name}"), quick);
+        let (name, target) = (&fields[*field].field.name, targets[*target]);
+        let error = prove(target, &subjects[*field], &format!("gallery/{name}"), quick);
         let mut worst = worst.lock().expect("no panic while it is held");
         let most = worst.entry(target.name).or_insert((0.0, String::new()));
         if error > most.0 {

@@ -1,6 +1,7 @@
 //! Numbers that are hard to write, and programs that are hard to compile.
 
 use mms_codegen::compile::compile_unproved;
+use mms_codegen::emit::Subject;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::{Compiled, Options};
 
@@ -34,8 +35,9 @@ fn numbers_keep_their_digits_in_every_language() {
     .enumerate()
     {
         let field = field(u, Quantity::Displacement);
+        let subject = Subject::new(&field);
         for target in ports().filter(|target| can_build(target)) {
-            prove(target, &field, &format!("literals/{index}"), quick);
+            prove(target, &subject, &format!("literals/{index}"), quick);
         }
     }
 }
@@ -45,7 +47,8 @@ fn a_thousand_terms_compile_in_every_language() {
     let terms: Vec<String> =
         (1..=1000).map(|k| format!("sin({k}*X + t)/{}", 1000 * k * k)).collect();
     let field = field(&terms.join(" + "), Quantity::Velocity);
+    let subject = Subject::new(&field);
     for target in ports().filter(|target| can_build(target)) {
-        prove(target, &field, "thousand", quick);
+        prove(target, &subject, "thousand", quick);
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use mms_codegen::emit::TARGETS;
+use mms_codegen::emit::{Subject, TARGETS};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::names::{COORDINATES, FUNCTIONS};
 use mms_codegen::{Compiled, Options, compile_with};
@@ -28,8 +28,9 @@ fn compiled(stem: &str, text: &str) -> Compiled {
 #[test]
 fn parameters_may_have_any_name_in_every_language() {
     let field = compiled("odd_names", &odd_names());
+    let subject = Subject::new(&field);
     for target in ports().filter(|target| can_build(target)) {
-        prove(target, &field, "odd_names", quick);
+        prove(target, &subject, "odd_names", quick);
     }
 }
 
@@ -66,8 +67,9 @@ fn words_of_any_language_are_names() {
         terms.join(" + ")
     );
     let field = compiled("words", &text);
+    let subject = Subject::new(&field);
     for target in ports().filter(|target| can_build(target)) {
-        prove(target, &field, "words", quick);
+        prove(target, &subject, "words", quick);
     }
 }
 
@@ -83,8 +85,9 @@ fn a_field_may_have_any_stem_and_title_in_every_language() {
     let long = "abcdefghij".repeat(7);
     for stem in ["2d", "double", "math", "std", "body_force", &long] {
         let field = compiled(stem, &text);
+        let subject = Subject::new(&field);
         for target in ports().filter(|target| can_build(target)) {
-            prove(target, &field, &format!("stems/{stem}"), quick);
+            prove(target, &subject, &format!("stems/{stem}"), quick);
         }
     }
 }

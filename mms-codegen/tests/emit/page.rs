@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use mms_codegen::emit::Subject;
+
 use super::build::{can_build, ports, scratch, shell, write};
 use super::gallery::field;
 
@@ -21,6 +23,7 @@ fn ten_lines_lead_to_the_first_number_in_every_language() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/targets.md");
     let page = fs::read_to_string(page).expect("the page");
     let bar = field("bar_1d");
+    let bar = Subject::new(&bar);
     for target in ports() {
         let blocks = blocks(&page, target.name);
         let [(_, emit), (_, program), (_, build)] = blocks[..] else {

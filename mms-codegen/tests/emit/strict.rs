@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use mms_codegen::emit::Target;
+use mms_codegen::emit::{Subject, Target};
 use mms_codegen::selection::Form;
 use mms_codegen::{Compiled, Options, compile_with};
 
@@ -34,7 +34,12 @@ fn c_has_no_warning_in_two_compilers_and_two_precisions() {
             let line = |line: String| {
                 line.replacen("cc ", &format!("{compiler} {MORE_WARNINGS} {precision} "), 1)
             };
-            let error = prove(target("c"), &field, &format!("strict/{compiler}{precision}"), line);
+            let error = prove(
+                target("c"),
+                &Subject::new(&field),
+                &format!("strict/{compiler}{precision}"),
+                line,
+            );
             println!("{compiler} {precision}: {error} eps");
         }
     }
@@ -45,7 +50,7 @@ fn cpp_has_no_warning_in_two_compilers() {
     let field = field("conformal_sector_2d", &Options::default());
     for compiler in ["g++", "clang++"] {
         if is_installed(&format!("{compiler} --version")) {
-            prove(target("cpp"), &field, &format!("strict/{compiler}"), |line| {
+            prove(target("cpp"), &Subject::new(&field), &format!("strict/{compiler}"), |line| {
                 line.replacen("c++ ", &format!("{compiler} {MORE_CPP_WARNINGS} "), 1)
             });
         }
@@ -61,7 +66,7 @@ fn fortran_proves_itself_in_single_precision() {
         return;
     }
     let field = field("bar_1d", &Options::default());
-    prove(target("fortran"), &field, "strict/single", |line| {
+    prove(target("fortran"), &Subject::new(&field), "strict/single", |line| {
         format!("sed -i.bak 's/wp = real64/wp = kind(1.0)/' bar_1d.f90 && {line}")
     });
 }
@@ -73,7 +78,7 @@ fn c_keeps_its_digits_where_operations_are_fused() {
         return;
     }
     let field = field("generalized_vortex", &Options::default());
-    prove(target("c"), &field, "strict/fused", |line| {
+    prove(target("c"), &Subject::new(&field), "strict/fused", |line| {
         line.replace("-ffp-contract=off", "-ffp-contract=fast -march=native")
     });
 }
@@ -84,11 +89,13 @@ fn other_forms_and_frozen_parameters_prove_themselves() {
         return;
     }
     let mut options = Options { form: Form::Fast, ..Options::default() };
-    prove(target("c"), &field("bar_1d", &options), "strict/fast", |line| line);
+    prove(target("c"), &Subject::new(&field("bar_1d", &options)), "strict/fast", |line| line);
     options = Options::default();
     options.selection.freeze = mms_codegen::selection::Freeze::Everything;
-    prove(target("c"), &field("bar_1d", &options), "strict/frozen", |line| line);
+    prove(target("c"), &Subject::new(&field("bar_1d", &options)), "strict/frozen", |line| line);
     options.selection.quantities = Some([mms_codegen::quantity::Quantity::BodyForce].into());
     options.selection.twin = mms_codegen::twin::Twin::Standard;
-    prove(target("c"), &field("twisted_column", &options), "strict/part", |line| line);
+    prove(target("c"), &Subject::new(&field("twisted_column", &options)), "strict/part", |line| {
+        line
+    });
 }

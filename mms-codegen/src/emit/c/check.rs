@@ -11,7 +11,7 @@ use crate::emit::text::listed;
 
 /// The text of `FIELD_check.c`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let vectors = port.vectors();
+    let vectors = port.subject.vectors();
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
     let mut header = port.header();
     header.push(format!(
@@ -27,13 +27,13 @@ pub(super) fn text(port: &Port<'_>) -> String {
         vectors.sets.len(),
         vectors.samples.len()
     );
-    text += &tables(port, &vectors);
+    text += &tables(port, vectors);
     let program = include_str!("support/check.c");
     text += &program
         .replace("FIELD", &upper)
         .replace("field_:", &format!("{name}:"))
         .replace("field_", &format!("{name}_"));
-    text += &main(port, &vectors);
+    text += &main(port, vectors);
     text
 }
 

@@ -6,10 +6,9 @@ mod header;
 mod source;
 
 use self::dialect::RULES;
-use crate::compile::Compiled;
 use crate::emit::port::Port;
 use crate::emit::text::wrapped;
-use crate::emit::{Bundle, File, Target};
+use crate::emit::{Bundle, File, Subject, Target};
 
 /// C.
 pub const TARGET: Target = Target {
@@ -23,8 +22,8 @@ pub const TARGET: Target = Target {
 /// operations, which would change what double-double arithmetic relies on.
 const FLAGS: &str = "-std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
-fn bundle(compiled: &Compiled) -> Bundle {
-    let port = Port::new(compiled, &RULES);
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
     let name = &port.name;
     let file = |suffix: &str, text: String| File { name: format!("{name}{suffix}"), text };
     Bundle {

@@ -11,7 +11,7 @@ use crate::emit::port::vectors::Vectors;
 
 /// The text of `FIELD_check.cpp`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let vectors = port.vectors();
+    let vectors = port.subject.vectors();
     let (name, dimension) = (&port.name, port.dimension());
     let mut header = port.header();
     header.push(format!(
@@ -38,7 +38,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
             "struct Sample {{\n    int set;\n    double t, X[{dimension}], N[{dimension}], H[{}];\n}};\n\n\
              constexpr Sample samples[SAMPLES] = {{\n{}}};\n\n",
             dimension * dimension,
-            sample_rows(&vectors)
+            sample_rows(vectors)
         );
     }
     for (callable, expected) in port.callables.iter().zip(&vectors.expected) {
@@ -53,7 +53,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     }
     text += &include_str!("support/check.hpp").replace("field_ ", &format!("{name} "));
     text += "\ntemplate <class T> int check(const char *precision)\n{\n";
-    text += &body(port, &vectors);
+    text += &body(port, vectors);
     text += "    return errors.conclude();\n}\n\n} // namespace\n\nint main()\n{\n";
     text += "    int failures = check<double>(\"double precision\");\n";
     if vectors.accepted_in_single.is_some() {

@@ -214,10 +214,14 @@ fn batch(callable: &Callable) -> String {
     let mut call = vec![if callable.time { "now" } else { "field" }.to_string()];
     let mut left = inputs.iter();
     for (array, count) in callable.arrays() {
-        let array = array.to_ascii_lowercase();
+        let array = match array {
+            "N" => "normal",
+            "H" => "gradient",
+            _ => "point",
+        };
         let items: Vec<_> = left.by_ref().take(count).map(|name| format!("{name}[i]")).collect();
         let _ = writeln!(text, "        const T {array}[] = {{{}}};", items.join(", "));
-        call.push(array);
+        call.push(array.into());
     }
     if callable.is_scalar() {
         let _ = writeln!(

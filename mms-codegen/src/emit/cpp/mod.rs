@@ -4,11 +4,10 @@ mod check;
 mod dialect;
 mod header;
 
-use crate::compile::Compiled;
 use crate::emit::c::dialect::{C_KEYWORDS, CPP_KEYWORDS, HEADERS, MACROS};
 use crate::emit::port::Port;
 use crate::emit::port::names::Rules;
-use crate::emit::{Bundle, File, Target};
+use crate::emit::{Bundle, File, Subject, Target};
 
 /// C++.
 pub const TARGET: Target = Target {
@@ -28,8 +27,8 @@ const RULES: Rules = Rules {
 
 const FLAGS: &str = "-std=c++17 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
-fn bundle(compiled: &Compiled) -> Bundle {
-    let port = Port::new(compiled, &RULES);
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
     let name = &port.name;
     Bundle {
         files: vec![

@@ -10,7 +10,7 @@ use crate::emit::port::vectors::{Sample, Vectors};
 /// The text of `FIELD_check.f90`. Numbers are read from text, as bits: a compiler takes its time for
 /// long tables.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let vectors = port.vectors();
+    let vectors = port.subject.vectors();
     let name = &port.name;
     let mut header = port.header();
     header.push(format!(
@@ -33,7 +33,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
         text,
         "  integer, parameter :: set_of(samples_count) = [ &\n    {}]\n  \
          real(wp) :: at({points}, samples_count) ! t, X, N and H\n\n",
-        wrapped_integers(&vectors)
+        wrapped_integers(vectors)
     );
     text += "  call prepare_fields()\n  call set_points()\n";
     if !port.parameters.is_empty() {
@@ -50,12 +50,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
          if (failures > 0) error stop 1\n\n"
     );
     text += include_str!("support/check.f90");
-    text += &prepared(port, &vectors);
-    text += &points_set(&vectors, points);
-    text += &defaults(port, &vectors);
+    text += &prepared(port, vectors);
+    text += &points_set(vectors, points);
+    text += &defaults(port, vectors);
     for (place, callable) in port.callables.iter().enumerate() {
         if !vectors.expected[place].is_empty() {
-            text += &check(port, callable, &vectors, place);
+            text += &check(port, callable, vectors, place);
         }
     }
     let _ = writeln!(text, "end program {name}_check");

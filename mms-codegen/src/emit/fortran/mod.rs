@@ -4,11 +4,10 @@ mod check;
 mod dialect;
 mod module;
 
-use crate::compile::Compiled;
 use crate::emit::port::Port;
 use crate::emit::port::names::Rules;
 use crate::emit::text::wrapped;
-use crate::emit::{Bundle, File, Target};
+use crate::emit::{Bundle, File, Subject, Target};
 
 /// Fortran.
 pub const TARGET: Target = Target {
@@ -38,8 +37,8 @@ const RULES: Rules = Rules {
 
 const FLAGS: &str = "-std=f2008 -O2 -Wall -Wextra -Werror -ffp-contract=off";
 
-fn bundle(compiled: &Compiled) -> Bundle {
-    let port = Port::new(compiled, &RULES);
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
     let name = &port.name;
     Bundle {
         files: vec![

@@ -7,6 +7,6 @@ use crate::emit::python::{PythonForm, TARGET as PYTHON, bundle};
 pub const TARGET: Target = Target {
     name: "numpy",
     doc: "Python: a module over NumPy arrays, which broadcasts, and a check program",
-    emit: |compiled| bundle(compiled, PythonForm::NumPy),
+    emit: |subject| bundle(subject, PythonForm::NumPy),
     words: PYTHON.words,
 };

@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 
 use self::callable::{Callable, callables};
 use self::names::{Rules, sanitised, unique};
+use super::Subject;
 use super::layout::Later;
 use crate::compile::Compiled;
 use crate::program::{Output, Program, Stage, Value};
@@ -26,6 +27,8 @@ pub const AT_POINTS: &[Stage] = &[Stage::Point, Stage::PointTime];
 
 /// A field on its way into some language.
 pub struct Port<'a> {
+    /// The field, and its test vectors.
+    pub subject: &'a Subject<'a>,
     /// The field.
     pub compiled: &'a Compiled,
     /// Its name in the language, which files are named after too.
@@ -44,7 +47,8 @@ pub struct Port<'a> {
 
 impl<'a> Port<'a> {
     /// The field under the rules of a language.
-    pub fn new(compiled: &'a Compiled, rules: &Rules) -> Self {
+    pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
+        let compiled = subject.compiled;
         let program = &compiled.program;
         let callables = callables(compiled);
         let emitted = |output: &Output| callables.iter().any(|it| it.output == *output);
@@ -61,6 +65,7 @@ impl<'a> Port<'a> {
             .map(|(position, parameter)| (position, parameter.name.value.as_str()))
             .unzip();
         Port {
+            subject,
             compiled,
             name: sanitised(&compiled.field.name, rules, rules.modules),
             parameters: positions.into_iter().zip(unique(&names, rules)).collect(),
@@ -84,10 +89,5 @@ impl<'a> Port<'a> {
     /// The components of an output.
     pub fn values(&self, output: Output) -> &'a [Value] {
         self.program().outputs.get(&output).map_or(&[], Vec::as_slice)
-    }
-
-    /// Whether a stage keeps anything that has to be computed.
-    pub fn is_wide(&self) -> bool {
-        !(self.parameters.is_empty() && self.kept.is_empty() && self.kept_at_times.is_empty())
     }
 }

@@ -30,6 +30,9 @@ const MARGIN: f64 = 4.0;
 /// How many points of the inner body each set of parameters is evaluated at.
 const POINTS: usize = 16;
 
+/// Among how many parameters an amplitude is looked for.
+const CANDIDATES: usize = 16;
+
 /// By how much, in powers of two, an amplitude is reduced.
 const REDUCED: i32 = 30;
 
@@ -97,7 +100,7 @@ impl Sample {
 
 impl Port<'_> {
     /// The test vectors of the functions.
-    pub fn vectors(&self) -> Vectors {
+    pub(in crate::emit) fn compute_vectors(&self) -> Vectors {
         let compiled = self.compiled;
         let left = |values: &[f64]| self.parameters.keys().map(|index| values[*index]).collect();
         let mut vectors = Vectors {
@@ -177,7 +180,9 @@ impl Port<'_> {
     /// Values of parameters, by position; what depends on them follows.
     fn sets(&self) -> Vec<BTreeMap<usize, Rational>> {
         let mut sets = vec![BTreeMap::new(), self.changed()];
-        if let Some(amplitude) = Amplitude::find(self.compiled) {
+        let first = self.parameters.keys().take(CANDIDATES);
+        let mut amplitudes = first.filter_map(|index| Amplitude::of(self.compiled, *index));
+        if let Some(amplitude) = amplitudes.next() {
             let value = single_parameter(amplitude.value * 2f64.powi(-REDUCED));
             sets.push([(amplitude.parameter, exact(value))].into());
         }

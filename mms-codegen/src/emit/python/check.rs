@@ -11,7 +11,7 @@ use crate::emit::port::vectors::Vectors;
 
 /// The text of `FIELD_check.py`.
 pub(super) fn text(port: &Port<'_>, form: Form) -> String {
-    let vectors = port.vectors();
+    let vectors = port.subject.vectors();
     let name = &port.name;
     let mut header = port.header();
     header.push(format!(
@@ -53,7 +53,7 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
     }
     text += "}\n\n";
     text += include_str!("support/check.py");
-    text += &program(port, form, &vectors);
+    text += &program(port, form, vectors);
     text
 }
 
@@ -68,12 +68,12 @@ fn program(port: &Port<'_>, form: Form, vectors: &Vectors) -> String {
              settle(\"default of {parameter}\", 1)\n"
         );
     }
-    text += "fields = [field.prepare(field.Parameters(*rows(values)[0])) for values in SETS]\n"
-        .replace(
-            "*rows(values)[0]",
-            if port.parameters.is_empty() { "" } else { "*rows(values)[0]" },
-        )
-        .as_str();
+    text += match port.parameters.is_empty() {
+        true => "fields = [field.prepare() for _ in SETS]\n",
+        false => {
+            "fields = [field.prepare(field.Parameters(*rows(values)[0])) for values in SETS]\n"
+        }
+    };
     text += "samples = rows(SAMPLES)\n";
     text += "instants = [fields[int(sample[0])].at_time(sample[1]) for sample in samples]\n";
     text += "\n# Name, whether it is of a time, what it takes of a point, and the accepted error.\nFUNCTIONS = [\n";

@@ -5,16 +5,15 @@ mod dialect;
 pub(super) mod module;
 
 use self::dialect::Form;
-use crate::compile::Compiled;
 use crate::emit::port::Port;
 use crate::emit::port::names::Rules;
-use crate::emit::{Bundle, File, Target};
+use crate::emit::{Bundle, File, Subject, Target};
 
 /// Python.
 pub const TARGET: Target = Target {
     name: "python",
     doc: "Python: a module that needs the standard library alone, and a check program",
-    emit: |compiled| bundle(compiled, Form::Math),
+    emit: |subject| bundle(subject, Form::Math),
     words: RULES.words,
 };
 
@@ -40,8 +39,8 @@ const MODULES: &str = "\
     types typing unittest uuid warnings weakref zlib scipy sympy";
 
 /// The module of a form, and the program that checks it.
-pub(super) fn bundle(compiled: &Compiled, form: Form) -> Bundle {
-    let port = Port::new(compiled, &RULES);
+pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
+    let port = Port::new(subject, &RULES);
     let name = &port.name;
     Bundle {
         files: vec![

@@ -30,7 +30,7 @@ pub use file::file;
 pub const TARGET: Target = Target {
     name: "rust",
     doc: "a module that needs mms-math alone",
-    emit: |compiled| Bundle { files: vec![file(compiled)], verify: None },
+    emit: |subject| Bundle { files: vec![file(subject.compiled)], verify: None },
     words: &[],
 };
 
