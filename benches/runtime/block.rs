@@ -6,7 +6,8 @@ use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, 
 /// A field of the gallery as a block.
 #[derive(Clone, Copy)]
 pub struct Body {
-    field: &'static str,
+    /// Its name.
+    pub field: &'static str,
     /// Whether the field's body force acts, and its faces are as it says. Else there is no force, and they are
     /// free.
     pub forced: bool,

@@ -1,28 +1,39 @@
 //! `mms emit`: the source text of a field, for another solver.
 
+mod folder;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use mms_codegen::emit::{File, TARGETS, Target};
+use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
 use mms_codegen::selection::{Freeze, Selection};
-use serde_json::json;
+use serde_json::{Value, json};
 
+use self::folder::{State, compare, quoted, write};
 use super::input::{Input, Variant, quantities, settings};
 use super::{Outcome, print, print_json};
-use crate::report::write_whole;
+use crate::gallery::FIELDS;
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
+///
+/// For other languages than Rust a check program comes with it, which holds test vectors: the line
+/// printed at the end builds and runs it. With your own compiler and flags in that line it proves
+/// your build.
 #[derive(Args)]
 pub struct Emit {
     /// A gallery name, or a path to a TOML file.
-    field: String,
+    #[arg(required_unless_present = "all")]
+    field: Option<String>,
+    /// Every field of the gallery, each in a folder of its name below --output.
+    #[arg(long, conflicts_with = "field", requires = "output")]
+    all: bool,
     /// The language.
     #[arg(long, value_name = "NAME", default_value = "rust", value_parser = targets())]
     target: String,
-    /// The folder for the file; without it the text goes to stdout.
+    /// The folder for the files; without it the text goes to stdout, where it is one file.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Quantities, separated by commas; without it all of them, the domain and the material.
@@ -38,7 +49,11 @@ pub struct Emit {
     freeze: Option<Vec<String>>,
     #[command(flatten)]
     variant: Variant,
-    /// Print one JSON document, with the text in it unless --output is given.
+    /// Write nothing: compare the files in the folder with what would be written, and exit 1 if one
+    /// is missing or not the same to the byte.
+    #[arg(long, requires = "output")]
+    check: bool,
+    /// Print one JSON document, with the texts in it unless --output is given.
     #[arg(long)]
     json: bool,
 }
@@ -52,24 +67,59 @@ impl Emit {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let target =
             Target::find(&self.target).with_context(|| format!("no target `{}`", self.target))?;
-        let input = Input::find_with(&self.field, &self.variant.options(self.selection()?))?;
-        let file = (target.emit)(&input.compiled);
-        let path = match &self.output {
-            Some(folder) => Some(write(folder, &file)?),
-            None => None,
+        let options = self.variant.options(self.selection()?);
+        let emitted = |field: &str| {
+            let input = Input::find_with(field, &options)?;
+            let bundle = (target.emit)(&Subject::new(&input.compiled));
+            Ok::<_, anyhow::Error>((input.name, bundle))
         };
-        if self.json {
-            print_json(&json!({
-                "field": input.name,
-                "target": target.name,
-                "file": file.name,
-                "path": path,
-                "text": if path.is_none() { Some(&file.text) } else { None },
-            }))?;
-        } else {
-            print(path.as_ref().unwrap_or(&file.text))?;
+        let names = match &self.field {
+            Some(field) => vec![field.as_str()],
+            None => FIELDS.iter().map(|entry| entry.name).collect(),
+        };
+        let mut documents = Vec::new();
+        let mut outcome = Outcome::AsExpected;
+        for name in names {
+            let (name, bundle) = emitted(name)?;
+            let folder =
+                self.output.as_ref().map(|it| if self.all { it.join(&name) } else { it.clone() });
+            let delivered = match folder {
+                None => self.printed(&bundle)?,
+                Some(folder) if self.check => compared(&folder, &bundle)?,
+                Some(folder) => written(&folder, &bundle)?,
+            };
+            if delivered.is_stale() {
+                outcome = Outcome::Refuted;
+            }
+            if self.json {
+                documents.push(delivered.document(&name, target, &bundle));
+            } else {
+                delivered.show()?;
+            }
         }
-        Ok(Outcome::AsExpected)
+        match (self.json, self.all) {
+            (true, true) => print_json(&json!({ "target": target.name, "fields": documents }))?,
+            (true, false) => print_json(&documents[0])?,
+            (false, _) => {}
+        }
+        if outcome == Outcome::Refuted {
+            anstream::eprintln!("write them anew: {}", command_without_check());
+        }
+        Ok(outcome)
+    }
+
+    /// What goes to stdout: the one file that a solver needs.
+    fn printed(&self, bundle: &Bundle) -> anyhow::Result<Delivered> {
+        if bundle.files.len() > 1 && !self.json {
+            let names: Vec<_> = bundle.files.iter().map(|file| file.name.as_str()).collect();
+            bail!(
+                "`--target {}` makes {}: give the folder for them, as in `-o forcing`",
+                self.target,
+                names.join(", ")
+            );
+        }
+        let texts = bundle.files.iter().map(|file| file.text.clone());
+        Ok(Delivered { texts: Some(texts.collect()), ..Delivered::default() })
     }
 
     fn selection(&self) -> anyhow::Result<Selection> {
@@ -90,11 +140,86 @@ impl Emit {
     }
 }
 
-/// Writes a file into a folder, whole or not at all, and returns its path.
-fn write(folder: &Path, file: &File) -> anyhow::Result<String> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
-    let path = folder.join(&file.name);
-    write_whole(&path, &file.text).with_context(|| format!("cannot write `{}`", path.display()))?;
-    Ok(path.display().to_string())
+/// Where the files of a bundle went, or how they compare with those of a folder.
+#[derive(Default)]
+struct Delivered {
+    texts: Option<Vec<String>>,
+    paths: Vec<String>,
+    states: Option<Vec<State>>,
+    /// The line that checks them, from where the command was run.
+    verify: Option<String>,
+}
+
+fn written(folder: &Path, bundle: &Bundle) -> anyhow::Result<Delivered> {
+    let paths = bundle.files.iter().map(|file| write(folder, file)).collect::<Result<_, _>>()?;
+    let verify = bundle.verify.as_ref();
+    let verify =
+        verify.map(|line| format!("cd {} && {line}", quoted(&folder.display().to_string())));
+    Ok(Delivered { paths, verify, ..Delivered::default() })
+}
+
+fn compared(folder: &Path, bundle: &Bundle) -> anyhow::Result<Delivered> {
+    let found = bundle.files.iter().map(|file| compare(folder, file));
+    let (paths, states) = found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+    Ok(Delivered { paths, states: Some(states), ..Delivered::default() })
+}
+
+impl Delivered {
+    fn is_stale(&self) -> bool {
+        self.states.iter().flatten().any(|state| *state != State::Current)
+    }
+
+    fn show(&self) -> anyhow::Result<()> {
+        if let Some(texts) = &self.texts {
+            return print(&texts[0]);
+        }
+        match &self.states {
+            None => print(&self.paths.join("\n"))?,
+            Some(states) => {
+                let found = self.paths.iter().zip(states);
+                for (path, state) in found.filter(|(_, state)| **state != State::Current) {
+                    print(&format!("{path}: {}", state.name()))?;
+                }
+            }
+        }
+        if let Some(line) = &self.verify {
+            anstream::eprintln!("to check the build: {line}");
+        }
+        Ok(())
+    }
+
+    /// The first file under keys of its own: for some targets it is the only one.
+    fn document(&self, field: &str, target: &Target, bundle: &Bundle) -> Value {
+        let files: Vec<Value> = (bundle.files.iter().enumerate())
+            .map(|(index, file)| {
+                let mut document = json!({
+                    "file": file.name,
+                    "path": self.paths.get(index),
+                    "text": self.texts.as_ref().map(|texts| &texts[index]),
+                });
+                if let Some(states) = &self.states {
+                    document["state"] = states[index].name().into();
+                }
+                document
+            })
+            .collect();
+        json!({
+            "field": field,
+            "target": target.name,
+            "file": files[0]["file"],
+            "path": files[0]["path"],
+            "text": files[0]["text"],
+            "files": files,
+            "verify": self.verify.as_ref().or(bundle.verify.as_ref()),
+        })
+    }
+}
+
+/// The command line of this process, such that it writes what it has compared.
+fn command_without_check() -> String {
+    let words = std::env::args().skip(1).filter(|word| word != "--check");
+    std::iter::once("mms".to_string())
+        .chain(words.map(|word| quoted(&word)))
+        .collect::<Vec<_>>()
+        .join(" ")
 }

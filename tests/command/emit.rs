@@ -58,11 +58,65 @@ fn the_same_command_writes_the_same_bytes() {
 fn json_holds_the_text_or_its_path() {
     let folder = Folder::new();
     let run = folder.mms("emit bar_1d --json").exits(0).json();
-    assert_eq!(keys(&run), ["field", "target", "file", "path", "text"]);
+    assert_eq!(keys(&run), ["field", "target", "file", "path", "text", "files", "verify"]);
     assert_eq!((&run["field"], &run["file"]), (&"bar_1d".into(), &"bar_1d.rs".into()));
     assert_eq!(run["text"].as_str(), Some(folder.mms("emit bar_1d").exits(0).stdout.as_str()));
     let run = folder.mms("emit bar_1d --json -o out").exits(0).json();
     assert_eq!((&run["path"], run["text"].is_null()), (&"out/bar_1d.rs".into(), true));
+}
+
+#[test]
+fn a_bundle_is_written_with_the_line_that_checks_it() {
+    let folder = Folder::new();
+    let run = folder.mms("emit bar_1d --target c -o a/b").exits(0);
+    assert_eq!(run.stdout, "a/b/bar_1d.h\na/b/bar_1d.c\na/b/bar_1d_check.c\n");
+    run.complains(
+        "to check the build: cd a/b && cc -std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off ",
+    );
+    let run = folder.mms("emit bar_1d --target c -o a/b --json").exits(0).json();
+    let paths: Vec<_> =
+        run["files"].as_array().expect("files").iter().map(|file| file["path"].as_str()).collect();
+    assert_eq!(paths, [Some("a/b/bar_1d.h"), Some("a/b/bar_1d.c"), Some("a/b/bar_1d_check.c")]);
+    assert!(run["verify"].as_str().expect("a line").starts_with("cd a/b && cc "));
+    // Without a folder the document has the texts.
+    let run = folder.mms("emit bar_1d --target c --json").exits(0).json();
+    assert_eq!(run["files"][1]["text"].as_str(), Some(folder.read("a/b/bar_1d.c").as_str()));
+    assert!(run["verify"].as_str().expect("a line").starts_with("cc "));
+}
+
+#[test]
+fn what_is_stale_or_missing_is_named_and_nothing_is_written() {
+    let folder = Folder::new();
+    let check = "emit bar_1d --target c -o out --check";
+    let run = folder.mms(check).exits(1);
+    assert!(run.stdout.contains("out/bar_1d.h: missing\n"), "{run}");
+    run.complains("write them anew: mms emit bar_1d --target c -o out\n");
+    assert!(!folder.path("out").exists());
+    folder.mms("emit bar_1d --target c -o out").exits(0);
+    folder.mms(check).exits(0).prints_nothing();
+    folder.write("out/bar_1d.c", &(folder.read("out/bar_1d.c") + "\n"));
+    std::fs::remove_file(folder.path("out/bar_1d_check.c")).expect("it was there");
+    let run = folder.mms(check).exits(1);
+    assert_eq!(run.stdout, "out/bar_1d.c: stale\nout/bar_1d_check.c: missing\n");
+    let run = folder.mms(&format!("{check} --json")).exits(1).json();
+    let states: Vec<_> =
+        run["files"].as_array().expect("files").iter().map(|file| file["state"].as_str()).collect();
+    assert_eq!(states, [Some("current"), Some("stale"), Some("missing")]);
+    // Another selection makes other files.
+    folder.mms("emit bar_1d --target c -o out").exits(0);
+    folder.mms(&format!("{check} --set young=2e6")).exits(1);
+    folder.mms(check).exits(0);
+}
+
+#[test]
+fn all_fields_are_written_each_in_a_folder_of_its_own() {
+    let folder = Folder::new();
+    let all = "emit --all --target rust --quantity displacement -o all";
+    let run = folder.mms(all).exits(0);
+    assert!(run.stdout.starts_with("all/axis_aligned_1d/axis_aligned_1d.rs\n"), "{run}");
+    assert!(folder.read("all/bar_1d/bar_1d.rs").contains("pub fn displacement("));
+    folder.mms(&format!("{all} --check")).exits(0).prints_nothing();
+    folder.mms("emit --all").exits(2).complains("--output <DIR>");
 }
 
 #[test]
@@ -81,7 +135,10 @@ fn a_wrong_word_is_refused_with_advice() {
     let folder = Folder::new();
     for (arguments, complaint) in [
         ("--quantity velocty", "unknown quantity `velocty`; did you mean `velocity`?"),
-        ("--target cobol", "[possible values: rust]"),
+        ("--target cobol", "[possible values: rust, c, cpp, fortran, python, numpy]"),
+        ("--target c", "makes bar_1d.h, bar_1d.c, bar_1d_check.c: give the folder for them"),
+        ("--check", "--output <DIR>"),
+        ("--all", "cannot be used with"),
         ("--set young", "`--set young`: expected name=value"),
         ("--set yung=1", "did you mean `young`?"),
         ("--set young=1 --set young=2", "`young` is set twice"),

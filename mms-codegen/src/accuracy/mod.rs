@@ -8,7 +8,7 @@
 mod errors;
 mod points;
 mod precision;
-mod probe;
+pub(crate) mod probe;
 pub mod regime;
 mod subject;
 

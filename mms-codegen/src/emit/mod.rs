@@ -1,9 +1,39 @@
 //! Emitters: a program as text of one target language each. They print; they neither
 //! differentiate nor reorder.
+//!
+//! A language is a folder here and its word in the list below. What languages have in common is in
+//! [`port`]; the Rust module, which is also what `field!` expands to, has a printer of its own.
 
-pub mod rust;
+mod layout;
+pub mod port;
+mod text;
 
+use std::sync::OnceLock;
+
+use self::port::Port;
+use self::port::names::Rules;
+use self::port::vectors::Vectors;
 use crate::compile::Compiled;
+
+/// A field that is emitted, in one language or more: its test vectors are computed once.
+#[derive(Clone, Debug)]
+pub struct Subject<'a> {
+    compiled: &'a Compiled,
+    vectors: OnceLock<Vectors>,
+}
+
+impl<'a> Subject<'a> {
+    /// What a field was compiled for.
+    pub fn new(compiled: &'a Compiled) -> Self {
+        Subject { compiled, vectors: OnceLock::new() }
+    }
+
+    /// The test vectors, which are the same in every language.
+    pub fn vectors(&self) -> &Vectors {
+        const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
+        self.vectors.get_or_init(|| Port::new(self, &ANY).compute_vectors())
+    }
+}
 
 /// A file that a target made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +44,15 @@ pub struct File {
     pub text: String,
 }
 
+/// What a target makes of a field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bundle {
+    /// The files, the one that a solver uses first.
+    pub files: Vec<File>,
+    /// The line that builds and runs the check program in their folder, where there is one.
+    pub verify: Option<String>,
+}
+
 /// A language that code is emitted in.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
@@ -22,12 +61,22 @@ pub struct Target {
     /// What comes out, in one line.
     pub doc: &'static str,
     /// Emits what a field was compiled for.
-    pub emit: fn(&Compiled) -> File,
+    pub emit: fn(&Subject<'_>) -> Bundle,
+    /// The words that mean something in the language or in what is emitted: parameters that are called
+    /// so are renamed.
+    pub words: &'static [&'static str],
 }
 
-/// Every target, one line each.
-pub const TARGETS: &[Target] =
-    &[Target { name: "rust", doc: "a module that needs mms-math alone", emit: rust::file }];
+macro_rules! targets {
+    ($($name:ident)*) => {
+        $(pub mod $name;)*
+
+        /// Every target.
+        pub const TARGETS: &[Target] = &[$($name::TARGET),*];
+    };
+}
+
+targets! { rust c cpp fortran python numpy }
 
 impl Target {
     /// The target of that name.

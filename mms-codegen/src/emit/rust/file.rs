@@ -7,6 +7,7 @@ use syn::{Attribute, Item};
 use super::{Emitter, docs, identifier};
 use crate::compile::Compiled;
 use crate::emit::File;
+use crate::emit::text::on_one_line;
 
 /// The selected quantities as one file, which needs `mms-math` alone. It is a module: say
 /// `mod bar_1d;` beside it, or `include!` it in a module.
@@ -34,24 +35,7 @@ fn attribute(tokens: TokenStream) -> Attribute {
     item.attrs.into_iter().next().expect("one attribute was written")
 }
 
-/// A text, which may be a user's, as a comment: it cannot end it, nor hide what follows.
+/// A line of a comment.
 fn comment(text: &str) -> String {
-    let visible = |c: char| {
-        // Marks that change the direction of writing.
-        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        if c.is_control() || turns { ' ' } else { c }
-    };
-    let line: String = text.chars().map(visible).collect();
-    format!("//{}\n", line.trim_end())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::comment;
-
-    #[test]
-    fn no_text_leaves_its_comment() {
-        assert_eq!(comment(" a\nevil()\r\u{202e}b "), "// a evil()  b\n");
-        assert_eq!(comment(""), "//\n");
-    }
+    format!("//{}\n", on_one_line(text))
 }

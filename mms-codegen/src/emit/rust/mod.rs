@@ -17,12 +17,22 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compile::Compiled;
+use crate::emit::layout::Later;
+use crate::emit::{Bundle, Target};
 use crate::expr::{Rational, Symbol};
 use crate::program::interpret::{parts, small_ratio};
 use crate::program::{Op, Output, Program, Stage, Value};
 use crate::quantity::Quantity;
 
 pub use file::file;
+
+/// Rust, as a module.
+pub const TARGET: Target = Target {
+    name: "rust",
+    doc: "a module that needs mms-math alone",
+    emit: |subject| Bundle { files: vec![file(subject.compiled)], verify: None },
+    words: &[],
+};
 
 /// The crate that generated code finds the contract in, and the scalar trait with it.
 const RUNTIME: &str = "mms_runtime";
@@ -286,40 +296,6 @@ impl<'a> Emitter<'a> {
             Op::Input(Symbol::Time) => format_ident!("t"),
             _ => format_ident!("v{}", value.index()),
         }
-    }
-}
-
-/// Who reads what: of the instructions that some outputs need.
-struct Later<'a> {
-    program: &'a Program,
-    outputs: Vec<Value>,
-    needed: Vec<bool>,
-}
-
-impl<'a> Later<'a> {
-    fn new(program: &'a Program, of: impl Fn(&Output) -> bool) -> Self {
-        let outputs: Vec<Output> = program.outputs.keys().copied().filter(of).collect();
-        let needed = program.needed(&outputs);
-        let outputs = outputs.iter().flat_map(|output| &program.outputs[output]).copied().collect();
-        Later { program, outputs, needed }
-    }
-
-    /// The values of the stages `written` that the stages `reading` read, or that are outputs: what
-    /// a struct holds. Constants are free, and arguments are passed on.
-    fn kept(&self, written: &[Stage], reading: &[Stage]) -> Vec<bool> {
-        let mut kept = vec![false; self.program.instrs.len()];
-        for (instr, needed) in self.program.instrs.iter().zip(&self.needed) {
-            if *needed && reading.contains(&instr.stage) {
-                instr.op.operands().for_each(|operand| kept[operand.index()] = true);
-            }
-        }
-        self.outputs.iter().for_each(|value| kept[value.index()] = true);
-        for (kept, instr) in kept.iter_mut().zip(&self.program.instrs) {
-            let free =
-                matches!(instr.op, Op::Constant(_) | Op::Pi | Op::Input(Symbol::Coordinate(_)));
-            *kept &= written.contains(&instr.stage) && !free;
-        }
-        kept
     }
 }
 

@@ -1,0 +1,76 @@
+//! How Fortran writes numbers and functions.
+
+use crate::emit::port::body::Dialect;
+use crate::emit::port::number::{decimal, nearest};
+use crate::expr::{Function, Rational};
+use crate::program::interpret::parts;
+
+/// How statements are written in Fortran.
+pub struct Fortran;
+
+impl Dialect for Fortran {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("wide_of({}_dp)", decimal(high)),
+            (true, (high, low)) => format!("wide({}_dp, {}_dp)", decimal(high), decimal(low)),
+            (false, (value, _)) if value < 0.0 => format!("({}_wp)", decimal(value)),
+            (false, _) => format!("{}_wp", decimal(nearest(number))),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "3.141592653589793_wp".into() }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of(real({value}, dp))")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("real({value}%high, wp)")
+    }
+
+    fn parameter(&self, name: &str) -> String {
+        format!("parameters%{name}")
+    }
+
+    fn of_field(&self, name: &str) -> String {
+        format!("field%{name}")
+    }
+
+    fn of_time(&self, name: &str) -> String {
+        format!("now%{name}")
+    }
+
+    fn function(&self, function: Function, wide: bool) -> String {
+        if wide {
+            return format!("wide_{}", function.name());
+        }
+        match function {
+            Function::Ln => "log".into(),
+            Function::Cbrt => "cubic_root".into(),
+            Function::Powf => "power".into(),
+            Function::Ln1p
+            | Function::ExpM1
+            | Function::Ln1pRest
+            | Function::SinPi
+            | Function::CosPi
+            | Function::Sqrt
+            | Function::Exp
+            | Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Asin
+            | Function::Acos
+            | Function::Atan
+            | Function::Atan2 => function.name().into(),
+        }
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("{name} = {value}")
+    }
+}

@@ -1,0 +1,12 @@
+//! Python: a module over NumPy arrays of any shape. Its printer is that of `python`.
+
+use crate::emit::Target;
+use crate::emit::python::{PythonForm, TARGET as PYTHON, bundle};
+
+/// Python with NumPy.
+pub const TARGET: Target = Target {
+    name: "numpy",
+    doc: "Python: a module over NumPy arrays, which broadcasts, and a check program",
+    emit: |subject| bundle(subject, PythonForm::NumPy),
+    words: PYTHON.words,
+};

@@ -1,0 +1,93 @@
+//! What ports to other languages have in common: which functions a field has, what each stage
+//! keeps, and how names, numbers, instructions and test vectors are printed.
+//!
+//! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages
+//! Parameter and Time are computed with twice the digits of a double, as in Rust, from support text
+//! that stands in each language's folder.
+
+pub mod body;
+pub mod callable;
+pub mod docs;
+pub mod names;
+pub mod number;
+pub mod support;
+pub mod vectors;
+
+use std::collections::BTreeMap;
+
+use self::callable::{Callable, callables};
+use self::names::{Rules, sanitised, unique};
+use super::Subject;
+use super::layout::Later;
+use crate::compile::Compiled;
+use crate::program::{Output, Program, Stage, Value};
+
+/// The stages that are evaluated at a point.
+pub const AT_POINTS: &[Stage] = &[Stage::Point, Stage::PointTime];
+
+/// A field on its way into some language.
+pub struct Port<'a> {
+    /// The field, and its test vectors.
+    pub subject: &'a Subject<'a>,
+    /// The field.
+    pub compiled: &'a Compiled,
+    /// Its name in the language, which files are named after too.
+    pub name: String,
+    /// The parameters that are left: their positions in the file, and their names in the language.
+    pub parameters: BTreeMap<usize, String>,
+    /// The functions.
+    pub callables: Vec<Callable>,
+    /// What a prepared field holds: values of the Parameter stage that points read.
+    pub kept: Vec<Value>,
+    /// The same with all digits, of values that the Time stage reads.
+    pub kept_wide: Vec<Value>,
+    /// What a field at a time holds: values of both stages that points read.
+    pub kept_at_times: Vec<Value>,
+}
+
+impl<'a> Port<'a> {
+    /// The field under the rules of a language.
+    pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
+        let compiled = subject.compiled;
+        let program = &compiled.program;
+        let callables = callables(compiled);
+        let emitted = |output: &Output| callables.iter().any(|it| it.output == *output);
+        let timed = |output: &Output| callables.iter().any(|it| it.output == *output && it.time);
+        let mut read = Later::new(program, emitted);
+        read.outputs.clear();
+        let kept_wide = read.kept_values(&[Stage::Parameter], &[Stage::Time]);
+        let kept = Later::new(program, emitted).kept_values(&[Stage::Parameter], AT_POINTS);
+        let kept_at_times =
+            Later::new(program, timed).kept_values(&[Stage::Parameter, Stage::Time], AT_POINTS);
+        let left = compiled.field.parameters.iter().enumerate();
+        let (positions, names): (Vec<_>, Vec<_>) = left
+            .filter(|(_, parameter)| !parameter.frozen)
+            .map(|(position, parameter)| (position, parameter.name.value.as_str()))
+            .unzip();
+        Port {
+            subject,
+            compiled,
+            name: sanitised(&compiled.field.name, rules, rules.modules),
+            parameters: positions.into_iter().zip(unique(&names, rules)).collect(),
+            callables,
+            kept,
+            kept_wide,
+            kept_at_times,
+        }
+    }
+
+    /// The program.
+    pub fn program(&self) -> &'a Program {
+        &self.compiled.program
+    }
+
+    /// The number of space dimensions.
+    pub fn dimension(&self) -> usize {
+        self.compiled.field.dimension
+    }
+
+    /// The components of an output.
+    pub fn values(&self, output: Output) -> &'a [Value] {
+        self.program().outputs.get(&output).map_or(&[], Vec::as_slice)
+    }
+}

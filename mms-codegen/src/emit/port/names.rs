@@ -1,0 +1,100 @@
+//! Names of users as names of a language.
+
+/// What a language takes for a name.
+pub struct Rules {
+    /// Words that a member may not be called.
+    pub words: &'static [&'static str],
+    /// Words that a file, or what is named after it, may not be called.
+    pub modules: &'static [&'static str],
+    /// Whether names that differ in case alone are one.
+    pub folds_case: bool,
+    /// How long a name may be.
+    pub longest: usize,
+}
+
+impl Rules {
+    fn same(&self, a: &str, b: &str) -> bool {
+        if self.folds_case { a.eq_ignore_ascii_case(b) } else { a == b }
+    }
+
+    fn is_kept(&self, name: &str, words: &[&str]) -> bool {
+        let mut lists = words.iter().flat_map(|words| words.split_whitespace());
+        lists.any(|word| self.same(word, name))
+    }
+}
+
+/// A name that the language takes, near to `name`: letters, digits and underscores, neither at the
+/// beginning nor, where a word is in the way, without an underscore at the end.
+pub fn sanitised(name: &str, rules: &Rules, words: &[&str]) -> String {
+    let word = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let mut own: String = name.chars().map(word).collect();
+    if !own.starts_with(|first: char| first.is_ascii_alphabetic()) {
+        own.insert_str(0, if own.starts_with('_') { "p" } else { "field_" });
+    }
+    own.truncate(rules.longest);
+    while rules.is_kept(&own, words) {
+        own = suffixed(&own, "_", rules.longest);
+    }
+    own
+}
+
+/// Distinct names as distinct names of the language: one that had to be changed makes way for the
+/// others, and the later for the earlier.
+pub fn unique(names: &[&str], rules: &Rules) -> Vec<String> {
+    let wished: Vec<String> =
+        names.iter().map(|name| sanitised(name, rules, rules.words)).collect();
+    let mut taken: Vec<String> = Vec::new();
+    let own = |index: usize| wished[index] == names[index];
+    let mut order: Vec<usize> = (0..names.len()).collect();
+    order.sort_by_key(|index| !own(*index));
+    let mut result = vec![String::new(); names.len()];
+    for index in order {
+        let mut name = wished[index].clone();
+        let mut count = 1;
+        while taken.iter().any(|other| rules.same(other, &name))
+            || rules.is_kept(&name, rules.words)
+        {
+            count += 1;
+            name = suffixed(&wished[index], &format!("_{count}"), rules.longest);
+        }
+        taken.push(name.clone());
+        result[index] = name;
+    }
+    result
+}
+
+fn suffixed(name: &str, suffix: &str, longest: usize) -> String {
+    let kept = name.len().min(longest - suffix.len());
+    format!("{}{suffix}", &name[..kept])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RULES: Rules =
+        Rules { words: &["end if"], modules: &["math"], folds_case: true, longest: 8 };
+
+    #[test]
+    fn names_stay_apart() {
+        let names = ["end", "end_", "End", "a", "A", "_", "a_rather_long", "a_rather_low"];
+        let own = ["end__2", "end_", "End__2", "a", "A_2", "p_", "a_rather", "a_rath_2"];
+        let found = unique(&names, &RULES);
+        assert_eq!(found[1], own[1]);
+        for (index, name) in found.iter().enumerate() {
+            assert!(name.len() <= RULES.longest && !RULES.is_kept(name, RULES.words), "{name}");
+            assert!(!found[..index].iter().any(|other| RULES.same(other, name)), "{found:?}");
+        }
+        assert_eq!((found[3].as_str(), found[4].as_str()), ("a", "A_2"));
+        assert_eq!(found, unique(&names, &RULES));
+    }
+
+    #[test]
+    fn a_stem_may_hold_anything() {
+        let stem = |name| sanitised(name, &RULES, RULES.modules);
+        assert_eq!(stem("2d"), "field_2d");
+        assert_eq!(stem("\u{3bb}-x"), "p__x");
+        assert_eq!(stem("math"), "math_");
+        assert_eq!(stem("end"), "end");
+    }
+}

@@ -1,0 +1,54 @@
+//! Python: a module for one point at a time that needs `math` alone.
+
+mod check;
+mod dialect;
+pub(super) mod module;
+
+use self::dialect::Form;
+use crate::emit::port::Port;
+use crate::emit::port::names::Rules;
+use crate::emit::{Bundle, File, Subject, Target};
+
+/// Python.
+pub const TARGET: Target = Target {
+    name: "python",
+    doc: "Python: a module that needs the standard library alone, and a check program",
+    emit: |subject| bundle(subject, Form::Math),
+    words: RULES.words,
+};
+
+/// Names that Python takes.
+const RULES: Rules = Rules {
+    words: &[KEYWORDS, "self float print match case type"],
+    modules: &[KEYWORDS, MODULES],
+    folds_case: false,
+    longest: 120,
+};
+
+/// The Python Language Reference, section 2.3.1.
+const KEYWORDS: &str = "\
+    False None True and as assert async await break class continue def del elif else except finally \
+    for from global if import in is lambda nonlocal not or pass raise return try while with yield";
+
+/// Modules that a file of the same stem would hide.
+const MODULES: &str = "\
+    math numpy dataclasses sys os abc array ast base64 bisect calendar cmath code collections copy \
+    csv ctypes datetime decimal enum errno fractions functools heapq importlib inspect io itertools \
+    json keyword logging numbers operator pickle platform random re reprlib select signal site \
+    socket stat statistics string struct subprocess tempfile test threading time token traceback \
+    types typing unittest uuid warnings weakref zlib scipy sympy";
+
+/// The module of a form, and the program that checks it.
+pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
+    let port = Port::new(subject, &RULES);
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.py"), text: module::text(&port, form) },
+            File { name: format!("{name}_check.py"), text: check::text(&port, form) },
+        ],
+        verify: Some(format!("python3 -W error {name}_check.py")),
+    }
+}
+
+pub(super) use self::dialect::Form as PythonForm;

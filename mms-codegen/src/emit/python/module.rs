@@ -1,0 +1,200 @@
+//! The module: parameters, a prepared field, a field at a time, and what Python lacks.
+
+use std::fmt::Write as _;
+
+use super::dialect::Form;
+use crate::emit::port::Port;
+use crate::emit::port::body::{Place, local};
+use crate::emit::port::callable::Callable;
+use crate::emit::port::support::Support;
+use crate::emit::text::{listed, wrapped};
+use crate::program::Output;
+use crate::quantity::Shape;
+
+const WIDE: &str = include_str!("support/wide.py");
+const MATH: &str = include_str!("support/point.py");
+const NUMPY: &str = include_str!("support/numpy_point.py");
+
+/// The text of `FIELD.py`.
+pub(super) fn text(port: &Port<'_>, form: Form) -> String {
+    let name = &port.name;
+    let classes = defaults(port, form) + &field(port, form) + &instant(port, form) + &prepare();
+    let needed = |text| Support::new(text, &["#"]).needed(&classes).join("\n\n\n");
+    let point = if form == Form::NumPy { NUMPY } else { MATH };
+    let support = [needed(WIDE), needed(point)];
+    let mut header = port.header();
+    let usage = match form {
+        Form::Math => {
+            "Functions take numbers, and return a float, a tuple, or a tuple of rows. Where a formula has no value they raise an error, as the module math does."
+        }
+        Form::NumPy => {
+            "Functions take numbers or arrays that broadcast, and return an array: the places of the component come first, those of the inputs last."
+        }
+    };
+    header.push(format!("{usage} {name}_check.py checks the result."));
+    let mut text = comment(&header, "");
+    text += "\nimport math\nfrom dataclasses import dataclass\n";
+    if form == Form::NumPy {
+        text += "\nimport numpy as np\n";
+    }
+    let _ = write!(text, "\nDIMENSION = {}\n", port.dimension());
+    for part in support.iter().filter(|part| !part.is_empty()) {
+        let _ = write!(text, "\n\n{part}\n");
+    }
+    text += &classes;
+    match text.contains("math.") {
+        true => text,
+        false => text.replacen("import math\n", "", 1),
+    }
+}
+
+/// Paragraphs as lines of a comment.
+pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
+    let paragraphs: Vec<Vec<String>> =
+        paragraphs.iter().map(|text| wrapped(text, 96 - indent.len())).collect();
+    let lines = paragraphs.join(&String::new());
+    let lines = lines.iter().map(|line| format!("{indent}# {line}").trim_end().to_string() + "\n");
+    lines.collect()
+}
+
+fn indented(statements: &[String], by: usize) -> String {
+    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
+}
+
+fn defaults(port: &Port<'_>, form: Form) -> String {
+    let roots: Vec<_> =
+        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
+    let body = port.body(&form, &roots, Place::Parameters);
+    let mut text = String::new();
+    // Names of their own only where there is something to compute.
+    let values: Vec<String> = if body.statements.is_empty() {
+        body.results.clone()
+    } else {
+        text += "\n\ndef _defaults():\n";
+        text += &indented(&body.statements, 4);
+        text +=
+            &format!("    return ({},)\n\n\n_DEFAULTS = _defaults()\n", body.results.join(", "));
+        (0..roots.len()).map(|index| format!("_DEFAULTS[{index}]")).collect()
+    };
+    text += "\n\n@dataclass(frozen=True)\nclass Parameters:\n    \
+             \"\"\"The parameters; their defaults are those of the field file, or set.\"\"\"\n";
+    for ((index, name), value) in port.parameters.iter().zip(values) {
+        text += "\n";
+        text += &comment(&[port.parameter_doc(*index)], "    ");
+        let _ = writeln!(text, "    {name}: float = {value}");
+    }
+    text
+}
+
+fn field(port: &Port<'_>, form: Form) -> String {
+    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
+    let body = port.body(&form, &roots, Place::Parameters);
+    let mut text = "\n\nclass Field:\n    \
+                    \"\"\"What only the parameters determine.\"\"\"\n\n    \
+                    def __init__(self, parameters=Parameters()):\n        \
+                    self.parameters = parameters\n"
+        .to_string();
+    text += &indented(&body.statements, 8);
+    for (value, result) in port.kept.iter().zip(&body.results) {
+        let _ = writeln!(text, "        self._{} = {result}", local(*value, false));
+    }
+    for value in &port.kept_wide {
+        let wide = local(*value, true);
+        let _ = writeln!(text, "        self._{wide} = {wide}");
+    }
+    text += "\n    def at_time(self, t):\n        \
+             \"\"\"The field at one time.\"\"\"\n        return Instant(self, t)\n";
+    for callable in port.callables.iter().filter(|callable| !callable.time) {
+        text += &method(port, form, callable);
+    }
+    text
+}
+
+fn instant(port: &Port<'_>, form: Form) -> String {
+    let body = port.body(&form, &port.kept_at_times, Place::Times);
+    let mut text = "\n\nclass Instant:\n    \
+                    \"\"\"What the parameters and the time determine.\"\"\"\n\n    \
+                    def __init__(self, field, t):\n        \
+                    self.field = field\n        self.time = t\n"
+        .to_string();
+    text += &indented(&body.statements, 8);
+    for (value, result) in port.kept_at_times.iter().zip(&body.results) {
+        let _ = writeln!(text, "        self._{} = {result}", local(*value, false));
+    }
+    for callable in port.callables.iter().filter(|callable| callable.time) {
+        text += &method(port, form, callable);
+    }
+    text
+}
+
+fn prepare() -> String {
+    "\n\ndef prepare(parameters=Parameters()):\n    \
+     \"\"\"Computes once what only the parameters determine.\"\"\"\n    return Field(parameters)\n"
+        .into()
+}
+
+fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
+    let place = Place::Points { timed: callable.time };
+    let body = port.body(&form, port.values(callable.output), place);
+    let inputs = callable.input_names();
+    let arguments: Vec<String> =
+        std::iter::once("self".to_string()).chain(inputs.iter().cloned()).collect();
+    let doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+    let doc = wrapped(&doc, 88).join("\n        ");
+    let mut text = format!(
+        "\n    def {}({}):\n        \"\"\"{doc}\"\"\"\n",
+        callable.name,
+        arguments.join(", ")
+    );
+    // A prepared field reads itself.
+    let own = |line: &String| line.replace("field._", "self._");
+    text += &indented(&body.statements.iter().map(own).collect::<Vec<_>>(), 8);
+    let results: Vec<String> = body.results.iter().map(own).collect();
+    text += &match form {
+        Form::NumPy if callable.is_of_points() => {
+            shaped(callable, &results, &inputs, port.dimension())
+        }
+        _ => plain(callable, &results, port.dimension()),
+    };
+    text
+}
+
+/// A float, a tuple, or a tuple of rows.
+fn plain(callable: &Callable, results: &[String], dimension: usize) -> String {
+    let tuple = |items: &[String]| match items {
+        [item] => format!("({item},)"),
+        items => format!("({})", items.join(", ")),
+    };
+    let value = match callable.shape {
+        Some(Shape::Scalar) => results[0].clone(),
+        Some(Shape::Tensor) => tuple(&results.chunks(dimension).map(tuple).collect::<Vec<_>>()),
+        Some(Shape::Vector) | None => tuple(results),
+    };
+    let line = format!("        return {value}\n");
+    if line.len() <= 100 {
+        return line;
+    }
+    let items = value.trim_start_matches('(').trim_end_matches(')');
+    let items: Vec<&str> = items.split(", ").collect();
+    let open = value.len() - value.trim_start_matches('(').len();
+    let close = value.len() - value.trim_end_matches(')').len();
+    format!(
+        "        return {}\n            {}\n        {}\n",
+        "(".repeat(open),
+        listed(&items, 84).join("\n            "),
+        ")".repeat(close)
+    )
+}
+
+/// An array: the components first, in their shape.
+fn shaped(callable: &Callable, results: &[String], inputs: &[String], dimension: usize) -> String {
+    let components = listed(results, 80).join("\n            ");
+    let array = format!("_shaped([{components}], {})", inputs.join(", "));
+    match callable.shape {
+        Some(Shape::Scalar) => format!("        return {array}[0]\n"),
+        Some(Shape::Tensor) => format!(
+            "        out = {array}\n        return out.reshape(({dimension}, {dimension}) + out.shape[1:])\n"
+        ),
+        Some(Shape::Vector) | None => format!("        return {array}\n"),
+    }
+}

@@ -1,0 +1,119 @@
+//! Writes bundles, builds them as their line says, and runs them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
+
+/// The targets that come with a check program.
+pub fn ports() -> impl Iterator<Item = &'static Target> {
+    TARGETS.iter().filter(|target| target.name != "rust")
+}
+
+/// Whether everything must be tried, and nothing may be skipped.
+pub fn all_are_required() -> bool {
+    std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1")
+}
+
+/// Whether a command succeeds. One that does not is named, or fails the test where all are required.
+pub fn is_installed(command: &str) -> bool {
+    static KNOWN: LazyLock<Mutex<BTreeMap<String, bool>>> = LazyLock::new(Mutex::default);
+    let runs = || {
+        let line = format!("{command} >/dev/null 2>&1");
+        let status = Command::new("sh").args(["-c", &line]).status();
+        let runs = status.is_ok_and(|status| status.success());
+        if !runs {
+            println!("SKIPPED: {command}");
+        }
+        runs
+    };
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = *known.entry(command.into()).or_insert_with(runs);
+    assert!(found || !all_are_required(), "`{command}` fails, and MMS_REQUIRE_COMPILERS is 1");
+    found
+}
+
+/// Whether what a target's line needs is installed.
+pub fn can_build(target: &Target) -> bool {
+    match target.name {
+        "numpy" => is_installed(&format!("{} -c 'import numpy'", python())),
+        "python" => is_installed(&format!("{} --version", python())),
+        name => {
+            let compiler = match name {
+                "c" => "cc",
+                "cpp" => "c++",
+                "fortran" => "gfortran",
+                name => name,
+            };
+            is_installed(&format!("{compiler} --version"))
+        }
+    }
+}
+
+/// The Python that has what the tests need.
+fn python() -> String {
+    std::env::var("MMS_PYTHON").unwrap_or("python3".into())
+}
+
+/// An empty folder for a test.
+pub fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("emit").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Writes a bundle.
+pub fn write(bundle: &Bundle, folder: &Path) {
+    for file in &bundle.files {
+        fs::write(folder.join(&file.name), &file.text).expect("a written file");
+    }
+}
+
+/// Runs a line of the shell in a folder.
+pub fn shell(line: &str, folder: &Path) -> Output {
+    let line = line.replace("python3", &python());
+    Command::new("sh").args(["-c", &line]).current_dir(folder).output().expect("a shell")
+}
+
+/// Emits a field, and asserts that its check program passes; `change` may change its line. Returns
+/// the worst error in eps.
+pub fn prove(
+    target: &Target,
+    subject: &Subject<'_>,
+    folder: &str,
+    change: impl Fn(String) -> String,
+) -> f64 {
+    let folder = scratch(&format!("{folder}/{}", target.name));
+    let bundle = (target.emit)(subject);
+    write(&bundle, &folder);
+    let line = change(bundle.verify.expect("a check program"));
+    let run = shell(&line, &folder);
+    let [out, err] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(run.status.success(), "{}: {line}\n{out}{err}", folder.display());
+    assert_eq!(err, "", "{}: {line}", folder.display());
+    let (_, rest) = out.split_once("worst error ").expect("a worst error");
+    rest.split(' ').next().and_then(|word| word.parse().ok()).expect("a number")
+}
+
+/// Without optimisation: warnings come all the same, and numbers are the same but for round-off.
+pub fn quick(line: String) -> String {
+    line.replace("-O2", "-O0")
+}
+
+/// Calls a function for every item, on two threads.
+pub fn in_pairs<T: Sync>(items: &[T], each: impl Fn(&T) + Sync) {
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let work = || {
+        while let Some(item) = items.get(next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)) {
+            each(item);
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        work();
+    });
+}

@@ -1,0 +1,54 @@
+//! Numbers that are hard to write, and programs that are hard to compile.
+
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::emit::Subject;
+use mms_codegen::quantity::Quantity;
+use mms_codegen::{Compiled, Options};
+
+use super::build::{can_build, ports, prove, quick};
+
+fn field(u: &str, quantity: Quantity) -> Compiled {
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = {{ value = \"1/3\" }}\n\
+         [displacement]\nu = [\"{u}\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\n\
+         density = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
+    );
+    let mut options = Options::default();
+    options.selection.quantities = Some([quantity].into());
+    compile_unproved("field", "x.toml", &text, &|path| Err(path.into()), &options)
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+#[test]
+fn numbers_keep_their_digits_in_every_language() {
+    for (index, u) in [
+        "X/3*t/7",
+        "X*1e-400*t",
+        "X*1e-150*(t + 1e-150)",
+        "X*(t/1e300 + 0.1)/1e5",
+        "X*t*123456789012345678901234567890/1e40",
+        "-X*t*2/3*a - 1e-5*X",
+        "X*(a*0.1 + 1/3)*t/9007199254740993",
+        "0",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let field = field(u, Quantity::Displacement);
+        let subject = Subject::new(&field);
+        for target in ports().filter(|target| can_build(target)) {
+            prove(target, &subject, &format!("literals/{index}"), quick);
+        }
+    }
+}
+
+#[test]
+fn a_thousand_terms_compile_in_every_language() {
+    let terms: Vec<String> =
+        (1..=1000).map(|k| format!("sin({k}*X + t)/{}", 1000 * k * k)).collect();
+    let field = field(&terms.join(" + "), Quantity::Velocity);
+    let subject = Subject::new(&field);
+    for target in ports().filter(|target| can_build(target)) {
+        prove(target, &subject, "thousand", quick);
+    }
+}

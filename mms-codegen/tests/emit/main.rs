@@ -1,0 +1,10 @@
+//! What is emitted, built with every warning an error and run: each port proves itself by its own
+//! check program.
+
+mod build;
+mod coverage;
+mod gallery;
+mod literals;
+mod names;
+mod page;
+mod strict;
