@@ -39,7 +39,7 @@ impl Clock {
     }
 }
 
-/// Seconds of the parts of all steps. Stress, and the sums onto nodes, count once for every thread.
+/// Wall-clock seconds of the parts of all steps. Where threads work on two of them, they share the time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seconds {
     /// The field's body force and tractions.
@@ -60,6 +60,18 @@ impl Seconds {
             transfer: self.transfer + other.transfer,
             grid: self.grid + other.grid,
             stress: self.stress + other.stress,
+        }
+    }
+
+    /// The parts of so many seconds that had these shares.
+    pub(super) fn within(self, elapsed: f64) -> Self {
+        let all = self.forcing + self.transfer + self.grid + self.stress;
+        let share = if all > 0.0 { elapsed / all } else { 0.0 };
+        Self {
+            forcing: self.forcing * share,
+            transfer: self.transfer * share,
+            grid: self.grid * share,
+            stress: self.stress * share,
         }
     }
 }
