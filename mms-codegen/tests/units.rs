@@ -163,6 +163,14 @@ proptest! {
     }
 }
 
+/// What is 0 fits any unit, but its power of 0 is the number 1.
+#[test]
+fn zero_to_the_power_of_zero_is_a_number() {
+    let dimension = |text: &str| claim(&parsed(text)).and_then(Result::ok).flatten();
+    assert_eq!(dimension("hypot(0/x, 0/x)^0"), Some(Dimension::NONE));
+    assert_eq!(dimension("hypot(0/x, 0/x)^2"), None);
+}
+
 /// Whether a value follows changes of each base unit by some power: growing one unit by 2 and
 /// then by 2 again must do the same twice.
 fn follows_any_power(ast: &Ast) -> Option<bool> {

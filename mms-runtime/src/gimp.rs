@@ -10,7 +10,7 @@ use nalgebra::ComplexField;
 
 use crate::shape::{MAX_NODES, Shape};
 use crate::stencil::Tensor;
-use crate::tensor::{determinant, right_stretch};
+use crate::tensor::{determinant, stretch_along_axes};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// GIMP with half widths that stay, or that follow the stretch along the axes.
@@ -35,8 +35,8 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     ) -> Result<(), Cause> {
         let mut half_width = *initial;
         if FOLLOWS {
-            let stretch = right_stretch(displacement_gradient).ok_or(Cause::FlatDomain)?;
-            half_width.component_mul_assign(&stretch.diagonal());
+            let stretch = stretch_along_axes(displacement_gradient).ok_or(Cause::FlatDomain)?;
+            half_width.component_mul_assign(&stretch);
         }
         let cells = lattice.in_cells(position);
         let mut narrow = true;

@@ -202,6 +202,8 @@ impl Inference<'_> {
         }
         match base.dimension {
             Some(dimension) => dimension.power(number).map(Measure::of),
+            // 0^0 is 1, whatever the 0 is of.
+            None if number.is_zero() => Some(Measure::of(Dimension::NONE)),
             None => Some(base),
         }
     }
