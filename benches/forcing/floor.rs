@@ -32,6 +32,8 @@ pub struct Tally {
     /// The column of the tables: 0 for `f64`, 1 for `f32`.
     format: usize,
     slots: Cell<usize>,
+    /// Whether something was done that no table has.
+    uncounted: Cell<bool>,
     /// What has its sine and cosine already, in half turns or not.
     angles: RefCell<Vec<(f64, bool)>>,
 }
@@ -47,10 +49,11 @@ impl Tally {
         Counted { value, tally: Some(self) }
     }
 
-    /// How many there were since the last call.
-    pub fn take(&self) -> usize {
+    /// How many there were since the last call; nothing if some were not counted.
+    pub fn take(&self) -> Option<usize> {
         self.angles.take();
-        self.slots.take()
+        let slots = self.slots.take();
+        (!self.uncounted.take()).then_some(slots)
     }
 
     fn add(&self, slots: usize) {
@@ -117,11 +120,13 @@ impl Neg for Counted<'_> {
     }
 }
 
+/// Functions that the table lacks: what calls one has no floor.
 macro_rules! not_counted {
-    ($($function:ident($($argument:ty)?))*) => {
+    ($($function:ident($($argument:ident)?))*) => {
         $(
-            fn $function(self $(, _: $argument)?) -> Self {
-                unimplemented!("the operations of `{}` are not counted yet", stringify!($function))
+            fn $function(self $(, $argument: Self)?) -> Self {
+                self.tally.inspect(|tally| tally.uncounted.set(true));
+                Counted { value: Scalar::$function(self.value $(, $argument.value)?), ..self }
             }
         )*
     };
@@ -182,7 +187,7 @@ impl Scalar for Counted<'_> {
     }
     not_counted! {
         cbrt() exp() exp_m1() ln_1p() tan() sinh() cosh() tanh() asin() acos() atan()
-        atan2(Self) powf(Self)
+        atan2(x) powf(exponent)
     }
 }
 
@@ -235,7 +240,8 @@ impl Slot {
         let points: Vec<T> =
             (0..4096).map(|index| T::from_f64(f64::from(index) / 4096.0)).collect();
         let mut out = points.clone();
-        let count = (tally.take() * points.len()) as f64;
+        let slots = tally.take().expect("sums and products are counted");
+        let count = (slots * points.len()) as f64;
         let turn = move || {
             let start = Instant::now();
             batch::run(&Chains, &[black_box(&points[..])], &mut [black_box(&mut out[..])]);

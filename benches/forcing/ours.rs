@@ -96,7 +96,7 @@ macro_rules! field {
                 .at_time(time)
                 .body_force_batch_at(&kept, out.each_mut().map(|column| &mut column[..]));
         });
-        let [slots, slots_kept] = slots!($module, $float, $case).map(Some);
+        let [slots, slots_kept] = slots!($module, $float, $case);
         let modes =
             [("scalar", scalar, None), ("batch", batch, slots), ("cached", cached, slots_kept)];
         modes.map(|(mode, work, slots)| {

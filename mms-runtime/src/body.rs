@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use crate::failure::{at_most, positive};
 use crate::{Body, Face, Matrix, Real, Refusal, UnknownName, Vector};
+use annulus::Sector;
 
 /// More particles than this are refused.
 const PARTICLE_LIMIT: f64 = (1u64 << 27) as f64;
@@ -90,11 +91,7 @@ impl<const D: usize> Filling<D> {
         let filling = match (body, fill) {
             (Body::Box { .. }, _) => cuboid::fill(&lower, &upper, spacing),
             (Body::Annulus { inner, outer, theta }, fill) => {
-                let sector = annulus::Sector {
-                    inner: inner.to_f64(),
-                    outer: outer.to_f64(),
-                    theta: theta.map(Real::to_f64),
-                };
+                let sector = Sector::new([*inner, *outer], *theta);
                 match fill {
                     Fill::Cartesian => sector.fill_cartesian(&lower, spacing),
                     Fill::Fitted => sector.fill_fitted(spacing),
@@ -126,6 +123,18 @@ impl<const D: usize> Filling<D> {
     }
 }
 
+/// The faces that a body has.
+pub(crate) fn faces<T: Real, const D: usize>(body: &Body<T, D>) -> Vec<Face> {
+    match body {
+        Body::Box { .. } => (0..D).flat_map(|a| [Face::Min(a), Face::Max(a)]).collect(),
+        Body::Annulus { inner, outer, theta } => {
+            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
+            let ring = Sector::new([*inner, *outer], *theta).is_ring();
+            all[..if ring { 2 } else { 4 }].to_vec()
+        }
+    }
+}
+
 /// Lower and upper corner of the smallest box around a body.
 ///
 /// # Errors
@@ -136,9 +145,9 @@ pub fn bounding_box<T: Real, const D: usize>(
     let corners = match body {
         Body::Box { lower, upper } => [lower.map(Real::to_f64), upper.map(Real::to_f64)],
         Body::Annulus { inner, outer, theta } => {
-            let (inner, outer) = (inner.to_f64(), outer.to_f64());
-            positive("the thickness of the annulus", outer - inner)?;
-            annulus::Sector { inner, outer, theta: theta.map(Real::to_f64) }.bounding_box()
+            let sector = Sector::new([*inner, *outer], *theta);
+            positive("the thickness of the annulus", sector.outer - sector.inner)?;
+            sector.bounding_box()
         }
     };
     for edge in (corners[1] - corners[0]).iter() {

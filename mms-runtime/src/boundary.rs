@@ -4,7 +4,8 @@
 //! * `free`: nothing.
 //! * `prescribed`, faces without a claim, and `fixed` on an annulus: nodes follow the field
 //!   ([`prescribed`]).
-//! * `traction`: the field's P N on the pieces of the face ([`traction`]).
+//! * `traction`: the field's P N on the pieces of the face, or the same stress on the face as it lies now where
+//!   the body moves ([`traction`]).
 //! * An axis may be periodic instead ([`period`]).
 
 pub mod period;
@@ -13,7 +14,7 @@ pub mod surface;
 pub mod traction;
 pub mod wall;
 
-use crate::body::{Fill, Filling, Piece};
+use crate::body::{Fill, Filling, Piece, faces};
 use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::{
@@ -39,19 +40,6 @@ pub(crate) fn is_wall<T, const D: usize>(domain: &Domain<T, D>, face: Face) -> b
     rests && matches!(domain.body, Body::Box { .. })
 }
 
-/// The faces that the body has.
-fn faces_of<T: Real, const D: usize>(body: &Body<T, D>) -> Vec<Face> {
-    match body {
-        Body::Box { .. } => (0..D).flat_map(|a| [Face::Min(a), Face::Max(a)]).collect(),
-        Body::Annulus { theta, .. } => {
-            let turn = (theta[1] - theta[0]).to_f64();
-            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
-            let ring = turn > std::f64::consts::TAU * (1.0 - 1e-6);
-            all[..if ring { 2 } else { 4 }].to_vec()
-        }
-    }
-}
-
 impl<T: Real, const D: usize> Boundary<T, D> {
     /// The conditions of a body on a grid; `moves` says whether the body moves through it.
     ///
@@ -63,7 +51,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         pieces: &[Piece<D>],
         moves: bool,
     ) -> Result<Self, Refusal> {
-        let faces = faces_of(&domain.body);
+        let faces = faces(&domain.body);
         if let Some(&(face, _)) = domain.faces.iter().find(|(face, _)| !faces.contains(face)) {
             return Err(Refusal::NoSuchFace { face, dimension: D });
         }

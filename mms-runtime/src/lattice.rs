@@ -122,19 +122,6 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         cells
     }
 
-    /// x_i - x_p, between the nearest of their images where there is a period.
-    pub fn difference(&self, node: usize, position: &Vector<T, D>) -> Vector<T, D> {
-        let mut difference = self.position(node) - position;
-        for a in 0..D {
-            if let Some(period) = self.period[a] {
-                let length = period * self.cell_size[a];
-                let periods = (difference[a] / length).round();
-                difference[a] -= periods * length;
-            }
-        }
-        difference
-    }
-
     /// The node on the lower (`false`) or upper face of the body along an axis, where there is one: the
     /// face lies on a knot, and splines of a higher degree than 1 end there.
     pub fn node_on_face(&self, axis: usize, upper: bool) -> Option<usize> {

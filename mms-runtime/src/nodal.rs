@@ -1,6 +1,6 @@
 //! What a node of the grid carries: four numbers that go through the processor as one.
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg};
+use std::ops::{Add, AddAssign, Div, Mul};
 
 use crate::{Real, Vector};
 
@@ -48,13 +48,6 @@ impl<T: Real> Add for Nodal<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
-    }
-}
-
-impl<T: Real> Neg for Nodal<T> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(self.0.map(|number| -number))
     }
 }
 

@@ -19,10 +19,6 @@ fn numbers<T: Real>(count: usize) -> Vec<Nodal<T>> {
 }
 
 /// The four numbers of a vector, times another number.
-fn times<T: Real>(node: &Nodal<T>, factor: T) -> Nodal<T> {
-    Nodal(node.0.map(|number| number * factor))
-}
-
 struct Sums<'a, T, const D: usize, S> {
     stencil: &'a S,
     lattice: &'a Lattice<T, D>,
@@ -55,15 +51,15 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         let mut collected = vec![Nodal::zero(); 1 + D];
         let mut sums = [nodes.to_vec(), nodes.to_vec(), nodes.to_vec()];
         stencil.each(|i, w, gradient| {
-            let apart = lattice.difference(i, position);
-            collected[0] += times(&nodes[i], w);
+            let apart = lattice.position(i) - position;
+            collected[0] += nodes[i] * w;
             for sum in &mut sums {
-                sum[i] += times(&nodes[0], w);
+                sum[i] += nodes[0] * w;
             }
             for a in 0..D {
-                collected[1 + a] += times(&nodes[i], gradient[a]);
-                sums[1][i] += times(&nodes[1 + a], gradient[a]);
-                sums[2][i] += times(&nodes[1 + a], w * apart[a]);
+                collected[1 + a] += nodes[i] * gradient[a];
+                sums[1][i] += nodes[1 + a] * gradient[a];
+                sums[2][i] += nodes[1 + a] * (w * apart[a]);
             }
         });
         let mut all = vec![collected[0]];

@@ -78,11 +78,16 @@ pub struct MethodOptions {
     end_time: Option<f64>,
     /// How many threads work on one run; by default as many as there are processors. Results do not
     /// depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<std::num::NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     /// The precision to compute in.
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
+}
+
+/// How many threads run at the same time here.
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, Into::into)
 }
 
 /// The name of an axis.
@@ -151,10 +156,7 @@ impl MethodOptions {
             courant: self.courant,
             time_step: self.time_step,
             end_time: self.end_time,
-            threads: self
-                .threads
-                .or(std::thread::available_parallelism().ok())
-                .map_or(1, Into::into),
+            threads: self.threads.map_or_else(processors, usize::from),
         };
         let Self { shape, integrator, formulation, .. } = *self;
         let method = Method { shape, integrator, formulation, setup };

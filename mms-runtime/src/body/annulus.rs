@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Filling, Piece};
-use crate::{Face, Matrix, Vector};
+use crate::{Face, Matrix, Real, Vector};
 
 /// inner < R < outer, and angles between theta.
 pub struct Sector {
@@ -23,6 +23,11 @@ fn basis<const D: usize>(angle: f64) -> [Vector<f64, D>; 2] {
 }
 
 impl Sector {
+    /// Between two radii, and two angles.
+    pub fn new<T: Real>([inner, outer]: [T; 2], theta: [T; 2]) -> Self {
+        Self { inner: inner.to_f64(), outer: outer.to_f64(), theta: theta.map(Real::to_f64) }
+    }
+
     /// Lower and upper corner of the smallest box around it.
     pub fn bounding_box<const D: usize>(&self) -> [Vector<f64, D>; 2] {
         let [first, last] = self.theta;
@@ -40,8 +45,9 @@ impl Sector {
         corners
     }
 
-    fn is_ring(&self) -> bool {
-        self.theta[1] - self.theta[0] > TAU * (1.0 - 1e-12)
+    /// Whether it has no first and last angle: it is a whole ring, but for the round-off of single precision.
+    pub fn is_ring(&self) -> bool {
+        self.theta[1] - self.theta[0] > TAU * (1.0 - 1e-6)
     }
 
     /// Boxes of one size whose middles lie inside.

@@ -1,6 +1,6 @@
 //! How C writes numbers, functions and names.
 
-use crate::emit::port::body::{Arithmetic, Dialect};
+use crate::emit::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::emit::port::names::Rules;
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
@@ -68,42 +68,12 @@ impl Dialect for C {
         format!("(real){value}.high")
     }
 
-    fn parameter(&self, name: &str) -> String {
-        format!("parameters->{name}")
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}->{name}", owner.name())
     }
 
-    fn of_field(&self, name: &str) -> String {
-        format!("field->{name}")
-    }
-
-    fn of_time(&self, name: &str) -> String {
-        format!("now->{name}")
-    }
-
-    fn function(&self, function: Function, wide: bool) -> String {
-        if wide {
-            return format!("wide_{}", function.name());
-        }
-        match function {
-            Function::Ln => "MATH(log)".into(),
-            Function::Ln1p => "MATH(log1p)".into(),
-            Function::ExpM1 => "MATH(expm1)".into(),
-            Function::Powf => "MATH(pow)".into(),
-            Function::Ln1pRest | Function::SinPi | Function::CosPi => function.name().into(),
-            Function::Sqrt
-            | Function::Cbrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2 => format!("MATH({})", function.name()),
-        }
+    fn function(&self, function: Function) -> String {
+        in_c_library(function).map_or(function.name().into(), |name| format!("MATH({name})"))
     }
 
     fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {

@@ -1,6 +1,6 @@
 //! How C++ writes numbers and functions.
 
-use crate::emit::port::body::Dialect;
+use crate::emit::port::body::{Dialect, Owner, in_c_library};
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
 use crate::program::interpret::parts;
@@ -43,42 +43,12 @@ impl Dialect for Cpp {
         format!("T({value}.high)")
     }
 
-    fn parameter(&self, name: &str) -> String {
-        format!("parameters.{name}")
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}.{name}", owner.name())
     }
 
-    fn of_field(&self, name: &str) -> String {
-        format!("field.{name}")
-    }
-
-    fn of_time(&self, name: &str) -> String {
-        format!("now.{name}")
-    }
-
-    fn function(&self, function: Function, wide: bool) -> String {
-        if wide {
-            return format!("wide_{}", function.name());
-        }
-        match function {
-            Function::Ln => "std::log".into(),
-            Function::Ln1p => "std::log1p".into(),
-            Function::ExpM1 => "std::expm1".into(),
-            Function::Powf => "std::pow".into(),
-            Function::Ln1pRest | Function::SinPi | Function::CosPi => function.name().into(),
-            Function::Sqrt
-            | Function::Cbrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2 => format!("std::{}", function.name()),
-        }
+    fn function(&self, function: Function) -> String {
+        in_c_library(function).map_or(function.name().into(), |name| format!("std::{name}"))
     }
 
     fn statement(&self, name: &str, value: &str, wide: bool) -> String {

@@ -1,6 +1,6 @@
 //! How Fortran writes numbers and functions.
 
-use crate::emit::port::body::Dialect;
+use crate::emit::port::body::{Dialect, Owner};
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
 use crate::program::interpret::parts;
@@ -30,22 +30,11 @@ impl Dialect for Fortran {
         format!("real({value}%high, wp)")
     }
 
-    fn parameter(&self, name: &str) -> String {
-        format!("parameters%{name}")
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}%{name}", owner.name())
     }
 
-    fn of_field(&self, name: &str) -> String {
-        format!("field%{name}")
-    }
-
-    fn of_time(&self, name: &str) -> String {
-        format!("now%{name}")
-    }
-
-    fn function(&self, function: Function, wide: bool) -> String {
-        if wide {
-            return format!("wide_{}", function.name());
-        }
+    fn function(&self, function: Function) -> String {
         match function {
             Function::Ln => "log".into(),
             Function::Cbrt => "cubic_root".into(),

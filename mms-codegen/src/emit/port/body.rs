@@ -30,6 +30,53 @@ impl Arithmetic {
     }
 }
 
+/// An argument that keeps what was computed before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// The parameters.
+    Parameters,
+    /// The prepared field.
+    Field,
+    /// The field at a time.
+    Time,
+}
+
+impl Owner {
+    /// What the argument is called where a language has no custom of its own.
+    pub fn name(self) -> &'static str {
+        match self {
+            Owner::Parameters => "parameters",
+            Owner::Field => "field",
+            Owner::Time => "now",
+        }
+    }
+}
+
+/// The name that a function has in the mathematical library of C, and of languages that took it over; none
+/// where there is no such function.
+pub fn in_c_library(function: Function) -> Option<&'static str> {
+    match function {
+        Function::Ln => Some("log"),
+        Function::Ln1p => Some("log1p"),
+        Function::ExpM1 => Some("expm1"),
+        Function::Powf => Some("pow"),
+        Function::Ln1pRest | Function::SinPi | Function::CosPi => None,
+        Function::Sqrt
+        | Function::Cbrt
+        | Function::Exp
+        | Function::Sin
+        | Function::Cos
+        | Function::Tan
+        | Function::Sinh
+        | Function::Cosh
+        | Function::Tanh
+        | Function::Asin
+        | Function::Acos
+        | Function::Atan
+        | Function::Atan2 => Some(function.name()),
+    }
+}
+
 /// How a language writes what programs are made of. `wide` says that a number has twice the digits of
 /// a double.
 pub trait Dialect {
@@ -45,14 +92,14 @@ pub trait Dialect {
     fn widened(&self, value: &str) -> String;
     /// The nearest number of the caller's precision.
     fn narrowed(&self, value: &str) -> String;
-    /// A parameter.
-    fn parameter(&self, name: &str) -> String;
-    /// What the prepared field keeps.
-    fn of_field(&self, name: &str) -> String;
-    /// What the field at a time keeps.
-    fn of_time(&self, name: &str) -> String;
-    /// The name of a function.
-    fn function(&self, function: Function, wide: bool) -> String;
+    /// A member of an argument.
+    fn member(&self, owner: Owner, name: &str) -> String;
+    /// The name of a function of the caller's precision.
+    fn function(&self, function: Function) -> String;
+    /// The name of a function of twice the digits.
+    fn wide_function(&self, function: Function) -> String {
+        format!("wide_{}", function.name())
+    }
     /// Arithmetic.
     fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, _wide: bool) -> String {
         format!("{a} {} {b}", operation.sign())
@@ -152,13 +199,17 @@ impl Port<'_> {
     fn operation(&self, dialect: &dyn Dialect, op: &Op, place: Place) -> Option<String> {
         let wide = place.is_wide();
         let of = |value: &Value| self.operand(dialect, *value, place);
+        let named = |function| match wide {
+            true => dialect.wide_function(function),
+            false => dialect.function(function),
+        };
         let arithmetic = |operation, a: &Value, b: &Value| {
             Some(dialect.arithmetic(operation, &of(a), &of(b), wide))
         };
         match op {
             Op::Constant(_) | Op::Pi => None,
             Op::Input(Symbol::Parameter(index)) => {
-                Some(dialect.widened(&dialect.parameter(&self.parameters[index])))
+                Some(dialect.widened(&dialect.member(Owner::Parameters, &self.parameters[index])))
             }
             Op::Input(_) => None,
             Op::Add(a, b) => arithmetic(Arithmetic::Add, a, b),
@@ -166,11 +217,9 @@ impl Port<'_> {
             Op::Multiply(a, b) => arithmetic(Arithmetic::Multiply, a, b),
             Op::Divide(a, b) => arithmetic(Arithmetic::Divide, a, b),
             Op::Negate(a) => Some(dialect.negated(&of(a), wide)),
-            Op::Unary(function, a) => {
-                Some(format!("{}({})", dialect.function(*function, wide), of(a)))
-            }
+            Op::Unary(function, a) => Some(format!("{}({})", named(*function), of(a))),
             Op::Binary(function, a, b) => {
-                Some(format!("{}({}, {})", dialect.function(*function, wide), of(a), of(b)))
+                Some(format!("{}({}, {})", named(*function), of(a), of(b)))
             }
         }
     }
@@ -193,8 +242,8 @@ impl Port<'_> {
         let name = local(value, wide);
         match place {
             _ if place.computes(instr.stage) => name,
-            Place::Points { timed: true } => dialect.of_time(&name),
-            _ => dialect.of_field(&name),
+            Place::Points { timed: true } => dialect.member(Owner::Time, &name),
+            _ => dialect.member(Owner::Field, &name),
         }
     }
 
@@ -206,7 +255,7 @@ impl Port<'_> {
             Op::Pi => dialect.pi(false),
             Op::Input(Symbol::Time) if place == Place::Times => dialect.input("t"),
             _ if place == Place::Times && instr.stage == Stage::Parameter => {
-                dialect.of_field(&local(value, false))
+                dialect.member(Owner::Field, &local(value, false))
             }
             _ if place.is_wide() => dialect.narrowed(&self.operand(dialect, value, place)),
             _ => self.operand(dialect, value, place),

@@ -1,6 +1,6 @@
 //! How Python writes numbers and functions.
 
-use crate::emit::port::body::Dialect;
+use crate::emit::port::body::{Dialect, Owner, in_c_library};
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
 use crate::program::interpret::parts;
@@ -36,55 +36,30 @@ impl Dialect for Form {
         format!("{value}.high")
     }
 
-    fn parameter(&self, name: &str) -> String {
-        format!("parameters.{name}")
-    }
-
-    fn of_field(&self, name: &str) -> String {
-        format!("field._{name}")
-    }
-
-    fn of_time(&self, name: &str) -> String {
-        format!("self._{name}")
-    }
-
-    fn function(&self, function: Function, wide: bool) -> String {
-        if wide {
-            return format!("_wide_{}", function.name());
+    fn member(&self, owner: Owner, name: &str) -> String {
+        match owner {
+            Owner::Parameters => format!("parameters.{name}"),
+            Owner::Field => format!("field._{name}"),
+            Owner::Time => format!("self._{name}"),
         }
-        let (library, is_numpy) = match self {
-            Form::Math => ("math", false),
-            Form::NumPy => ("np", true),
-        };
-        let own = match function {
-            Function::Ln1pRest | Function::SinPi | Function::CosPi => {
-                return format!("_{}", function.name());
+    }
+
+    fn function(&self, function: Function) -> String {
+        let Some(name) = in_c_library(function) else { return format!("_{}", function.name()) };
+        match (self, function) {
+            // Only Python 3.11 has it.
+            (Form::Math, Function::Cbrt) => "_cbrt".into(),
+            (Form::Math, _) => format!("math.{name}"),
+            (Form::NumPy, Function::Powf) => "np.power".into(),
+            (Form::NumPy, Function::Asin | Function::Acos | Function::Atan | Function::Atan2) => {
+                format!("np.{}", name.replacen('a', "arc", 1))
             }
-            Function::Cbrt if !is_numpy => return "_cbrt".into(),
-            Function::Ln => "log",
-            Function::Ln1p => "log1p",
-            Function::ExpM1 => "expm1",
-            Function::Powf if is_numpy => "power",
-            Function::Powf => "pow",
-            Function::Asin if is_numpy => "arcsin",
-            Function::Acos if is_numpy => "arccos",
-            Function::Atan if is_numpy => "arctan",
-            Function::Atan2 if is_numpy => "arctan2",
-            Function::Cbrt
-            | Function::Sqrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2 => function.name(),
-        };
-        format!("{library}.{own}")
+            (Form::NumPy, _) => format!("np.{name}"),
+        }
+    }
+
+    fn wide_function(&self, function: Function) -> String {
+        format!("_wide_{}", function.name())
     }
 
     fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
