@@ -1,5 +1,7 @@
 //! An elastic block: a field of the gallery, without what drives it.
 
+use std::ops::MulAssign;
+
 use mms::scene::Scene;
 use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
 
@@ -19,6 +21,10 @@ impl Body {
         Self { field, forced: false }
     }
 }
+
+/// How much of the field's motion a block without force has: so little that particles stay in their cells, which
+/// hat functions need.
+const SHARE: f64 = 0.01;
 
 /// A scene of `D` dimensions.
 pub trait Of<T, const D: usize>: Sized {
@@ -52,15 +58,21 @@ pub struct Block<T, const D: usize> {
     forced: bool,
 }
 
-impl<T, const D: usize> Block<T, D>
-where
-    Scene<T>: Of<T, D>,
-{
+impl<T: Real, const D: usize> Block<T, D> {
     /// The block of a field.
-    pub fn new(body: &Body) -> Self {
+    pub fn new(body: &Body) -> Self
+    where
+        Scene<T>: Of<T, D>,
+    {
         let field = Scene::<T>::find(body.field);
         let field = field.unwrap_or_else(|| panic!("no field `{}` of that dimension", body.field));
         Self { field, forced: body.forced }
+    }
+
+    fn weaken<V: MulAssign<T>>(&self, values: &mut [V]) {
+        if !self.forced {
+            values.iter_mut().for_each(|value| *value *= T::of(SHARE));
+        }
     }
 }
 
@@ -94,10 +106,12 @@ impl<T: Real, const D: usize> ManufacturedField<T, D> for Block<T, D> {
 
     fn displacement(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
         self.field.displacement(time, reference, out);
+        self.weaken(out);
     }
 
     fn velocity(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
         self.field.velocity(time, reference, out);
+        self.weaken(out);
     }
 
     fn acceleration(&self, time: T, reference: &[Vector<T, D>], out: &mut [Vector<T, D>]) {
@@ -114,5 +128,6 @@ impl<T: Real, const D: usize> ManufacturedField<T, D> for Block<T, D> {
 
     fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]) {
         self.field.displacement_gradient(time, reference, out);
+        self.weaken(out);
     }
 }

@@ -8,8 +8,8 @@
 //! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
 //! value is computed again, number by number, with the careful functions of the scalar itself.
 
-use crate::dispatch::Drive;
-use crate::machine::{Fused, Machine};
+use crate::dispatch::{Work, wide};
+use crate::machine::{self, Machine};
 use crate::{Lane, Real};
 
 /// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
@@ -33,8 +33,10 @@ pub trait Float: Real + Stand<Self> + PartialOrd + Send + Sync {
     type Fused: Stand<Self>;
     /// Its stand-in elsewhere.
     type Plain: Stand<Self>;
-    /// Four of it at a time, where the processor does that.
-    type Machine: Machine<Self> + From<Fused>;
+    /// Four of it at a time where the processor multiplies and adds in one step.
+    type FusedMachine: Machine<Self> + From<machine::Fused>;
+    /// Four of it at a time elsewhere.
+    type PlainMachine: Machine<Self> + From<machine::Plain>;
 }
 
 macro_rules! float {
@@ -64,7 +66,8 @@ macro_rules! float {
         impl Float for $float {
             type Fused = Lane<$float, true>;
             type Plain = Lane<$float, false>;
-            type Machine = Fused;
+            type FusedMachine = machine::Fused;
+            type PlainMachine = machine::Plain;
         }
     };
 }
@@ -136,7 +139,7 @@ pub trait Source<T, const N: usize> {
     /// How many points there are.
     fn count(&self) -> usize;
     /// Copies the points from `start` on, as many as fit and are there.
-    fn load(&self, start: usize, block: &mut Block<T, N>);
+    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>);
 }
 
 /// A place for `N` numbers at each of some points.
@@ -144,7 +147,7 @@ pub trait Sink<T, const N: usize> {
     /// How many points there is room for.
     fn room(&self) -> usize;
     /// Writes the points from `start` on, as many as there is room for.
-    fn store(&mut self, start: usize, block: &Block<T, N>);
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>);
 }
 
 /// Structure of arrays: one slice for each number.
@@ -154,7 +157,7 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn load(&self, start: usize, block: &mut Block<T, N>) {
+    fn load<M: Machine<T>>(&self, _: M, start: usize, block: &mut Block<T, N>) {
         for (column, lane) in self.iter().zip(block) {
             let rest = &column[start..];
             match rest.first_chunk() {
@@ -172,12 +175,8 @@ impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn load(&self, start: usize, block: &mut Block<T, N>) {
-        for (place, point) in self[start..].iter().take(BLOCK).enumerate() {
-            for (lane, value) in block.iter_mut().zip(point) {
-                lane[place] = *value;
-            }
-        }
+    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>) {
+        turn(machine, &self[start..], block);
     }
 }
 
@@ -190,13 +189,11 @@ impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
     }
 
     #[inline(always)]
-    fn load(&self, start: usize, block: &mut Block<T, N>) {
-        let points = self.0[start..].iter().zip(&self.1[start..]);
-        for (place, (first, second)) in points.take(BLOCK).enumerate() {
-            for (lane, value) in block.iter_mut().zip(first.iter().chain(second)) {
-                lane[place] = *value;
-            }
-        }
+    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>) {
+        const { assert!(A + B == N) };
+        let (first, second) = block.split_at_mut(A);
+        turn(machine, &self.0[start..], first);
+        turn(machine, &self.1[start..], second);
     }
 }
 
@@ -206,7 +203,7 @@ impl<T: Copy, const N: usize> Sink<T, N> for [&mut [T]; N] {
     }
 
     #[inline(always)]
-    fn store(&mut self, start: usize, block: &Block<T, N>) {
+    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) {
         for (column, lane) in self.iter_mut().zip(block) {
             let rest = &mut column[start..];
             match rest.first_chunk_mut() {
@@ -223,13 +220,87 @@ impl<T: Copy, const N: usize> Sink<T, N> for &mut [[T; N]] {
     }
 
     #[inline(always)]
-    fn store(&mut self, start: usize, block: &Block<T, N>) {
-        for (place, point) in self[start..].iter_mut().take(BLOCK).enumerate() {
-            for (value, lane) in point.iter_mut().zip(block) {
-                *value = lane[place];
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) {
+        turn_back(machine, block, &mut self[start..]);
+    }
+}
+
+/// Copies points, as many as fit and are there, to lanes: one for each of their numbers. Four numbers of four
+/// points go at a time; the compiler would take them one by one, all over the memory.
+#[inline(always)]
+fn turn<T: Copy, M: Machine<T>, const N: usize>(
+    machine: M,
+    points: &[[T; N]],
+    lanes: &mut [[T; BLOCK]],
+) {
+    let points = &points[..points.len().min(BLOCK)];
+    let (fours, others) = points.as_chunks::<4>();
+    for (four, points) in fours.iter().enumerate() {
+        let places = 4 * four..4 * four + 4;
+        let mut first = 0;
+        while first + 4 <= N {
+            let mut rows = [machine.splat(points[0][0]); 4];
+            for k in 0..4 {
+                rows[k] = machine.four(chunk(&points[k], first));
+            }
+            let columns = machine.transposed(rows);
+            for k in 0..4 {
+                lanes[first + k][places.clone()].copy_from_slice(&machine.numbers(columns[k]));
+            }
+            first += 4;
+        }
+        for number in first..N {
+            for k in 0..4 {
+                lanes[number][4 * four + k] = points[k][number];
             }
         }
     }
+    for (point, place) in others.iter().zip(4 * fours.len()..) {
+        for number in 0..N {
+            lanes[number][place] = point[number];
+        }
+    }
+}
+
+/// Copies lanes back to points.
+#[inline(always)]
+fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
+    machine: M,
+    lanes: &[[T; BLOCK]; N],
+    points: &mut [[T; N]],
+) {
+    let count = points.len().min(BLOCK);
+    let (fours, others) = points[..count].as_chunks_mut::<4>();
+    for (four, points) in fours.iter_mut().enumerate() {
+        let mut first = 0;
+        while first + 4 <= N {
+            let mut rows = [machine.splat(lanes[0][0]); 4];
+            for k in 0..4 {
+                rows[k] = machine.four(chunk(&lanes[first + k], 4 * four));
+            }
+            let columns = machine.transposed(rows);
+            for k in 0..4 {
+                points[k][first..first + 4].copy_from_slice(&machine.numbers(columns[k]));
+            }
+            first += 4;
+        }
+        for number in first..N {
+            for k in 0..4 {
+                points[k][number] = lanes[number][4 * four + k];
+            }
+        }
+    }
+    for (point, place) in others.iter_mut().zip(4 * fours.len()..) {
+        for number in 0..N {
+            point[number] = lanes[number][place];
+        }
+    }
+}
+
+/// Four numbers from `first` on.
+#[inline(always)]
+fn chunk<T, const N: usize>(numbers: &[T; N], first: usize) -> &[T; 4] {
+    numbers[first..].first_chunk().expect("there are four more")
 }
 
 /// The length that all columns have.
@@ -263,23 +334,66 @@ pub fn run<T: Float, const I: usize, const O: usize>(
 ) {
     let count = source.count();
     assert_eq!(sink.room(), count, "a batch has {count} points, and other room for its results");
-    let zero = T::from_f64(0.0);
-    let mut blocks = Blocks {
-        source,
-        sink,
-        count,
-        inputs: [[zero; BLOCK]; I],
-        outputs: [[zero; BLOCK]; O],
-        careful: |inputs: &Block<T, I>, outputs: &mut Block<T, O>| {
-            kernel.drive::<T>(&mut Single { inputs, outputs });
-        },
-    };
-    let scalar = core::marker::PhantomData::<T>;
-    crate::dispatch::wide(Drive { kernel, points: &mut blocks, scalar });
+    wide(Drive { kernel, source, sink, count, scalar: core::marker::PhantomData::<T> });
+}
+
+/// A kernel, and what it is driven over.
+struct Drive<'a, T, K, In, Out, const I: usize, const O: usize> {
+    kernel: &'a K,
+    source: &'a In,
+    sink: &'a mut Out,
+    count: usize,
+    scalar: core::marker::PhantomData<T>,
+}
+
+impl<T, K, In, Out, const I: usize, const O: usize> Work for Drive<'_, T, K, In, Out, I, O>
+where
+    T: Float,
+    K: Kernel<T, I, O>,
+    In: Source<T, I>,
+    Out: Sink<T, O>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn fused(self, machine: machine::Fused) {
+        self.with::<T::Fused, _>(T::FusedMachine::from(machine));
+    }
+
+    #[inline(always)]
+    fn plain(self, machine: machine::Plain) {
+        self.with::<T::Plain, _>(T::PlainMachine::from(machine));
+    }
+}
+
+impl<T, K, In, Out, const I: usize, const O: usize> Drive<'_, T, K, In, Out, I, O>
+where
+    T: Float,
+    K: Kernel<T, I, O>,
+    In: Source<T, I>,
+    Out: Sink<T, O>,
+{
+    #[inline(always)]
+    fn with<S: Stand<T>, M: Machine<T>>(self, machine: M) {
+        let Self { kernel, source, sink, count, .. } = self;
+        let zero = T::from_f64(0.0);
+        kernel.drive::<S>(&mut Blocks {
+            machine,
+            source,
+            sink,
+            count,
+            inputs: [[zero; BLOCK]; I],
+            outputs: [[zero; BLOCK]; O],
+            careful: |inputs: &Block<T, I>, outputs: &mut Block<T, O>| {
+                kernel.drive::<T>(&mut Single { inputs, outputs });
+            },
+        });
+    }
 }
 
 /// All points, block by block.
-struct Blocks<'a, T, In, Out, Careful, const I: usize, const O: usize> {
+struct Blocks<'a, M, T, In, Out, Careful, const I: usize, const O: usize> {
+    machine: M,
     source: &'a In,
     sink: &'a mut Out,
     count: usize,
@@ -288,9 +402,10 @@ struct Blocks<'a, T, In, Out, Careful, const I: usize, const O: usize> {
     careful: Careful,
 }
 
-impl<T, S, In, Out, Careful, const I: usize, const O: usize> Points<S, I, O>
-    for Blocks<'_, T, In, Out, Careful, I, O>
+impl<M, T, S, In, Out, Careful, const I: usize, const O: usize> Points<S, I, O>
+    for Blocks<'_, M, T, In, Out, Careful, I, O>
 where
+    M: Machine<T>,
     T: Float,
     S: Stand<T>,
     In: Source<T, I>,
@@ -301,7 +416,7 @@ where
     fn each(&mut self, function: &impl Function<S, I, O>) {
         let mut start = 0;
         while start < self.count {
-            self.source.load(start, &mut self.inputs);
+            self.source.load(self.machine, start, &mut self.inputs);
             let left = self.count - start;
             if left < BLOCK {
                 // What is behind the last point was computed before, or is 0: it might be what no
@@ -315,7 +430,7 @@ where
             if !known {
                 (self.careful)(&self.inputs, &mut self.outputs);
             }
-            self.sink.store(start, &self.outputs);
+            self.sink.store(self.machine, start, &self.outputs);
             start += BLOCK;
         }
     }

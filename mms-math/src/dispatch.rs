@@ -1,6 +1,5 @@
 //! Compiles work for several instruction sets, and takes the best one that the processor has.
 
-use crate::batch::{Float, Kernel, Points};
 use crate::machine::{Fused, Plain};
 
 /// Work on many numbers, in two versions of the same code: everything it calls has to be inlined, or is not
@@ -9,10 +8,10 @@ pub trait Work {
     /// What comes of it.
     type Output;
 
-    /// Where the processor multiplies and adds in one step: with [`Float::Fused`], or four numbers at a time.
+    /// Where the processor multiplies and adds in one step: with [`Float::Fused`](crate::batch::Float::Fused), or four numbers at a time.
     fn fused(self, machine: Fused) -> Self::Output;
 
-    /// Where it does not: with [`Float::Plain`].
+    /// Where it does not: with [`Float::Plain`](crate::batch::Float::Plain).
     fn plain(self, machine: Plain) -> Self::Output;
 }
 
@@ -69,29 +68,4 @@ fn avx512<W: Work>(work: W) -> W::Output {
 #[target_feature(enable = "avx2,fma")]
 fn avx2<W: Work>(work: W) -> W::Output {
     work.fused(Fused::known())
-}
-
-/// A kernel, and the points that it is driven over.
-pub(crate) struct Drive<'a, T, K, P, const I: usize, const O: usize> {
-    pub kernel: &'a K,
-    pub points: &'a mut P,
-    pub scalar: core::marker::PhantomData<T>,
-}
-
-impl<T: Float, K: Kernel<T, I, O>, P, const I: usize, const O: usize> Work
-    for Drive<'_, T, K, P, I, O>
-where
-    P: Points<T::Fused, I, O> + Points<T::Plain, I, O>,
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn fused(self, _: Fused) {
-        self.kernel.drive::<T::Fused>(self.points);
-    }
-
-    #[inline(always)]
-    fn plain(self, _: Plain) {
-        self.kernel.drive::<T::Plain>(self.points);
-    }
 }

@@ -3,8 +3,6 @@
 //! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); what it
 //! does to four numbers that go through long code together is luck. Here they are one value.
 
-use core::ops::{Add, Mul};
-
 /// A way to compute with four numbers together.
 pub trait Machine<T>: Copy {
     /// Four numbers.
@@ -19,45 +17,46 @@ pub trait Machine<T>: Copy {
     /// The numbers.
     fn numbers(self, four: Self::Four) -> [T; 4];
 
+    /// a + b.
+    fn plus(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    /// a - b.
+    fn minus(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
     /// a b.
     fn times(self, a: Self::Four, b: Self::Four) -> Self::Four;
 
     /// a b + c.
     fn times_plus(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+
+    /// a / b.
+    fn over(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    /// a where it is less than b, else b: so b where one is not a number.
+    fn least(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    /// a where it is greater than b, else b: so b where one is not a number.
+    fn greatest(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    /// The greatest whole numbers that are not greater than these.
+    fn floor(self, a: Self::Four) -> Self::Four;
+
+    /// Whether a <= b for all four.
+    fn all_at_most(self, a: Self::Four, b: Self::Four) -> bool;
+
+    /// The whole numbers that these are, between -2^31 and 2^31; any number elsewhere.
+    fn whole(self, a: Self::Four) -> [i32; 4];
+
+    /// The first numbers of all four, then the second ones, and so on.
+    fn transposed(self, rows: [Self::Four; 4]) -> [Self::Four; 4];
+
+    /// Has this value brought near, for it is soon needed; nothing if there is none.
+    fn fetch<V>(self, value: Option<&V>);
 }
 
-/// Products and sums, one number after the other: every processor has them.
+/// One number after the other: every processor can do that.
 #[derive(Clone, Copy, Debug)]
 pub struct Plain;
-
-impl<T: Copy + Add<Output = T> + Mul<Output = T>> Machine<T> for Plain {
-    type Four = [T; 4];
-
-    #[inline(always)]
-    fn four(self, numbers: &[T; 4]) -> [T; 4] {
-        *numbers
-    }
-
-    #[inline(always)]
-    fn splat(self, number: T) -> [T; 4] {
-        [number; 4]
-    }
-
-    #[inline(always)]
-    fn numbers(self, four: [T; 4]) -> [T; 4] {
-        four
-    }
-
-    #[inline(always)]
-    fn times(self, a: [T; 4], b: [T; 4]) -> [T; 4] {
-        [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
-    }
-
-    #[inline(always)]
-    fn times_plus(self, a: [T; 4], b: [T; 4], c: [T; 4]) -> [T; 4] {
-        [a[0] * b[0] + c[0], a[1] * b[1] + c[1], a[2] * b[2] + c[2], a[3] * b[3] + c[3]]
-    }
-}
 
 /// Multiply-adds that round once. There is one only where the processor is known to have them
 /// ([`crate::dispatch`]).
@@ -72,9 +71,119 @@ impl Fused {
     }
 }
 
+macro_rules! arrays {
+    ($($machine:ident $float:ident $times_plus:expr;)*) => {
+        $(
+            impl Machine<$float> for $machine {
+                type Four = [$float; 4];
+
+                #[inline(always)]
+                fn four(self, numbers: &[$float; 4]) -> [$float; 4] {
+                    *numbers
+                }
+
+                #[inline(always)]
+                fn splat(self, number: $float) -> [$float; 4] {
+                    [number; 4]
+                }
+
+                #[inline(always)]
+                fn numbers(self, four: [$float; 4]) -> [$float; 4] {
+                    four
+                }
+
+                #[inline(always)]
+                fn plus(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
+                }
+
+                #[inline(always)]
+                fn minus(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
+                }
+
+                #[inline(always)]
+                fn times(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
+                }
+
+                #[inline(always)]
+                fn times_plus(
+                    self,
+                    a: [$float; 4],
+                    b: [$float; 4],
+                    c: [$float; 4],
+                ) -> [$float; 4] {
+                    let one = |k: usize| $times_plus(a[k], b[k], c[k]);
+                    [one(0), one(1), one(2), one(3)]
+                }
+
+                #[inline(always)]
+                fn over(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    [a[0] / b[0], a[1] / b[1], a[2] / b[2], a[3] / b[3]]
+                }
+
+                #[inline(always)]
+                fn least(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    let one = |k: usize| if a[k] < b[k] { a[k] } else { b[k] };
+                    [one(0), one(1), one(2), one(3)]
+                }
+
+                #[inline(always)]
+                fn greatest(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
+                    let one = |k: usize| if a[k] > b[k] { a[k] } else { b[k] };
+                    [one(0), one(1), one(2), one(3)]
+                }
+
+                #[inline(always)]
+                fn floor(self, a: [$float; 4]) -> [$float; 4] {
+                    a.map($float::floor)
+                }
+
+                #[inline(always)]
+                fn all_at_most(self, a: [$float; 4], b: [$float; 4]) -> bool {
+                    a[0] <= b[0] && a[1] <= b[1] && a[2] <= b[2] && a[3] <= b[3]
+                }
+
+                #[inline(always)]
+                fn whole(self, a: [$float; 4]) -> [i32; 4] {
+                    a.map(|number| number as i32)
+                }
+
+                #[inline(always)]
+                fn transposed(self, [a, b, c, d]: [[$float; 4]; 4]) -> [[$float; 4]; 4] {
+                    let column = |k: usize| [a[k], b[k], c[k], d[k]];
+                    [column(0), column(1), column(2), column(3)]
+                }
+
+                #[inline(always)]
+                fn fetch<V>(self, _: Option<&V>) {}
+            }
+        )*
+    };
+}
+
+arrays! {
+    Plain f32 |a: f32, b: f32, c: f32| a * b + c;
+    Plain f64 |a: f64, b: f64, c: f64| a * b + c;
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+arrays! {
+    Fused f32 f32::mul_add;
+    Fused f64 f64::mul_add;
+}
+
 #[cfg(target_arch = "x86_64")]
 macro_rules! registers {
-    ($($float:ident: $register:ident, $load:ident, $store:ident, $splat:ident, $times:ident, $times_plus:ident;)*) => {
+    (
+        $($float:ident: $register:ident {
+            four $load:ident, splat $splat:ident, numbers $store:ident, plus $plus:ident, minus $minus:ident,
+            times $times:ident, times_plus $times_plus:ident, over $over:ident, least $least:ident,
+            greatest $greatest:ident, floor $floor:ident, compare $compare:ident, signs $signs:ident,
+            whole $whole:ident, transposed $transposed:ident
+        })*
+    ) => {
         $(
             // Safety, of all: a `Fused` is a proof that the processor has the instructions.
             #[allow(unsafe_code)]
@@ -99,6 +208,16 @@ macro_rules! registers {
                 }
 
                 #[inline(always)]
+                fn plus(self, a: Self::Four, b: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$plus(a, b) }
+                }
+
+                #[inline(always)]
+                fn minus(self, a: Self::Four, b: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$minus(a, b) }
+                }
+
+                #[inline(always)]
                 fn times(self, a: Self::Four, b: Self::Four) -> Self::Four {
                     unsafe { core::arch::x86_64::$times(a, b) }
                 }
@@ -107,6 +226,55 @@ macro_rules! registers {
                 fn times_plus(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four {
                     unsafe { core::arch::x86_64::$times_plus(a, b, c) }
                 }
+
+                #[inline(always)]
+                fn over(self, a: Self::Four, b: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$over(a, b) }
+                }
+
+                #[inline(always)]
+                fn least(self, a: Self::Four, b: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$least(a, b) }
+                }
+
+                #[inline(always)]
+                fn greatest(self, a: Self::Four, b: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$greatest(a, b) }
+                }
+
+                #[inline(always)]
+                fn floor(self, a: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$floor(a) }
+                }
+
+                #[inline(always)]
+                fn all_at_most(self, a: Self::Four, b: Self::Four) -> bool {
+                    use core::arch::x86_64::{_CMP_LE_OQ, $compare, $signs};
+                    unsafe { $signs($compare::<_CMP_LE_OQ>(a, b)) == 0b1111 }
+                }
+
+                #[inline(always)]
+                fn whole(self, a: Self::Four) -> [i32; 4] {
+                    let mut numbers = [0; 4];
+                    unsafe {
+                        let registers = core::arch::x86_64::$whole(a);
+                        core::arch::x86_64::_mm_storeu_si128(numbers.as_mut_ptr().cast(), registers);
+                    }
+                    numbers
+                }
+
+                #[inline(always)]
+                fn transposed(self, [a, b, c, d]: [Self::Four; 4]) -> [Self::Four; 4] {
+                    unsafe { $transposed(a, b, c, d) }
+                }
+
+                #[inline(always)]
+                fn fetch<V>(self, value: Option<&V>) {
+                    use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+                    if let Some(value) = value {
+                        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
+                    }
+                }
             }
         )*
     };
@@ -114,51 +282,134 @@ macro_rules! registers {
 
 #[cfg(target_arch = "x86_64")]
 registers! {
-    f32: __m128, _mm_loadu_ps, _mm_storeu_ps, _mm_set1_ps, _mm_mul_ps, _mm_fmadd_ps;
-    f64: __m256d, _mm256_loadu_pd, _mm256_storeu_pd, _mm256_set1_pd, _mm256_mul_pd, _mm256_fmadd_pd;
+    f32: __m128 {
+        four _mm_loadu_ps, splat _mm_set1_ps, numbers _mm_storeu_ps, plus _mm_add_ps, minus _mm_sub_ps,
+        times _mm_mul_ps, times_plus _mm_fmadd_ps, over _mm_div_ps, least _mm_min_ps,
+        greatest _mm_max_ps, floor _mm_floor_ps, compare _mm_cmp_ps, signs _mm_movemask_ps,
+        whole _mm_cvttps_epi32, transposed transposed_singles
+    }
+    f64: __m256d {
+        four _mm256_loadu_pd, splat _mm256_set1_pd, numbers _mm256_storeu_pd, plus _mm256_add_pd, minus _mm256_sub_pd,
+        times _mm256_mul_pd, times_plus _mm256_fmadd_pd, over _mm256_div_pd, least _mm256_min_pd,
+        greatest _mm256_max_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, signs _mm256_movemask_pd,
+        whole _mm256_cvttpd_epi32, transposed transposed_doubles
+    }
 }
 
-#[cfg(not(target_arch = "x86_64"))]
-macro_rules! numbers {
-    ($($float:ident)*) => {
-        $(
-            impl Machine<$float> for Fused {
-                type Four = [$float; 4];
-
-                #[inline(always)]
-                fn four(self, numbers: &[$float; 4]) -> [$float; 4] {
-                    *numbers
-                }
-
-                #[inline(always)]
-                fn splat(self, number: $float) -> [$float; 4] {
-                    [number; 4]
-                }
-
-                #[inline(always)]
-                fn numbers(self, four: [$float; 4]) -> [$float; 4] {
-                    four
-                }
-
-                #[inline(always)]
-                fn times(self, a: [$float; 4], b: [$float; 4]) -> [$float; 4] {
-                    Plain.times(a, b)
-                }
-
-                #[inline(always)]
-                fn times_plus(
-                    self,
-                    a: [$float; 4],
-                    b: [$float; 4],
-                    c: [$float; 4],
-                ) -> [$float; 4] {
-                    let one = |k: usize| a[k].mul_add(b[k], c[k]);
-                    [one(0), one(1), one(2), one(3)]
-                }
-            }
-        )*
-    };
+/// Safety: the processor has AVX.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn transposed_doubles(
+    a: core::arch::x86_64::__m256d,
+    b: core::arch::x86_64::__m256d,
+    c: core::arch::x86_64::__m256d,
+    d: core::arch::x86_64::__m256d,
+) -> [core::arch::x86_64::__m256d; 4] {
+    use core::arch::x86_64::{_mm256_permute2f128_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd};
+    unsafe {
+        // Of a and b: the numbers 0 and 2, then 1 and 3; likewise of c and d.
+        let (even, odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+        let (more_even, more_odd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+        [
+            _mm256_permute2f128_pd::<0x20>(even, more_even),
+            _mm256_permute2f128_pd::<0x20>(odd, more_odd),
+            _mm256_permute2f128_pd::<0x31>(even, more_even),
+            _mm256_permute2f128_pd::<0x31>(odd, more_odd),
+        ]
+    }
 }
 
-#[cfg(not(target_arch = "x86_64"))]
-numbers!(f32 f64);
+/// Safety: the processor has SSE, as all of them have.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn transposed_singles(
+    a: core::arch::x86_64::__m128,
+    b: core::arch::x86_64::__m128,
+    c: core::arch::x86_64::__m128,
+    d: core::arch::x86_64::__m128,
+) -> [core::arch::x86_64::__m128; 4] {
+    use core::arch::x86_64::{_mm_movehl_ps, _mm_movelh_ps, _mm_unpackhi_ps, _mm_unpacklo_ps};
+    unsafe {
+        // Of a and b: the numbers 0 and 1, then 2 and 3; likewise of c and d.
+        let (low, high) = (_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
+        let (more_low, more_high) = (_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d));
+        [
+            _mm_movelh_ps(low, more_low),
+            _mm_movehl_ps(more_low, low),
+            _mm_movelh_ps(high, more_high),
+            _mm_movehl_ps(more_high, high),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::format;
+    use std::vec;
+    use std::vec::Vec;
+
+    use super::{Fused, Machine, Plain};
+    use crate::batch::Float;
+    use crate::dispatch::{Work, narrow};
+
+    /// Everything that a machine can do with some numbers, as numbers.
+    struct Everything<T>([[T; 4]; 4]);
+
+    impl<T: Float> Everything<T> {
+        fn by<M: Machine<T>>(&self, machine: M) -> Vec<[T; 4]> {
+            let [a, b, c, d] = self.0.each_ref().map(|numbers| machine.four(numbers));
+            let mut all = vec![
+                machine.splat(self.0[0][2]),
+                machine.plus(a, b),
+                machine.minus(a, b),
+                machine.times(a, b),
+                machine.over(a, b),
+                machine.least(a, b),
+                machine.greatest(a, b),
+                machine.floor(a),
+            ];
+            all.extend(machine.transposed([a, b, c, d]));
+            let mut all: Vec<_> = all.into_iter().map(|four| machine.numbers(four)).collect();
+            all.push(machine.whole(machine.floor(c)).map(|number| T::from_f64(number.into())));
+            let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| machine.all_at_most(a, b));
+            all.push(
+                [compared[0], compared[1], compared[2], false]
+                    .map(|is| T::from_f64(f64::from(u8::from(is)))),
+            );
+            all
+        }
+    }
+
+    impl<T: Float> Work for &Everything<T> {
+        type Output = Vec<[T; 4]>;
+
+        fn fused(self, machine: Fused) -> Self::Output {
+            self.by(T::FusedMachine::from(machine))
+        }
+
+        fn plain(self, machine: Plain) -> Self::Output {
+            self.by(T::PlainMachine::from(machine))
+        }
+    }
+
+    fn alike<T: Float>() {
+        let numbers = [
+            [1.5, -2.5, 0.0, -0.0],
+            [2.5, -3.5, f64::NAN, 1e30],
+            [-1.0, 2.75, 1e9, -7.5],
+            [-0.5, 3.0, 1e9, 0.25],
+        ];
+        let numbers = Everything(numbers.map(|row| row.map(T::from_f64)));
+        let (found, expected) = (narrow(&numbers), numbers.by(T::PlainMachine::from(Plain)));
+        // Not a number is not equal to itself; its text is.
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+    }
+
+    #[test]
+    fn machines_differ_in_sums_of_products_only() {
+        alike::<f32>();
+        alike::<f64>();
+    }
+}

@@ -6,8 +6,10 @@
 //!
 //! w = 1/(2 l) int hat(x) dx,  grad w = 1/(2 l) int hat'(x) dx,  x from x_p - l to x_p + l.
 
+use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
+use crate::nodal::four;
 use crate::shape::{MAX_NODES, Shape};
 use crate::stencil::Tensor;
 use crate::tensor::{determinant, stretch_along_axes};
@@ -26,7 +28,8 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     }
 
     #[inline(always)]
-    fn place<T: Real, const D: usize>(
+    fn place<T: Real, M: Machine<T>, const D: usize>(
+        machine: M,
         stencil: &mut Tensor<T, D, MAX_NODES>,
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
@@ -38,28 +41,48 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             let stretch = stretch_along_axes(displacement_gradient).ok_or(Cause::FlatDomain)?;
             half_width.component_mul_assign(&stretch);
         }
-        let cells = lattice.in_cells(position);
-        let mut narrow = true;
-        for a in 0..D {
-            let (l, h) = (half_width[a], lattice.cell_size[a]);
-            if !(l > T::zero() && l < h) {
-                return Err(Cause::HalfWidth { half_width: l.to_f64(), cell_size: h.to_f64() });
-            }
-            half_width[a] *= lattice.per_length[a];
-            narrow &= half_width[a] <= T::ratio(1, 2);
+        let half = T::ratio(1, 2);
+        let per_length = machine.four(&lattice.frame.per_length);
+        let in_cells = machine.times(four(machine, &half_width, half), per_length);
+        let usual = machine.all_at_most(in_cells, machine.splat(half))
+            && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells);
+        if !usual {
+            return place_wide(machine, stencil, lattice, position, &half_width);
         }
-        for a in 0..D {
-            if narrow {
-                let (first, weights) = around_nearest(cells[a], half_width[a]);
-                stencil.set(lattice, a, first, weights);
-            } else {
-                let (first, weights) = wide_averages(cells[a], half_width[a]);
-                stencil.set(lattice, a, first, weights);
-            }
-        }
-        let fits = stencil.settle(lattice, if narrow { 3 } else { MAX_NODES });
+        let cells = lattice.in_frame(machine, position);
+        let (first, weights) = around_nearest(machine, cells, in_cells);
+        let fits = stencil.set(machine, lattice, first, weights);
         if fits { Ok(()) } else { Err(Cause::lost(position)) }
     }
+}
+
+/// Half widths of up to a cell.
+#[cold]
+fn place_wide<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    stencil: &mut Tensor<T, D, MAX_NODES>,
+    lattice: &Lattice<T, D>,
+    position: &Vector<T, D>,
+    half_width: &Vector<T, D>,
+) -> Result<(), Cause> {
+    let cells = lattice.in_cells(position);
+    let mut first = [T::zero(); 4];
+    let [mut weights, mut slopes] = [[[T::zero(); 4]; MAX_NODES]; 2];
+    for a in 0..D {
+        let (l, h) = (half_width[a], lattice.cell_size[a]);
+        if !(l > T::zero() && l < h) {
+            return Err(Cause::HalfWidth { half_width: l.to_f64(), cell_size: h.to_f64() });
+        }
+        let l = l * lattice.per_length[a];
+        first[a] = (cells[a] - l).floor();
+        for k in 0..MAX_NODES {
+            let offset = cells[a] - (first[a] + T::of(k as f64));
+            [weights[k][a], slopes[k][a]] = average_of_hat(offset, l);
+        }
+    }
+    let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
+    let fits = stencil.set(machine, lattice, machine.four(&first), all);
+    if fits { Ok(()) } else { Err(Cause::lost(position)) }
 }
 
 /// The half widths of the box that stands for a domain: its own if its edges run along the axes, else those
@@ -73,35 +96,31 @@ fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, 
     Vector::repeat(ComplexField::powf(volume, T::ratio(1, D as i32)))
 }
 
-/// Averages of hat functions, and of their slopes, over [position - l, position + l] with l of at most half a
-/// cell: they reach no further than from the nearest node to its neighbours. No branch, and one division.
-/// With them comes the first node.
+/// Averages of hat functions, and of their slopes, over [position - l, position + l] along every axis, with l
+/// of at most half a cell: they reach no further than from the nearest node to its neighbours. No branch, and
+/// one division. With them comes the first node.
 #[inline(always)]
-fn around_nearest<T: Real>(position: T, half_width: T) -> (T, [[T; 3]; 2]) {
-    let (zero, one, half) = (T::zero(), T::one(), T::ratio(1, 2));
-    let nearest = (position + half).floor();
-    let offset = position - nearest;
+fn around_nearest<T: Real, M: Machine<T>>(
+    machine: M,
+    position: M::Four,
+    half_width: M::Four,
+) -> (M::Four, [[M::Four; 3]; 2]) {
+    let [zero, half, one] = [0, 1, 2].map(|halves| machine.splat(T::ratio(halves, 2)));
+    let nearest = machine.floor(machine.plus(position, half));
+    let offset = machine.minus(position, nearest);
+    let [before, after] = [machine.minus(zero, half_width), half_width];
     // The domain has the length `right` beyond the nearest node, and `left` before it.
-    let inside = offset.max(-half_width).min(half_width);
-    let (right, left) = (half_width + inside, half_width - inside);
-    let per_width = half / half_width;
-    let (rise, fall) = (right * per_width, left * per_width);
-    let above = half * right * rise + (offset - half_width).max(zero);
-    let below = half * left * fall + (-offset - half_width).max(zero);
-    (nearest - one, [[below, one - below - above, above], [-fall, fall - rise, rise]])
-}
-
-/// Likewise for any l of less than a cell.
-#[cold]
-fn wide_averages<T: Real>(position: T, half_width: T) -> (T, [[T; MAX_NODES]; 2]) {
-    let first = (position - half_width).floor();
-    let (mut weights, mut slopes) = ([T::zero(); MAX_NODES], [T::zero(); MAX_NODES]);
-    let mut offset = position - first;
-    for (weight, slope) in weights.iter_mut().zip(&mut slopes) {
-        [*weight, *slope] = average_of_hat(offset, half_width);
-        offset -= T::one();
-    }
-    (first, [weights, slopes])
+    let inside = machine.least(machine.greatest(offset, before), after);
+    let (right, left) = (machine.plus(half_width, inside), machine.minus(half_width, inside));
+    let per_width = machine.over(half, half_width);
+    let (rise, fall) = (machine.times(right, per_width), machine.times(left, per_width));
+    let beyond = machine.greatest(machine.minus(offset, after), zero);
+    let short = machine.greatest(machine.minus(before, offset), zero);
+    let above = machine.times_plus(machine.times(half, right), rise, beyond);
+    let below = machine.times_plus(machine.times(half, left), fall, short);
+    let middle = machine.minus(machine.minus(one, below), above);
+    let slopes = [machine.minus(zero, fall), machine.minus(fall, rise), rise];
+    (machine.minus(nearest, one), [[below, middle, above], slopes])
 }
 
 /// The average of the hat 1 - |x|, and of its slope, over [offset - l, offset + l]: on either side

@@ -4,7 +4,10 @@
 //! and p more. Node `j` is at the mean of the p inner knots of its spline (Greville 1967), so that
 //! sum_i w_i x_i = x. For degree 1 these are the knots themselves.
 
+use mms_math::machine::Machine;
+
 use crate::failure::at_most;
+use crate::nodal::four;
 use crate::{Real, Refusal, Vector};
 
 /// More nodes than this are refused.
@@ -49,7 +52,45 @@ pub struct Lattice<T, const D: usize> {
     pub period: [Option<T>; D],
     /// The coordinates of the nodes along each axis.
     pub coordinate: [Vec<T>; D],
+    /// The same four axes at a time.
+    pub frame: Frame<T>,
 }
+
+/// What finds a position's cell along four axes at a time. Along those that there are not, everything is in the
+/// middle of a cell, far from the ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<T> {
+    /// [`Lattice::lower`].
+    pub lower: [T; 4],
+    /// [`Lattice::per_length`].
+    pub per_length: [T; 4],
+    /// [`Lattice::count`], and how many more there would be room for.
+    pub nodes: [T; 4],
+    /// [`Lattice::ends`].
+    pub ends: [[T; 4]; 2],
+}
+
+impl<T: Real> Frame<T> {
+    fn new(axes: &[Axis], degree: usize) -> Self {
+        let all = |of: fn(&Axis) -> f64, beyond: f64| {
+            std::array::from_fn(|a| T::of(axes.get(a).map_or(beyond, of)))
+        };
+        let nodes = |a: usize| axes.get(a).map_or(BEYOND.cells, |axis| axis.cells) + degree;
+        Self {
+            lower: all(|axis| axis.lower, BEYOND.lower),
+            per_length: all(|axis| 1.0 / axis.cell_size, BEYOND.cell_size),
+            nodes: std::array::from_fn(|a| T::of(nodes(a) as f64)),
+            ends: [
+                all(|axis| axis.ends[0] as f64, BEYOND.ends[0] as f64),
+                all(|axis| axis.ends[1] as f64, BEYOND.ends[1] as f64),
+            ],
+        }
+    }
+}
+
+/// An axis that there is not, where every coordinate is 0.
+const BEYOND: Axis =
+    Axis { lower: -16.5, cell_size: 1.0, cells: 32, ends: [0, 32], body: [0.0, 32.0] };
 
 impl<T: Real, const D: usize> Lattice<T, D> {
     /// The nodes of shape functions of `degree` on these cells.
@@ -61,6 +102,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             // Hat functions go on beyond a face, for its images.
             axis.ends = [0, axis.cells as i64];
         }
+        let frame = Frame::new(&axes, degree);
         let nodes: f64 = axes.iter().map(|axis| (axis.cells + degree) as f64).product();
         at_most("grid nodes", nodes, NODE_LIMIT)?;
         let count: [usize; D] = std::array::from_fn(|a| axes[a].cells + degree);
@@ -83,6 +125,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             degree,
             axes,
             coordinate,
+            frame,
         })
     }
 
@@ -120,6 +163,18 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             }
         }
         cells
+    }
+
+    /// As [`in_cells`](Lattice::in_cells), four axes at a time.
+    #[inline(always)]
+    pub fn in_frame<M: Machine<T>>(&self, machine: M, position: &Vector<T, D>) -> M::Four {
+        if self.period.iter().any(Option::is_some) {
+            let middle = T::of(-BEYOND.lower);
+            return four(machine, &self.in_cells(position), middle);
+        }
+        let from_lower =
+            machine.minus(four(machine, position, T::zero()), machine.four(&self.frame.lower));
+        machine.times(from_lower, machine.four(&self.frame.per_length))
     }
 
     /// The node on the lower (`false`) or upper face of the body along an axis, where there is one: the

@@ -2,7 +2,9 @@
 
 use std::ops::{Add, AddAssign, Div, Mul};
 
-use crate::{Real, Vector};
+use mms_math::machine::Machine;
+
+use crate::{Matrix, Real, Vector};
 
 /// A vector at a node, in the first components, and in the last one what is mapped along with it: the
 /// mass along with the momentum.
@@ -63,4 +65,85 @@ impl<T: Real> Div<T> for Nodal<T> {
     fn div(self, divisor: T) -> Self {
         Self(self.0.map(|number| number / divisor))
     }
+}
+
+/// The nodes from `start` on, to be added to; an array that is not in use is empty.
+pub struct Window<'a, T> {
+    /// The number of the first one.
+    pub start: usize,
+    /// What they carry.
+    pub nodes: &'a mut [Nodal<T>],
+}
+
+impl<'a, T> Window<'a, T> {
+    /// The same nodes, for a while.
+    #[inline(always)]
+    pub fn reborrow(&mut self) -> Window<'_, T> {
+        Window { start: self.start, nodes: self.nodes }
+    }
+
+    /// So many nodes from this one on.
+    #[inline(always)]
+    pub fn row(&mut self, first: usize, width: usize) -> &mut [Nodal<T>] {
+        let first = first - self.start;
+        &mut self.nodes[first..first + width]
+    }
+
+    /// Those before a node, and those from it on.
+    pub fn split(self, at: usize) -> [Self; 2] {
+        let (before, after) = self.nodes.split_at_mut((at - self.start).min(self.nodes.len()));
+        [Self { start: self.start, nodes: before }, Self { start: at, nodes: after }]
+    }
+}
+
+/// A vector, and the same number in all places that it leaves.
+#[inline(always)]
+pub fn four<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    vector: &Vector<T, D>,
+    other: T,
+) -> M::Four {
+    let component = |a: usize| if a < D { vector[a] } else { other };
+    machine.four(&[component(0), component(1), component(2), other])
+}
+
+/// The vector in the first places.
+#[inline(always)]
+pub fn vector<T: Real, M: Machine<T>, const D: usize>(machine: M, four: M::Four) -> Vector<T, D> {
+    let numbers = machine.numbers(four);
+    let mut vector = Vector::zeros();
+    for a in 0..D {
+        vector[a] = numbers[a];
+    }
+    vector
+}
+
+/// The columns of a matrix.
+#[inline(always)]
+pub fn columns<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    matrix: &Matrix<T, D>,
+) -> [M::Four; D] {
+    let mut columns = [machine.splat(T::zero()); D];
+    for j in 0..D {
+        let row = |i: usize| if i < D { matrix[(i, j)] } else { T::zero() };
+        columns[j] = machine.four(&[row(0), row(1), row(2), T::zero()]);
+    }
+    columns
+}
+
+/// The matrix whose columns these are.
+#[inline(always)]
+pub fn matrix<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    columns: [M::Four; D],
+) -> Matrix<T, D> {
+    let mut matrix = Matrix::zeros();
+    for j in 0..D {
+        let numbers = machine.numbers(columns[j]);
+        for i in 0..D {
+            matrix[(i, j)] = numbers[i];
+        }
+    }
+    matrix
 }

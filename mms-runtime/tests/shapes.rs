@@ -304,11 +304,12 @@ impl ShapeVisitor for Periods {
         let at = |periods: f64| {
             let position = Vector::<f64, 1>::new(-0.5 + (self.cells + periods * 6.0) * 0.25);
             let stencil = S::stencil(&lattice, &position, &domain, &Matrix::zeros()).unwrap();
-            let image = lattice.lower[0] + lattice.in_cells(&position)[0] * 0.25;
             let (mut table, mut moment) = (BTreeMap::<usize, f64>::new(), 0.0);
             stencil.each(|node, w, _| {
                 *table.entry((node + 6 - 3) % 6).or_default() += w;
-                moment += w * (lattice.position(node)[0] - image);
+                let apart = (lattice.position(node) - position)[0] / 0.25;
+                // To the nearest image, in cells.
+                moment += w * (apart - (apart / 6.0).round() * 6.0);
             });
             assert!(moment.abs() < round_off::<f64>(), "{}: {moment}", std::any::type_name::<S>());
             table

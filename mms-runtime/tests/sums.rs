@@ -6,7 +6,7 @@ mod common;
 use common::weights::{CELLS, Particle, lattice};
 use mms_runtime::math::dispatch::{Work, narrow};
 use mms_runtime::math::machine::{Fused, Machine, Plain};
-use mms_runtime::nodal::Nodal;
+use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
 use mms_runtime::stencil::Stencil;
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
@@ -34,13 +34,18 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         let (value, slopes) = stencil.collect(machine, nodes);
         all.push(node(value));
         all.extend(slopes.map(node));
+        let (values, slopes) = stencil.collect_both(machine, [&nodes[1..], nodes]);
+        all.extend(values.map(node));
+        all.extend(slopes.map(node));
         all.extend(stencil.collect_slopes(machine, lattice, nodes).map(node));
         let [value, slopes @ ..] = [0, 1, 2, 3].map(|k| machine.four(&nodes[k].0));
         let slopes: [M::Four; D] = std::array::from_fn(|a| slopes[a]);
-        let mut sums = [nodes.to_vec(), nodes.to_vec(), nodes.to_vec()];
-        stencil.spread_value(machine, value, &mut sums[0]);
-        stencil.spread(machine, value, slopes, &mut sums[1]);
-        stencil.spread_moments(machine, lattice, value, slopes, &mut sums[2]);
+        let mut sums: [Vec<_>; 5] = std::array::from_fn(|_| nodes.to_vec());
+        let [a, b, c, d, e] = sums.each_mut().map(|nodes| Window { start: 0, nodes });
+        stencil.spread_value(machine, value, a);
+        stencil.spread(machine, value, slopes, b);
+        stencil.spread_moments(machine, lattice, value, slopes, c);
+        stencil.spread_both(machine, [slopes[0], value], slopes, [d, e]);
         all.extend(sums.into_iter().flatten());
         all
     }
@@ -48,23 +53,28 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
     /// The same by their definitions, but for the slopes, of which only those of linear functions are known.
     fn by_definition(&self, position: &Vector<T, D>) -> Vec<Nodal<T>> {
         let Self { stencil, lattice, nodes } = self;
-        let mut collected = vec![Nodal::zero(); 1 + D];
-        let mut sums = [nodes.to_vec(), nodes.to_vec(), nodes.to_vec()];
+        let (mut shifted, mut collected) = (Nodal::zero(), vec![Nodal::zero(); 1 + D]);
+        let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
         stencil.each(|i, w, gradient| {
             let apart = lattice.position(i) - position;
             collected[0] += nodes[i] * w;
-            for sum in &mut sums {
+            shifted += nodes[i + 1] * w;
+            for sum in &mut sums[..3] {
                 sum[i] += nodes[0] * w;
             }
+            sums[3][i] += nodes[1] * w;
             for a in 0..D {
                 collected[1 + a] += nodes[i] * gradient[a];
                 sums[1][i] += nodes[1 + a] * gradient[a];
                 sums[2][i] += nodes[1 + a] * (w * apart[a]);
             }
         });
+        let [values, slopes, moments, others] = sums;
         let mut all = vec![collected[0]];
-        all.extend(collected);
-        all.extend(sums.into_iter().flatten());
+        all.extend(&collected);
+        all.push(shifted);
+        all.extend(&collected);
+        all.extend([values, slopes.clone(), moments, others, slopes].into_iter().flatten());
         all
     }
 }
@@ -73,11 +83,11 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Work for &Sums<'_, T, D, S> {
     type Output = Vec<Nodal<T>>;
 
     fn fused(self, machine: Fused) -> Self::Output {
-        self.by(T::Machine::from(machine))
+        self.by(T::FusedMachine::from(machine))
     }
 
     fn plain(self, machine: Plain) -> Self::Output {
-        self.by(machine)
+        self.by(T::PlainMachine::from(machine))
     }
 }
 
@@ -108,8 +118,8 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
         let nodes = numbers(lattice.len());
         let sums = Sums { stencil: &stencil, lattice: &lattice, nodes: &nodes };
         let mut expected = sums.by_definition(&position);
-        for mut found in [sums.by(Plain), narrow(&sums)] {
-            found.drain(2 + D..2 + 2 * D);
+        for mut found in [sums.by(T::PlainMachine::from(Plain)), narrow(&sums)] {
+            found.drain(4 + 2 * D..4 + 3 * D);
             assert_eq!(found.len(), expected.len());
             found.iter().zip(&expected).for_each(|(found, expected)| close(found, expected));
         }
@@ -125,8 +135,8 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
                 T::zero(),
             )
         }));
-        for found in [sums.by(Plain), narrow(&sums)] {
-            let slopes = found[2 + D..2 + 2 * D].iter();
+        for found in [sums.by(T::PlainMachine::from(Plain)), narrow(&sums)] {
+            let slopes = found[4 + 2 * D..4 + 3 * D].iter();
             slopes.zip(&expected).for_each(|(found, expected)| close(found, expected));
         }
     }

@@ -9,7 +9,7 @@
 use mms_math::machine::Plain;
 
 use crate::body::Piece;
-use crate::nodal::Nodal;
+use crate::nodal::{Nodal, Window, four};
 use crate::shape::Shape;
 use crate::stencil::Stencil as _;
 use crate::tensor::{cofactor, components, jacobian};
@@ -87,6 +87,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         if self.particle.is_empty() {
             return Ok(());
         }
+        let machine = T::PlainMachine::from(Plain);
         let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
         field.displacement_gradient(time, reference, displacement_gradient);
         field.kirchhoff_stress(reference, displacement_gradient, kirchhoff_stress);
@@ -105,8 +106,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
             let traction = kirchhoff_stress[k] * present_area / jacobian(exact);
             let stencil = S::point(lattice, &position).map_err(fail)?;
-            let traction = Nodal::new(&traction, T::zero());
-            stencil.spread_value(Plain, traction.0, force);
+            let traction = four(machine, &traction, T::zero());
+            stencil.spread_value(machine, traction, Window { start: 0, nodes: &mut *force });
         }
         Ok(())
     }

@@ -10,7 +10,7 @@
 use mms_math::machine::Machine;
 
 use super::Shape;
-use crate::nodal::Nodal;
+use crate::nodal::{Nodal, Window};
 use crate::spline;
 use crate::stencil::{Stencil, Tensor};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
@@ -43,7 +43,8 @@ impl Shape for Cpdi {
         *half_edges
     }
 
-    fn place<T: Real, const D: usize>(
+    fn place<T: Real, M: Machine<T>, const D: usize>(
+        machine: M,
         corners: &mut Corners<T, D>,
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
@@ -57,7 +58,8 @@ impl Shape for Cpdi {
             let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
             let signs = Vector::from_fn(|a, _| sign(a));
             let apart = present * signs;
-            spline::place::<T, D, 1, 2>(&mut corners.hats[c], lattice, &(position + apart))?;
+            let corner = position + apart;
+            spline::place::<T, M, D, 1, 2>(machine, &mut corners.hats[c], lattice, &corner)?;
             corners.direction[c] = inverse.tr_mul(&signs) * share;
             corners.apart[c] = apart;
         }
@@ -84,15 +86,16 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         }
     }
 
-    fn shift(&mut self, first: usize) {
-        self.hats.iter_mut().take(1 << D).for_each(|hats| hats.shift(first));
+    fn span(&self) -> [usize; 2] {
+        let spans = self.hats.iter().take(1 << D).map(Stencil::span);
+        spans.fold([usize::MAX, 0], |[first, after], [from, to]| [first.min(from), after.max(to)])
     }
 
     #[inline(always)]
-    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: &mut [Nodal<T>]) {
+    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, mut nodes: Window<'_, T>) {
         let of_corner = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
         for hats in self.hats.iter().take(1 << D) {
-            hats.spread_value(machine, of_corner, nodes);
+            hats.spread_value(machine, of_corner, nodes.reborrow());
         }
     }
 
@@ -102,7 +105,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         machine: M,
         value: M::Four,
         slopes: [M::Four; D],
-        nodes: &mut [Nodal<T>],
+        mut nodes: Window<'_, T>,
     ) {
         let share = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
@@ -110,7 +113,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
             for a in 0..D {
                 of_corner = machine.times_plus(machine.splat(direction[a]), slopes[a], of_corner);
             }
-            hats.spread_value(machine, of_corner, nodes);
+            hats.spread_value(machine, of_corner, nodes.reborrow());
         }
     }
 
@@ -143,7 +146,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         lattice: &Lattice<T, D>,
         value: M::Four,
         slopes: [M::Four; D],
-        nodes: &mut [Nodal<T>],
+        mut nodes: Window<'_, T>,
     ) {
         let share = machine.splat(T::ratio(1, 1 << D));
         let mut of_node = slopes;
@@ -155,7 +158,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
             for a in 0..D {
                 of_corner = machine.times_plus(machine.splat(edges[a]), of_node[a], of_corner);
             }
-            hats.spread_moments(machine, lattice, of_corner, of_node, nodes);
+            hats.spread_moments(machine, lattice, of_corner, of_node, nodes.reborrow());
         }
     }
 

@@ -4,6 +4,8 @@
 //! and what of a particle's domain they need), and add `name::Type` to the list below. The property
 //! tests and the `mms` command then find it by itself.
 
+use mms_math::machine::{Machine, Plain};
+
 use crate::extension::extension_list;
 use crate::spline;
 use crate::stencil::{Stencil, Tensor};
@@ -56,7 +58,8 @@ pub trait Shape: 'static {
     ///
     /// # Errors
     /// The domain does not fit on the grid, or is too large for the stencil.
-    fn place<T: Real, const D: usize>(
+    fn place<T: Real, M: Machine<T>, const D: usize>(
+        machine: M,
         stencil: &mut Self::Stencil<T, D>,
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
@@ -75,7 +78,8 @@ pub trait Shape: 'static {
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<Self::Stencil<T, D>, Cause> {
         let mut stencil = Self::Stencil::default();
-        Self::place(&mut stencil, lattice, position, domain, displacement_gradient)?;
+        let machine = T::PlainMachine::from(Plain);
+        Self::place(machine, &mut stencil, lattice, position, domain, displacement_gradient)?;
         Ok(stencil)
     }
 

@@ -4,18 +4,20 @@ use std::marker::PhantomData;
 use std::time::Instant;
 
 use mms_math::dispatch::narrow;
+use mms_math::machine::Plain;
 
 use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
-use super::map::{Carried, Map};
-use super::scene::Scene;
+use super::map::{Carried, Map, Stop};
+use super::scene::{BLOCK, Scene};
 use super::threads::{each_pair, each_part};
 use crate::boundary::traction::Place;
 use crate::formulation::Formulation;
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
+use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
@@ -129,15 +131,8 @@ where
     S: Shape,
     L: Formulation,
 {
-    /// Sorts the particles if they have moved too far, and finds their weights if those are kept.
+    /// Finds the particles' weights if those are kept.
     fn weigh(&mut self) -> Result<(), Failure> {
-        let Self { grid, particles, domains, slabs, seconds, .. } = self;
-        let lattice = &grid.lattice;
-        timed(&mut seconds.transfer, || {
-            if L::MOVES && slabs.is_stale(lattice, |p| particles.position(p)) {
-                slabs.sort(lattice, particles, domains, |all, p| all.position(p));
-            }
-        });
         let once = !L::MOVES && !self.weights.is_empty();
         if !self.keeps_weights || once {
             return Ok(());
@@ -153,11 +148,13 @@ where
         };
         weights.clear();
         let found = timed(&mut seconds.transfer, || {
-            (0..particles.len()).try_for_each(|p| {
-                let (d, h) = (&particles.displacement[p], &particles.displacement_gradient[p]);
-                let mut stencil = S::Stencil::default();
-                scene.place(&mut stencil, p, d, h)?;
-                weights.push(stencil);
+            let mut room = Scene::<T, D, S>::room();
+            (0..particles.len()).step_by(BLOCK).try_for_each(|first| {
+                let block = first..particles.len().min(first + BLOCK);
+                let d = &particles.displacement[block.clone()];
+                let h = &particles.displacement_gradient[block.clone()];
+                let machine = T::PlainMachine::from(Plain);
+                weights.extend_from_slice(scene.weigh(machine, block, d, h, &mut room)?);
                 Ok(())
             })
         });
@@ -175,8 +172,32 @@ where
         });
     }
 
-    /// The sums onto nodes, which hold nothing else afterwards.
+    /// The sums onto nodes, which hold nothing else afterwards. Particles are sorted if one has left its slab.
     fn add_to_nodes(&mut self, carried: Carried) -> Result<(), Failure> {
+        let mut sorted = false;
+        loop {
+            match self.try_to_add(carried) {
+                Ok(()) => return Ok(()),
+                Err(Stop::Failed(p, cause)) => return Err(self.failure(p, cause)),
+                Err(Stop::Strayed(p)) if sorted => {
+                    return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
+                }
+                Err(Stop::Strayed(_)) => self.sort(),
+            }
+            sorted = true;
+        }
+    }
+
+    /// Puts the particles, and what is kept of them, in the order of the cells they are in now.
+    fn sort(&mut self) {
+        let Self { grid, particles, domains, weights, slabs, seconds, .. } = self;
+        let position = |all: &Particles<T, D>, p| all.position(p);
+        timed(&mut seconds.transfer, || {
+            slabs.sort(&grid.lattice, particles, domains, weights, position);
+        });
+    }
+
+    fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {
         let Self { field, grid, particles, domains, weights, slabs, transfer, .. } = self;
         let Grid { lattice, momentum, force, .. } = grid;
         let nodes: [&mut [Nodal<T>]; 2] = match carried {
@@ -204,9 +225,8 @@ where
         let map = Map::<T, D, F, S, L> { scene, particles, field, carried, formulation };
         let start = Instant::now();
         let taken =
-            slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum);
+            slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;
         let elapsed = start.elapsed().as_secs_f64();
-        let taken = taken.map_err(|(p, cause)| self.failure(p, cause))?;
         self.seconds = self.seconds.sum(taken.within(elapsed));
         Ok(())
     }

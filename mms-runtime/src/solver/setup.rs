@@ -71,7 +71,8 @@ where
         grid.mass_floor = smallest * round_off * round_off;
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Vec<_> = domains.collect();
-        slabs.sort(&grid.lattice, &mut particles, &mut domains, |all, p| {
+        let kept: &mut [S::Stencil<T, D>] = &mut [];
+        slabs.sort(&grid.lattice, &mut particles, &mut domains, kept, |all, p| {
             if L::MOVES { all.position(p) } else { all.reference_position[p] }
         });
         Ok(Self {

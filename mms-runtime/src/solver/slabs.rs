@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use crate::nodal::Nodal;
+use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder};
 use crate::{Lattice, Real, Vector};
 
@@ -29,12 +29,10 @@ pub(super) struct Slab {
     pub particles: Range<usize>,
     /// Indices of nodes.
     pub window: Range<usize>,
-    /// The layers that its particles may be in.
-    layers: Range<i64>,
 }
 
 /// What is done for a slab, with its part of two arrays of nodes.
-type Work<'a, T, R, E> = dyn Fn(&Slab, [&mut [Nodal<T>]; 2]) -> Result<R, E> + Sync + 'a;
+type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Sync + 'a;
 
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
@@ -60,8 +58,7 @@ impl Slabs {
         let slabs = layers / thickness;
         let stride = lattice.stride[D - 1];
         if slabs < 3 || particles < FEWEST_PARTICLES || !near {
-            let layers = i64::MIN..i64::MAX;
-            let slab = Slab { particles: 0..particles, window: 0..lattice.len(), layers };
+            let slab = Slab { particles: 0..particles, window: 0..lattice.len() };
             let (place, order, cell) = (Vec::new(), Vec::new(), Vec::new());
             return Self { all: vec![slab], thickness: usize::MAX, place, order, cell };
         }
@@ -72,15 +69,7 @@ impl Slabs {
             let before = from.saturating_sub(drift + REACH[0]);
             let is_last = s + 1 == slabs;
             let after = if is_last { layers } else { to + drift + REACH[1] };
-            Slab {
-                particles: 0..0,
-                window: before * stride..after * stride,
-                layers: if s == 0 { i64::MIN } else { (from - drift) as i64 }..if is_last {
-                    i64::MAX
-                } else {
-                    (to + drift) as i64
-                },
-            }
+            Slab { particles: 0..0, window: before * stride..after * stride }
         };
         Self {
             all: (0..slabs).map(slab).collect(),
@@ -96,12 +85,13 @@ impl Slabs {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
-    /// Sorts the particles, with their `domains`, by the cells of their positions.
-    pub fn sort<T: Real, V, const D: usize>(
+    /// Sorts the particles, with their `domains` and `weights` if there are such, by the cells of their positions.
+    pub fn sort<T: Real, V, W, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
         particles: &mut Particles<T, D>,
         domains: &mut [V],
+        weights: &mut [W],
         position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
     ) {
         if self.all.len() == 1 {
@@ -117,6 +107,7 @@ impl Slabs {
         order.sort_unstable_by_key(|&p| (cell[p as usize], particles.id[p as usize]));
         reorder(cell, order);
         reorder(domains, order);
+        reorder(weights, order);
         particles.reorder(order);
         for (p, &id) in particles.id.iter().enumerate() {
             self.place[id as usize] = p as u32;
@@ -130,21 +121,6 @@ impl Slabs {
             slab.particles = first..if s + 1 == slabs { self.cell.len() } else { after };
             first = slab.particles.end;
         }
-    }
-
-    /// Whether a particle has left its slab.
-    pub fn is_stale<T: Real, const D: usize>(
-        &self,
-        lattice: &Lattice<T, D>,
-        position: impl Fn(usize) -> Vector<T, D>,
-    ) -> bool {
-        let strayed = |slab: &Slab| {
-            slab.particles.clone().any(|p| {
-                let layer = lattice.in_cells(&position(p))[D - 1].to_f64();
-                !slab.layers.contains(&(layer.floor() as i64))
-            })
-        };
-        self.all.len() > 1 && self.all.iter().any(strayed)
     }
 
     /// Does `work` for every slab, with its part of the nodes.
@@ -165,7 +141,7 @@ impl Slabs {
         let mut done = R::default();
         let [first, second] = nodes;
         for colour in 0..self.all.len().min(2) {
-            let nodes = Window { start: 0, nodes: [&mut *first, &mut *second] };
+            let nodes = [&mut *first, &mut *second].map(|nodes| Window { start: 0, nodes });
             let colour = Colour { slabs: &self.all, colour };
             let part = colour.each(0..colour.len(), nodes, work, join)?;
             done = join(done, part);
@@ -180,25 +156,6 @@ struct Colour<'a> {
     colour: usize,
 }
 
-/// Nodes from `start` on; an array that is not in use is empty.
-struct Window<'a, T> {
-    start: usize,
-    nodes: [&'a mut [Nodal<T>]; 2],
-}
-
-impl<T> Window<'_, T> {
-    fn split(self, at: usize) -> [Self; 2] {
-        let count = at - self.start;
-        let [first, second] = self.nodes;
-        let (first, first_rest) = first.split_at_mut(count.min(first.len()));
-        let (second, second_rest) = second.split_at_mut(count.min(second.len()));
-        [
-            Self { start: self.start, nodes: [first, second] },
-            Self { start: at, nodes: [first_rest, second_rest] },
-        ]
-    }
-}
-
 impl Colour<'_> {
     fn len(&self) -> usize {
         (self.slabs.len() - self.colour).div_ceil(2)
@@ -211,18 +168,23 @@ impl Colour<'_> {
     fn each<T: Real, R: Send, E: Send>(
         &self,
         numbers: Range<usize>,
-        nodes: Window<'_, T>,
+        nodes: [Window<'_, T>; 2],
         work: &Work<'_, T, R, E>,
         join: &(dyn Fn(R, R) -> R + Sync),
     ) -> Result<R, E> {
         if numbers.len() == 1 {
             let slab = self.get(numbers.start);
-            let [_, own] = nodes.split(slab.window.start);
-            let [own, _] = own.split(slab.window.end);
-            return work(slab, own.nodes);
+            let own = nodes.map(|nodes| {
+                let [_, own] = nodes.split(slab.window.start);
+                let [own, _] = own.split(slab.window.end);
+                own
+            });
+            return work(slab, own);
         }
         let middle = numbers.start + numbers.len() / 2;
-        let [before, after] = nodes.split(self.get(middle).window.start);
+        let at = self.get(middle).window.start;
+        let [[before, after], [more_before, more_after]] = nodes.map(|nodes| nodes.split(at));
+        let (before, after) = ([before, more_before], [after, more_after]);
         let (first, second) = super::threads::both(
             || self.each(numbers.start..middle, before, work, join),
             || self.each(middle..numbers.end, after, work, join),

@@ -5,227 +5,156 @@
 
 use mms_math::machine::Machine;
 
-use super::{Stencil, add};
-use crate::nodal::Nodal;
+use super::Stencil;
+use super::rows::{Collect, CollectBoth, CollectValue, RowSum, Spread, SpreadBoth, SpreadValue};
+use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
 /// A stencil that is the product of the weights along the axes.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub struct Tensor<T, const D: usize, const N: usize> {
-    /// Number of the first node along each axis.
-    start: [usize; D],
+    /// The weights of the first, second, .. node along every axis; past the last axis they mean nothing.
+    weight: [[T; 4]; N],
+    /// Their derivatives, per length.
+    slope: [[T; 4]; N],
     /// Index of the first node in the grid's arrays.
     first: usize,
     /// Distance in the grid's arrays between neighbours along each axis.
     stride: [usize; D],
+    /// Number of the first node along each axis.
+    start: [i32; 4],
     /// How many nodes along each axis have a weight, at most: N, or 3 of 4, which GIMP mostly has.
     width: usize,
-    weight: [[T; N]; D],
-    /// Derivatives of the weights, per length.
-    slope: [[T; N]; D],
 }
+
+/// Nodes along an axis of a stencil that has room for more, but does not need it.
+const NARROW: usize = 3;
+
+/// The weight and the slope of one node along an axis.
+pub type Pair<F> = [F; 2];
 
 impl<T: Real, const D: usize, const N: usize> Tensor<T, D, N> {
     /// A stencil that has no nodes yet.
     #[inline(always)]
     pub fn new() -> Self {
         Self {
-            start: [0; D],
+            weight: [[T::zero(); 4]; N],
+            slope: [[T::zero(); 4]; N],
             first: 0,
             stride: [0; D],
+            start: [0; 4],
             width: N,
-            weight: [[T::zero(); N]; D],
-            slope: [[T::zero(); N]; D],
         }
     }
 
-    /// Takes weights and their derivatives (per cell) of the nodes along axis `a`, as many as there is room for.
+    /// Takes the weights along all axes, and their derivatives per cell, of the nodes from `first` on. Whether all
+    /// nodes are on the grid; if not, the stencil may not be used.
     #[inline(always)]
-    pub fn set<const M: usize>(
+    pub fn set<M: Machine<T>, const W: usize>(
         &mut self,
+        machine: M,
         lattice: &Lattice<T, D>,
-        a: usize,
-        first: T,
-        [weight, slope]: [[T; M]; 2],
-    ) {
-        for k in 0..N.min(M) {
-            self.weight[a][k] = weight[k];
-            self.slope[a][k] = slope[k] * lattice.per_length[a];
+        first: M::Four,
+        [weight, slope]: [[M::Four; W]; 2],
+    ) -> bool {
+        let per_length = machine.four(&lattice.frame.per_length);
+        for k in 0..N.min(W) {
+            self.weight[k] = machine.numbers(weight[k]);
+            self.slope[k] = machine.numbers(machine.times(slope[k], per_length));
         }
-        // What is not a number, or before the first node, is a number beyond the last one.
-        let first = first.to_f64();
-        self.start[a] = if first >= 0.0 { first as usize } else { usize::MAX };
-    }
-
-    /// Takes the nodes where they are now, so many along each axis. Whether all of them are on the grid; if not,
-    /// the stencil may not be used.
-    #[inline(always)]
-    pub fn settle(&mut self, lattice: &Lattice<T, D>, width: usize) -> bool {
+        let width = if W < N { N.min(W.max(NARROW)) } else { N };
+        for k in W..width {
+            (self.weight[k], self.slope[k]) = ([T::zero(); 4], [T::zero(); 4]);
+        }
+        let after = machine.plus(first, machine.splat(T::of(width as f64)));
+        // What is not a number is on no grid.
+        let fits = machine.all_at_most(machine.splat(T::zero()), first)
+            && machine.all_at_most(after, machine.four(&lattice.frame.nodes));
+        self.start = machine.whole(first);
         (self.stride, self.width, self.first) = (lattice.stride, width, 0);
-        let mut fits = true;
         for a in 0..D {
-            fits &= self.start[a].saturating_add(width) <= lattice.count[a];
-            self.first = self.first.wrapping_add(self.start[a].wrapping_mul(lattice.stride[a]));
+            self.first += (self.start[a] as usize).wrapping_mul(lattice.stride[a]);
         }
         fits
     }
 
     /// With the moments w (x_i - x_p) in place of slopes; `scaled`, over sum_i w (x_i - x_p)^2.
     #[inline(always)]
-    fn with_moments(&self, lattice: &Lattice<T, D>, scaled: bool) -> Self {
+    fn with_moments<M: Machine<T>>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        scaled: bool,
+    ) -> Self {
         let mut tensor = *self;
-        for a in 0..D {
-            let nodes = &lattice.coordinate[a][self.start[a]..self.start[a] + self.width];
-            let (weight, slope) = (&self.weight[a], &mut tensor.slope[a]);
-            let mut middle = T::zero();
-            for (w, x) in weight.iter().zip(nodes) {
-                middle += *w * (*x - nodes[0]);
+        let zero = machine.splat(T::zero());
+        let (mut weight, mut apart) = ([zero; N], [zero; N]);
+        let mut middle = zero;
+        for k in 0..N.min(self.width) {
+            let mut from_first = [T::zero(); 4];
+            for a in 0..D {
+                let start = self.start[a] as usize;
+                from_first[a] = lattice.coordinate[a][start + k] - lattice.coordinate[a][start];
             }
-            let mut spread = T::zero();
-            for ((slope, w), x) in slope.iter_mut().zip(weight).zip(nodes) {
-                let apart = (*x - nodes[0]) - middle;
-                *slope = *w * apart;
-                spread += *slope * apart;
-            }
-            if scaled {
-                let factor = T::one() / spread;
-                slope.iter_mut().for_each(|slope| *slope *= factor);
-            }
+            weight[k] = machine.four(&self.weight[k]);
+            apart[k] = machine.four(&from_first);
+            middle = machine.times_plus(weight[k], apart[k], middle);
+        }
+        let mut spread = zero;
+        for k in 0..N {
+            apart[k] = machine.minus(apart[k], middle);
+            weight[k] = machine.times(weight[k], apart[k]);
+            spread = machine.times_plus(weight[k], apart[k], spread);
+        }
+        for k in 0..N {
+            let moment = if scaled { machine.over(weight[k], spread) } else { weight[k] };
+            tensor.slope[k] = machine.numbers(moment);
         }
         tensor
     }
 
     /// The weight and slope of node `k` along axis `a`; of an axis that there is not, 1 and 0.
     #[inline(always)]
-    fn along<M: Machine<T>>(&self, machine: M, a: usize, k: usize) -> [M::Four; 2] {
+    fn along<M: Machine<T>>(&self, machine: M, a: usize, k: usize) -> Pair<M::Four> {
         if a < D {
-            [machine.splat(self.weight[a][k]), machine.splat(self.slope[a][k])]
+            [machine.splat(self.weight[k][a]), machine.splat(self.slope[k][a])]
         } else {
             [machine.splat(T::one()), machine.splat(T::zero())]
         }
     }
 
-    /// How many nodes there are along an axis, with `W` along those that there are.
+    /// Does a sum over all nodes.
     #[inline(always)]
-    fn nodes_along<const W: usize>(a: usize) -> usize {
-        if a < D { W } else { 1 }
+    fn sum<M: Machine<T>>(&self, machine: M, sum: &mut impl RowSum<T, M>) {
+        if N > NARROW && self.width == NARROW {
+            self.sum_of::<M, NARROW>(machine, sum);
+        } else {
+            self.sum_of::<M, N>(machine, sum);
+        }
     }
 
-    /// The first node of a row along the first axis.
+    /// Does a sum over `W` nodes along every axis.
     #[inline(always)]
-    fn row(&self, k1: usize, k2: usize) -> usize {
-        let stride = |a: usize| if a < D { self.stride[a] } else { 0 };
-        self.first + k1 * stride(1) + k2 * stride(2)
-    }
-
-    #[inline(always)]
-    fn spread_over<M: Machine<T>, const W: usize, const SLOPES: bool>(
-        &self,
-        machine: M,
-        value: M::Four,
-        slopes: &[M::Four; D],
-        nodes: &mut [Nodal<T>],
-    ) {
-        let nothing = machine.splat(T::zero());
-        for k2 in 0..Self::nodes_along::<W>(2) {
-            let [w2, s2] = self.along(machine, 2, k2);
-            let mut of_plane = machine.times(w2, value);
-            let mut slopes_of_plane = [nothing; 2];
-            if SLOPES {
-                for a in 0..D.min(2) {
-                    slopes_of_plane[a] = machine.times(w2, slopes[a]);
+    fn sum_of<M: Machine<T>, const W: usize>(&self, machine: M, sum: &mut impl RowSum<T, M>) {
+        let mut pairs = [[machine.splat(T::zero()); 2]; W];
+        for k in 0..W {
+            pairs[k] = self.along(machine, 0, k);
+        }
+        for k2 in 0..if D > 2 { W } else { 1 } {
+            let pair = self.along(machine, 2, k2);
+            let mut plane = sum.plane(machine, pair);
+            for k1 in 0..if D > 1 { W } else { 1 } {
+                let mut first = self.first;
+                if D > 1 {
+                    first += k1 * self.stride[1];
                 }
                 if D > 2 {
-                    of_plane = machine.times_plus(s2, slopes[D - 1], of_plane);
+                    first += k2 * self.stride[2];
                 }
+                sum.row(machine, &mut plane, self.along(machine, 1, k1), &pairs, first);
             }
-            for k1 in 0..Self::nodes_along::<W>(1) {
-                let [w1, s1] = self.along(machine, 1, k1);
-                let mut of_row = machine.times(w1, of_plane);
-                let slope_of_row = machine.times(w1, slopes_of_plane[0]);
-                if SLOPES && D > 1 {
-                    of_row = machine.times_plus(s1, slopes_of_plane[1], of_row);
-                }
-                let first = self.row(k1, k2);
-                for (k0, node) in nodes[first..first + W].iter_mut().enumerate() {
-                    let [w0, s0] = self.along(machine, 0, k0);
-                    add(machine, node, w0, of_row);
-                    if SLOPES {
-                        add(machine, node, s0, slope_of_row);
-                    }
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn collect_over<M: Machine<T>, const W: usize, const SLOPES: bool>(
-        &self,
-        machine: M,
-        nodes: &[Nodal<T>],
-    ) -> (M::Four, [M::Four; D]) {
-        let nothing = machine.splat(T::zero());
-        let (mut value, mut slopes) = (nothing, [nothing; D]);
-        for k2 in 0..Self::nodes_along::<W>(2) {
-            let [w2, s2] = self.along(machine, 2, k2);
-            let mut of_plane = nothing;
-            let mut slopes_of_plane = [nothing; 2];
-            for k1 in 0..Self::nodes_along::<W>(1) {
-                let [w1, s1] = self.along(machine, 1, k1);
-                let (mut of_row, mut slope_of_row) = (nothing, nothing);
-                let first = self.row(k1, k2);
-                for (k0, node) in nodes[first..first + W].iter().enumerate() {
-                    let [w0, s0] = self.along(machine, 0, k0);
-                    let node = machine.four(&node.0);
-                    of_row = machine.times_plus(w0, node, of_row);
-                    if SLOPES {
-                        slope_of_row = machine.times_plus(s0, node, slope_of_row);
-                    }
-                }
-                of_plane = machine.times_plus(w1, of_row, of_plane);
-                if SLOPES {
-                    slopes_of_plane[0] = machine.times_plus(w1, slope_of_row, slopes_of_plane[0]);
-                    slopes_of_plane[1] = machine.times_plus(s1, of_row, slopes_of_plane[1]);
-                }
-            }
-            value = machine.times_plus(w2, of_plane, value);
-            if SLOPES {
-                for a in 0..D.min(2) {
-                    slopes[a] = machine.times_plus(w2, slopes_of_plane[a], slopes[a]);
-                }
-                if D > 2 {
-                    slopes[D - 1] = machine.times_plus(s2, of_plane, slopes[D - 1]);
-                }
-            }
-        }
-        (value, slopes)
-    }
-
-    #[inline(always)]
-    fn spread_any<M: Machine<T>, const SLOPES: bool>(
-        &self,
-        machine: M,
-        value: M::Four,
-        slopes: &[M::Four; D],
-        nodes: &mut [Nodal<T>],
-    ) {
-        if N > 3 && self.width == 3 {
-            self.spread_over::<M, 3, SLOPES>(machine, value, slopes, nodes);
-        } else {
-            self.spread_over::<M, N, SLOPES>(machine, value, slopes, nodes);
-        }
-    }
-
-    #[inline(always)]
-    fn collect_any<M: Machine<T>, const SLOPES: bool>(
-        &self,
-        machine: M,
-        nodes: &[Nodal<T>],
-    ) -> (M::Four, [M::Four; D]) {
-        if N > 3 && self.width == 3 {
-            self.collect_over::<M, 3, SLOPES>(machine, nodes)
-        } else {
-            self.collect_over::<M, N, SLOPES>(machine, nodes)
+            sum.end(machine, plane, pair);
         }
     }
 }
@@ -246,9 +175,9 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
                     let node = (0..D).map(|a| k[a] * self.stride[a]).sum::<usize>() + self.first;
                     let product = |skip: usize| {
                         let others = (0..D).filter(|&a| a != skip);
-                        others.fold(T::one(), |product, a| product * self.weight[a][k[a]])
+                        others.fold(T::one(), |product, a| product * self.weight[k[a]][a])
                     };
-                    let gradient = Vector::from_fn(|a, _| self.slope[a][k[a]] * product(a));
+                    let gradient = Vector::from_fn(|a, _| self.slope[k[a]][a] * product(a));
                     visit(node, product(D), gradient);
                 }
             }
@@ -256,13 +185,17 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
     }
 
     #[inline(always)]
-    fn shift(&mut self, first: usize) {
-        self.first -= first;
+    fn span(&self) -> [usize; 2] {
+        let mut last = self.first;
+        for stride in self.stride {
+            last += (self.width - 1) * stride;
+        }
+        [self.first, last + 1]
     }
 
     #[inline(always)]
-    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: &mut [Nodal<T>]) {
-        self.spread_any::<M, false>(machine, value, &[value; D], nodes);
+    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: Window<'_, T>) {
+        self.sum(machine, &mut SpreadValue { value, nodes });
     }
 
     #[inline(always)]
@@ -271,19 +204,51 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
         machine: M,
         value: M::Four,
         slopes: [M::Four; D],
-        nodes: &mut [Nodal<T>],
+        nodes: Window<'_, T>,
     ) {
-        self.spread_any::<M, true>(machine, value, &slopes, nodes);
+        self.sum(machine, &mut Spread { value, slopes, nodes });
+    }
+
+    #[inline(always)]
+    fn spread_both<M: Machine<T>>(
+        &self,
+        machine: M,
+        [first_value, value]: [M::Four; 2],
+        slopes: [M::Four; D],
+        [first_nodes, nodes]: [Window<'_, T>; 2],
+    ) {
+        let first = SpreadValue { value: first_value, nodes: first_nodes };
+        let second = Spread { value, slopes, nodes };
+        self.sum(machine, &mut SpreadBoth { first, second });
     }
 
     #[inline(always)]
     fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four {
-        self.collect_any::<M, false>(machine, nodes).0
+        let mut sum = CollectValue { value: machine.splat(T::zero()), nodes };
+        self.sum(machine, &mut sum);
+        sum.value
     }
 
     #[inline(always)]
     fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]) {
-        self.collect_any::<M, true>(machine, nodes)
+        let nothing = machine.splat(T::zero());
+        let mut sum = Collect { value: nothing, slopes: [nothing; D], nodes };
+        self.sum(machine, &mut sum);
+        (sum.value, sum.slopes)
+    }
+
+    #[inline(always)]
+    fn collect_both<M: Machine<T>>(
+        &self,
+        machine: M,
+        [first_nodes, nodes]: [&[Nodal<T>]; 2],
+    ) -> ([M::Four; 2], [M::Four; D]) {
+        let nothing = machine.splat(T::zero());
+        let first = CollectValue { value: nothing, nodes: first_nodes };
+        let second = Collect { value: nothing, slopes: [nothing; D], nodes };
+        let mut sum = CollectBoth { first, second };
+        self.sum(machine, &mut sum);
+        ([sum.first.value, sum.second.value], sum.second.slopes)
     }
 
     #[inline(always)]
@@ -293,9 +258,9 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
         lattice: &Lattice<T, D>,
         value: M::Four,
         slopes: [M::Four; D],
-        nodes: &mut [Nodal<T>],
+        nodes: Window<'_, T>,
     ) {
-        self.with_moments(lattice, false).spread(machine, value, slopes, nodes);
+        self.with_moments(machine, lattice, false).spread(machine, value, slopes, nodes);
     }
 
     #[inline(always)]
@@ -305,6 +270,6 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
         lattice: &Lattice<T, D>,
         nodes: &[Nodal<T>],
     ) -> [M::Four; D] {
-        self.with_moments(lattice, true).collect(machine, nodes).1
+        self.with_moments(machine, lattice, true).collect(machine, nodes).1
     }
 }

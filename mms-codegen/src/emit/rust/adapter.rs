@@ -5,7 +5,9 @@ use quote::{ToTokens as _, format_ident, quote};
 
 use super::{Emitter, RUNTIME, input};
 use crate::expr::Symbol;
+use crate::mechanics::Response;
 use crate::mechanics::model::Body;
+use crate::program::{Op, Output};
 use crate::quantity::Quantity;
 use crate::spec::{Claim, Face};
 
@@ -15,6 +17,13 @@ impl Emitter<'_> {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
         let (domain, response) = (self.domain(), self.response());
+        let (reference, source) = match self.stress_depends_on_position() {
+            true => (
+                quote!(reference),
+                quote!(&(::#runtime::arrays::<T, _, #dimension>(reference), gradients)),
+            ),
+            false => (quote!(_), quote!(&gradients)),
+        };
         let components = Literal::usize_unsuffixed(self.axes().len().pow(2));
         // A solver asks for these two, and for the stress, at every particle in every step, and for the others
         // at some points or times: loops over many points are long to compile.
@@ -68,14 +77,13 @@ impl Emitter<'_> {
 
                 fn kirchhoff_stress(
                     &self,
-                    reference: &[Vector<T>],
+                    #reference: &[Vector<T>],
                     displacement_gradient: &[Matrix<T>],
                     stress: &mut [Matrix<T>],
                 ) {
-                    let points: &[[T; #dimension]] = ::#runtime::arrays(reference);
                     let gradients: &[[T; #components]] = ::#runtime::arrays(displacement_gradient);
                     let mut stress: &mut [[T; #components]] = ::#runtime::arrays_mut(stress);
-                    batch::run(&Response(self), &(points, gradients), &mut stress);
+                    batch::run(&Response(self), #source, &mut stress);
                 }
             }
 
@@ -100,6 +108,14 @@ impl Emitter<'_> {
         }
     }
 
+    /// Whether the Kirchhoff stress of a displacement gradient is another one elsewhere in the body.
+    fn stress_depends_on_position(&self) -> bool {
+        let roots = self.values(Output::Response(Response::KirchhoffStress));
+        let needed = self.program.needed_for(roots.iter().copied());
+        let mut needed = self.program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);
+        needed.any(|(instr, _)| matches!(instr.op, Op::Input(Symbol::Coordinate(_))))
+    }
+
     /// The Kirchhoff stress of a displacement gradient, as a kernel. Matrices go by columns here.
     fn response(&self) -> TokenStream {
         let columns = |symbol: &dyn Fn(usize, usize) -> TokenStream| -> Vec<TokenStream> {
@@ -117,7 +133,13 @@ impl Emitter<'_> {
             let row = self.axes().map(|j| input(Symbol::Gradient(i, j)));
             quote!([#(#row),*])
         });
-        let point: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let mut point: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
+        let mut position = quote!([#(#point),*]);
+        if !self.stress_depends_on_position() {
+            let zeros = self.axes().map(|_| quote!(T::from_f64(0.0)));
+            position = quote!([#(#zeros),*]);
+            point.clear();
+        }
         let inputs = Literal::usize_unsuffixed(point.len() + gradients.len());
         let results = Literal::usize_unsuffixed(gradients.len());
         quote! {
@@ -127,7 +149,7 @@ impl Emitter<'_> {
                 #[inline(always)]
                 fn at(&self, [#(#point,)* #(#gradients),*]: [T; #inputs]) -> [T; #results] {
                     let stress =
-                        self.0.material_kirchhoff_stress([#(#point),*], [#(#rows),*]);
+                        self.0.material_kirchhoff_stress(#position, [#(#rows),*]);
                     [#(#stresses),*]
                 }
             }
