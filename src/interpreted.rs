@@ -112,6 +112,26 @@ impl<T: Real + Number, const D: usize> Material<T, D> for Interpreted<T> {
             *stress = Matrix::from_row_slice(&interpreter.output(output));
         }
     }
+
+    fn strain_energy(
+        &self,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        energy: &mut [T],
+    ) -> bool {
+        let output = Output::Response(Response::StrainEnergy);
+        let mut interpreter = self.interpreter();
+        let plan = interpreter.plan(&[output]);
+        let points = reference.iter().zip(displacement_gradient);
+        for (energy, (point, gradient)) in energy.iter_mut().zip(points) {
+            let rows = gradient.transpose();
+            let coordinates = point.as_slice();
+            interpreter
+                .set_point(&plan, Point { coordinates, normal: &[], gradient: rows.as_slice() });
+            *energy = interpreter.output(output)[0].clone();
+        }
+        true
+    }
 }
 
 impl<T: Real + Number, const D: usize> ManufacturedField<T, D> for Interpreted<T> {

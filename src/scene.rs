@@ -45,6 +45,16 @@ impl<T> Scene<T> {
             Scene::Space(_) => &[4, 8, 16],
         }
     }
+
+    /// The grid of a study in time that names none. It is fine, for what a map to the grid and back loses in a
+    /// step is of the order h^2 dt, and has to be less than the error of time.
+    pub fn cells_of_a_study_in_time(&self) -> usize {
+        match self {
+            Scene::Line(_) => 128,
+            Scene::Plane(_) => 32,
+            Scene::Space(_) => 8,
+        }
+    }
 }
 
 impl<T: Solvable> Scene<T> {

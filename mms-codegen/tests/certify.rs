@@ -1,14 +1,15 @@
 //! Certificates: honest fields, liars (see `data/fail/refuted_*`), and random fields whose values
 //! must lie within what is proved.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use mms_codegen::certify::certificate::{Certificate, certify};
+use mms_codegen::certify::certificate::{Certificate, certify, wave_speed};
 use mms_codegen::certify::claims::Finding;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
-use mms_codegen::certify::rates::Rates;
+use mms_codegen::certify::rates::{Frame, Rates};
 use mms_codegen::certify::sample::{domain, samples};
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::Output;
@@ -77,7 +78,7 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
     }
 }
 
-/// By how much the stretch, the strain rate and the wave speed may exceed what is attained on a grid,
+/// By how much the stretch, the strain rate and the reference wave speed may exceed what is attained on a grid,
 /// in the geometric mean over the gallery: in four variables a search may end early.
 const EXCESS: [f64; 3] = [1.06, 1.2, 1.2];
 
@@ -118,6 +119,32 @@ fn bounds_are_near_the_largest_values() {
     let modulus = (lambda * (1.0 - least.ln()) + mu * (1.0 + least * least)) / (least * least);
     let (speed, fastest) = (rates.reference_wave_speed, (modulus / 1000.0).sqrt());
     assert!(fastest <= speed && speed < 1.1 * fastest, "{speed} {fastest}");
+}
+
+/// A run asks about its own parameters and its own time step, and no further.
+#[test]
+fn the_speed_of_waves_is_bounded_for_the_parameters_that_are_set() {
+    let (compiled, certificate) = of_file("axis_aligned_1d.toml");
+    let (_, rates) = bounds(&certificate);
+    let speed = |set, frame, speed| wave_speed(&compiled, &set, frame, speed).expect("a bound");
+    let defaults = BTreeMap::new();
+    let reference = speed(defaults.clone(), Frame::Reference, 0.0);
+    assert!((reference / rates.reference_wave_speed - 1.0).abs() < 0.1, "{reference} {rates:?}");
+    // F^2 dP/dF/rho0 = (lambda (1 - ln F) + mu (1 + F^2))/rho0 grows as F does, or falls, with lambda.
+    let (lambda, mu) = (1e7 * 0.3 / (1.3 * 0.4), 1e7 / 2.6);
+    let at = |f: f64| ((lambda * (1.0 - f.ln()) + mu * (1.0 + f * f)) / 1000.0).sqrt();
+    let strain = 0.05 * std::f64::consts::PI;
+    let fastest = at(1.0 - strain).max(at(1.0 + strain));
+    let deformed = speed(defaults.clone(), Frame::Deformed, 0.0);
+    assert!(fastest <= deformed && deformed < 1.1 * fastest, "{deformed} {fastest}");
+    assert!(deformed <= rates.wave_speed * 1.1 && rates.wave_speed < 1.1 * fastest, "{rates:?}");
+    // What is enough is not made sharper; what is not is.
+    let coarse = speed(defaults, Frame::Reference, 2.0 * reference);
+    assert!(reference <= coarse && coarse <= 2.0 * reference, "{coarse}");
+    // Waves are ten times as fast in a body that is a hundred times as stiff.
+    let young = compiled.model.parameters.iter().position(|it| it.name == "young").unwrap();
+    let stiff = speed([(young, 1_000_000_000.into())].into(), Frame::Reference, 0.0);
+    assert!((stiff / (10.0 * reference) - 1.0).abs() < 1e-6, "{stiff} {reference}");
 }
 
 #[test]
@@ -197,6 +224,10 @@ proptest! {
                 prop_assert!(stretch <= rates.principal_stretch, "{stretch} {rates:?}");
                 let speed = (quadratic(&tangent, &m, &n).max(0.0) / density).sqrt();
                 prop_assert!(speed <= rates.reference_wave_speed, "{speed} {rates:?}");
+                // n in the deformed body is F^T n in the reference configuration.
+                let pulled = [f[0] * n[0] + f[2] * n[1], f[1] * n[0] + f[3] * n[1]];
+                let speed = (quadratic(&tangent, &m, &pulled).max(0.0) / density).sqrt();
+                prop_assert!(speed <= rates.wave_speed, "{speed} {rates:?}");
             }
         }
     }

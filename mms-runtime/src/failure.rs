@@ -146,6 +146,13 @@ pub enum Refusal {
     },
 }
 
+/// Three digits of a positive number, rounded down.
+fn rounded_down(value: f64) -> f64 {
+    let digits = (2.0 - value.log10().floor()).max(0.0);
+    let scale = 10f64.powf(digits);
+    (value * scale).floor() / scale
+}
+
 /// `value`, if it is positive and finite.
 pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, Refusal> {
     let positive = value > 0.0 && value.is_finite();
@@ -181,6 +188,19 @@ pub struct Failure {
 /// What stopped a run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Cause {
+    /// A time step in which a wave may cross a cell.
+    #[error(
+        "the time step {time_step:.3e} is above the stable one, {stable:.3e}, in which no wave that the field \
+         is proved to have crosses a cell; that is a Courant number of {}", rounded_down(*courant)
+    )]
+    UnstableStep {
+        /// The time step.
+        time_step: f64,
+        /// The largest one that is proved to be stable.
+        stable: f64,
+        /// Its Courant number.
+        courant: f64,
+    },
     /// J <= 0.
     #[error("the particle is inverted, J = {jacobian:e}")]
     Inverted {
@@ -231,6 +251,9 @@ impl Cause {
     /// The likely reason, and what to try.
     pub fn advice(&self) -> &'static str {
         match self {
+            Cause::UnstableStep { .. } => {
+                "try a smaller Courant number, or run it all the same with `--allow-unstable`"
+            }
             Cause::Inverted { .. } | Cause::NotFinite { .. } | Cause::FlatDomain => {
                 "likely an unstable or too coarse run, or forcing and material that do not belong \
                  together: try a smaller Courant number or more cells"

@@ -22,4 +22,15 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     );
+
+    /// Strain energy W (per reference volume) of the displacement gradient H, and whether the material offers
+    /// it. Nothing but the balance of energy asks for it; without it `energy` stays as it is.
+    fn strain_energy(
+        &self,
+        _reference: &[Vector<T, D>],
+        _displacement_gradient: &[Matrix<T, D>],
+        _energy: &mut [T],
+    ) -> bool {
+        false
+    }
 }

@@ -94,6 +94,11 @@ pub struct Setup {
     pub courant: f64,
     /// The time step, instead of that of the Courant number.
     pub time_step: Option<f64>,
+    /// Into how many parts with equal numbers of steps the run is divided.
+    pub parts: usize,
+    /// The fastest wave that there is proved to be, in the frame of the grid: a run whose time step lets it
+    /// cross the shortest edge of a cell stops before it begins. Without it none does.
+    pub fastest_wave: Option<f64>,
     /// When the run ends, instead of at the end of the field's time window.
     pub end_time: Option<f64>,
     /// How many threads work on one run, from 1. Its results do not depend on it.
@@ -129,6 +134,8 @@ impl Default for Setup {
             periodic: [false; 3],
             courant: 0.4,
             time_step: None,
+            parts: 1,
+            fastest_wave: None,
             end_time: None,
             threads: 1,
         }

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Bar, levels, method};
 use mms_runtime::study::{Level, TOLERANCE, judge, orders};
-use mms_runtime::{Errors, IntegratorName, Method, ShapeName, Verdict};
+use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName, Verdict};
 
 const CELLS: [usize; 5] = [8, 16, 32, 64, 128];
 
@@ -57,6 +57,26 @@ fn integrators_without_the_half_step_are_of_first_order() {
         let orders = finest_orders(&levels);
         assert!(orders.iter().all(|order| (0.85..1.1).contains(order)), "{integrator}: {orders:?}");
         assert_eq!(verdict(&levels), Verdict::Fail, "{integrator}");
+    }
+}
+
+/// A force of the wrong time level costs an order, whatever the shape functions and the formulation are.
+#[test]
+fn a_body_force_one_step_late_is_of_first_order() {
+    for (shape, formulation) in [
+        (ShapeName::Cpgimp, FormulationName::Updated),
+        (ShapeName::Linear, FormulationName::Total),
+        (ShapeName::QuadraticBspline, FormulationName::Total),
+    ] {
+        let method = Method { formulation, ..method(shape, IntegratorName::Leapfrog) };
+        let level = |&cells: &usize| {
+            let step = method.setup.courant / cells as f64 / 1e3_f64.sqrt();
+            levels::<f64, 1>(&Bar { delay: step, ..Bar::default() }, &method, &[cells]).remove(0)
+        };
+        let levels: Vec<Level> = CELLS.iter().map(level).collect();
+        let orders = finest_orders(&levels);
+        assert!(orders.iter().all(|order| (0.85..1.15).contains(order)), "{shape}: {orders:?}");
+        assert_eq!(verdict(&levels), Verdict::Fail, "{shape}");
     }
 }
 

@@ -8,6 +8,9 @@ use mms_runtime::{
     Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
 };
 
+use super::input::Input;
+use super::stability::fastest_wave;
+
 /// The precision of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Precision {
@@ -73,6 +76,9 @@ pub struct MethodOptions {
     /// The time step, shortened to fill the time window, instead of that of the Courant number.
     #[arg(long, value_name = "DT", conflicts_with = "courant")]
     time_step: Option<f64>,
+    /// Run with a time step above the stable one, in which a wave may cross a cell.
+    #[arg(long)]
+    allow_unstable: bool,
     /// When to end, instead of at the end of the field's time window.
     #[arg(long = "time", value_name = "T")]
     end_time: Option<f64>,
@@ -104,6 +110,15 @@ impl FromStr for Axis {
 }
 
 impl MethodOptions {
+    /// The method for a field with some parameters set, its time step held to the stable one.
+    pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
+        let mut method = self.method(input.compiled.field.dimension)?;
+        if !self.allow_unstable {
+            method.setup.fastest_wave = fastest_wave(input, settings, &method)?;
+        }
+        Ok(method)
+    }
+
     /// The method, or what of it cannot be for a body of this dimension.
     pub fn method(&self, dimension: usize) -> anyhow::Result<Method> {
         let positive = |option: &str, value: f64| match value > 0.0 && value.is_finite() {
@@ -155,6 +170,8 @@ impl MethodOptions {
             periodic,
             courant: self.courant,
             time_step: self.time_step,
+            parts: 1,
+            fastest_wave: None,
             end_time: self.end_time,
             threads: self.threads.map_or_else(processors, usize::from),
         };

@@ -10,8 +10,10 @@ mod method;
 mod new;
 mod progress;
 mod run;
+mod saved;
 mod schema;
 mod show;
+mod stability;
 mod study;
 
 use std::process::ExitCode;
@@ -62,8 +64,23 @@ enum Outcome {
 
 /// Runs the command line of this process.
 pub fn run() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = match arguments.command {
+    let outcome = answer().unwrap_or_else(|error| {
+        let style = anstyle::AnsiColor::Red.on_default().bold();
+        anstream::eprintln!("{style}error{style:#}: {error:#}");
+        Outcome::BadInput
+    });
+    ExitCode::from(match outcome {
+        Outcome::AsExpected => 0,
+        Outcome::Refuted => 1,
+        Outcome::BadInput => 2,
+        Outcome::RunFailed => 3,
+    })
+}
+
+/// Does what the command line asks for.
+fn answer() -> anyhow::Result<Outcome> {
+    let arguments = saved::expand(std::env::args_os())?;
+    match Arguments::parse_from(arguments).command {
         None => study::main_job(),
         Some(Command::List(list)) => list.run(),
         Some(Command::Show(show)) => show.run(),
@@ -75,18 +92,7 @@ pub fn run() -> ExitCode {
         Some(Command::Study(study)) => study.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
-    };
-    let outcome = result.unwrap_or_else(|error| {
-        let style = anstyle::AnsiColor::Red.on_default().bold();
-        anstream::eprintln!("{style}error{style:#}: {error:#}");
-        Outcome::BadInput
-    });
-    ExitCode::from(match outcome {
-        Outcome::AsExpected => 0,
-        Outcome::Refuted => 1,
-        Outcome::BadInput => 2,
-        Outcome::RunFailed => 3,
-    })
+    }
 }
 
 /// Prints one JSON document.

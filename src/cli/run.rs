@@ -36,7 +36,7 @@ impl Run {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field, &self.variant)?;
         let dimension = input.compiled.field.dimension;
-        let method = self.method.method(dimension)?;
+        let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
         let run = match self.method.precision {
             Precision::F32 => {

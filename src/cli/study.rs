@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_runtime::study::{TOLERANCE, judge};
-use mms_runtime::{Division, Level, Method, Verdict};
+use mms_runtime::study::{Fit, Refinement, Series, TOLERANCE, Watch, differences, fit};
+use mms_runtime::{Division, Method, Run, Verdict};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
@@ -16,15 +16,33 @@ use crate::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///
+/// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its
+/// orders are those of the differences between a level and the next, from which the error of space is gone.
+///
 /// Writes convergence.svg, .csv and .json.
 #[derive(Args)]
 pub struct Study {
     /// A gallery name, or a path to a TOML file.
     field: String,
+    /// A saved scene: a TOML file whose keys are these options, and `field`. Options on the command line go
+    /// first.
+    #[arg(long = "study", value_name = "FILE")]
+    _saved: Option<PathBuf>,
     /// The levels: cells along the longest edge of the body, or along each axis, as in 16x8. By default 8,16,32,64,128 in one
     /// dimension, 8,16,32,64 in two and 4,8,16 in three.
     #[arg(long, value_name = "N[xN..],..", value_delimiter = ',')]
     cells: Vec<Division>,
+    /// What is refined: both, the time step with the cells by the Courant number; space, the cells alone, at a
+    /// quarter of the time step of the finest; time, the time step alone.
+    #[arg(long, value_name = "both|space|time", default_value_t)]
+    refine: Refinement,
+    /// How many levels a study in time has, each with half the time step of the one before; 4 by default.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(2..=16))]
+    levels: Option<u8>,
+    /// Fit l2 = C_h h^p + C_t dt^q to the levels, and to further runs of each with a half and a quarter of its
+    /// time step. Takes three grids or more.
+    #[arg(long)]
+    fit: bool,
     #[command(flatten)]
     method: MethodOptions,
     /// The order to judge against. By default that of the field's [[study]] entry for the method,
@@ -44,6 +62,26 @@ pub struct Study {
     json: bool,
 }
 
+/// At the ends of so many equal parts of the time window, runs of a study in time are compared.
+const PARTS: usize = 16;
+
+/// A method with half the time step, so many times.
+fn halved(method: &Method, times: u32) -> Method {
+    let mut method = method.clone();
+    let factor = 2f64.powi(times as i32);
+    method.setup.courant /= factor;
+    method.setup.time_step = method.setup.time_step.map(|step| step / factor);
+    method.setup.parts = PARTS << times;
+    method
+}
+
+/// A method with a quarter of the time step, unless that is given.
+fn quartered(method: &Method) -> Method {
+    let mut method = method.clone();
+    method.setup.courant /= 4.0;
+    method
+}
+
 /// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
 pub fn main_job() -> anyhow::Result<Outcome> {
     /// A study on its own, with the defaults of its options.
@@ -60,26 +98,36 @@ impl Study {
         self.validate()?;
         let input = Input::find(&self.field, &self.variant)?;
         let folder = self.folder(&input.name)?;
-        let method = self.method.method(input.compiled.field.dimension)?;
-        let levels = match self.method.precision {
-            Precision::F32 => self.levels(&input.scene(&self.set, |entry| entry.single)?, &method),
-            Precision::F64 => self.levels(&input.scene(&self.set, |entry| entry.double)?, &method),
+        let method = self.method.method_for(&input, &self.set)?;
+        let (levels, fit) = match self.method.precision {
+            Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
+            Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
         };
-        let started: Vec<_> = levels.iter().flatten().cloned().collect();
+        let started: Vec<_> = levels.iter().flatten().collect();
         if started.is_empty() {
             anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
             return Ok(Outcome::RunFailed);
         }
         let (expected_order, tolerance) = self.expectation(&input);
-        let mut judgement = judge(&started, expected_order, tolerance);
-        if started.len() < levels.len() {
+        let differences = (self.refine == Refinement::Time).then(|| differences(&started));
+        let series = differences.clone().unwrap_or_else(|| {
+            Series::new(started.iter().map(|run| self.refine.displacement(run)))
+        });
+        let mut judgement = series.judge(expected_order, tolerance);
+        let stopped = started.iter().any(|run| run.level.errors.is_err());
+        if stopped || started.len() < levels.len() {
             judgement.verdict = Verdict::Fail;
         }
         let report = Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
             precision: self.method.precision.name(),
+            refinement: self.refine,
             judgement,
+            uncertainty: series.uncertainty(),
+            error_constant: series.error_constant(expected_order),
+            fit,
+            differences,
             method,
             levels,
             expected_order,
@@ -117,39 +165,103 @@ impl Study {
         {
             bail!("`--cells`: {} is given twice", twice.1);
         }
+        if self.refine == Refinement::Time && self.cells.len() > 1 {
+            bail!("`--cells`: a study in time has one grid");
+        }
+        if self.fit && self.refine != Refinement::Both {
+            bail!("`--fit`: leave `--refine` at both; the fit refines each of them by itself");
+        }
+        if self.refine != Refinement::Time && self.levels.is_some() {
+            bail!("`--levels`: the levels of a study in space are given by `--cells`");
+        }
         if self.expected_order.is_some_and(|order| !order.is_finite()) {
             bail!("`--expected-order`: expected a finite number");
         }
         Ok(())
     }
 
-    fn levels<T: Solvable>(
+    /// The levels, and the fit of space and time if it is asked for.
+    fn solve<T: Solvable>(
         &self,
         scene: &Scene<T>,
         method: &Method,
-    ) -> Vec<Result<Level, Refused>> {
+    ) -> (Vec<Result<Run, Refused>>, Option<Fit>) {
+        let progress = Progress::new();
+        let run = |method: &Method, cells: Division, watch: Watch| {
+            let mut step = |step: usize, steps: usize| progress.step(&cells, step, steps);
+            let run = scene.run(method, &cells, watch, &mut step);
+            match run.as_ref().map(|run| &run.level.errors) {
+                Ok(Ok(_)) => {}
+                Ok(Err(failure)) => progress.say(&format!("{cells} cells: {failure}")),
+                Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
+            }
+            run.map_err(|reason| Refused { cells, reason })
+        };
+        let levels = self.levels(scene, method, &run);
+        let mut all: Vec<_> = levels.iter().flatten().map(|run| run.level.clone()).collect();
+        if self.fit {
+            for cells in levels.iter().flatten().map(|run| run.level.cells) {
+                let halved =
+                    [1, 2].map(|times| run(&halved(method, times), cells, Watch::Displacement));
+                all.extend(halved.into_iter().flatten().map(|run| run.level));
+            }
+        }
+        progress.finish();
+        let errors = all.iter().filter_map(|level| {
+            let errors = level.errors.as_ref().ok()?;
+            Some([level.cell_size, level.time_step, errors.l2])
+        });
+        let found = self.fit.then(|| fit(&errors.collect::<Vec<_>>())).flatten();
+        if self.fit && found.is_none() {
+            anstream::eprintln!(
+                "note: nothing fits the errors of these runs; give three grids or more"
+            );
+        }
+        (levels, found)
+    }
+
+    fn levels<T>(
+        &self,
+        scene: &Scene<T>,
+        method: &Method,
+        run: &dyn Fn(&Method, Division, Watch) -> Result<Run, Refused>,
+    ) -> Vec<Result<Run, Refused>> {
+        match self.refine {
+            Refinement::Time => {
+                let cells = self.cells.first().copied();
+                let cells = cells.unwrap_or(Division::Uniform(scene.cells_of_a_study_in_time()));
+                let levels =
+                    (0..self.levels.map_or(4, u32::from)).map(|level| halved(method, level));
+                levels.map(|method| run(&method, cells, Watch::Parts(PARTS))).collect()
+            }
+            Refinement::Both => {
+                let cells = self.grids(scene).into_iter();
+                cells.map(|cells| run(method, cells, Watch::Everything)).collect()
+            }
+            Refinement::Space => {
+                // In a quarter of the usual step, the error of time is a sixteenth.
+                let (mut method, mut levels) = (quartered(method), Vec::new());
+                for cells in self.grids(scene).into_iter().rev() {
+                    let level = run(&method, cells, Watch::Everything);
+                    if let (None, Ok(run)) = (method.setup.time_step, &level) {
+                        method.setup.time_step = Some(run.level.time_step);
+                    }
+                    levels.push(level);
+                }
+                levels.reverse();
+                levels
+            }
+        }
+    }
+
+    /// The levels of a study in space, from coarse to fine: orders are those between neighbours.
+    fn grids<T>(&self, scene: &Scene<T>) -> Vec<Division> {
         let mut cells = self.cells.clone();
         if cells.is_empty() {
             cells.extend(scene.default_cells().iter().map(|&cells| Division::Uniform(cells)));
         }
-        // Orders are those between neighbours, from coarse to fine.
         cells.sort_unstable_by_key(|cells| cells.numbers());
-        let progress = Progress::new();
-        let mut levels = Vec::new();
-        for cells in cells {
-            let mut step = |step: usize, steps: usize| progress.step(&cells, step, steps);
-            let level = scene.run_level(method, &cells, &mut step);
-            match &level {
-                Ok(Level { errors: Ok(_), .. }) => {}
-                Ok(Level { errors: Err(failure), .. }) => {
-                    progress.say(&format!("{cells} cells: {failure}"));
-                }
-                Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
-            }
-            levels.push(level.map_err(|reason| Refused { cells, reason }));
-        }
-        progress.finish();
-        levels
+        cells
     }
 
     /// The order to judge against, and how far from it is still as expected.

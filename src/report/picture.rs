@@ -4,6 +4,8 @@ use anyhow::anyhow;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
+use mms_runtime::study::{Point, Refinement};
+
 use super::{Study, method};
 
 const SIZE: (u32, u32) = (760, 520);
@@ -24,14 +26,20 @@ pub fn draw(study: &Study) -> anyhow::Result<String> {
 
 /// The points (h, error) of one norm that a logarithmic axis can show.
 fn points(study: &Study, norm: usize) -> Vec<(f64, f64)> {
-    let levels = study.started();
-    levels
-        .filter_map(|level| {
-            let errors = level.errors.as_ref().ok()?;
-            let error = [errors.l1, errors.l2, errors.linf][norm];
-            (error > 0.0).then_some((level.cell_size, error))
-        })
-        .collect()
+    let own: Vec<Point>;
+    let points = match &study.differences {
+        Some(differences) => differences.points(),
+        None => {
+            own = study.started().map(|run| study.refinement.displacement(run)).collect();
+            &own
+        }
+    };
+    let shown = points.iter().filter_map(|point| {
+        let errors = point.errors?;
+        let error = [errors.l1, errors.l2, errors.linf][norm];
+        (error > 0.0).then_some((point.length, error))
+    });
+    shown.collect()
 }
 
 fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
@@ -39,9 +47,10 @@ fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::
     root.fill(&WHITE)?;
     let all: Vec<_> = (0..NORMS.len()).flat_map(|norm| points(study, norm)).collect();
     let slope = slope(&all, study.expected_order);
-    let sizes = span(study.started().map(|level| level.cell_size), 1.25);
+    let lengths = || study.started().map(|run| study.refinement.length(&run.level));
+    let sizes = span(lengths(), 1.25);
     let errors = span(all.iter().chain(&slope).map(|(_, error)| *error), 2.0);
-    let sizes_shown = apart(study.started().map(|level| level.cell_size), sizes);
+    let sizes_shown = apart(lengths(), sizes);
     let (errors_shown, errors_between) = ticks(errors);
     let caption = format!("{}: {}", study.field, method::line(&study.method, study.precision));
     let mut chart = ChartBuilder::on(&root)
@@ -60,8 +69,11 @@ fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::
         .configure_mesh()
         .label_style(TEXT)
         .axis_desc_style(TEXT)
-        .x_desc("cell size h")
-        .y_desc("largest displacement error over time")
+        .x_desc(if study.refinement == Refinement::Time { "time step dt" } else { "cell size h" })
+        .y_desc(match study.differences {
+            Some(_) => "largest difference of displacements to the next level",
+            None => "largest displacement error over time",
+        })
         .x_label_formatter(&|h| format!("{h:.2e}"))
         .y_label_formatter(&|error| format!("{error:.0e}"))
         .bold_line_style(RGBColor(210, 210, 210))

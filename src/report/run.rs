@@ -2,7 +2,7 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_runtime::study::{Details, Deviations};
+use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Errors, Method};
 use serde_json::{Map, Value, json};
 
@@ -23,7 +23,7 @@ pub struct Run {
 }
 
 /// What errors are of: symbol, key and value.
-fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
+pub(super) fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
     [
         ("u", "displacement", deviations.displacement),
         ("v", "velocity", deviations.velocity),
@@ -58,6 +58,7 @@ impl Run {
                 "momentum": details.diagnostics.momentum,
                 "kinetic_energy": details.diagnostics.kinetic_energy,
                 "jacobian": details.diagnostics.jacobian,
+                "balance": details.diagnostics.balance.as_ref().map(balance),
             })),
             "ns_per_particle_step": details.map(|_| self.ns_per_particle_step()),
             "seconds": details.map(|_| json!({
@@ -140,6 +141,18 @@ fn table(details: &Details) -> Table {
         column.set_cell_alignment(CellAlignment::Right);
     }
     table
+}
+
+/// What drove the body.
+fn balance(balance: &Balance) -> Value {
+    json!({
+        "time": balance.time,
+        "kinetic_energy": balance.kinetic_energy,
+        "strain_energy": balance.strain_energy,
+        "body_work": balance.body_work,
+        "energy_residual": balance.energy_residual,
+        "surface_force": balance.surface_force,
+    })
 }
 
 /// Of each quantity the largest over time, and those at the end.

@@ -13,6 +13,7 @@ mod new;
 mod overview;
 mod rigid;
 mod run;
+mod saved;
 mod show;
 mod study;
 mod study_files;

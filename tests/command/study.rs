@@ -14,7 +14,21 @@ fn the_document_has_the_promised_keys_in_their_order() {
     let document = document("--cells 8,16", 0);
     assert_eq!(
         keys(&document),
-        ["field", "method", "levels", "expected_order", "observed_order", "verdict"]
+        [
+            "field",
+            "method",
+            "refinement",
+            "levels",
+            "noise",
+            "quantities",
+            "differences",
+            "expected_order",
+            "observed_order",
+            "order_uncertainty",
+            "error_constant",
+            "fit",
+            "verdict",
+        ]
     );
     assert_eq!(
         keys(&document["method"]),
@@ -50,6 +64,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
         "order_linf",
         "seconds",
         "failure",
+        "round_off",
     ];
     assert_eq!(keys(&document["levels"][0]), level);
     assert_eq!(keys(&document["levels"][1]), level);
@@ -71,6 +86,112 @@ fn the_first_level_has_no_orders_and_the_next_have_theirs() {
     assert_eq!(document["observed_order"], document["levels"][2]["order_l2"]);
     assert_eq!(document["expected_order"], 2.0);
     assert_eq!(document["verdict"], "pass");
+}
+
+/// Of v, F and P too; those of u are those of the levels.
+#[test]
+fn every_quantity_has_its_orders() {
+    let document = document("--cells 16,32,64 --formulation total --shape linear", 0);
+    let quantities = &document["quantities"];
+    let names = ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
+    assert_eq!(keys(quantities), names);
+    for (name, expected) in names.into_iter().zip([2.0, 2.0, 1.0, 1.0]) {
+        let levels = quantities[name].as_array().expect("levels");
+        assert_eq!(levels.len(), 3);
+        assert!(levels[0]["order_l2"].is_null() && levels[0]["l2"].is_f64(), "{document:#}");
+        for norm in ["l1", "l2", "linf"] {
+            let order = levels[2][&format!("order_{norm}")].as_f64().expect("an order");
+            assert!((order - expected).abs() < 0.15, "{name} {norm}: {order}");
+        }
+    }
+    for (own, level) in quantities["displacement"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .zip(document["levels"].as_array().expect("levels"))
+    {
+        for key in ["l1", "l2", "linf", "order_l1", "order_l2", "order_linf"] {
+            assert_eq!(own[key], level[key], "{key}");
+        }
+    }
+}
+
+/// With the order, how sure it is, and the constant that a defect may change alone.
+#[test]
+fn the_order_comes_with_its_uncertainty_and_the_error_with_its_constant() {
+    let document = document("--cells 16,32,64", 0);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let levels = &document["levels"];
+    let orders = [1, 2].map(|level: usize| number(&levels[level]["order_l2"]));
+    let uncertainty = number(&document["order_uncertainty"]);
+    assert!((uncertainty - (orders[1] - orders[0]).abs()).abs() < 1e-6, "{document:#}");
+    let constant = number(&levels[2]["l2"]) / number(&levels[2]["cell_size"]).powi(2);
+    assert!((number(&document["error_constant"]) / constant - 1.0).abs() < 1e-12);
+}
+
+/// Leapfrog is of second order in time, and USL of first; errors against the field stay those of the grid.
+#[test]
+fn a_study_in_time_shows_the_order_of_the_integrator() {
+    let options = "--refine time --cells 64 --formulation total --shape linear";
+    for (integrator, expected, code) in [("leapfrog", 2.0, 0), ("usl", 1.0, 1)] {
+        let document = document(&format!("{options} --integrator {integrator}"), code);
+        assert_eq!(document["refinement"], "time");
+        let order = document["observed_order"].as_f64().expect("an order");
+        assert!((order - expected).abs() < 0.05, "{integrator}: {order}");
+        let levels = document["levels"].as_array().expect("levels");
+        let steps: Vec<_> = levels.iter().map(|level| level["steps"].as_u64()).collect();
+        assert_eq!(steps, [320, 640, 1280, 2560].map(Some));
+        let differences = document["differences"].as_array().expect("differences");
+        assert_eq!(differences.len(), 3);
+        assert_eq!(differences[2]["order_l2"], document["observed_order"]);
+        for (level, difference) in levels.iter().zip(differences) {
+            assert_eq!(level["time_step"], difference["time_step"]);
+        }
+    }
+    let first = document(&format!("{options} --integrator usl --expected-order 1"), 0);
+    assert_eq!(first["verdict"], "pass");
+}
+
+/// Errors of space and of time, in runs that refine each by itself: both of second order with leapfrog, of
+/// opposite sign on the bar.
+#[test]
+fn space_and_time_are_told_apart() {
+    let options = "--cells 16,32,64 --formulation total --shape linear --fit";
+    let fit = document(options, 0)["fit"].clone();
+    let number = |key: &str| fit[key].as_f64().unwrap_or_else(|| panic!("{fit}"));
+    assert!((number("space_order") - 2.0).abs() < 0.05, "{fit}");
+    assert!((number("time_order") - 2.0).abs() < 0.1, "{fit}");
+    assert!(number("space_constant") > 0.0 && number("time_constant") < 0.0, "{fit}");
+    assert!(number("residual") < 0.02, "{fit}");
+    assert!(document("--cells 8,16", 0)["fit"].is_null());
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 8,16 --fit").exits(0).complains("give three grids or more");
+    folder.mms("study bar_1d --refine time --fit").exits(2).complains("leave `--refine` at both");
+}
+
+/// All levels have a quarter of the time step of the finest.
+#[test]
+fn a_study_in_space_has_one_time_step() {
+    let document = document("--refine space --cells 8,16,32 --formulation total --shape linear", 0);
+    let steps: Vec<_> = (0..3).map(|level| document["levels"][level]["steps"].as_u64()).collect();
+    assert_eq!(steps, [640; 3].map(Some));
+    assert!(document["differences"].is_null());
+}
+
+/// Errors that are nothing but round-off are marked, and do not count.
+#[test]
+fn orders_below_the_floor_are_marked_as_noise() {
+    let tiny = "--precision f32 --formulation total --shape linear --cells 64,128,256,1024";
+    let document = document(tiny, 0);
+    let levels = document["levels"].as_array().expect("levels");
+    assert_eq!(document["noise"], serde_json::json!([false, false, false, true]), "{document:#}");
+    assert_eq!(document["observed_order"], levels[2]["order_l2"]);
+    let folder = Folder::new();
+    folder
+        .mms(&format!("study bar_1d {tiny}"))
+        .exits(0)
+        .prints("nothing but round-off")
+        .prints("~");
 }
 
 #[test]
@@ -95,6 +216,7 @@ fn a_study_whose_every_level_stops_exits_1() {
     let folder = Folder::new();
     let run = folder.mms("study bar_1d --cells 8,16 --courant 3 --json").exits(1);
     run.complains("8 cells: stopped in step").complains("16 cells: stopped in step");
+    run.complains("--allow-unstable");
     let document = run.json();
     assert_eq!(document["verdict"], "fail");
     assert!(document["observed_order"].is_null(), "{document:#}");
@@ -160,6 +282,10 @@ fn bad_settings_exit_2_and_name_the_option() {
         ("--cells 8,", "--cells"),
         ("--cells 8,x", "--cells"),
         ("--expected-order nan", "--expected-order"),
+        ("--refine mass", "known are: both, space, time"),
+        ("--refine time --cells 8,16", "a study in time has one grid"),
+        ("--levels 3", "given by `--cells`"),
+        ("--refine time --levels 1", "--levels"),
         ("--shape cpgmp", "known are: linear, ugimp, cpgimp"),
         ("--integrator rk4", "known are: usl, usf, musl, leapfrog"),
         ("--precision f16", "[possible values: f32, f64]"),

@@ -1,5 +1,7 @@
 //! Everything that is proved of a field, and the cheaper search for what contradicts it.
 
+use std::collections::BTreeMap;
+
 use super::chart::Chart;
 use super::claims::{self, Finding};
 use super::enclosure::Formulas;
@@ -7,11 +9,11 @@ use super::finite::{self, Finite};
 use super::jacobian::{self, Jacobian};
 use super::message;
 use super::motion::Motion;
-use super::rates::{self, Rates};
+use super::rates::{self, Frame, Rates};
 use super::witness::Witness;
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
-use crate::expr::Graph;
+use crate::expr::{Graph, Rational};
 use crate::quantity::Quantity;
 use crate::spec::BoundarySpec;
 
@@ -73,6 +75,34 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         boxes += cells;
     }
     Certificate { claims, jacobian, finite, rates, boxes }
+}
+
+/// Bounds the speed of waves over the body and the time window of a field, in a frame, no sharper than it
+/// takes to see that it is at most `speed`. Parameters have their defaults, but for those that are `set`, by
+/// position. `None` where J > 0 is not proved, or nothing bounds the speed.
+pub fn wave_speed(
+    compiled: &Compiled,
+    set: &BTreeMap<usize, Rational>,
+    frame: Frame,
+    speed: f64,
+) -> Option<f64> {
+    let mut graph = room(compiled);
+    let mut model = compiled.model.clone();
+    for (index, parameter) in model.parameters.iter_mut().enumerate() {
+        parameter.range = None;
+        if let Some(value) = set.get(&index) {
+            parameter.default = graph.number(value.clone());
+        }
+    }
+    let chart = Chart::new(&mut graph, &compiled.field, &model, None);
+    let motion = Motion::new(&mut graph, &chart, compiled);
+    let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
+    let (Jacobian::Positive(bounds), _) = jacobian::bound(&chart, &formulas, CELLS) else {
+        return None;
+    };
+    let wanted = (frame, speed);
+    let bound = rates::wave_speed(&mut graph, &chart, &motion, bounds, CELLS, wanted);
+    bound.is_finite().then_some(bound)
 }
 
 impl Certificate {

@@ -27,24 +27,30 @@ pub struct Rates {
     pub principal_stretch: f64,
     /// The norm of the rate of deformation D = sym(dF/dt F^-1), 1/s.
     pub strain_rate: f64,
+    /// The speed of waves in the deformed body, m/s of x.
+    pub wave_speed: f64,
     /// The speed of waves in the reference configuration, m/s of X.
     pub reference_wave_speed: f64,
 }
 
 impl Rates {
-    /// The speed of waves in the deformed body: no stretch carries them farther.
-    pub fn wave_speed(&self) -> f64 {
-        self.reference_wave_speed * self.principal_stretch
-    }
-
     /// No wave crosses a cell in a time step of less than this times the cell size, whether the
     /// cells lie in the reference or in the deformed body.
     pub fn time_step_per_cell_size(&self) -> f64 {
-        1.0 / self.wave_speed().max(self.reference_wave_speed)
+        1.0 / self.wave_speed.max(self.reference_wave_speed)
     }
 }
 
-/// Bounds all three where J lies within `jacobian`, with at most `limit` cells each, and says how
+/// Where the cells lie that waves cross.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// In the reference configuration.
+    Reference,
+    /// In the deformed body.
+    Deformed,
+}
+
+/// Bounds all four where J lies within `jacobian`, with at most `limit` cells each, and says how
 /// many there were.
 pub fn bound(
     graph: &mut Graph,
@@ -53,24 +59,35 @@ pub fn bound(
     jacobian: [f64; 2],
     limit: usize,
 ) -> (Rates, usize) {
-    let dimension = motion.dimension();
-    let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
-    let volume = Interval::new(jacobian[0], jacobian[1]);
-    let searches = Searches { chart, motion, strain, volume, limit };
-    let [squeeze, stretch] = searches.stretches(graph);
-    // J is the product of the principal stretches.
-    let least = jacobian[0] / stretch.bound.powi(dimension as i32 - 1);
-    let least = least.max(1.0 / squeeze.bound) * (1.0 - 1e-9);
-    let rate = searches.strain_rate(graph, least);
-    let speed = searches.wave_speed(graph, Interval::new(least, stretch.bound));
-    // The dimensions that a field lacks are not stretched.
-    let missing = if dimension < 3 { 1.0 } else { 0.0 };
+    let searches = Searches::new(chart, motion, jacobian, limit);
+    let stretches = searches.stretches(graph);
+    let rate = searches.strain_rate(graph, stretches.least);
+    let [reference, deformed] = [Frame::Reference, Frame::Deformed]
+        .map(|frame| searches.wave_speed(graph, &stretches, frame, 0.0));
+    let principal_stretch = stretches.principal(motion);
     let rates = Rates {
-        principal_stretch: stretch.bound.max(missing),
+        principal_stretch,
         strain_rate: rate.bound,
-        reference_wave_speed: speed.bound,
+        // No stretch carries a wave farther, either.
+        wave_speed: deformed.bound.min(reference.bound * principal_stretch),
+        reference_wave_speed: reference.bound,
     };
-    (rates, squeeze.cells + stretch.cells + rate.cells + speed.cells)
+    (rates, stretches.cells + rate.cells + reference.cells + deformed.cells)
+}
+
+/// A bound of the speed of waves in a frame, where J lies within `jacobian`; no sharper than it takes to
+/// see that it is at most `speed`. It takes at most `limit` cells for each stretch and for itself.
+pub fn wave_speed(
+    graph: &mut Graph,
+    chart: &Chart,
+    motion: &Motion,
+    jacobian: [f64; 2],
+    limit: usize,
+    (frame, speed): (Frame, f64),
+) -> f64 {
+    let searches = Searches::new(chart, motion, jacobian, limit);
+    let stretches = searches.stretches(graph);
+    searches.wave_speed(graph, &stretches, frame, speed).bound
 }
 
 /// What the search for each rate starts from.
@@ -85,15 +102,36 @@ struct Searches<'a> {
     limit: usize,
 }
 
-impl Searches<'_> {
+/// Bounds of the principal stretches.
+struct Stretches {
+    least: f64,
+    greatest: f64,
+    /// How many cells it took.
+    cells: usize,
+}
+
+impl Stretches {
+    /// The largest principal stretch; the dimensions that a field lacks are not stretched.
+    fn principal(&self, motion: &Motion) -> f64 {
+        self.greatest.max(if motion.dimension() < 3 { 1.0 } else { 0.0 })
+    }
+}
+
+impl<'a> Searches<'a> {
+    fn new(chart: &'a Chart, motion: &'a Motion, jacobian: [f64; 2], limit: usize) -> Self {
+        let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
+        let volume = Interval::new(jacobian[0], jacobian[1]);
+        Searches { chart, motion, strain, volume, limit }
+    }
+
     /// The deformation, from bounds of the formulas.
     fn state(&self, values: &[Interval]) -> State {
         let (gradient, right) = values[1..self.strain.len()].split_at(self.motion.gradient.len());
         State::new(values[0].meet(self.volume), gradient, right)
     }
 
-    /// The largest reciprocal of a principal stretch, and the largest stretch.
-    fn stretches(&self, graph: &mut Graph) -> [Found; 2] {
+    /// The least and the largest principal stretch.
+    fn stretches(&self, graph: &mut Graph) -> Stretches {
         let formulas = Formulas::new(graph, self.chart, &self.strain);
         let all = 0..self.strain.len();
         let squeeze = search(self.chart, &formulas, self.limit, all.clone(), |values, _, _| {
@@ -105,7 +143,13 @@ impl Searches<'_> {
         let stretch = search(self.chart, &formulas, self.limit, all, |values, _, _| {
             self.state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
         });
-        [squeeze, stretch]
+        // J is the product of the principal stretches.
+        let least = self.volume.lower() / stretch.bound.powi(self.motion.dimension() as i32 - 1);
+        Stretches {
+            least: least.max(1.0 / squeeze.bound) * (1.0 - 1e-9),
+            greatest: stretch.bound,
+            cells: squeeze.cells + stretch.cells,
+        }
     }
 
     /// The largest |D| where no principal stretch is less than `floor`.
@@ -127,8 +171,15 @@ impl Searches<'_> {
         })
     }
 
-    /// The fastest wave where the principal stretches lie within bounds.
-    fn wave_speed(&self, graph: &mut Graph, stretches: Interval) -> Found {
+    /// The fastest wave in a frame, no sharper than it takes to see that it is at most `speed`.
+    fn wave_speed(
+        &self,
+        graph: &mut Graph,
+        stretches: &Stretches,
+        frame: Frame,
+        speed: f64,
+    ) -> Found {
+        let stretches = Interval::new(stretches.least, stretches.greatest);
         let (motion, known) = (self.motion, self.strain.len());
         let mut seen = self.strain.clone();
         seen.push(motion.density);
@@ -137,18 +188,25 @@ impl Searches<'_> {
         let stress = Tangent::program(graph, &motion.stress);
         let mut tangent = Tangent::new(self.chart, &stress);
         let steering = 0..seen.len();
-        search(self.chart, &formulas, self.limit, steering, |values, place, enough| {
+        let measure = |values: &[Interval], place: &[Interval], enough: f64| {
             let (state, density) = (self.state(values), values[known]);
             let gradient = match &values[known + 1..] {
                 [] => state.principal_gradient(stretches),
                 oriented => oriented.to_vec(),
             };
+            let speed = |tangent: &[Interval]| match frame {
+                Frame::Reference => wave_speed_of(tangent, density),
+                Frame::Deformed => {
+                    wave_speed_of(&pushed(tangent, &with_identity(&gradient)), density)
+                }
+            };
             let coarse = tangent.enclose(&gradient, state.volume, place);
-            match wave_speed(&coarse, density) {
-                speed if speed <= enough => speed,
-                _ => wave_speed(&tangent.sharpen(coarse, &gradient, place), density),
+            match speed(&coarse) {
+                found if found <= enough => found,
+                _ => speed(&tangent.sharpen(coarse, &gradient, place)),
             }
-        })
+        };
+        search_until(self.chart, &formulas, self.limit, steering, speed, measure)
     }
 }
 
@@ -160,10 +218,23 @@ fn search(
     formulas: &Formulas,
     limit: usize,
     steering: Range<usize>,
+    measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
+) -> Found {
+    search_until(chart, formulas, limit, steering, 0.0, measure)
+}
+
+/// The same, where all that matters is whether the measure is at most `least`: sharper is only what exceeds it.
+fn search_until(
+    chart: &Chart,
+    formulas: &Formulas,
+    limit: usize,
+    steering: Range<usize>,
+    least: f64,
     mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let mut bounds = formulas.run::<Interval>(chart);
-    let enough = |bound: f64, value: f64| bound <= value * (1.0 + SHARPNESS);
+    let sharp = |value: f64| if value > least { value * (1.0 + SHARPNESS) } else { least };
+    let enough = |bound: f64, value: f64| bound <= sharp(value);
     let mut greatest = 0.0_f64;
     largest(chart.variables().len(), limit, enough, |cell| {
         let place = chart.place(&cell.0);
@@ -174,7 +245,7 @@ fn search(
         let attained = measure(&bounds.values(&centre), &centre, f64::INFINITY);
         let attained = if attained.is_finite() { attained } else { f64::NEG_INFINITY };
         greatest = greatest.max(attained);
-        let bound = measure(&enclosure.values, &place, greatest * (1.0 + SHARPNESS));
+        let bound = measure(&enclosure.values, &place, sharp(greatest));
         let slopes = enclosure.slopes.iter().map(|by| by[steering.clone()].to_vec());
         let slopes: Vec<_> = slopes.collect();
         Measure {
@@ -258,8 +329,33 @@ fn with_identity(matrix: &[Interval]) -> Vec<Interval> {
     matrix
 }
 
+/// F_pJ F_qL A_iJkL: with it in place of A, waves cross the deformed body (Ogden, Non-linear Elastic
+/// Deformations, 1984, section 6.1).
+fn pushed(tangent: &[Interval], deformation: &[Interval]) -> Vec<Interval> {
+    let dimension = deformation.len().isqrt();
+    let order = dimension * dimension;
+    let sum = |terms: &mut dyn Iterator<Item = Interval>| {
+        terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
+    };
+    // Of the pair (i, J) of a row, or (k, L) of a column, J or L becomes p or q.
+    let moved = |pair: usize, j: usize| pair / dimension * dimension + j;
+    let along = |pair: usize, j: usize| deformation[pair % dimension * dimension + j];
+    let rows = |at: usize| {
+        let (row, column) = (at / order, at % order);
+        let term = |j| along(row, j) * tangent[moved(row, j) * order + column];
+        sum(&mut (0..dimension).map(term))
+    };
+    let half: Vec<Interval> = (0..order * order).map(rows).collect();
+    let columns = |at: usize| {
+        let (row, column) = (at / order, at % order);
+        let term = |l| along(column, l) * half[row * order + moved(column, l)];
+        sum(&mut (0..dimension).map(term))
+    };
+    (0..order * order).map(columns).collect()
+}
+
 /// The fastest wave: the largest eigenvalue of all acoustic tensors, over rho0.
-fn wave_speed(tangent: &[Interval], density: Interval) -> f64 {
+fn wave_speed_of(tangent: &[Interval], density: Interval) -> f64 {
     if !density.is_defined() || density.lower() <= 0.0 {
         return f64::INFINITY;
     }

@@ -19,12 +19,13 @@ pub(super) struct Clock {
 }
 
 impl Clock {
-    /// As many steps as fill the window, none longer than `time_step`.
-    pub fn new(window: [f64; 2], time_step: f64) -> Result<Self, Refusal> {
+    /// As many steps as fill the window, none longer than `time_step`, as many in each of some parts.
+    pub fn new(window: [f64; 2], time_step: f64, parts: usize) -> Result<Self, Refusal> {
         let duration = positive("the length of the time window", window[1] - window[0])?;
         let target = positive("the time step", time_step)?;
         // Round-off must not add a step to a duration of a whole number of steps.
-        let steps = (duration / target * (1.0 - 1e-6)).ceil().max(1.0);
+        let parts = positive("the number of parts of a run", parts as f64)?;
+        let steps = (duration / parts / target * (1.0 - 1e-6)).ceil().max(1.0) * parts;
         at_most("steps", steps, STEP_LIMIT)?;
         let (start, time_step) = (window[0], duration / steps);
         Ok(Self { start, time_step, steps: steps as usize, step: 0, lag: 0.0 })

@@ -13,7 +13,9 @@ use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::{MAX_NODES, Shape};
 use crate::tensor::{components, is_finite, matrix_is_finite};
-use crate::{Body, Domain, Face, Grid, Lattice, ManufacturedField, Real, Refusal, Vector};
+use crate::{
+    Body, Cause, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
+};
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;
@@ -44,7 +46,8 @@ where
         let [start, end] = domain.time.map(|time| time.to_f64());
         let courant = positive("the Courant number", setup.courant)?;
         let time_step = setup.time_step.unwrap_or(courant * cell_size.min() / speed);
-        let clock = Clock::new([start, setup.end_time.unwrap_or(end)], time_step)?;
+        let window = [start, setup.end_time.unwrap_or(end)];
+        let clock = Clock::new(window, time_step, setup.parts)?;
 
         let mut motion = [lower, upper];
         if L::MOVES {
@@ -91,6 +94,25 @@ where
             seconds: Seconds::default(),
             formulation: std::marker::PhantomData,
         })
+    }
+
+    /// Whether a wave of this speed crosses no edge of a cell in a time step.
+    ///
+    /// # Errors
+    /// It does; at the particle where waves are fastest at F = I, which the Courant number is about.
+    pub fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure> {
+        let (time_step, edge) = (self.clock.time_step, self.grid.lattice.cell_size.min().to_f64());
+        let stable = edge / fastest_wave;
+        // Round-off of the edge must not refuse the very step that is advised.
+        if time_step <= stable * (1.0 + 1e-6) {
+            return Ok(());
+        }
+        let mut speed = vec![T::zero(); self.particles.len()];
+        self.field.wave_speed(&self.particles.reference_position, &mut speed);
+        let faster = |a: usize, b: usize| if speed[b] > speed[a] { b } else { a };
+        let particle = (0..speed.len()).fold(0, faster);
+        let courant = speed[particle].to_f64() / fastest_wave;
+        Err(self.failure(particle, Cause::UnstableStep { time_step, stable, courant }))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Errors, Watch};
 use crate::formulation::Formulation;
+use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::inverse_deformation_gradient;
 use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Solver, Vector};
@@ -37,6 +38,8 @@ pub(super) struct Watcher<T, const D: usize> {
     vector: Vec<Vector<T, D>>,
     gradient: Vec<Matrix<T, D>>,
     stress: [Vec<Matrix<T, D>>; 2],
+    /// The largest so far of what rounding is relative to: of d, and of |x| |H| where weights follow x.
+    size: f64,
 }
 
 impl<T: Real, const D: usize> Watcher<T, D> {
@@ -48,14 +51,37 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         L: Formulation,
     {
         let count = solver.particles().len();
-        let tensors = if watch == Watch::Everything { count } else { 0 };
+        let tensors = if watch == Watch::Displacement { 0 } else { count };
         let matrices = || vec![Matrix::zeros(); tensors];
         Self {
             watch,
             vector: vec![Vector::zeros(); count],
             gradient: matrices(),
             stress: [matrices(), matrices()],
+            size: 0.0,
         }
+    }
+
+    /// The error of d that rounding alone is expected to leave after so many steps: each adds a rounding of
+    /// one unit in the last place, of variance 1/12, to d, and all of them are a random walk (Higham, Accuracy
+    /// and Stability of Numerical Algorithms, 2002, section 2.8). In the updated formulation weights know x
+    /// no better than that, and the stress of a strain H acts as far from its place.
+    pub fn round_off(&self, steps: usize) -> f64 {
+        T::default_epsilon().to_f64() * (steps as f64 / 12.0).sqrt() * self.size
+    }
+
+    /// Looks at what rounding is relative to.
+    fn weigh(&mut self, particles: &Particles<T, D>, moves: bool) {
+        let squares = particles.displacement.iter().enumerate().map(|(p, d)| {
+            let own = d.map(Real::to_f64).norm_squared();
+            if !moves {
+                return own;
+            }
+            let strain = particles.displacement_gradient[p].map(Real::to_f64).norm_squared();
+            own + particles.position(p).map(Real::to_f64).norm_squared() * strain
+        });
+        let mean = squares.sum::<f64>() / particles.len().max(1) as f64;
+        self.size = self.size.max(mean.sqrt());
     }
 
     /// The errors, now.
@@ -78,6 +104,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         field.displacement(now, reference, &mut self.vector);
         let displacement = Errors::of(&particles.displacement, &self.vector)
             .map_err(odd("displacement's error"))?;
+        self.weigh(particles, L::MOVES);
         if self.watch == Watch::Displacement {
             return Ok(Deviations { displacement, ..Deviations::default() });
         }

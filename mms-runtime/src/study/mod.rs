@@ -1,15 +1,25 @@
 //! Convergence studies: one method on levels of refinement, its errors, orders and verdict.
 
+mod balance;
 mod deviations;
 mod errors;
+mod fit;
 mod order;
+mod refinement;
 mod run;
+mod series;
+mod snapshots;
 mod verdict;
 
+pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
+pub use fit::{Fit, fit};
 pub use order::{Orders, observed_order, orders};
+pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Progress, Run, Solve, Watch};
+pub use series::{Point, Series};
+pub use snapshots::Snapshots;
 pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
 
 use crate::{Division, Failure, ManufacturedField, Method, Refusal};

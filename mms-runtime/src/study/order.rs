@@ -1,6 +1,6 @@
 //! Observed orders between levels.
 
-use super::{Errors, Level};
+use super::{Level, Point};
 
 /// ln(e1/e2) / ln(h1/h2).
 ///
@@ -24,15 +24,9 @@ pub struct Orders {
     pub linf: Option<f64>,
 }
 
-/// The observed orders from one level to another; none if either run stopped.
+/// The observed orders from one level to another, refined in space; none if either run stopped.
 pub fn orders(coarse: &Level, fine: &Level) -> Orders {
-    let (Ok(e1), Ok(e2)) = (&coarse.errors, &fine.errors) else {
-        return Orders::default();
-    };
-    let order = |norm: fn(&Errors) -> f64| {
-        observed_order([norm(e1), norm(e2)], [coarse.cell_size, fine.cell_size])
-    };
-    Orders { l1: order(|e| e.l1), l2: order(|e| e.l2), linf: order(|e| e.linf) }
+    Point::of(fine).orders_from(&Point::of(coarse))
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
+use super::balance::{Account, Balance};
 use super::deviations::{Deviations, Watcher};
-use super::{Errors, Level};
+use super::{Errors, Level, Snapshots};
 use crate::formulation::{Formulation, FormulationVisitor};
 use crate::integrator::{Integrator, IntegratorVisitor};
 use crate::shape::{Shape, ShapeVisitor};
@@ -18,6 +19,9 @@ pub enum Watch {
     Displacement,
     /// Those of displacement, velocity, F and P; more work than a step in some scenes.
     Everything,
+    /// The same, and the displacements at the ends of so many equal parts of the time window; the number of
+    /// steps has to be a multiple of it, see [`Setup::parts`](crate::Setup::parts).
+    Parts(usize),
 }
 
 /// A run and, if it reached its end, what it ended with.
@@ -29,6 +33,8 @@ pub struct Run {
     pub details: Option<Details>,
     /// What the parts of its steps took.
     pub seconds: Seconds,
+    /// The displacements at the times that were asked for; none of a run that stopped.
+    pub snapshots: Snapshots,
 }
 
 /// What was measured in a run.
@@ -38,6 +44,8 @@ pub struct Details {
     pub largest: Deviations,
     /// The errors at the end.
     pub last: Deviations,
+    /// What round-off alone is predicted to leave of the displacement's error in l2.
+    pub round_off: f64,
     /// The state at the end.
     pub diagnostics: Diagnostics,
 }
@@ -53,10 +61,15 @@ pub struct Diagnostics {
     pub kinetic_energy: f64,
     /// The least and the greatest J.
     pub jacobian: [f64; 2],
+    /// What drove the body; only where everything is watched.
+    pub balance: Option<Balance>,
 }
 
 impl Diagnostics {
-    fn of<T: Real, const D: usize, F, S, L>(solver: &Solver<'_, T, D, F, S, L>) -> Self
+    fn of<T: Real, const D: usize, F, S, L>(
+        solver: &Solver<'_, T, D, F, S, L>,
+        balance: Option<Balance>,
+    ) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
         S: Shape,
@@ -77,6 +90,7 @@ impl Diagnostics {
             jacobian: all.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], j| {
                 [least.min(j), most.max(j)]
             }),
+            balance,
         }
     }
 }
@@ -165,17 +179,19 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
             seconds: 0.0,
         };
         let watcher = Watcher::new(watch, &solver);
-        let mut run = Run { level, details: None, seconds: Seconds::default() };
-        let scene = WithIntegrator { solver, watcher, progress };
+        let (details, seconds, snapshots) = Default::default();
+        let mut run = Run { level, details, seconds, snapshots };
+        let fastest_wave = method.setup.fastest_wave;
+        let scene = WithIntegrator { solver, fastest_wave, watch, watcher, progress };
         let result = match method.setup.threads {
             1 => method.integrator.visit(scene),
             threads => pool(threads)?.install(|| method.integrator.visit(scene)),
         };
         run.level.seconds = start.elapsed().as_secs_f64();
         run.level.errors = match result {
-            Ok((details, seconds)) => {
+            Ok((details, seconds, snapshots)) => {
                 let errors = details.largest.displacement;
-                (run.details, run.seconds) = (Some(details), seconds);
+                (run.details, run.seconds, run.snapshots) = (Some(details), seconds, snapshots);
                 Ok(errors)
             }
             Err(failure) => Err(failure),
@@ -193,6 +209,8 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
 /// and last the integrator.
 struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
     solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S, L>,
+    fastest_wave: Option<f64>,
+    watch: Watch,
     watcher: Watcher<T, D>,
     progress: &'a mut Progress<'a>,
 }
@@ -200,20 +218,39 @@ struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
 impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
     for WithIntegrator<'_, T, D, S, L>
 {
-    type Output = Result<(Details, Seconds), Failure>;
+    type Output = Result<(Details, Seconds, Snapshots), Failure>;
 
     fn visit<I: Integrator>(self) -> Self::Output {
-        let Self { mut solver, mut watcher, progress } = self;
+        let Self { mut solver, fastest_wave, watch, mut watcher, progress } = self;
+        let steps = solver.steps();
+        fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
         solver.check()?;
         let mut last = watcher.measure(&solver)?;
-        let mut largest = last;
-        for step in 1..=solver.steps() {
+        let (mut largest, mut snapshots) = (last, Snapshots::default());
+        let mut account = (watch != Watch::Displacement).then(|| Account::new(&solver));
+        for step in 1..=steps {
+            // Where velocities are behind, the last time that has one on both sides is before the last step.
+            if let Some(account) = account.as_mut().filter(|_| step == steps && I::LAG > 0.0) {
+                account.look(&solver);
+            }
             solver.step::<I>()?;
+            if let Some(account) = &mut account {
+                account.step(&solver);
+                if step == steps && I::LAG == 0.0 {
+                    account.look(&solver);
+                }
+            }
             last = watcher.measure(&solver)?;
             largest = largest.larger(&last);
-            progress(step, solver.steps());
+            if let Watch::Parts(parts) = watch
+                && step * parts % steps == 0
+            {
+                snapshots.take(solver.particles());
+            }
+            progress(step, steps);
         }
-        let details = Details { largest, last, diagnostics: Diagnostics::of(&solver) };
-        Ok((details, solver.seconds()))
+        let round_off = watcher.round_off(steps);
+        let diagnostics = Diagnostics::of(&solver, account.map(Account::close));
+        Ok((Details { largest, last, round_off, diagnostics }, solver.seconds(), snapshots))
     }
 }

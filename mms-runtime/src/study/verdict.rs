@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Level, order::orders};
+use super::{Level, Series};
 
 /// How far an observed order may be from the expected one.
 pub const TOLERANCE: f64 = 0.15;
@@ -37,38 +37,10 @@ pub struct Judgement {
     pub verdict: Verdict,
 }
 
-/// Judges the levels of a study, in any sequence, against the expected order; the first that holds:
-///
-/// * `fail`: a run stopped; or l2 or linf is below `expected_order - tolerance` between the two finest levels.
-/// * `not asymptotic`: fewer than two levels; no order (an error of exactly zero, equal cell sizes); l2
-///   above `expected_order + tolerance`; with three levels or more, the order of l2 differs from that of
-///   the pair before by more than `tolerance`.
-/// * `pass`.
+/// Judges the levels of a study in space, in any sequence, against the expected order: see
+/// [`Series::judge`].
 pub fn judge(levels: &[Level], expected_order: f64, tolerance: f64) -> Judgement {
-    let mut sorted: Vec<&Level> = levels.iter().collect();
-    sorted.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
-    // Pairs of neighbouring levels, the finest pair first.
-    let mut pairs = sorted.windows(2).rev().map(|pair| orders(pair[0], pair[1]));
-    let finest = pairs.next().unwrap_or_default();
-    let before = pairs.next();
-
-    let lowest = expected_order - tolerance;
-    let too_low = |order: Option<f64>| order.is_some_and(|order| order < lowest);
-    let stopped = levels.iter().any(|level| level.errors.is_err());
-    let settled = |order: f64| {
-        order <= expected_order + tolerance
-            && before.is_none_or(|pair| {
-                pair.l2.is_some_and(|earlier| (order - earlier).abs() <= tolerance)
-            })
-    };
-    let verdict = if stopped || too_low(finest.l2) || too_low(finest.linf) {
-        Verdict::Fail
-    } else if finest.linf.is_none() || !finest.l2.is_some_and(settled) {
-        Verdict::NotAsymptotic
-    } else {
-        Verdict::Pass
-    };
-    Judgement { observed_order: finest.l2, verdict }
+    Series::of(levels).judge(expected_order, tolerance)
 }
 
 #[cfg(test)]

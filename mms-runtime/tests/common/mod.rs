@@ -26,6 +26,8 @@ pub struct Bar {
     /// Sign of the term E/rho0 in b: +1, or -1 as printed.
     pub sign: f64,
     pub slide: f64,
+    /// How long ago b is that of.
+    pub delay: f64,
     pub faces: Vec<(Face, Condition)>,
 }
 
@@ -38,6 +40,7 @@ impl Default for Bar {
             amplitude: 0.2,
             sign: 1.0,
             slide: 0.0,
+            delay: 0.0,
             faces: vec![(Face::Min(0), Condition::Fixed), (Face::Max(0), Condition::Free)],
         }
     }
@@ -97,6 +100,15 @@ impl<T: Real> Material<T, 1> for Bar {
             stress[0] = T::of(self.young / 2.0) * h[0] * (T::of(2.0) + h[0]);
         }
     }
+
+    fn strain_energy(&self, _: &[Vector<T, 1>], h: &[Matrix<T, 1>], energy: &mut [T]) -> bool {
+        // W = E/4 (F^2 - 1) - E/2 ln F
+        for (energy, h) in energy.iter_mut().zip(h) {
+            let h = h[0].to_f64();
+            *energy = T::of(self.young / 2.0 * (h + h * h / 2.0 - h.ln_1p()));
+        }
+        true
+    }
 }
 
 impl<T: Real> ManufacturedField<T, 1> for Bar {
@@ -122,6 +134,7 @@ impl<T: Real> ManufacturedField<T, 1> for Bar {
     }
 
     fn body_force(&self, time: T, x: &[Vector<T, 1>], out: &mut [Vector<T, 1>]) {
+        let time = time - T::of(self.delay);
         self.motion(2, time, x, out);
         let (amplitude, _) = self.amplitudes(time, 0);
         let l = T::of(self.length);

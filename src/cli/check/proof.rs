@@ -51,7 +51,7 @@ fn rates(rates: &Rates) -> [String; 2] {
     let [stretch, rate, speed, step] = [
         rates.principal_stretch,
         rates.strain_rate,
-        rates.wave_speed(),
+        rates.wave_speed,
         1.0 / rates.time_step_per_cell_size(),
     ]
     .map(up);
@@ -119,7 +119,7 @@ pub fn document(certificate: &Certificate) -> Value {
         "finite": certificate.finite == Finite::Proved,
         "principal_stretch": rates.map(|it| it.principal_stretch),
         "strain_rate": rates.map(|it| it.strain_rate),
-        "wave_speed": rates.map(|it| it.wave_speed()),
+        "wave_speed": rates.map(|it| it.wave_speed),
         "reference_wave_speed": rates.map(|it| it.reference_wave_speed),
         "time_step_per_cell_size": rates.map(|it| it.time_step_per_cell_size()),
         "boxes": certificate.boxes,

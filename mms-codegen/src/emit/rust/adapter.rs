@@ -85,6 +85,21 @@ impl Emitter<'_> {
                     let mut stress: &mut [[T; #components]] = ::#runtime::arrays_mut(stress);
                     batch::run(&Response(self), #source, &mut stress);
                 }
+
+                fn strain_energy(
+                    &self,
+                    reference: &[Vector<T>],
+                    displacement_gradient: &[Matrix<T>],
+                    energy: &mut [T],
+                ) -> bool {
+                    let states = reference.iter().zip(displacement_gradient);
+                    for (energy, (point, gradient)) in energy.iter_mut().zip(states) {
+                        // Matrices are stored by columns.
+                        let rows = gradient.transpose().into();
+                        *energy = self.material_strain_energy((*point).into(), rows);
+                    }
+                    true
+                }
             }
 
             impl<T: ::#runtime::Real> ::#runtime::ManufacturedField<T, #dimension> for Field<T> {

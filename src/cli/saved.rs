@@ -1,0 +1,128 @@
+//! A saved scene: `mms study --study FILE.toml`, whose keys are the options of the command.
+
+use std::ffi::OsString;
+use std::fs;
+
+use anyhow::{Context as _, anyhow, bail};
+use clap::Args;
+use mms_codegen::compile::Failure;
+use mms_codegen::diagnostic::Diagnostic;
+use mms_codegen::source::Sources;
+use mms_codegen::suggest::did_you_mean;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::study::Study;
+
+/// The arguments of a command line, with those of a study file in front of the others. What is also given on
+/// the command line is not taken from the file; parameters are set by both.
+pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<OsString>> {
+    let mut arguments: Vec<OsString> = arguments.collect();
+    if arguments.get(1).is_none_or(|command| command != "study") {
+        return Ok(arguments);
+    }
+    let named = |argument: &OsString| argument.to_str().is_some_and(|it| is_option(it, "study"));
+    let Some(at) = arguments.iter().position(named) else { return Ok(arguments) };
+    let option = arguments.remove(at);
+    let path = match option.to_str().and_then(|option| option.split_once('=')) {
+        Some((_, path)) => OsString::from(path),
+        None if at < arguments.len() => arguments.remove(at),
+        None => bail!("`--study`: expected the path of a TOML file"),
+    };
+    if arguments.iter().any(named) {
+        bail!("`--study` is given twice");
+    }
+    let shown = path.to_string_lossy().into_owned();
+    let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{shown}`"))?;
+    let own = &arguments[2..];
+    let given = |name: &str| own.iter().filter_map(|it| it.to_str()).any(|it| is_option(it, name));
+    let saved = read(&shown, &text, given)?;
+    Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())
+}
+
+/// Whether an argument is the option of this name.
+fn is_option(argument: &str, name: &str) -> bool {
+    let rest = argument.strip_prefix("--").and_then(|rest| rest.strip_prefix(name));
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
+}
+
+/// The arguments that a study file stands for, but for the options that are given.
+fn read(path: &str, text: &str, given: impl Fn(&str) -> bool) -> anyhow::Result<Vec<OsString>> {
+    let command = Study::augment_args(clap::Command::new("study"));
+    let options: Vec<&str> = command.get_arguments().filter_map(|it| it.get_long()).collect();
+    let known = || options.iter().copied().filter(|name| *name != "study").chain(["field"]);
+    let mut sources = Sources::default();
+    let source = sources.add(path, text);
+    let mut diagnostics = Vec::new();
+    let mut arguments = Vec::new();
+    let (root, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let place = error.span().unwrap_or(0..0);
+        let span = sources.span(source, place.start, place.end);
+        diagnostics.push(Diagnostic::error(span, error.message().to_string()).label("here"));
+    }
+    for (key, value) in root.get_ref() {
+        let name = key.get_ref().replace('_', "-");
+        let place = key.span();
+        let span = sources.span(source, place.start, place.end);
+        if !known().any(|option| option == name) {
+            let help = match did_you_mean(&name, known()) {
+                Some(near) => format!("did you mean `{}`?", near.replace('-', "_")),
+                None => "the keys are the options of `mms study`, and `field`: see `--help`".into(),
+            };
+            let message = format!("`{}` is no option of a study", key.get_ref());
+            diagnostics.push(Diagnostic::error(span, message).label("unknown").help(help));
+        } else if given(&name) && name != "set" {
+            continue;
+        } else if let Err(expected) = append(&mut arguments, &name, value) {
+            let place = value.span();
+            let span = sources.span(source, place.start, place.end);
+            let message = format!("`{}`: expected {expected}", key.get_ref());
+            diagnostics.push(Diagnostic::error(span, message).label("found this"));
+        }
+    }
+    if !diagnostics.is_empty() {
+        let failure = Failure { sources, diagnostics };
+        return Err(anyhow!("the study file has mistakes\n{failure}"));
+    }
+    Ok(arguments)
+}
+
+/// One key as arguments; otherwise what it takes.
+fn append(
+    arguments: &mut Vec<OsString>,
+    name: &str,
+    value: &Spanned<DeValue<'_>>,
+) -> Result<(), &'static str> {
+    let option = format!("--{name}=");
+    match (name, value.get_ref()) {
+        ("field", DeValue::String(field)) => arguments.push(field.as_ref().into()),
+        ("field", _) => return Err("the name of a field or a path to one, in quotes"),
+        ("set", DeValue::Table(table)) => {
+            for (parameter, value) in table {
+                let value = word(value).ok_or("numbers")?;
+                arguments.push(format!("{option}{}={value}", parameter.get_ref()).into());
+            }
+        }
+        ("set", _) => return Err("a table, as in { young = 1e6 }"),
+        (_, DeValue::Boolean(true)) => arguments.push(format!("--{name}").into()),
+        (_, DeValue::Boolean(false)) => {}
+        (_, DeValue::Array(items)) => {
+            let words: Option<Vec<String>> = items.iter().map(word).collect();
+            let words = words.ok_or("numbers, or words in quotes")?;
+            arguments.push((option + &words.join(",")).into());
+        }
+        _ => arguments.push((option + &word(value).ok_or("a number, or a word in quotes")?).into()),
+    }
+    Ok(())
+}
+
+/// A number as it is written, or a text.
+fn word(value: &Spanned<DeValue<'_>>) -> Option<String> {
+    match value.get_ref() {
+        DeValue::String(text) => Some(text.as_ref().to_owned()),
+        DeValue::Integer(digits) if digits.radix() == 10 => Some(digits.as_str().to_owned()),
+        DeValue::Float(digits) => Some(digits.as_str().to_owned()),
+        _ => None,
+    }
+}

@@ -1,0 +1,62 @@
+//! The fastest wave of a field, which the time step of a run is held to.
+
+use mms_codegen::certify::certificate::wave_speed;
+use mms_codegen::certify::rates::Frame;
+use mms_codegen::certify::sample::samples;
+use mms_codegen::mechanics::Response;
+use mms_codegen::program::Output;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_runtime::{FormulationName, Method};
+
+use super::input::Input;
+
+/// At how many points c0 is sampled.
+const POINTS: usize = 16;
+
+/// A bound of the speed of waves in the frame of the method's grid, with parameters set by `name=value`
+/// settings; no sharper than the time step of the method asks for. `None`, with a word on stderr, where
+/// there is none.
+pub fn fastest_wave(
+    input: &Input,
+    settings: &[String],
+    method: &Method,
+) -> anyhow::Result<Option<f64>> {
+    let set = input.settings(settings)?;
+    let frame = match method.formulation {
+        FormulationName::Updated => Frame::Deformed,
+        FormulationName::Total => Frame::Reference,
+    };
+    // A time step of the Courant number C crosses an edge of a cell at the speed c0/C. Where c0 depends on X,
+    // the step follows from the greatest, and a bound that is sharper than needed does no harm.
+    let asked = match method.setup.time_step {
+        Some(_) => 0.0,
+        None => slowest_sound(input, &set) / method.setup.courant,
+    };
+    let fastest = wave_speed(&input.compiled, &set, frame, asked);
+    if fastest.is_none() {
+        anstream::eprintln!(
+            "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
+            input.name
+        );
+    }
+    Ok(fastest)
+}
+
+/// The least c0 at some points; 0 where there is none.
+fn slowest_sound(
+    input: &Input,
+    set: &std::collections::BTreeMap<usize, mms_codegen::expr::Rational>,
+) -> f64 {
+    let compiled = &input.compiled;
+    let parameters = compiled.parameters::<f64>(set);
+    let output = Output::Response(Response::WaveSpeed);
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    interpreter.set_time(&0.0);
+    let plan = interpreter.plan(&[output]);
+    let speeds = samples(compiled, &parameters, POINTS).into_iter().map(|sample| {
+        interpreter.set_point(&plan, Point::at(&sample.coordinates));
+        interpreter.output(output)[0]
+    });
+    let least = speeds.fold(f64::INFINITY, f64::min);
+    if least.is_finite() && least > 0.0 { least } else { 0.0 }
+}

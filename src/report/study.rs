@@ -1,0 +1,382 @@
+//! A study as a table, a JSON document, a CSV file and a picture.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use mms_runtime::study::{Deviations, Fit, Judgement, Orders, Point, Refinement, Series};
+use mms_runtime::{Division, Errors, Method, Refusal, Run};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::run::quantities;
+use super::{duration, method, picture, write_whole};
+
+/// A finished study.
+pub struct Study {
+    /// The field's name.
+    pub field: String,
+    /// The field's title.
+    pub title: String,
+    /// The method.
+    pub method: Method,
+    /// `f32` or `f64`.
+    pub precision: &'static str,
+    /// What was refined.
+    pub refinement: Refinement,
+    /// The levels, from coarse to fine.
+    pub levels: Vec<Result<Run, Refused>>,
+    /// In a study in time, how far each level is from the next.
+    pub differences: Option<Series>,
+    /// The order that theory says.
+    pub expected_order: f64,
+    /// How far from it is still as expected.
+    pub tolerance: f64,
+    /// The observed order and the verdict.
+    pub judgement: Judgement,
+    /// How far the observed order may be from that of the limit.
+    pub uncertainty: Option<f64>,
+    /// C of l2 = C h^p, or C dt^p in time, with the expected order.
+    pub error_constant: Option<f64>,
+    /// Space and time in one formula, where that was asked for, and found.
+    pub fit: Option<Fit>,
+}
+
+/// A level that was not started.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// Cells of the body.
+    pub cells: Division,
+    /// Why it was not started.
+    pub reason: Refusal,
+}
+
+/// One level as a record: a row of the CSV file, and an entry of the JSON document.
+#[derive(Default, Serialize)]
+struct Row {
+    cells: Value,
+    cell_size: Option<f64>,
+    time_step: Option<f64>,
+    steps: Option<usize>,
+    particles: Option<usize>,
+    l1: Option<f64>,
+    l2: Option<f64>,
+    linf: Option<f64>,
+    order_l1: Option<f64>,
+    order_l2: Option<f64>,
+    order_linf: Option<f64>,
+    seconds: Option<f64>,
+    failure: Option<String>,
+    round_off: Option<f64>,
+}
+
+impl Row {
+    fn of(run: &Run, before: Option<&Run>, refinement: Refinement) -> Self {
+        let (level, point) = (&run.level, refinement.displacement(run));
+        let observed = orders(&point, before.map(|before| refinement.displacement(before)));
+        let details = run.details.as_ref();
+        Row {
+            cells: method::division(&level.cells),
+            cell_size: Some(level.cell_size),
+            time_step: Some(level.time_step),
+            steps: Some(level.steps),
+            particles: Some(level.particles),
+            l1: point.errors.map(|errors| errors.l1),
+            l2: point.errors.map(|errors| errors.l2),
+            linf: point.errors.map(|errors| errors.linf),
+            order_l1: observed.l1,
+            order_l2: observed.l2,
+            order_linf: observed.linf,
+            seconds: Some(level.seconds),
+            failure: level.errors.as_ref().err().map(ToString::to_string),
+            round_off: details.map(|details| details.round_off),
+        }
+    }
+
+    /// Whether the error may be nothing but round-off.
+    fn is_noise(&self) -> bool {
+        self.l2.zip(self.round_off).is_some_and(|(error, floor)| error < floor)
+    }
+
+    fn of_refused(refused: &Refused) -> Self {
+        Row {
+            cells: method::division(&refused.cells),
+            failure: Some(format!("not started: {}", refused.reason)),
+            ..Row::default()
+        }
+    }
+}
+
+/// The orders from the point before, if there is one.
+fn orders(point: &Point, before: Option<Point>) -> Orders {
+    before.map_or_else(Orders::default, |before| point.orders_from(&before))
+}
+
+/// Norms, and the orders that led to them.
+fn norms(errors: Option<Errors>, observed: Orders) -> Value {
+    json!({
+        "l1": errors.map(|errors| errors.l1),
+        "l2": errors.map(|errors| errors.l2),
+        "linf": errors.map(|errors| errors.linf),
+        "order_l1": observed.l1,
+        "order_l2": observed.l2,
+        "order_linf": observed.linf,
+    })
+}
+
+impl Study {
+    /// The levels that were started.
+    pub(super) fn started(&self) -> impl Iterator<Item = &Run> {
+        self.levels.iter().flatten()
+    }
+
+    /// Each level, and the one before if both were started.
+    fn pairs(&self) -> impl Iterator<Item = (&Result<Run, Refused>, Option<&Run>)> {
+        let before =
+            std::iter::once(None).chain(self.levels.iter().map(|level| level.as_ref().ok()));
+        self.levels.iter().zip(before)
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let row = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
+            Ok(run) => Row::of(run, before, self.refinement),
+            Err(refused) => Row::of_refused(refused),
+        };
+        self.pairs().map(row).collect()
+    }
+
+    /// Of u, v, F and P: symbol, key, and errors and orders of each level.
+    fn quantities(&self) -> [(&'static str, &'static str, Vec<(Option<Errors>, Orders)>); 4] {
+        let names = quantities(&Deviations::default());
+        std::array::from_fn(|which| {
+            let point = |run: &Run| Point {
+                length: self.refinement.length(&run.level),
+                errors: run.details.as_ref().map(|it| quantities(&it.largest)[which].2),
+                floor: 0.0,
+            };
+            let level = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
+                Ok(run) => (point(run).errors, orders(&point(run), before.map(point))),
+                Err(_) => (None, Orders::default()),
+            };
+            let (symbol, key, _) = names[which];
+            (symbol, key, self.pairs().map(level).collect())
+        })
+    }
+
+    /// How far each level is from the next, and the orders that led to it.
+    fn steps(&self) -> Option<Vec<(Point, Orders)>> {
+        let points = self.differences.as_ref()?.points();
+        let before = std::iter::once(None).chain(points.iter().copied().map(Some));
+        Some(
+            points
+                .iter()
+                .zip(before)
+                .map(|(point, before)| (*point, orders(point, before)))
+                .collect(),
+        )
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        let quantities = self.quantities().into_iter().map(|(_, key, levels)| {
+            let levels = levels.into_iter().map(|(errors, observed)| norms(errors, observed));
+            (key.to_owned(), levels.collect())
+        });
+        let difference = |(point, observed): (Point, Orders)| {
+            let mut entry = json!({ "time_step": point.length });
+            if let (Value::Object(entry), Value::Object(norms)) =
+                (&mut entry, norms(point.errors, observed))
+            {
+                entry.extend(norms);
+            }
+            entry
+        };
+        let differences =
+            self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
+        json!({
+            "field": self.field,
+            "method": method::document(&self.method, self.precision),
+            "refinement": self.refinement.name(),
+            "levels": self.rows(),
+            "noise": self.rows().iter().map(Row::is_noise).collect::<Vec<_>>(),
+            "quantities": Value::Object(quantities.collect::<Map<_, _>>()),
+            "differences": differences,
+            "expected_order": self.expected_order,
+            "observed_order": self.judgement.observed_order,
+            "order_uncertainty": self.uncertainty,
+            "error_constant": self.error_constant,
+            "fit": self.fit.map(|fit| json!({
+                "space_constant": fit.space_constant,
+                "space_order": fit.space_order,
+                "time_constant": fit.time_constant,
+                "time_order": fit.time_order,
+                "residual": fit.residual,
+            })),
+            "verdict": self.judgement.verdict.to_string(),
+        })
+    }
+
+    /// The tables for a terminal, with the verdict.
+    pub fn table(&self) -> String {
+        let mut parts = vec![
+            format!(
+                "{}: {}\n{}",
+                self.field,
+                self.title,
+                method::line(&self.method, self.precision)
+            ),
+            self.levels_table().to_string(),
+        ];
+        parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
+        parts.push(self.conclusion());
+        if self.differences.is_none() {
+            parts.push(self.quantities_table().to_string());
+        }
+        parts.join("\n\n")
+    }
+
+    fn levels_table(&self) -> Table {
+        let mut table = plain([
+            "cells",
+            "particles",
+            "steps",
+            "l1",
+            "order",
+            "l2",
+            "order",
+            "linf",
+            "order",
+            "time",
+        ]);
+        for row in self.rows() {
+            let dead = if row.steps.is_some() { "stopped" } else { "not started" };
+            let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
+            let noise = if row.is_noise() { "~" } else { "" };
+            let order = |order: Option<f64>| order.map_or("-".into(), |o| format!("{noise}{o:.2}"));
+            let count = |count: Option<usize>| count.map_or("-".into(), |c| c.to_string());
+            table.add_row([
+                row.cells.to_string().replace('"', ""),
+                count(row.particles),
+                count(row.steps),
+                error(row.l1),
+                order(row.order_l1),
+                error(row.l2),
+                order(row.order_l2),
+                error(row.linf),
+                order(row.order_linf),
+                row.seconds.map_or("-".into(), duration),
+            ]);
+        }
+        to_the_right(table)
+    }
+
+    /// The orders of every quantity between the two finest levels.
+    fn quantities_table(&self) -> Table {
+        let mut table = plain(["finest pair", "l1", "l2", "linf"]);
+        for (symbol, _, levels) in self.quantities() {
+            let finest = levels.last().map_or_else(Orders::default, |(_, observed)| *observed);
+            let cells = [finest.l1, finest.l2, finest.linf];
+            let cells = cells.map(|order| order.map_or("-".into(), |o| format!("{o:.2}")));
+            table.add_row([&[format!("order of {symbol}")][..], &cells].concat());
+        }
+        to_the_right(table)
+    }
+
+    fn differences_table(&self, steps: &[(Point, Orders)]) -> Table {
+        let mut table =
+            plain(["time step", "to the next: l1", "order", "l2", "order", "linf", "order"]);
+        for (point, observed) in steps {
+            let of = |norm: fn(&Errors) -> f64, order: Option<f64>| {
+                let error = point.errors.as_ref().map(norm);
+                let noise = if point.is_noise() { "~" } else { "" };
+                [
+                    error.map_or("-".into(), |error| format!("{error:.2e}")),
+                    order.map_or("-".into(), |order| format!("{noise}{order:.2}")),
+                ]
+            };
+            let norms = [
+                of(|errors| errors.l1, observed.l1),
+                of(|errors| errors.l2, observed.l2),
+                of(|errors| errors.linf, observed.linf),
+            ];
+            table.add_row([&[format!("{:.3e}", point.length)][..], &norms.concat()].concat());
+        }
+        to_the_right(table)
+    }
+
+    /// The verdict, and what it rests on.
+    fn conclusion(&self) -> String {
+        let observed = match self.judgement.observed_order {
+            Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
+            None => "no observed order".into(),
+        };
+        let (order, tolerance) = (self.expected_order, self.tolerance);
+        let verdict = self.judgement.verdict;
+        let mut lines = vec![format!("{verdict}: {observed}, expected {order} within {tolerance}")];
+        lines.extend(self.uncertainty.map(|away| {
+            format!(
+                "the order of the limit is within {away:.2} of it, by Richardson's extrapolation"
+            )
+        }));
+        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
+        lines.extend(
+            self.error_constant.map(|constant| {
+                format!("l2 = {constant:.3e} {length}^{order} on the finest level")
+            }),
+        );
+        lines.extend(self.fit.map(|fit| {
+            format!(
+                "l2 = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",
+                fit.space_constant,
+                fit.space_order,
+                fit.time_constant,
+                fit.time_order,
+                100.0 * fit.residual
+            )
+        }));
+        if self.rows().iter().any(Row::is_noise) {
+            lines.push("~ an error that may be nothing but round-off, and is not judged".into());
+        }
+        lines.join("\n")
+    }
+
+    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let json = serde_json::to_string_pretty(&self.document())? + "\n";
+        let files = [("svg", picture::draw(self)?), ("csv", self.csv()?), ("json", json)];
+        files
+            .into_iter()
+            .map(|(extension, content)| {
+                let path = folder.join("convergence").with_extension(extension);
+                write_whole(&path, &content)
+                    .with_context(|| format!("cannot write `{}`", path.display()))?;
+                Ok(path.display().to_string())
+            })
+            .collect()
+    }
+
+    fn csv(&self) -> anyhow::Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in self.rows() {
+            writer.serialize(row)?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+}
+
+/// A table without lines.
+fn plain<const N: usize>(header: [&str; N]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header(header);
+    table
+}
+
+fn to_the_right(mut table: Table) -> Table {
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}

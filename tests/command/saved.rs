@@ -1,0 +1,60 @@
+//! `mms study --study FILE`: a saved scene.
+
+use super::mms::Folder;
+
+const SCENE: &str = "field = \"bar_1d\"\nformulation = \"total\"\nshape = \"linear\"\n\
+                     cells = [8, 16]\ncourant = 0.2\nset = { young = 1e3, length = 2 }\n\
+                     jitter = 0.0\njson = true\n";
+
+#[test]
+fn a_saved_scene_is_the_command_with_its_options() {
+    let folder = Folder::new();
+    folder.write("scene.toml", SCENE);
+    let strip = |command: &str| {
+        let mut document = folder.mms(command).exits(0).json();
+        for level in document["levels"].as_array_mut().expect("levels") {
+            level["seconds"].take();
+        }
+        document
+    };
+    let saved = strip("study --study scene.toml");
+    let options = "--formulation total --shape linear --courant 0.2 --set young=1e3 --set length=2";
+    assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16 {options} --json")));
+    assert_eq!(saved, strip("study --study=scene.toml"));
+    // The command line goes first, whatever the order.
+    for command in
+        ["study --cells 16,32 --study scene.toml", "study --study scene.toml --cells=16,32"]
+    {
+        assert_eq!(strip(command)["levels"][0]["cells"], 16);
+    }
+}
+
+#[test]
+fn mistakes_of_a_study_file_are_named_at_their_places() {
+    let cases = [
+        ("feild = \"bar_1d\"", "scene.toml:1:1", "did you mean `field`?"),
+        ("field = \"bar_1d\"\ncells = { a = 1 }", "scene.toml:2:9", "expected a number, or a word"),
+        ("field = \"bar_1d\"\nset = 3", "scene.toml:2:7", "expected a table"),
+        ("field = 1", "scene.toml:1:9", "the name of a field"),
+        ("study = \"other.toml\"", "scene.toml:1:1", "no option of a study"),
+        ("field = \"bar_1d\"\nshape = ", "scene.toml:2", "mistakes"),
+    ];
+    for (text, place, message) in cases {
+        let folder = Folder::new();
+        folder.write("scene.toml", text);
+        let run = folder.mms("study --study scene.toml").exits(2);
+        run.complains(place).complains(message).prints_nothing();
+    }
+}
+
+#[test]
+fn a_study_file_that_is_not_there_or_lacks_a_field_exits_2() {
+    let folder = Folder::new();
+    folder.mms("study --study none.toml").exits(2).complains("cannot read `none.toml`");
+    folder.mms("study --study").exits(2).complains("expected the path");
+    folder.write("scene.toml", "cells = [8, 16]\n");
+    folder.mms("study --study scene.toml").exits(2).complains("<FIELD>");
+    folder.mms("study bar_1d --study scene.toml").exits(0);
+    folder.write("scene.toml", "cells = [8, \"x\"]\n");
+    folder.mms("study bar_1d --study scene.toml").exits(2).complains("--cells");
+}
