@@ -36,7 +36,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
         &[],
     );
     let (_, support) = POINT.split_once("\n\n").unwrap_or_default();
-    let _ = write!(text, "{support}\n");
+    let _ = writeln!(text, "{support}");
     text += &prepare(port);
     text += &at_time(port);
     for callable in &port.callables {

@@ -177,8 +177,18 @@ pub struct Body {
 impl Port<'_> {
     /// What computes `roots` in a function, as they are kept or returned.
     pub fn body(&self, dialect: &dyn Dialect, roots: &[Value], place: Place) -> Body {
+        self.body_of(dialect, roots, place, self.program().needed_for(roots.iter().copied()))
+    }
+
+    /// The same, of the instructions that are needed there: others are known by their names.
+    pub fn body_of(
+        &self,
+        dialect: &dyn Dialect,
+        roots: &[Value],
+        place: Place,
+        needed: Vec<bool>,
+    ) -> Body {
         let program = self.program();
-        let needed = program.needed_for(roots.iter().copied());
         let computed =
             |index: &usize| needed[*index] && place.computes(program.instrs[*index].stage);
         let mut body = Body {

@@ -61,7 +61,7 @@ const IN_UFL: &[Function] = &[
 pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
     let port = match form {
         Form::Math | Form::NumPy => Port::new(subject, &RULES),
-        Form::SymPy => Port::once(subject, &RULES, &Function::ALL),
+        Form::SymPy => Port::once(subject, &RULES, Function::ALL),
         Form::Ufl => Port::once(subject, &RULES, IN_UFL),
     };
     let name = &port.name;

@@ -122,7 +122,7 @@ fn instant(port: &Port<'_>) -> String {
     let held = members(&port.kept_at_times, false);
     let doc = "What the parameters and the time determine.";
     let mut text = structure(doc, "Instant", &held);
-    let _ = write!(text, "{ALLOWED}impl<T: Real> Instant<T> {{\n");
+    let _ = writeln!(text, "{ALLOWED}impl<T: Real> Instant<T> {{");
     let methods = methods(port, true);
     text += methods.trim_start_matches('\n');
     text + "}\n"

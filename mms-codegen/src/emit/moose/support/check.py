@@ -16,8 +16,7 @@ def formulas():
         lines += [f"    {statement.strip().replace(':=', '=')}" for statement in statements]
         scope = dict(known)
         exec("\n".join(lines + [f"    return {result.strip()}"]), scope)
-        symbols = re.findall(r"\$\{(\w+)\}", keys.get("symbol_values", ""))
-        found[name] = scope["formula"], [symbol[len(FIELD) + 1 :] for symbol in symbols]
+        found[name] = scope["formula"], keys.get("symbol_values", "").split()
     defaults = dict(re.findall(rf"^{FIELD}_(\w+) = (\S+)$", text, re.MULTILINE))
     for name, default in defaults.items():
         assert float(default) == DEFAULTS[name], name
@@ -29,9 +28,16 @@ FORMULAS = formulas()
 
 def evaluate(name, x=0.0, y=0.0, z=0.0, t=0.0, parameters={}):
     """The value of a function of the file, with the defaults of parameters that are not given."""
-    formula, symbols = FORMULAS[f"{FIELD}_{name}"]
-    values = DEFAULTS | parameters
-    return float(formula(*(values[symbol] for symbol in symbols), x, y, z, t))
+    parameters = DEFAULTS | parameters
+    known = {f"${{{FIELD}_{parameter}}}": value for parameter, value in parameters.items()}
+
+    def value(name):
+        if name not in known:
+            formula, symbols = FORMULAS[name]
+            known[name] = formula(*map(value, symbols), x, y, z, t)
+        return known[name]
+
+    return float(value(f"{FIELD}_{name}"))
 
 
 def main():
