@@ -135,7 +135,10 @@ fn a_wrong_word_is_refused_with_advice() {
     let folder = Folder::new();
     for (arguments, complaint) in [
         ("--quantity velocty", "unknown quantity `velocty`; did you mean `velocity`?"),
-        ("--target cobol", "[possible values: rust, c, cpp, fortran, python, numpy]"),
+        (
+            "--target cobol",
+            "[possible values: rust, rust-standalone, c, cpp, fortran, python, numpy, sympy, ufl, octave, julia, moose, karamelo]",
+        ),
         ("--target c", "makes bar_1d.h, bar_1d.c, bar_1d_check.c: give the folder for them"),
         ("--check", "--output <DIR>"),
         ("--all", "cannot be used with"),

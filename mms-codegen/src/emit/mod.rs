@@ -76,7 +76,7 @@ macro_rules! targets {
     };
 }
 
-targets! { rust c cpp fortran python numpy }
+targets! { rust rust_standalone c cpp fortran python numpy sympy ufl octave julia moose karamelo }
 
 impl Target {
     /// The target of that name.

@@ -116,7 +116,7 @@ impl Op {
     }
 
     /// The same operation on other operands.
-    fn map(&self, mut rename: impl FnMut(Value) -> Value) -> Op {
+    pub(crate) fn map(&self, mut rename: impl FnMut(Value) -> Value) -> Op {
         match *self {
             Op::Constant(ref number) => Op::Constant(number.clone()),
             Op::Pi => Op::Pi,

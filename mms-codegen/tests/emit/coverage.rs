@@ -137,6 +137,9 @@ fn with_formulas(mut compiled: Compiled, graph: &mut Graph, formulas: &[Expr]) -
     compiled
 }
 
+/// The targets that have no number with twice the digits, and so none of those that make the first program.
+const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
+
 #[test]
 fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     let compiled = compile("every_operation", "x.toml", FIELD, &|path| Err(path.into()))
@@ -180,6 +183,9 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
         }
         let subject = Subject::new(&field);
         for target in ports().filter(|target| can_build(target)) {
+            if index == 0 && ONE_PRECISION.contains(&target.name) {
+                continue;
+            }
             // A compiler takes long to optimise functions of a hundred formulas.
             let line = |line| if target.name == "c" { line } else { quick(line) };
             let error = prove(target, &subject, &format!("coverage/{index}"), line);

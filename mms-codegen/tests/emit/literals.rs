@@ -1,11 +1,13 @@
 //! Numbers that are hard to write, and programs that are hard to compile.
 
+use std::fs;
+
 use mms_codegen::compile::compile_unproved;
-use mms_codegen::emit::Subject;
+use mms_codegen::emit::{File, Subject};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::{Compiled, Options};
 
-use super::build::{can_build, ports, prove, quick};
+use super::build::{can_build, ports, prove, quick, scratch, shell, write};
 
 fn field(u: &str, quantity: Quantity) -> Compiled {
     let text = format!(
@@ -50,5 +52,23 @@ fn a_thousand_terms_compile_in_every_language() {
     let subject = Subject::new(&field);
     for target in ports().filter(|target| can_build(target)) {
         prove(target, &subject, "thousand", quick);
+    }
+}
+
+#[test]
+fn every_check_program_refuses_the_source_of_another_field() {
+    let [right, wrong] = ["X*t/3", "X*t/3*1.001"].map(|u| field(u, Quantity::DisplacementGradient));
+    for target in ports().filter(|target| can_build(target)) {
+        let [right, wrong] = [&right, &wrong].map(|field| (target.emit)(&Subject::new(field)));
+        let folder = scratch(&format!("wrong/{}", target.name));
+        write(&right, &folder);
+        let is_source = |file: &&File| !file.name.contains("_check");
+        for source in wrong.files.iter().filter(is_source) {
+            fs::write(folder.join(&source.name), &source.text).expect("a written file");
+        }
+        let run = shell(&quick(right.verify.expect("a check program")), &folder);
+        let out = String::from_utf8_lossy(&run.stdout);
+        assert_eq!(run.status.code(), Some(1), "{}: {out}", target.name);
+        assert!(out.contains("displacement_gradient"), "{}: {out}", target.name);
     }
 }

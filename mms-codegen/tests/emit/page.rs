@@ -41,10 +41,17 @@ fn ten_lines_lead_to_the_first_number_in_every_language() {
         fs::write(folder.join(name), program).expect("a written file");
         let run = shell(build.trim_start_matches("$ ").trim(), &folder);
         let [out, err] = [&run.stdout, &run.stderr].map(|text| String::from_utf8_lossy(text));
-        // By hand, in `tests/hand/bar_1d.rs`, and by `mms eval`.
-        assert_eq!((out.trim(), err.trim()), (B, ""), "{}", target.name);
+        assert_eq!(err.trim(), "", "{}", target.name);
+        if target.name == "karamelo" {
+            // In single precision.
+            let found: f64 = out.trim().parse().expect("a number");
+            let expected: f64 = B.parse().expect("a number");
+            assert!((found - expected).abs() < 1e-6 * expected.abs(), "{found}");
+            continue;
+        }
+        assert_eq!(out.trim(), B, "{}", target.name);
     }
 }
 
-/// b of the bar at X = 0.37 and t = 0.013.
+/// b of the bar at X = 0.37 and t = 0.013: by hand, in `tests/hand/bar_1d.rs`, and by `mms eval`.
 const B: &str = "-224.849959";

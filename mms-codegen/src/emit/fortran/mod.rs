@@ -5,7 +5,7 @@ mod dialect;
 mod module;
 
 use crate::emit::port::Port;
-use crate::emit::port::names::Rules;
+use crate::emit::port::names::{FUNCTIONS, Rules};
 use crate::emit::text::wrapped;
 use crate::emit::{Bundle, File, Subject, Target};
 
@@ -24,12 +24,8 @@ const RULES: Rules = Rules {
     modules: &[
         "wide dp wp settled complement two_sum two_product dimension none iso_fortran_env \
          iso_c_binding omp_lib mpi ieee_arithmetic",
-        "default_parameters prepare at_time parameters_type field_type instant_type lower upper \
-         inner outer theta time_window density wave_speed displacement position velocity \
-         acceleration displacement_gradient deformation_gradient jacobian right_cauchy_green \
-         left_cauchy_green green_lagrange mass_density strain_energy first_piola_kirchhoff \
-         nominal_stress cauchy_stress kirchhoff_stress div_p div_sigma body_force \
-         body_force_density current_body_force_density traction now field parameters out t",
+        FUNCTIONS,
+        "parameters_type field_type instant_type",
     ],
     folds_case: true,
     longest: 57,

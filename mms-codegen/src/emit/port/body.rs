@@ -94,8 +94,16 @@ pub trait Dialect {
     fn narrowed(&self, value: &str) -> String;
     /// A member of an argument.
     fn member(&self, owner: Owner, name: &str) -> String;
+    /// Whether the language computes what needs only parameters and the time with twice the digits.
+    fn has_wide(&self) -> bool {
+        true
+    }
     /// The name of a function of the caller's precision.
     fn function(&self, function: Function) -> String;
+    /// A call of it; arguments are names, literals or members.
+    fn call(&self, function: Function, arguments: &[String]) -> String {
+        format!("{}({})", self.function(function), arguments.join(", "))
+    }
     /// The name of a function of twice the digits.
     fn wide_function(&self, function: Function) -> String {
         format!("wide_{}", function.name())
@@ -107,6 +115,10 @@ pub trait Dialect {
     /// -a.
     fn negated(&self, a: &str, _wide: bool) -> String {
         format!("-{a}")
+    }
+    /// What a value is called in the function that computes it.
+    fn local(&self, value: Value, wide: bool) -> String {
+        local(value, wide)
     }
     /// The statement that gives a new name to a value.
     fn statement(&self, name: &str, value: &str, wide: bool) -> String;
@@ -124,6 +136,8 @@ pub enum Place {
         /// Whether it is of a time.
         timed: bool,
     },
+    /// One that computes everything, from the parameters on.
+    Everything,
 }
 
 impl Place {
@@ -132,11 +146,12 @@ impl Place {
             Place::Parameters => stage == Stage::Parameter,
             Place::Times => stage == Stage::Time,
             Place::Points { .. } => AT_POINTS.contains(&stage),
+            Place::Everything => true,
         }
     }
 
     fn is_wide(self) -> bool {
-        !matches!(self, Place::Points { .. })
+        matches!(self, Place::Parameters | Place::Times)
     }
 }
 
@@ -162,8 +177,18 @@ pub struct Body {
 impl Port<'_> {
     /// What computes `roots` in a function, as they are kept or returned.
     pub fn body(&self, dialect: &dyn Dialect, roots: &[Value], place: Place) -> Body {
+        self.body_of(dialect, roots, place, self.program().needed_for(roots.iter().copied()))
+    }
+
+    /// The same, of the instructions that are needed there: others are known by their names.
+    pub fn body_of(
+        &self,
+        dialect: &dyn Dialect,
+        roots: &[Value],
+        place: Place,
+        needed: Vec<bool>,
+    ) -> Body {
         let program = self.program();
-        let needed = program.needed_for(roots.iter().copied());
         let computed =
             |index: &usize| needed[*index] && place.computes(program.instrs[*index].stage);
         let mut body = Body {
@@ -178,8 +203,9 @@ impl Port<'_> {
             let instr = &program.instrs[index];
             read.extend(instr.op.operands());
             let Some(value) = self.operation(dialect, &instr.op, place) else { continue };
-            let name = local(Value(index as u32), place.is_wide());
-            body.statements.push(dialect.statement(&name, &value, place.is_wide()));
+            let wide = place.is_wide() && dialect.has_wide();
+            let name = dialect.local(Value(index as u32), wide);
+            body.statements.push(dialect.statement(&name, &value, wide));
             body.locals.push(name);
         }
         for value in read {
@@ -197,11 +223,11 @@ impl Port<'_> {
 
     /// The right side of a statement; none where the value needs no statement.
     fn operation(&self, dialect: &dyn Dialect, op: &Op, place: Place) -> Option<String> {
-        let wide = place.is_wide();
+        let wide = place.is_wide() && dialect.has_wide();
         let of = |value: &Value| self.operand(dialect, *value, place);
-        let named = |function| match wide {
-            true => dialect.wide_function(function),
-            false => dialect.function(function),
+        let call = |function, arguments: &[String]| match wide {
+            true => format!("{}({})", dialect.wide_function(function), arguments.join(", ")),
+            false => dialect.call(function, arguments),
         };
         let arithmetic = |operation, a: &Value, b: &Value| {
             Some(dialect.arithmetic(operation, &of(a), &of(b), wide))
@@ -217,16 +243,14 @@ impl Port<'_> {
             Op::Multiply(a, b) => arithmetic(Arithmetic::Multiply, a, b),
             Op::Divide(a, b) => arithmetic(Arithmetic::Divide, a, b),
             Op::Negate(a) => Some(dialect.negated(&of(a), wide)),
-            Op::Unary(function, a) => Some(format!("{}({})", named(*function), of(a))),
-            Op::Binary(function, a, b) => {
-                Some(format!("{}({}, {})", named(*function), of(a), of(b)))
-            }
+            Op::Unary(function, a) => Some(call(*function, &[of(a)])),
+            Op::Binary(function, a, b) => Some(call(*function, &[of(a), of(b)])),
         }
     }
 
     /// How a function reads a value: a literal, a local, an argument, or what an earlier stage kept.
     fn operand(&self, dialect: &dyn Dialect, value: Value, place: Place) -> String {
-        let wide = place.is_wide();
+        let wide = place.is_wide() && dialect.has_wide();
         let instr = self.program().instr(value);
         match &instr.op {
             Op::Constant(number) => return dialect.literal(number, wide),
@@ -241,7 +265,7 @@ impl Port<'_> {
         }
         let name = local(value, wide);
         match place {
-            _ if place.computes(instr.stage) => name,
+            _ if place.computes(instr.stage) => dialect.local(value, wide),
             Place::Points { timed: true } => dialect.member(Owner::Time, &name),
             _ => dialect.member(Owner::Field, &name),
         }
@@ -257,7 +281,9 @@ impl Port<'_> {
             _ if place == Place::Times && instr.stage == Stage::Parameter => {
                 dialect.member(Owner::Field, &local(value, false))
             }
-            _ if place.is_wide() => dialect.narrowed(&self.operand(dialect, value, place)),
+            _ if place.is_wide() && dialect.has_wide() => {
+                dialect.narrowed(&self.operand(dialect, value, place))
+            }
             _ => self.operand(dialect, value, place),
         }
     }

@@ -59,6 +59,24 @@ impl Callable {
         arrays
     }
 
+    /// Whether it needs nothing but a point and a time, as functions of input files do.
+    pub fn is_of_places(&self) -> bool {
+        self.inputs.iter().all(|symbol| matches!(symbol, Symbol::Coordinate(_)))
+    }
+
+    /// What tells its components apart behind its name, rows first: nothing, `_1`, `_12`.
+    pub fn suffixes(&self, dimension: usize) -> Vec<String> {
+        match self.shape {
+            Some(Shape::Scalar) => vec![String::new()],
+            Some(Shape::Tensor) => (1..=dimension)
+                .flat_map(|i| (1..=dimension).map(move |j| format!("_{i}{j}")))
+                .collect(),
+            Some(Shape::Vector) | None => {
+                (1..=self.components.len()).map(|i| format!("_{i}")).collect()
+            }
+        }
+    }
+
     /// The names of what it takes at a point.
     pub fn input_names(&self) -> Vec<String> {
         self.inputs.iter().map(|symbol| input(*symbol)).collect()

@@ -3,16 +3,20 @@
 //!
 //! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages
 //! Parameter and Time are computed with twice the digits of a double, as in Rust, from support text
-//! that stands in each language's folder.
+//! that stands in each language's folder. Languages of expressions have nothing to do that with: they
+//! compute everything once, and functions that they lack are written out in those that they have.
 
 pub mod body;
 pub mod callable;
 pub mod docs;
+pub mod lower;
 pub mod names;
 pub mod number;
+pub mod once;
 pub mod support;
 pub mod vectors;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use self::callable::{Callable, callables};
@@ -20,6 +24,7 @@ use self::names::{Rules, sanitised, unique};
 use super::Subject;
 use super::layout::Later;
 use crate::compile::Compiled;
+use crate::expr::Function;
 use crate::program::{Output, Program, Stage, Value};
 
 /// The stages that are evaluated at a point.
@@ -31,6 +36,7 @@ pub struct Port<'a> {
     pub subject: &'a Subject<'a>,
     /// The field.
     pub compiled: &'a Compiled,
+    program: Cow<'a, Program>,
     /// Its name in the language, which files are named after too.
     pub name: String,
     /// The parameters that are left: their positions in the file, and their names in the language.
@@ -48,17 +54,32 @@ pub struct Port<'a> {
 impl<'a> Port<'a> {
     /// The field under the rules of a language.
     pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
+        Self::of(subject, rules, Cow::Borrowed(&subject.compiled.program))
+    }
+
+    /// The same for a language that computes everything in one precision, with functions that it has.
+    pub fn once(subject: &'a Subject<'a>, rules: &Rules, has: &[Function]) -> Self {
+        let lowered = lower::lowered(&subject.compiled.program, has);
+        let mut port = Self::of(subject, rules, Cow::Owned(lowered));
+        let mut kept = std::mem::take(&mut port.kept_wide);
+        kept.append(&mut port.kept);
+        kept.sort();
+        kept.dedup();
+        port.kept = kept;
+        port
+    }
+
+    fn of(subject: &'a Subject<'a>, rules: &Rules, program: Cow<'a, Program>) -> Self {
         let compiled = subject.compiled;
-        let program = &compiled.program;
         let callables = callables(compiled);
         let emitted = |output: &Output| callables.iter().any(|it| it.output == *output);
         let timed = |output: &Output| callables.iter().any(|it| it.output == *output && it.time);
-        let mut read = Later::new(program, emitted);
+        let mut read = Later::new(&program, emitted);
         read.outputs.clear();
         let kept_wide = read.kept_values(&[Stage::Parameter], &[Stage::Time]);
-        let kept = Later::new(program, emitted).kept_values(&[Stage::Parameter], AT_POINTS);
+        let kept = Later::new(&program, emitted).kept_values(&[Stage::Parameter], AT_POINTS);
         let kept_at_times =
-            Later::new(program, timed).kept_values(&[Stage::Parameter, Stage::Time], AT_POINTS);
+            Later::new(&program, timed).kept_values(&[Stage::Parameter, Stage::Time], AT_POINTS);
         let left = compiled.field.parameters.iter().enumerate();
         let (positions, names): (Vec<_>, Vec<_>) = left
             .filter(|(_, parameter)| !parameter.frozen)
@@ -73,12 +94,13 @@ impl<'a> Port<'a> {
             kept,
             kept_wide,
             kept_at_times,
+            program,
         }
     }
 
     /// The program.
-    pub fn program(&self) -> &'a Program {
-        &self.compiled.program
+    pub fn program(&self) -> &Program {
+        &self.program
     }
 
     /// The number of space dimensions.
@@ -87,7 +109,7 @@ impl<'a> Port<'a> {
     }
 
     /// The components of an output.
-    pub fn values(&self, output: Output) -> &'a [Value] {
+    pub fn values(&self, output: Output) -> &[Value] {
         self.program().outputs.get(&output).map_or(&[], Vec::as_slice)
     }
 }

@@ -12,6 +12,14 @@ pub struct Rules {
     pub longest: usize,
 }
 
+/// Functions of a field, and their arguments: what holds them may not be called so in every language.
+pub const FUNCTIONS: &str = "\
+    default_parameters prepare at_time lower upper inner outer theta time_window density wave_speed \
+    displacement position velocity acceleration displacement_gradient deformation_gradient jacobian \
+    right_cauchy_green left_cauchy_green green_lagrange mass_density strain_energy \
+    first_piola_kirchhoff nominal_stress cauchy_stress kirchhoff_stress div_p div_sigma body_force \
+    body_force_density current_body_force_density traction now field parameters out t";
+
 impl Rules {
     fn same(&self, a: &str, b: &str) -> bool {
         if self.folds_case { a.eq_ignore_ascii_case(b) } else { a == b }

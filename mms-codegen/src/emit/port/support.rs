@@ -40,6 +40,9 @@ fn defined(block: &str, comment: &[&str]) -> Option<String> {
     let is_comment = |line: &&str| comment.iter().any(|start| line.trim_start().starts_with(start));
     let line = block.lines().find(|line| !is_comment(line) && !line.trim().is_empty())?;
     let line = line.split_once(" :: ").map_or(line, |(_, rest)| rest);
+    // `function result = name(arguments)` names its result first.
+    let rest = line.strip_prefix("function ").and_then(|rest| rest.split_once(" = "));
+    let line = rest.map_or(line, |(_, rest)| rest);
     let before = line.split_once(['(', '[', '=', ':', '{'])?.0;
     words(before).last().map(String::from)
 }

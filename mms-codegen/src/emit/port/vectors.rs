@@ -123,15 +123,16 @@ impl Port<'_> {
             let before = vectors.clone();
             self.sample(&compiled.parameters(&fixed), &mut vectors);
             let parameters = compiled.parameters::<f64>(&fixed);
-            let errors = self.own_errors::<f64>(&parameters, &vectors);
+            let set = vectors.sets.len();
+            let errors = self.own_errors::<f64>(&parameters, &vectors, set);
             if errors.iter().any(is_lost) && !vectors.sets.is_empty() {
                 // No port can keep digits that the formulas lose.
                 vectors = before;
                 continue;
             }
             accept(&mut vectors.accepted, &errors);
-            let errors = self.own_errors::<f32>(&parameters, &vectors);
-            if errors.iter().all(|error| *error < f64::from(u16::MAX)) {
+            let errors = self.own_errors::<f32>(&parameters, &vectors, set);
+            if errors.iter().all(has_digits) {
                 vectors.accepted_in_single.iter_mut().for_each(|it| accept(it, &errors));
             } else {
                 vectors.accepted_in_single = None;
@@ -141,9 +142,29 @@ impl Port<'_> {
         vectors
     }
 
-    /// The errors of each function in a precision with the last set of parameters, in eps of its
-    /// largest magnitude; infinite where that is beyond its range.
-    fn own_errors<T: Digits>(&self, parameters: &[f64], vectors: &Vectors) -> Vec<f64> {
+    /// The error that is accepted of each function where everything is computed once, in this precision;
+    /// none where it has no digit left, or is beyond the range.
+    pub fn accepted_once<T: Digits>(&self) -> Vec<Option<u32>> {
+        let vectors = self.subject.vectors();
+        let mut accepted = vec![TOLERANCE; self.callables.len()];
+        let mut has_some = vec![true; self.callables.len()];
+        for (set, values) in vectors.sets.iter().enumerate() {
+            let fixed = self.parameters.keys().copied().zip(values.iter().copied().map(exact));
+            let parameters = self.compiled.parameters::<f64>(&fixed.collect());
+            let errors = self.own_errors::<T>(&parameters, vectors, set);
+            has_some.iter_mut().zip(&errors).for_each(|(some, error)| *some &= has_digits(error));
+            accept(&mut accepted, &errors);
+        }
+        accepted
+            .into_iter()
+            .zip(has_some)
+            .map(|(accepted, some)| some.then_some(accepted))
+            .collect()
+    }
+
+    /// The errors of each function in a precision with a set of parameters, in eps of its largest
+    /// magnitude; infinite where that is beyond its range.
+    fn own_errors<T: Digits>(&self, parameters: &[f64], vectors: &Vectors, set: usize) -> Vec<f64> {
         let in_precision =
             |values: &[f64]| -> Vec<T> { values.iter().map(|value| T::from_f64(*value)).collect() };
         let mut interpreter = Interpreter::new(self.program(), &in_precision(parameters));
@@ -152,7 +173,7 @@ impl Port<'_> {
         let least = T::PRECISION.least();
         let mut worst = vec![[0.0_f64, least]; outputs.len()];
         for (index, sample) in vectors.samples.iter().enumerate() {
-            if sample.set != vectors.sets.len() {
+            if sample.set != set {
                 continue;
             }
             interpreter.set_time(&T::from_f64(sample.time));
@@ -268,6 +289,11 @@ impl Port<'_> {
 /// Whether formulas lose so much in double precision that a port has no room left.
 fn is_lost(error: &f64) -> bool {
     *error > f64::from(TOLERANCE) / 2.0
+}
+
+/// Whether a function has digits at all in a precision.
+fn has_digits(error: &f64) -> bool {
+    *error < f64::from(u16::MAX)
 }
 
 fn accept(accepted: &mut [u32], errors: &[f64]) {

@@ -1,6 +1,6 @@
 //! Python: a module for one point at a time that needs `math` alone.
 
-mod check;
+pub(super) mod check;
 mod dialect;
 pub(super) mod module;
 
@@ -8,6 +8,7 @@ use self::dialect::Form;
 use crate::emit::port::Port;
 use crate::emit::port::names::Rules;
 use crate::emit::{Bundle, File, Subject, Target};
+use crate::expr::Function;
 
 /// Python.
 pub const TARGET: Target = Target {
@@ -36,11 +37,33 @@ const MODULES: &str = "\
     csv ctypes datetime decimal enum errno fractions functools heapq importlib inspect io itertools \
     json keyword logging numbers operator pickle platform random re reprlib select signal site \
     socket stat statistics string struct subprocess tempfile test threading time token traceback \
-    types typing unittest uuid warnings weakref zlib scipy sympy";
+    types typing unittest uuid warnings weakref zlib scipy sympy ufl basix ffcx dolfinx mpmath";
+
+/// The functions that UFL has.
+const IN_UFL: &[Function] = &[
+    Function::Sqrt,
+    Function::Exp,
+    Function::Ln,
+    Function::Sin,
+    Function::Cos,
+    Function::Tan,
+    Function::Sinh,
+    Function::Cosh,
+    Function::Tanh,
+    Function::Asin,
+    Function::Acos,
+    Function::Atan,
+    Function::Atan2,
+    Function::Powf,
+];
 
 /// The module of a form, and the program that checks it.
 pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
-    let port = Port::new(subject, &RULES);
+    let port = match form {
+        Form::Math | Form::NumPy => Port::new(subject, &RULES),
+        Form::SymPy => Port::once(subject, &RULES, Function::ALL),
+        Form::Ufl => Port::once(subject, &RULES, IN_UFL),
+    };
     let name = &port.name;
     Bundle {
         files: vec![

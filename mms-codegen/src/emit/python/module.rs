@@ -20,8 +20,11 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
     let name = &port.name;
     let classes = defaults(port, form) + &field(port, form) + &instant(port, form) + &prepare();
     let needed = |text| Support::new(text, &["#"]).needed(&classes).join("\n\n\n");
-    let point = if form == Form::NumPy { NUMPY } else { MATH };
-    let support = [needed(WIDE), needed(point)];
+    let support = match form {
+        Form::Math => vec![needed(WIDE), needed(MATH)],
+        Form::NumPy => vec![needed(WIDE), needed(NUMPY)],
+        Form::SymPy | Form::Ufl => Vec::new(),
+    };
     let mut header = port.header();
     let usage = match form {
         Form::Math => {
@@ -30,14 +33,26 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
         Form::NumPy => {
             "Functions take numbers or arrays that broadcast, and return an array: the places of the component come first, those of the inputs last."
         }
+        Form::SymPy => {
+            "Functions take symbols, expressions or numbers, and return an expression or a matrix. All numbers are exact."
+        }
+        Form::Ufl => {
+            "Functions take components of coordinates, and return an expression, a vector or a matrix of UFL; parameters and t are numbers or constants of UFL. Logarithms and exponentials near 1 are written out, without a difference that optimisers may take for 0."
+        }
     };
     header.push(format!("{usage} {name}_check.py checks the result."));
     let mut text = comment(&header, "");
     text += "\nimport math\nfrom dataclasses import dataclass\n";
-    if form == Form::NumPy {
-        text += "\nimport numpy as np\n";
-    }
+    text += match form {
+        Form::Math => "",
+        Form::NumPy => "\nimport numpy as np\n",
+        Form::SymPy => "\nimport sympy as sp\n",
+        Form::Ufl => "\nimport ufl\n",
+    };
     let _ = write!(text, "\nDIMENSION = {}\n", port.dimension());
+    if form == Form::SymPy {
+        text += "PI = sp.pi\n";
+    }
     for part in support.iter().filter(|part| !part.is_empty()) {
         let _ = write!(text, "\n\n{part}\n");
     }
@@ -49,7 +64,7 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
 }
 
 /// Paragraphs as lines of a comment.
-pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
+pub(in crate::emit) fn comment(paragraphs: &[String], indent: &str) -> String {
     let paragraphs: Vec<Vec<String>> =
         paragraphs.iter().map(|text| wrapped(text, 96 - indent.len())).collect();
     let lines = paragraphs.join(&String::new());
@@ -81,9 +96,27 @@ fn defaults(port: &Port<'_>, form: Form) -> String {
     for ((index, name), value) in port.parameters.iter().zip(values) {
         text += "\n";
         text += &comment(&[port.parameter_doc(*index)], "    ");
-        let _ = writeln!(text, "    {name}: float = {value}");
+        let _ = writeln!(text, "    {name}: {} = {value}", parameter_type(form));
+    }
+    if form == Form::SymPy && !port.parameters.is_empty() {
+        let names: Vec<&str> = port.parameters.values().map(String::as_str).collect();
+        let _ = write!(
+            text,
+            "\n\ndef symbols():\n    \"\"\"The parameters as symbols of their names.\"\"\"\n    \
+             return Parameters(\n        *sp.symbols(\n            [\n                {},\n            ],\n            real=True,\n        )\n    )\n",
+            listed(&names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>(), 76)
+                .join("\n                ")
+        );
     }
     text
+}
+
+fn parameter_type(form: Form) -> &'static str {
+    match form {
+        Form::Math | Form::NumPy => "float",
+        Form::SymPy => "sp.Expr",
+        Form::Ufl => "object",
+    }
 }
 
 fn field(port: &Port<'_>, form: Form) -> String {
@@ -117,6 +150,9 @@ fn instant(port: &Port<'_>, form: Form) -> String {
                     def __init__(self, field, t):\n        \
                     self.field = field\n        self.time = t\n"
         .to_string();
+    if form == Form::SymPy {
+        text += "        t = sp.sympify(t)\n";
+    }
     text += &indented(&body.statements, 8);
     for (value, result) in port.kept_at_times.iter().zip(&body.results) {
         let _ = writeln!(text, "        self._{} = {result}", local(*value, false));
@@ -146,6 +182,11 @@ fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
         callable.name,
         arguments.join(", ")
     );
+    if form == Form::SymPy {
+        for input in &inputs {
+            let _ = writeln!(text, "        {input} = sp.sympify({input})");
+        }
+    }
     // A prepared field reads itself.
     let own = |line: &String| line.replace("field._", "self._");
     text += &indented(&body.statements.iter().map(own).collect::<Vec<_>>(), 8);
@@ -154,6 +195,7 @@ fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
         Form::NumPy if callable.is_of_points() => {
             shaped(callable, &results, &inputs, port.dimension())
         }
+        Form::SymPy | Form::Ufl => expression(form, callable, &results, port.dimension()),
         _ => plain(callable, &results, port.dimension()),
     };
     text
@@ -184,6 +226,28 @@ fn plain(callable: &Callable, results: &[String], dimension: usize) -> String {
         listed(&items, 84).join("\n            "),
         ")".repeat(close)
     )
+}
+
+/// An expression, a vector or a matrix.
+fn expression(form: Form, callable: &Callable, results: &[String], dimension: usize) -> String {
+    let components = listed(results, 80).join("\n            ");
+    match (callable.shape, form) {
+        (Some(Shape::Scalar), Form::SymPy) => format!("        return {}\n", results[0]),
+        (Some(Shape::Scalar), _) => format!("        return ufl.as_ufl({})\n", results[0]),
+        (Some(Shape::Tensor), Form::SymPy) => format!(
+            "        return sp.Matrix({dimension}, {dimension}, [\n            {components}\n        ])\n"
+        ),
+        (_, Form::SymPy) => {
+            format!("        return sp.Matrix([\n            {components}\n        ])\n")
+        }
+        (Some(Shape::Tensor), _) => {
+            let rows: Vec<String> = (results.chunks(dimension))
+                .map(|row| format!("            [{}],\n", listed(row, 78).join("\n             ")))
+                .collect();
+            format!("        return ufl.as_matrix([\n{}        ])\n", rows.join(""))
+        }
+        (_, _) => format!("        return ufl.as_vector([\n            {components}\n        ])\n"),
+    }
 }
 
 /// An array: the components first, in their shape.

@@ -1,0 +1,163 @@
+//! The module: parameters, a prepared field, a field at a time, and their functions.
+
+use std::fmt::Write as _;
+
+use super::dialect::Julia;
+use crate::emit::port::Port;
+use crate::emit::port::body::{Place, local};
+use crate::emit::port::callable::Callable;
+use crate::emit::port::number::decimal;
+use crate::emit::python::module::comment;
+use crate::emit::text::{listed, wrapped};
+use crate::program::Value;
+use crate::quantity::Shape;
+
+const POINT: &str = include_str!("support/point.jl");
+
+/// The text of `FIELD.jl`.
+pub(super) fn text(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let mut header = port.header();
+    header.push(format!(
+        "Functions take a prepared field, or one at a time, and coordinates; they return a number, a tuple, or a tuple of rows, in the precision of the parameters, and broadcast: f.(now, X, Y). Where a formula has no real value they throw a DomainError. {name}_check.jl checks the result."
+    ));
+    let mut text = comment(&header, "");
+    let _ = write!(
+        text,
+        "\nmodule {name}\n\n\"The number of space dimensions.\"\nconst dimension = {}\n\n",
+        port.dimension()
+    );
+    text += &parameters(port);
+    text += &structure("What only the parameters determine.", "Field", &port.kept, &port.kept_wide);
+    text += &structure(
+        "What the parameters and the time determine.",
+        "Instant",
+        &port.kept_at_times,
+        &[],
+    );
+    let (_, support) = POINT.split_once("\n\n").unwrap_or_default();
+    let _ = writeln!(text, "{support}");
+    text += &prepare(port);
+    text += &at_time(port);
+    for callable in &port.callables {
+        text += &function(port, callable);
+    }
+    text + "\nend\n"
+}
+
+fn structure(doc: &str, name: &str, values: &[Value], wide: &[Value]) -> String {
+    let mut text = format!("\"{doc}\"\nstruct {name}{{T}}\n");
+    for value in values {
+        let _ = writeln!(text, "    {}::T", local(*value, false));
+    }
+    for value in wide {
+        let _ = writeln!(text, "    {}::BigFloat", local(*value, true));
+    }
+    text + "end\n\n"
+}
+
+fn parameters(port: &Port<'_>) -> String {
+    let defaults = &port.subject.vectors().defaults;
+    let mut text = "\"The parameters; their defaults are those of the field file, or set.\"\n\
+                    struct Parameters{T<:Real}\n"
+        .to_string();
+    for (index, name) in &port.parameters {
+        text += &comment(&[port.parameter_doc(*index)], "    ");
+        let _ = writeln!(text, "    {name}::T");
+    }
+    text += "end\n\n";
+    if port.parameters.is_empty() {
+        return text + "Parameters() = Parameters{Float64}()\n\n";
+    }
+    let names: Vec<&String> = port.parameters.values().collect();
+    let keywords: Vec<String> = names
+        .iter()
+        .zip(defaults)
+        .map(|(name, default)| format!("{name} = {}", decimal(*default)))
+        .collect();
+    let list = |items: &[String]| listed(items, 88).join("\n    ");
+    let keywords = list(&keywords);
+    let plain = list(&names.iter().map(|name| (*name).clone()).collect::<Vec<_>>());
+    let floats = list(&names.iter().map(|name| format!("float({name})")).collect::<Vec<_>>());
+    let _ = write!(
+        text,
+        "Parameters(;\n    {keywords},\n) = Parameters(promote(\n    {floats},\n)...)\n\n\
+         Parameters{{T}}(;\n    {keywords},\n) where {{T<:Real}} = Parameters{{T}}(\n    {plain},\n)\n\n"
+    );
+    text
+}
+
+fn indented(statements: &[String], by: usize) -> String {
+    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
+}
+
+/// The call of a constructor within digits enough.
+fn constructed(
+    head: &str,
+    doc: &str,
+    statements: &[String],
+    call: &str,
+    items: &[String],
+) -> String {
+    let items = match items {
+        [] => String::new(),
+        items => format!("\n            {},\n        ", listed(items, 84).join("\n            ")),
+    };
+    format!(
+        "\n\"{doc}\"\nfunction {head}\n    setprecision(BigFloat, 512) do\n{}        \
+         {call}({items})\n    end\nend\n",
+        indented(statements, 8)
+    )
+}
+
+fn prepare(port: &Port<'_>) -> String {
+    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
+    let body = port.body(&Julia, &roots, Place::Parameters);
+    let mut items: Vec<String> = body.results[..port.kept.len()].to_vec();
+    items.extend(port.kept_wide.iter().map(|value| local(*value, true)));
+    constructed(
+        "prepare(parameters::Parameters{T}) where {T}",
+        "Computes once what only the parameters determine.",
+        &body.statements,
+        "Field{T}",
+        &items,
+    )
+}
+
+fn at_time(port: &Port<'_>) -> String {
+    let body = port.body(&Julia, &port.kept_at_times, Place::Times);
+    constructed(
+        "at_time(field::Field{T}, t) where {T}",
+        "Computes once what the parameters and the time determine.",
+        &body.statements,
+        "Instant{T}",
+        &body.results,
+    )
+}
+
+fn function(port: &Port<'_>, callable: &Callable) -> String {
+    let place = Place::Points { timed: callable.time };
+    let body = port.body(&Julia, port.values(callable.output), place);
+    let owner = if callable.time { "now::Instant{T}" } else { "field::Field{T}" };
+    let mut arguments = vec![owner.to_string()];
+    arguments.extend(callable.input_names());
+    let doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+    let tuple = |items: &[String]| match items {
+        [item] => format!("({item},)"),
+        items => format!("({})", items.join(", ")),
+    };
+    let value = match callable.shape {
+        Some(Shape::Scalar) => body.results[0].clone(),
+        Some(Shape::Tensor) => {
+            tuple(&body.results.chunks(port.dimension()).map(tuple).collect::<Vec<_>>())
+        }
+        Some(Shape::Vector) | None => tuple(&body.results),
+    };
+    format!(
+        "\n\"\"\"\n{}\n\"\"\"\nfunction {}({}) where {{T}}\n{}    return {value}\nend\n",
+        wrapped(&doc, 92).join("\n"),
+        callable.name,
+        arguments.join(", "),
+        indented(&body.statements, 4)
+    )
+}

@@ -1,0 +1,23 @@
+# What stands in every module.
+
+# Numbers of so many bits that nothing which cancels is missed.
+wide(value) = BigFloat(value)
+
+wide(high, low) = BigFloat(high) + BigFloat(low)
+
+# x - ln(1 + x): with s = x/(2 + x), x - 2 s = x s; beyond s = 1/5 the difference itself.
+function ln_1p_rest(x)
+    -1 / 3 <= x <= 1 / 2 || return x - log1p(x)
+    s = x / (2 + x)
+    total = one(s) / 25
+    for n in 23:-2:3
+        total = total * (s * s) + one(s) / n
+    end
+    return s * (x - 2 * (s * s) * total)
+end
+
+ln_1p_rest(x::BigFloat) = x - log1p(x)
+
+# A prepared field is one thing wherever functions are broadcast.
+Base.broadcastable(field::Field) = Ref(field)
+Base.broadcastable(now::Instant) = Ref(now)

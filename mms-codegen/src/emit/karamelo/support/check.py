@@ -1,0 +1,60 @@
+
+
+def single(value):
+    """The nearest number of single precision."""
+    return ctypes.c_float(value).value
+
+
+def calculation():
+    """All variables of the file as one function of Python, rounded as they are computed."""
+    text = (pathlib.Path(__file__).parent / f"{FIELD}.kar").read_text(encoding="utf-8")
+    lines = ["def calculation(x0, y0, z0, time, parameters):", "    PI = single(math.pi)"]
+    number = re.compile(r"(?<![\w.])\d+(\.\d+)?")
+    for line in text.splitlines():
+        name, _, formula = line.partition("#")[0].partition(" = ")
+        parameter = name[len(FIELD) + 1 :]
+        if parameter in DEFAULTS and name == f"{FIELD}_{parameter}":
+            assert float(formula) == DEFAULTS[parameter], parameter
+            lines.append(f"    {name} = single(parameters[{parameter!r}])")
+        elif formula:
+            formula = number.sub(r"single(\g<0>)", formula)
+            lines.append(f"    {name} = single({formula})")
+    scope = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "atan2")}
+    scope |= {"math": math, "single": single}
+    exec("\n".join(lines + ["    return locals()"]), scope)
+    return scope["calculation"]
+
+
+CALCULATION = calculation()
+
+
+def variables(x=0.0, y=0.0, z=0.0, t=0.0, parameters={}):
+    """All variables of the file, with the defaults of parameters that are not given."""
+    return CALCULATION(x, y, z, t, DEFAULTS | parameters)
+
+
+def main():
+    sets = [dict(zip(DEFAULTS, rows(values)[0])) if DEFAULTS else {} for values in SETS]
+    samples = rows(SAMPLES)
+    dimension = round((len(samples[0]) - 2) ** 0.5 - 1) if samples else 0
+    alone = [variables(parameters=values) for values in sets] if not samples else []
+    placed = []
+    for which, t, *point in samples:
+        placed.append(variables(**dict(zip("xyz", point[:dimension])), t=t, parameters=sets[int(which)]))
+        if len(alone) == which:
+            alone.append(placed[-1])
+    for name, is_of_points, suffixes, accepted in FUNCTIONS:
+        if accepted is None:
+            print(f"{name}: not checked, single precision has no digit of it")
+            continue
+        for row, expected in enumerate(rows(EXPECTED[name])):
+            which = int(samples[row][0]) if is_of_points else row
+            found = (placed if is_of_points else alone)[row]
+            compare(which, expected, [found[f"{FIELD}_{name}{suffix}"] for suffix in suffixes])
+        settle(name, accepted)
+    print(f"{FIELD}: worst error {worst:.3g} eps, of {worst_name}")
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()

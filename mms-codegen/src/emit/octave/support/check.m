@@ -1,0 +1,24 @@
+function values = rows(text)
+  % Lines of numbers, of 16 hexadecimal digits each.
+  [count, width] = size(text);
+  values = reshape(hex2num(reshape(text', 16, [])'), width / 16, count)';
+end
+
+function found = at_arrays(evaluate, subject, inputs, count)
+  % The components at arrays of other shapes, which make one of two rows and three columns.
+  shapes = {[2, 1], [1, 3], [2, 3]};
+  arrays = cell(1, numel(inputs));
+  for k = 1:numel(inputs)
+    arrays{k} = repmat(inputs(k), shapes{mod(k - 1, 3) + 1});
+  end
+  components = cell(1, count);
+  [components{:}] = evaluate(subject, arrays{:});
+  found = zeros(1, count, class(inputs));
+  for k = 1:count
+    first = components{k}(1);
+    if ~isequaln(components{k}, repmat(first, size(components{k}))) || ~isa(first, class(inputs))
+      error('a component is not the same at the same points, or of another precision');
+    end
+    found(k) = first;
+  end
+end
