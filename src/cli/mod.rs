@@ -4,15 +4,16 @@ mod accuracy;
 mod check;
 mod emit;
 mod eval;
-mod input;
+pub(crate) mod input;
 mod list;
-mod method;
+pub(crate) mod method;
 mod new;
 mod progress;
 mod run;
 mod schema;
 mod show;
 mod study;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -43,6 +44,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Run(run::Run),
     Study(study::Study),
+    Verify(verify::Verify),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -73,6 +75,7 @@ pub fn run() -> ExitCode {
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(),
+        Some(Command::Verify(verify)) => verify.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     };

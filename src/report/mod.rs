@@ -1,7 +1,7 @@
 //! A study as a table, a JSON document, a CSV file and a picture.
 
 pub mod accuracy;
-mod method;
+pub(crate) mod method;
 mod picture;
 pub mod run;
 
@@ -218,6 +218,6 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 }
 
 /// Seconds for a person.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
 }
