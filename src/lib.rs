@@ -11,6 +11,8 @@ pub mod interpreted;
 pub mod report;
 pub mod scene;
 pub mod schema;
+mod store;
+mod verify;
 pub mod workbench;
 
 /// The README's programs.

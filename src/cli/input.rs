@@ -25,7 +25,7 @@ use crate::scene::Scene;
 const SELECTED: &str = "the field does not compile as selected";
 
 /// Which motion is taken, and within which limits.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, PartialEq, Args)]
 pub struct Motion {
     /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
     /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
@@ -59,7 +59,7 @@ impl Motion {
 }
 
 /// How a field is taken.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Default, PartialEq, Args)]
 pub struct Variant {
     #[command(flatten)]
     motion: Motion,

@@ -4,9 +4,9 @@ mod accuracy;
 mod check;
 mod emit;
 mod eval;
-mod input;
+pub(crate) mod input;
 mod list;
-mod method;
+pub(crate) mod method;
 mod new;
 mod progress;
 mod run;
@@ -15,6 +15,7 @@ mod schema;
 mod show;
 mod stability;
 mod study;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -45,6 +46,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Run(run::Run),
     Study(study::Study),
+    Verify(verify::Verify),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -90,6 +92,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(),
+        Some(Command::Verify(verify)) => verify.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }

@@ -1,7 +1,7 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
-mod method;
+pub(crate) mod method;
 mod picture;
 pub mod run;
 mod study;
@@ -29,6 +29,6 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 }
 
 /// Seconds for a person.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
 }

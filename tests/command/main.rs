@@ -18,3 +18,4 @@ mod show;
 mod study;
 mod study_files;
 mod study_methods;
+mod verify;

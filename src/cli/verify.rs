@@ -1,0 +1,217 @@
+//! `mms verify`: the verification matrix.
+
+use std::io::IsTerminal as _;
+use std::num::NonZero;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::SystemTime;
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mms_codegen::suggest::did_you_mean;
+
+use super::{Outcome, print, print_json};
+use crate::store::Store;
+use crate::verify::matrix::{Row, rows};
+use crate::verify::plan::{Job, Plan};
+use crate::verify::report::{Judged, Report};
+use crate::verify::verdict::judge;
+use crate::verify::work::{self, Watcher, outcomes};
+
+/// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
+/// verdict held to theory.
+///
+/// Results are stored as runs finish. The same command resumes, after Ctrl-C as after a power cut, and takes from
+/// the store what it holds; a program that was built anew starts anew. Several processes may share a store.
+#[derive(Args)]
+pub struct Verify {
+    /// Fewer levels and rows: within a minute on two processors, where the whole matrix takes some minutes.
+    #[arg(long)]
+    quick: bool,
+    /// Only this row, as in boundary/roller, or the rows of this group, as in boundary; may be repeated.
+    #[arg(long, value_name = "NAME")]
+    row: Vec<String>,
+    /// List the rows and what theory expects of them, and run nothing.
+    #[arg(long)]
+    list: bool,
+    /// Where results are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/mms/verify")]
+    store: PathBuf,
+    /// How many runs go side by side; by default as many as there are processors.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZero<usize>>,
+    /// Print one JSON document.
+    #[arg(long, conflicts_with = "page")]
+    json: bool,
+    /// Print the page docs/verification.md.
+    #[arg(long, conflicts_with = "list")]
+    page: bool,
+}
+
+impl Verify {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let all = rows()?;
+        let rows = self.select(&all)?;
+        if self.list {
+            self.print_list(&rows)?;
+            return Ok(Outcome::AsExpected);
+        }
+        let plan = Plan::new(&rows, self.quick, &program()?)?;
+        let (store, set_aside) = Store::open(&self.store)?;
+        let progress = Progress::new(&plan.jobs);
+        set_aside.iter().for_each(|what| progress.set_aside(what));
+        let threads = self.threads.or(std::thread::available_parallelism().ok());
+        let threads = threads.unwrap_or(NonZero::<usize>::MIN);
+        let outcomes = outcomes(&plan.jobs, &store, threads, &progress)?;
+        progress.finish();
+        let judged = rows.iter().zip(&plan.levels).map(|(row, levels)| {
+            let levels: Vec<_> = levels.iter().map(|&at| outcomes[at].clone()).collect();
+            let judgement = judge(row, &levels);
+            Ok(Judged { row, study: row.study()?.0, levels, judgement })
+        });
+        let report = Report { quick: self.quick, rows: judged.collect::<anyhow::Result<_>>()? };
+        if self.json {
+            print_json(&report.document())?;
+        } else if self.page {
+            print(&report.page())?;
+        } else {
+            print(&report.table())?;
+        }
+        Ok(match report.unexpected().next() {
+            None => Outcome::AsExpected,
+            Some(_) => Outcome::Refuted,
+        })
+    }
+
+    /// The rows that were asked for.
+    fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
+        let is = |row: &Row, name: &str| row.name == name || row.group() == name;
+        for name in &self.row {
+            if all.iter().any(|row| is(row, name)) {
+                continue;
+            }
+            let names = all.iter().flat_map(|row| [row.name.as_str(), row.group()]);
+            match did_you_mean(name, names) {
+                Some(near) => bail!("`--row {name}`: no such row or group; did you mean `{near}`?"),
+                None => {
+                    bail!("`--row {name}`: no such row or group; `mms verify --list` lists them")
+                }
+            }
+        }
+        let asked = |row: &&Row| self.row.is_empty() || self.row.iter().any(|name| is(row, name));
+        let rows: Vec<_> = all.iter().filter(asked).collect();
+        let quick: Vec<_> =
+            rows.iter().copied().filter(|row| !self.quick || row.quick > 0).collect();
+        if quick.is_empty() {
+            bail!("`--quick` leaves out all of the rows that `--row` names");
+        }
+        Ok(quick)
+    }
+
+    fn print_list(&self, rows: &[&Row]) -> anyhow::Result<()> {
+        if self.json {
+            let rows = rows.iter().map(|row| {
+                serde_json::json!({
+                    "name": row.name,
+                    "study": row.study,
+                    "levels": row.levels(self.quick),
+                    "formal_order": row.order.to_string(),
+                    "theory": row.theory,
+                })
+            });
+            return print_json(&serde_json::json!({ "rows": rows.collect::<Vec<_>>() }));
+        }
+        let lines = rows.iter().map(|row| {
+            let Row { name, study, order, theory, .. } = row;
+            format!("{name}: order {order}; {theory}\n  mms study {study}\n")
+        });
+        print(&lines.collect::<String>())
+    }
+}
+
+/// What tells this program from any other: no result outlives the code that computed it.
+fn program() -> anyhow::Result<String> {
+    let path = std::env::current_exe().context("cannot find this program")?;
+    let built = || {
+        let file = path.metadata()?;
+        let modified = file.modified()?.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        std::io::Result::Ok((file.len(), modified.as_nanos()))
+    };
+    let (length, modified) =
+        built().with_context(|| format!("cannot look at this program, `{}`", path.display()))?;
+    Ok(format!("{}, {length} bytes, {modified}", env!("CARGO_PKG_VERSION")))
+}
+
+/// A bar on a terminal, a line per run elsewhere.
+struct Progress {
+    bar: ProgressBar,
+    count: usize,
+    done: AtomicUsize,
+    /// The work that is one unit of the bar.
+    unit: f64,
+}
+
+/// Units of the bar, about.
+const UNITS: f64 = 1e6;
+
+impl Progress {
+    fn new(jobs: &[Job]) -> Self {
+        let bar = match std::io::stderr().is_terminal() {
+            true => ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(5)),
+            false => ProgressBar::hidden(),
+        };
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} {bar:40} {percent:>3}% {eta:>4} left")
+        {
+            bar.set_style(style);
+        }
+        let work: f64 = jobs.iter().map(|job| job.work).sum();
+        let progress =
+            Self { bar, count: jobs.len(), done: AtomicUsize::new(0), unit: work / UNITS };
+        progress.bar.set_length(jobs.iter().map(|job| progress.units(job, 1, 1)).sum());
+        progress
+    }
+
+    /// The units of some of a run's steps.
+    fn units(&self, job: &Job, step: usize, steps: usize) -> u64 {
+        (job.work / self.unit * step as f64 / steps as f64) as u64
+    }
+
+    /// Counts a run that has ended.
+    fn count(&self) -> String {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        let message = format!("{done} of {} runs", self.count);
+        self.bar.set_message(message.clone());
+        message
+    }
+
+    fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watcher for Progress {
+    fn found(&self, job: &Job) {
+        self.count();
+        // What was there takes no time, and says nothing of what is left.
+        self.bar.dec_length(self.units(job, 1, 1));
+    }
+
+    fn step(&self, job: &Job, step: usize, steps: usize) {
+        self.bar.inc(self.units(job, step, steps) - self.units(job, step - 1, steps));
+    }
+
+    fn done(&self, job: &Job, outcome: &work::Outcome) {
+        let count = self.count();
+        if self.bar.is_hidden() {
+            let end = outcome.failure().unwrap_or_else(|| "done".into());
+            let left = self.bar.eta().as_secs();
+            anstream::eprintln!("{count}, about {left} s left: {}: {end}", job.key.command);
+        }
+    }
+
+    fn set_aside(&self, what: &str) {
+        self.bar.suspend(|| anstream::eprintln!("warning: {what}"));
+    }
+}

@@ -1,0 +1,323 @@
+//! Results of runs, kept in a folder as they finish.
+//!
+//! One file per result, named by the digest of its key: everything that the result depends on, the program
+//! included. A file appears whole or not at all, and is trusted only if its checksum, its key and its name
+//! agree. One that is not what it should be is renamed, and neither read again nor deleted. Processes may
+//! share a folder: each claims a result before it computes it, and a claim ends with its process, however
+//! that ends.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+
+use crate::report::write_whole;
+
+/// What the first key of every file says.
+const FORMAT: &str = "mms result 1";
+
+/// A folder of results.
+pub struct Store {
+    folder: PathBuf,
+}
+
+/// What is known of a result.
+#[derive(Debug, PartialEq)]
+pub enum Entry<T> {
+    /// Nothing.
+    Missing,
+    /// What was saved.
+    Stored(T),
+    /// There was a file that is not to be trusted: what is said of it.
+    SetAside(String),
+}
+
+/// The right to compute a result, until it is dropped.
+pub struct Claim {
+    /// Locked by this process.
+    _lock: File,
+    path: PathBuf,
+}
+
+impl Drop for Claim {
+    /// Whoever waits for the lock of a removed file finds the result first.
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// A file: `checksum` is the digest of the texts of `key` and `result`.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Envelope {
+    format: String,
+    checksum: String,
+    key: Box<RawValue>,
+    result: Box<RawValue>,
+}
+
+impl Store {
+    /// The store in a folder, which is made if there is none; and what is said of the files in it that had to be
+    /// set aside.
+    ///
+    /// # Errors
+    /// A folder that cannot be made or read, a file that cannot be renamed.
+    pub fn open(folder: &Path) -> anyhow::Result<(Self, Vec<String>)> {
+        let shown = folder.display();
+        fs::create_dir_all(folder).with_context(|| format!("cannot make the folder `{shown}`"))?;
+        let store = Store { folder: folder.to_owned() };
+        let mut set_aside = Vec::new();
+        let entries = fs::read_dir(folder).with_context(|| format!("cannot read `{shown}`"))?;
+        for entry in entries {
+            let path = entry.with_context(|| format!("cannot read `{shown}`"))?.path();
+            if path.extension().is_some_and(|extension| extension == "json") {
+                if let Entry::SetAside(what) = store.read::<serde_json::Value>(&path, None)? {
+                    set_aside.push(what);
+                }
+            }
+        }
+        set_aside.sort();
+        Ok((store, set_aside))
+    }
+
+    /// What is stored for a key.
+    ///
+    /// # Errors
+    /// A file that cannot be read or renamed.
+    pub fn load<T: DeserializeOwned>(&self, key: &impl Serialize) -> anyhow::Result<Entry<T>> {
+        let key = serde_json::to_string(key)?;
+        self.read(&self.path(&key, "json"), Some(&key))
+    }
+
+    /// Stores the result of a key.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save<T: Serialize>(&self, key: &impl Serialize, result: &T) -> anyhow::Result<()> {
+        let [key, result] = [serde_json::to_string(key)?, serde_json::to_string(result)?];
+        let path = self.path(&key, "json");
+        let checksum = digest([&key, &result]);
+        let [key, result] = [RawValue::from_string(key)?, RawValue::from_string(result)?];
+        let envelope = Envelope { format: FORMAT.to_owned(), checksum, key, result };
+        write_whole(&path, &(serde_json::to_string(&envelope)? + "\n"))
+            .with_context(|| format!("cannot write `{}`", path.display()))
+    }
+
+    /// Claims the result of a key; nothing, if a process has claimed it already. With `wait`, only when that
+    /// process has ended or given it up.
+    ///
+    /// # Errors
+    /// A file that cannot be made or locked.
+    pub fn claim(&self, key: &impl Serialize, wait: bool) -> anyhow::Result<Option<Claim>> {
+        let path = self.path(&serde_json::to_string(key)?, "lock");
+        let lock = || {
+            let lock = File::options().create(true).append(true).open(&path)?;
+            match if wait { lock.lock() } else { lock.try_lock().map_err(io::Error::from) } {
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(None),
+                locked => locked.map(|()| Some(lock)),
+            }
+        };
+        let lock = lock().with_context(|| format!("cannot lock `{}`", path.display()))?;
+        Ok(lock.map(|lock| Claim { _lock: lock, path }))
+    }
+
+    fn path(&self, key: &str, extension: &str) -> PathBuf {
+        self.folder.join(digest([key])).with_extension(extension)
+    }
+
+    /// Reads a file: that of a key, or any.
+    fn read<T: DeserializeOwned>(
+        &self,
+        path: &Path,
+        key: Option<&str>,
+    ) -> anyhow::Result<Entry<T>> {
+        let bytes = match fs::read(path) {
+            // Another process that shares the folder may have set it aside since.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Entry::Missing),
+            read => read.with_context(|| format!("cannot read `{}`", path.display()))?,
+        };
+        Ok(match self.check(path, &bytes, key) {
+            Ok(result) => Entry::Stored(result),
+            Err(reason) => Entry::SetAside(set_aside(path, &reason)?),
+        })
+    }
+
+    /// The result in a file; otherwise what is wrong with it.
+    fn check<T: DeserializeOwned>(
+        &self,
+        path: &Path,
+        bytes: &[u8],
+        key: Option<&str>,
+    ) -> Result<T, String> {
+        let envelope: Envelope = serde_json::from_slice(bytes)
+            .map_err(|error| format!("not a whole result: {error}"))?;
+        if envelope.format != FORMAT {
+            return Err(format!("its format is `{}`, not `{FORMAT}`", envelope.format));
+        }
+        if envelope.checksum != digest([envelope.key.get(), envelope.result.get()]) {
+            return Err("its checksum does not fit its content".into());
+        }
+        let other = key.is_some_and(|key| key != envelope.key.get());
+        if other || path != self.path(envelope.key.get(), "json") {
+            return Err("it is the result of something else".into());
+        }
+        serde_json::from_str(envelope.result.get()).map_err(|error| format!("no result: {error}"))
+    }
+}
+
+/// Renames a file to the first free name behind its own, and says so.
+fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut aside = path.to_owned();
+    for number in 1.. {
+        aside.set_file_name(format!("{name}.aside{number}"));
+        if !aside.exists() {
+            break;
+        }
+    }
+    let shown = path.display();
+    match fs::rename(path, &aside) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            return Err(error).with_context(|| format!("cannot rename `{shown}`: {reason}"));
+        }
+        _ => {}
+    }
+    Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", aside.display()))
+}
+
+/// 128 bits of texts one after the other, in hexadecimal.
+///
+/// Fowler, Noll, Vo, Eastlake, "The FNV non-cryptographic hash algorithm", FNV-1a. It finds accidents, not
+/// attacks.
+pub fn digest<const N: usize>(texts: [impl AsRef<[u8]>; N]) -> String {
+    const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+    let step = |hash: u128, byte: u8| (hash ^ u128::from(byte)).wrapping_mul(PRIME);
+    let separated = |text: &[u8]| text.iter().copied().chain([0xff]).collect::<Vec<_>>();
+    let bytes = texts.iter().flat_map(|text| separated(text.as_ref()));
+    format!("{:032x}", bytes.fold(OFFSET, step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A store with the results of two keys, in a folder of its own.
+    fn store() -> (tempfile::TempDir, Store) {
+        let folder = tempfile::tempdir().unwrap();
+        let (store, set_aside) = Store::open(folder.path()).unwrap();
+        assert!(set_aside.is_empty());
+        store.save(&"one", &[0.1, 1.0 / 3.0]).unwrap();
+        store.save(&"two", &[2.0]).unwrap();
+        (folder, store)
+    }
+
+    fn file(store: &Store, key: &str) -> PathBuf {
+        store.path(&serde_json::to_string(key).unwrap(), "json")
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_was_saved_is_there_to_the_bit() {
+        let (folder, store) = store();
+        assert_eq!(store.load(&"one").unwrap(), Entry::Stored(vec![0.1, 1.0 / 3.0]));
+        assert_eq!(store.load::<Vec<f64>>(&"three").unwrap(), Entry::Missing);
+        let (again, set_aside) = Store::open(folder.path()).unwrap();
+        assert!(set_aside.is_empty());
+        assert_eq!(again.load(&"two").unwrap(), Entry::Stored(vec![2.0]));
+    }
+
+    /// Each damage, once when the folder is opened and once when the result is asked for.
+    #[test]
+    fn no_damaged_file_is_trusted_and_none_is_deleted() {
+        let whole = |store: &Store| fs::read(file(store, "one")).unwrap();
+        let damages: [(&str, fn(&[u8], &[u8]) -> Vec<u8>); 7] = [
+            ("not a whole result", |one, _| one[..one.len() / 2].to_vec()),
+            ("not a whole result", |_, _| Vec::new()),
+            ("not a whole result", |_, _| vec![0xff, 0x00, 0x80]),
+            ("not a whole result", |_, _| b"{\"speed\": 3}".to_vec()),
+            ("its checksum does not fit", |one, _| {
+                String::from_utf8_lossy(one).replace("0.1", "0.2").into_bytes()
+            }),
+            ("its format is", |one, _| {
+                String::from_utf8_lossy(one).replace(FORMAT, "mms result 0").into_bytes()
+            }),
+            ("the result of something else", |_, two| two.to_vec()),
+        ];
+        for (complaint, damage) in damages {
+            for reopen in [false, true] {
+                let (folder, store) = store();
+                let damaged = damage(&whole(&store), &fs::read(file(&store, "two")).unwrap());
+                fs::write(file(&store, "one"), &damaged).unwrap();
+                let said = match reopen {
+                    true => Store::open(folder.path()).unwrap().1.join("\n"),
+                    false => match store.load::<Vec<f64>>(&"one").unwrap() {
+                        Entry::SetAside(said) => said,
+                        other => panic!("{complaint}: {other:?}"),
+                    },
+                };
+                let path = file(&store, "one").display().to_string();
+                assert!(said.contains(complaint) && said.contains(&path), "{said}");
+                assert_eq!(store.load::<Vec<f64>>(&"one").unwrap(), Entry::Missing);
+                let aside = fs::read(format!("{path}.aside1")).unwrap();
+                assert_eq!(aside, damaged, "kept as it was");
+                assert_eq!(store.load(&"two").unwrap(), Entry::Stored(vec![2.0]));
+            }
+        }
+    }
+
+    #[test]
+    fn files_set_aside_do_not_replace_each_other() {
+        let (folder, store) = store();
+        for content in ["first", "second", "third"] {
+            fs::write(file(&store, "one"), content).unwrap();
+            assert!(matches!(store.load::<Vec<f64>>(&"one").unwrap(), Entry::SetAside(_)));
+        }
+        let aside = names(folder.path()).into_iter().filter(|name| name.contains("aside"));
+        let contents = aside.map(|name| fs::read_to_string(folder.path().join(name)).unwrap());
+        assert_eq!(contents.collect::<Vec<_>>(), ["first", "second", "third"]);
+    }
+
+    /// Other files in the folder are none of its business.
+    #[test]
+    fn what_does_not_look_like_a_result_is_left_alone() {
+        let (folder, _) = store();
+        fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+        fs::write(folder.path().join("notes.json"), "{}").unwrap();
+        let (_, set_aside) = Store::open(folder.path()).unwrap();
+        assert_eq!(set_aside.len(), 1, "{set_aside:?}");
+        assert!(set_aside[0].contains("notes.json"));
+        let names = names(folder.path());
+        assert!(names.contains(&"notes.txt".into()) && names.contains(&"notes.json.aside1".into()));
+    }
+
+    #[test]
+    fn a_claim_is_one_process_alone_until_it_is_dropped() {
+        let (folder, store) = store();
+        let claim = store.claim(&"three", false).unwrap().expect("nobody has it");
+        assert!(store.claim(&"three", false).unwrap().is_none());
+        assert!(store.claim(&"four", false).unwrap().is_some());
+        drop(claim);
+        assert!(store.claim(&"three", true).unwrap().is_some());
+        assert!(names(folder.path()).iter().all(|name| name.ends_with(".json")));
+    }
+
+    /// The vectors of the algorithm's authors, but for the byte that ends a text here.
+    #[test]
+    fn the_digest_is_that_of_its_authors() {
+        assert_eq!(digest::<0>([] as [&str; 0]), "6c62272e07bb014262b821756295c58d");
+        assert_eq!(digest(["ab", "c"]).len(), 32);
+        assert_ne!(digest(["ab", "c"]), digest(["a", "bc"]));
+    }
+}

@@ -1,0 +1,230 @@
+//! The rows of the matrix: what is run, what theory expects, and why.
+
+use anyhow::{Context as _, bail, ensure};
+use clap::Parser;
+use mms_runtime::study::TOLERANCE;
+use mms_runtime::{Division, Setup};
+use serde::Deserialize;
+
+use crate::cli::input::Variant;
+use crate::cli::method::MethodOptions;
+use crate::gallery::{self, Entry};
+
+/// The rows, in their order.
+const MATRIX: &str = include_str!("matrix.toml");
+
+/// A row as it is written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// `group/mode`.
+    pub name: String,
+    /// The arguments of `mms study`, with all levels.
+    pub study: String,
+    /// How many levels, from the coarsest on, `--quick` runs; of 0 it leaves the row out.
+    #[serde(default)]
+    pub quick: usize,
+    /// Refine the time step alone: the levels have the cells of the study, and its Courant number halved this
+    /// many times, one after the other.
+    #[serde(default)]
+    pub halvings: usize,
+    /// What the error is of.
+    #[serde(default)]
+    pub quantity: Quantity,
+    /// What theory expects.
+    pub order: Expected,
+    /// The expected order of linf, where it is lower.
+    pub linf: Option<f64>,
+    /// How far the observed order may be from it.
+    #[serde(default = "tolerance")]
+    pub tolerance: f64,
+    /// l2 over h^order, or over dt^order, at the finest level that `--quick` runs, or of all if it runs none; in
+    /// the units of the field.
+    pub constant: Option<f64>,
+    /// Why, and who says so.
+    pub theory: String,
+}
+
+/// Of what an error is measured.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// u.
+    #[default]
+    Displacement,
+    /// v.
+    Velocity,
+    /// F.
+    DeformationGradient,
+    /// P.
+    FirstPiolaKirchhoff,
+    /// Momentum over mass at the end, which is this.
+    MeanVelocity(Vec<f64>),
+}
+
+impl Quantity {
+    /// The glossary's identifier.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Quantity::Displacement => "displacement",
+            Quantity::Velocity => "velocity",
+            Quantity::DeformationGradient => "deformation_gradient",
+            Quantity::FirstPiolaKirchhoff => "first_piola_kirchhoff",
+            Quantity::MeanVelocity(_) => "mean_velocity",
+        }
+    }
+}
+
+/// What theory expects of the error.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(untagged)]
+pub enum Expected {
+    /// That it is of this order.
+    Order(f64),
+    /// That it is not of any.
+    Word(Word),
+}
+
+/// What there is instead of an order.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Word {
+    /// The error does not shrink, or the run stops.
+    None,
+    /// There is no error but that of rounding.
+    Exact,
+}
+
+impl std::fmt::Display for Expected {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Expected::Order(order) => write!(f, "{order}"),
+            Expected::Word(Word::None) => f.write_str("none"),
+            Expected::Word(Word::Exact) => f.write_str("exact"),
+        }
+    }
+}
+
+fn tolerance() -> f64 {
+    TOLERANCE
+}
+
+/// The arguments of a row's study: those of `mms study` that say what is run.
+#[derive(Clone, Debug, Parser)]
+#[command(no_binary_name = true)]
+pub struct Study {
+    /// The name of a field of the gallery.
+    pub field: String,
+    #[arg(long, value_delimiter = ',', required = true)]
+    pub cells: Vec<Division>,
+    #[command(flatten)]
+    pub method: MethodOptions,
+    #[arg(long)]
+    pub set: Vec<String>,
+    #[command(flatten)]
+    pub variant: Variant,
+}
+
+/// The arguments of a line that is cut where blanks are, except between apostrophes.
+pub fn arguments(line: &str) -> Vec<&str> {
+    let parts = line.split('\'').enumerate();
+    let words = parts.map(|(at, part)| match at % 2 {
+        0 => part.split_whitespace().collect(),
+        _ => vec![part],
+    });
+    words.flatten().collect()
+}
+
+impl Row {
+    /// What stands before the slash.
+    pub fn group(&self) -> &str {
+        self.name.split('/').next().unwrap_or_default()
+    }
+
+    /// Its study, understood.
+    ///
+    /// # Errors
+    /// Arguments that `mms study` does not have, a field that is not of the gallery.
+    pub fn study(&self) -> anyhow::Result<(Study, &'static Entry)> {
+        let study = Study::try_parse_from(arguments(&self.study))?;
+        let entry = gallery::find(&study.field);
+        let entry = entry.with_context(|| format!("no field `{}` in the gallery", study.field))?;
+        Ok((study, entry))
+    }
+
+    /// How many levels are run.
+    pub fn levels(&self, quick: bool) -> usize {
+        let all = match self.halvings {
+            0 => self.study().map_or(0, |(study, _)| study.cells.len()),
+            halvings => halvings + 1,
+        };
+        if quick { self.quick.min(all) } else { all }
+    }
+
+    /// The arguments of `mms run` for a level, as they are written and understood.
+    ///
+    /// # Errors
+    /// As [`Row::study`]; cells that are not written as `--cells A,B,..`.
+    pub fn level(&self, level: usize) -> anyhow::Result<(String, Study)> {
+        let (study, _) = self.study()?;
+        let all: Vec<String> = study.cells.iter().map(ToString::to_string).collect();
+        let mut line = self.study.clone();
+        if self.halvings == 0 {
+            let [all, one] = [&all.join(","), &all[level]].map(|cells| format!("--cells {cells}"));
+            line = line.replace(&all, &one);
+        } else {
+            let courant = Setup::default().courant / f64::powi(2.0, level as i32);
+            line += &format!(" --courant {courant}");
+        }
+        let study = Study::try_parse_from(arguments(&line))?;
+        ensure!(study.cells.len() == 1, "cells have to be written as `--cells {}`", all.join(","));
+        Ok((line, study))
+    }
+
+    /// Refuses what means nothing.
+    fn validate(&self) -> anyhow::Result<()> {
+        let (study, _) = self.study()?;
+        ensure!(self.name.split('/').count() == 2, "the name has to be group/mode");
+        ensure!(self.halvings == 0 || study.cells.len() == 1, "halvings take one grid");
+        let levels = self.levels(false);
+        ensure!(levels >= 2 && self.quick <= levels && self.quick != 1, "too few levels");
+        (0..levels).try_for_each(|level| self.level(level).map(drop))?;
+        ensure!(
+            self.tolerance > 0.0 && self.tolerance < 0.5,
+            "the tolerance has to be in ]0, 0.5["
+        );
+        match (self.order, self.constant) {
+            (Expected::Order(order), Some(constant)) => {
+                ensure!(order >= 1.0 && constant > 0.0, "order and constant have to be positive");
+            }
+            (Expected::Order(_), None) => bail!("an order needs its error constant"),
+            (Expected::Word(_), Some(_)) => bail!("a constant needs an order"),
+            (Expected::Word(_), None) => {}
+        }
+        ensure!(!self.theory.is_empty(), "no theory");
+        Ok(())
+    }
+}
+
+/// The rows of the matrix.
+///
+/// # Errors
+/// A row that means nothing; a test reads them all.
+pub fn rows() -> anyhow::Result<Vec<Row>> {
+    read(MATRIX)
+}
+
+/// The rows of a text.
+fn read(text: &str) -> anyhow::Result<Vec<Row>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Matrix {
+        row: Vec<Row>,
+    }
+    let Matrix { row: rows } = toml::from_str(text)?;
+    for (at, row) in rows.iter().enumerate() {
+        row.validate().with_context(|| format!("row `{}`", row.name))?;
+        ensure!(rows[..at].iter().all(|other| other.name != row.name), "`{}` twice", row.name);
+    }
+    Ok(rows)
+}

@@ -1,0 +1,194 @@
+//! The matrix as a table, as a JSON document, and as a page.
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use serde_json::{Value, json};
+
+use super::matrix::{Row, Study};
+use super::verdict::Judgement;
+use super::work::Outcome;
+use crate::report::duration;
+use crate::report::method::division;
+
+/// Rows, with what came of them.
+pub struct Report<'a> {
+    /// Whether `--quick` was asked for.
+    pub quick: bool,
+    /// The rows that were run.
+    pub rows: Vec<Judged<'a>>,
+}
+
+/// A row, with what came of it.
+pub struct Judged<'a> {
+    /// The row.
+    pub row: &'a Row,
+    /// Its study.
+    pub study: Study,
+    /// Its levels, coarse to fine.
+    pub levels: Vec<Outcome>,
+    /// What they say.
+    pub judgement: Judgement,
+}
+
+impl Judged<'_> {
+    fn seconds(&self) -> f64 {
+        self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
+    }
+
+    fn document(&self) -> Value {
+        let Judgement { orders, constant, verdict, expected, reason } = &self.judgement;
+        let levels = self.levels.iter().enumerate().map(|(at, level)| {
+            let run = level.run();
+            let errors = level.errors(self.row);
+            let norm = |norm: usize| errors.map(|errors| errors[norm]);
+            let [order_l1, order_l2, order_linf] = orders[at];
+            json!({
+                "cells": division(&self.study.cells[if self.row.halvings > 0 { 0 } else { at }]),
+                "cell_size": run.map(|run| run.cell_size),
+                "time_step": run.map(|run| run.time_step),
+                "steps": run.map(|run| run.steps),
+                "particles": run.map(|run| run.particles),
+                "l1": norm(0),
+                "l2": norm(1),
+                "linf": norm(2),
+                "order_l1": order_l1,
+                "order_l2": order_l2,
+                "order_linf": order_linf,
+                "seconds": run.map(|run| run.seconds),
+                "failure": level.failure(),
+            })
+        });
+        json!({
+            "name": self.row.name,
+            "study": self.row.study,
+            "refined": if self.row.halvings > 0 { "time" } else { "space and time" },
+            "quantity": self.row.quantity.name(),
+            "formal_order": self.row.order.to_string(),
+            "tolerance": self.row.tolerance,
+            "theory": self.row.theory,
+            "levels": levels.collect::<Vec<_>>(),
+            "observed_order": self.judgement.observed_order(),
+            "error_constant": constant,
+            "expected_error_constant": self.row.constant,
+            "verdict": verdict.to_string(),
+            "expected_verdict": expected.to_string(),
+            "reason": reason,
+            "seconds": self.seconds(),
+        })
+    }
+}
+
+impl Report<'_> {
+    /// The rows whose verdict is not the expected one.
+    pub fn unexpected(&self) -> impl Iterator<Item = &Judged<'_>> {
+        self.rows.iter().filter(|row| !row.judgement.as_expected())
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        json!({
+            "matrix": if self.quick { "quick" } else { "full" },
+            "rows": self.rows.iter().map(Judged::document).collect::<Vec<_>>(),
+            "unexpected": self.unexpected().map(|judged| &judged.row.name).collect::<Vec<_>>(),
+        })
+    }
+
+    /// The table for a terminal.
+    pub fn table(&self) -> String {
+        let mut table = Table::new();
+        table
+            .load_style(NOTHING)
+            .set_header(["mode", "field", "formal", "observed", "constant", "verdict", "", "time"]);
+        for judged in &self.rows {
+            let Judgement { constant, verdict, .. } = &judged.judgement;
+            table.add_row([
+                judged.row.name.clone(),
+                judged.study.field.clone(),
+                judged.row.order.to_string(),
+                decimals(judged.judgement.observed_order()),
+                constant.map_or("-".into(), |constant| format!("{constant:.2e}")),
+                verdict.to_string(),
+                if judged.judgement.as_expected() { "" } else { "UNEXPECTED" }.to_owned(),
+                duration(judged.seconds()),
+            ]);
+        }
+        for column in [2, 3, 4, 7] {
+            if let Some(column) = table.column_mut(column) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        let mut text = format!("{table}\n");
+        for judged in self.unexpected() {
+            let Row { name, study, theory, .. } = judged.row;
+            let Judgement { verdict, expected, reason, .. } = &judged.judgement;
+            let reason = reason.as_deref().unwrap_or_default();
+            text += &format!(
+                "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
+            );
+        }
+        let unexpected = self.unexpected().count();
+        let count = self.rows.len();
+        text += &match unexpected {
+            0 => format!("\nall {count} verdicts are as theory expects"),
+            _ => format!("\n{unexpected} of {count} verdicts are not as theory expects"),
+        };
+        text
+    }
+
+    /// The page: what does not depend on a machine.
+    pub fn page(&self) -> String {
+        let mut page = String::from(INTRODUCTION);
+        let mut group = "";
+        for judged in &self.rows {
+            let Judged { row, judgement, .. } = judged;
+            if row.group() != group {
+                group = row.group();
+                page += &format!(
+                    "\n## {group}\n\n| mode | study | levels | formal order | observed | constant | verdict | theory |\n|---|---|---|---|---|---|---|---|\n"
+                );
+            }
+            let observed: Vec<_> =
+                judgement.orders.iter().skip(1).map(|orders| decimals(orders[1])).collect();
+            page += &format!(
+                "{}{} | {} | {} |\n",
+                fixed(row),
+                observed.join(", "),
+                judgement.constant.map_or("-".into(), |constant| format!("{constant:.3e}")),
+                format_args!("{} | {}", judgement.verdict, row.theory)
+            );
+        }
+        page
+    }
+}
+
+/// What stands before the tables of the page.
+const INTRODUCTION: &str = "\
+# Verification matrix
+
+One mode at a time, each by the field that isolates it. Rows are data, in `src/verify/matrix.toml`, with what
+theory expects beside it; here is what is observed. Made by `cargo run --release -- verify --page >
+docs/verification.md`.
+
+Where the time step alone is refined, the order is that in time. Orders are those of l2 between neighbouring
+levels, coarse to fine; the constant is l2 over h^order or dt^order, in the units of the field, and held to one
+percent. `none` as a formal order means that the error must not shrink, or the run stop, and `exact` that
+there must be no error but rounding.
+";
+
+/// The cells of a line of the page that follow from the row alone.
+pub fn fixed(row: &Row) -> String {
+    let mode = row.name.split('/').nth(1).unwrap_or_default();
+    let refined = match row.halvings {
+        0 => String::from("h and dt"),
+        halvings => format!("dt, halved {halvings} times"),
+    };
+    let quantity = match row.quantity.name() {
+        "displacement" => String::new(),
+        name => format!(", error of {}", name.replace('_', " ")),
+    };
+    format!("| {mode} | `{}`{quantity} | {refined} | {} | ", row.study, row.order)
+}
+
+fn decimals(number: Option<f64>) -> String {
+    number.map_or("-".into(), |number| format!("{number:.2}"))
+}

@@ -1,0 +1,244 @@
+//! Runs, side by side, each from the store if it is there and into it if it is not.
+
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+use mms_runtime::study::{Details, Watch};
+use mms_runtime::{Errors, Level};
+use serde::{Deserialize, Serialize};
+
+use super::matrix::{Quantity, Row};
+use super::plan::Job;
+use crate::cli::input::Input;
+use crate::cli::method::Precision;
+use crate::scene::{Scene, Solvable};
+use crate::store::{Entry, Store};
+
+/// l1, l2 and linf, the largest over all steps.
+pub type Norms = [f64; 3];
+
+/// What comes of a run, and is stored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Outcome {
+    /// It reached its end.
+    Finished {
+        /// What it was.
+        run: Size,
+        /// Of the quantity that is measured.
+        errors: Norms,
+        /// At the end, the momentum over the mass.
+        mean_velocity: Vec<f64>,
+    },
+    /// It stopped.
+    Stopped {
+        /// What it was.
+        run: Size,
+        /// Why.
+        failure: String,
+    },
+    /// It was not started.
+    Refused {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// How large a run is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Grid spacing h, the longest edge of a cell.
+    pub cell_size: f64,
+    /// Time step dt.
+    pub time_step: f64,
+    /// Steps.
+    pub steps: usize,
+    /// Particles.
+    pub particles: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    /// What it was, if it was started.
+    pub fn run(&self) -> Option<&Size> {
+        match self {
+            Outcome::Finished { run, .. } | Outcome::Stopped { run, .. } => Some(run),
+            Outcome::Refused { .. } => None,
+        }
+    }
+
+    /// What a row refines: h or dt.
+    pub fn size(&self, row: &Row) -> Option<f64> {
+        let time_alone = row.halvings > 0;
+        self.run().map(|run| if time_alone { run.time_step } else { run.cell_size })
+    }
+
+    /// The errors that a row looks at, if there are any.
+    pub fn errors(&self, row: &Row) -> Option<Norms> {
+        let Outcome::Finished { errors, mean_velocity, .. } = self else { return None };
+        let Quantity::MeanVelocity(exact) = &row.quantity else { return Some(*errors) };
+        if mean_velocity.len() != exact.len() {
+            return None;
+        }
+        let squares = mean_velocity.iter().zip(exact).map(|(v, exact)| (v - exact).powi(2));
+        Some([squares.sum::<f64>().sqrt(); 3])
+    }
+
+    /// Why there are no errors.
+    pub fn failure(&self) -> Option<String> {
+        match self {
+            Outcome::Finished { .. } => None,
+            Outcome::Stopped { failure, .. } => Some(failure.clone()),
+            Outcome::Refused { reason } => Some(format!("not started: {reason}")),
+        }
+    }
+}
+
+/// What is said while runs go on. All of it may come from several threads.
+pub trait Watcher: Sync {
+    /// A run was taken from the store.
+    fn found(&self, job: &Job);
+    /// A run has made some of its steps.
+    fn step(&self, job: &Job, step: usize, steps: usize);
+    /// A run has ended.
+    fn done(&self, job: &Job, outcome: &Outcome);
+    /// A file of the store was set aside.
+    fn set_aside(&self, what: &str);
+}
+
+/// The outcomes of runs, in their order.
+///
+/// # Errors
+/// The store cannot be read or written, a field of the gallery does not compile.
+pub fn outcomes(
+    jobs: &[Job],
+    store: &Store,
+    threads: NonZero<usize>,
+    watcher: &dyn Watcher,
+) -> anyhow::Result<Vec<Outcome>> {
+    let work = Work { store, watcher, inputs: Mutex::default() };
+    // First what nobody has begun; then what another process had begun, and may have ended without.
+    let mut outcomes: Vec<Option<Outcome>> = vec![None; jobs.len()];
+    for wait in [false, true] {
+        let left: Vec<usize> = (0..jobs.len()).filter(|&at| outcomes[at].is_none()).collect();
+        let next = AtomicUsize::new(0);
+        let worker = || {
+            let mut done = Vec::new();
+            while let Some(&at) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+                done.push((at, work.outcome(&jobs[at], wait)?));
+            }
+            anyhow::Ok(done)
+        };
+        let results = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..threads.get()).map(|_| scope.spawn(worker)).collect();
+            let results = workers.into_iter().map(|worker| worker.join());
+            results.collect::<Vec<_>>()
+        });
+        for result in results {
+            let done = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+            for (at, outcome) in done {
+                outcomes[at] = outcome;
+            }
+        }
+    }
+    // With waiting, nothing is left out.
+    Ok(outcomes.into_iter().flatten().collect())
+}
+
+struct Work<'a> {
+    store: &'a Store,
+    watcher: &'a dyn Watcher,
+    /// Fields with everything derived, by name and variant.
+    inputs: Mutex<BTreeMap<String, Arc<Input>>>,
+}
+
+impl Work<'_> {
+    /// The outcome of a run; nothing, if another process has claimed it and there is to be no waiting.
+    fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
+        if let Some(outcome) = self.stored(job)? {
+            return Ok(Some(outcome));
+        }
+        let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
+        // Whoever held the claim before may have finished.
+        if let Some(outcome) = self.stored(job)? {
+            return Ok(Some(outcome));
+        }
+        let outcome = self.run(job)?;
+        self.store.save(&job.key, &outcome)?;
+        self.watcher.done(job, &outcome);
+        Ok(Some(outcome))
+    }
+
+    fn stored(&self, job: &Job) -> anyhow::Result<Option<Outcome>> {
+        Ok(match self.store.load(&job.key)? {
+            Entry::Stored(outcome) => {
+                self.watcher.found(job);
+                Some(outcome)
+            }
+            Entry::Missing => None,
+            Entry::SetAside(what) => {
+                self.watcher.set_aside(&what);
+                None
+            }
+        })
+    }
+
+    fn run(&self, job: &Job) -> anyhow::Result<Outcome> {
+        let input = self.input(job)?;
+        Ok(match job.study.method.precision {
+            Precision::F32 => self.solve(job, &input.scene(&job.study.set, |entry| entry.single)?),
+            Precision::F64 => self.solve(job, &input.scene(&job.study.set, |entry| entry.double)?),
+        })
+    }
+
+    fn solve<T: Solvable>(&self, job: &Job, scene: &Scene<T>) -> Outcome {
+        let mut step = |step: usize, steps: usize| self.watcher.step(job, step, steps);
+        let watch = match job.quantity {
+            Quantity::Displacement => Watch::Displacement,
+            _ => Watch::Everything,
+        };
+        match scene.run(&job.method, &job.study.cells[0], watch, &mut step) {
+            Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+            Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
+        }
+    }
+
+    /// The field of a run, derived once for all of its runs.
+    fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
+        let name = format!("{} {:?}", job.entry.name, job.study.variant);
+        // Whoever else needs a field has to wait for it anyway.
+        let mut inputs = self.inputs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(input) = inputs.get(&name) {
+            return Ok(input.clone());
+        }
+        let input = Arc::new(Input::find(job.entry.name, &job.study.variant)?);
+        inputs.insert(name, input.clone());
+        Ok(input)
+    }
+}
+
+fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
+    let run = Size {
+        cell_size: level.cell_size,
+        time_step: level.time_step,
+        steps: level.steps,
+        particles: level.particles,
+        seconds: level.seconds,
+    };
+    let Some(Details { largest, diagnostics: state, .. }) = details else {
+        let failure = level.errors.as_ref().err().map(ToString::to_string);
+        return Outcome::Stopped { run, failure: failure.unwrap_or_default() };
+    };
+    let Errors { l1, l2, linf } = match quantity {
+        Quantity::Displacement | Quantity::MeanVelocity(_) => largest.displacement,
+        Quantity::Velocity => largest.velocity,
+        Quantity::DeformationGradient => largest.deformation_gradient,
+        Quantity::FirstPiolaKirchhoff => largest.first_piola_kirchhoff,
+    };
+    let mean_velocity = state.momentum.iter().map(|p| p / state.mass).collect();
+    Outcome::Finished { run, errors: [l1, l2, linf], mean_velocity }
+}
