@@ -13,6 +13,7 @@ pub mod scene;
 pub mod schema;
 mod store;
 mod verify;
+mod vtk;
 pub mod workbench;
 
 /// The README's programs.

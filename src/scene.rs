@@ -1,6 +1,6 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::study::{Progress, Solve, Watch};
+use mms_runtime::study::{Observer, Solve, Watch};
 use mms_runtime::{Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// A field of one, two or three dimensions in the precision `T`.
@@ -67,12 +67,12 @@ impl<T: Solvable> Scene<T> {
         method: &Method,
         cells: &Division,
         watch: Watch,
-        progress: &mut Progress<'_>,
+        observer: &mut dyn Observer,
     ) -> Result<Run, Refusal> {
         match self {
-            Scene::Line(field) => T::run(field.as_ref(), method, cells, watch, progress),
-            Scene::Plane(field) => T::run(field.as_ref(), method, cells, watch, progress),
-            Scene::Space(field) => T::run(field.as_ref(), method, cells, watch, progress),
+            Scene::Line(field) => T::run(field.as_ref(), method, cells, watch, observer),
+            Scene::Plane(field) => T::run(field.as_ref(), method, cells, watch, observer),
+            Scene::Space(field) => T::run(field.as_ref(), method, cells, watch, observer),
         }
     }
 
@@ -84,8 +84,8 @@ impl<T: Solvable> Scene<T> {
         &self,
         method: &Method,
         cells: &Division,
-        progress: &mut Progress<'_>,
+        observer: &mut dyn Observer,
     ) -> Result<Level, Refusal> {
-        self.run(method, cells, Watch::Displacement, progress).map(|run| run.level)
+        self.run(method, cells, Watch::Displacement, observer).map(|run| run.level)
     }
 }

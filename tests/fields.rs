@@ -487,7 +487,7 @@ fn levels<T: Solvable>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level>
     let scene = scene.expect("parameters in the order of the file");
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {
-        let progress = &mut |_, _| {};
+        let progress = &mut ();
         scene.run_level(&method(study), &cells.into(), progress).expect("a scene for the solver")
     };
     cells.iter().map(level).collect()

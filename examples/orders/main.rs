@@ -48,7 +48,7 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     let scene = scene(entry, row)?;
     let mut levels = Vec::new();
     for &cells in row.levels {
-        levels.push(scene.run_level(&row.method()?, &cells.into(), &mut |_, _| {})?);
+        levels.push(scene.run_level(&row.method()?, &cells.into(), &mut ())?);
     }
     let judgement = judge(&levels, 2.0, TOLERANCE.max(row.tolerance));
     let finest = levels.last().and_then(|level| level.errors.as_ref().ok());

@@ -168,8 +168,9 @@ pub(crate) fn at_most(what: &'static str, count: f64, limit: f64) -> Result<f64,
 /// Why a run stopped, where and when.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "stopped in step {step} at time {time:e}{}, X = {reference_position:?}: {cause}; {}",
+    "stopped in step {step} at time {time:e}{}{}: {cause}; {}",
     particle.map_or(String::new(), |p| format!(", particle {p}")),
+    if reference_position.is_empty() { String::new() } else { format!(", X = {reference_position:?}") },
     cause.advice()
 )]
 pub struct Failure {
@@ -179,7 +180,7 @@ pub struct Failure {
     pub time: f64,
     /// The particle, unless it happened at a grid node.
     pub particle: Option<usize>,
-    /// Reference position of the particle or node, `D` components.
+    /// Reference position of the particle or node, `D` components; none if it happened to all of them.
     pub reference_position: Vec<f64>,
     /// What happened.
     pub cause: Cause,
@@ -240,6 +241,12 @@ pub enum Cause {
         /// The node's position.
         position: Vec<f64>,
     },
+    /// Who follows the run could not go on.
+    #[error("{reason}")]
+    Stopped {
+        /// Why.
+        reason: String,
+    },
 }
 
 impl Cause {
@@ -269,6 +276,7 @@ impl Cause {
                 "the field may not continue smoothly beyond its body: claim `fixed`, `roller` or \
                  `free` on that face if it holds, or use more cells"
             }
+            Cause::Stopped { .. } => "what was written before is whole",
         }
     }
 }

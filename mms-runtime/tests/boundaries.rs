@@ -25,7 +25,7 @@ fn level<const D: usize>(
 where
     f64: Solve<D>,
 {
-    run_level(field, method, &cells.parse().unwrap(), &mut |_, _| {}).unwrap()
+    run_level(field, method, &cells.parse().unwrap(), &mut ()).unwrap()
 }
 
 /// Between two levels, l2 has an order within these bounds, and linf one of at least the lower, less 0.1.

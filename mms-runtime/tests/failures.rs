@@ -79,7 +79,7 @@ fn run<T: Solve<1>>(
     method: &Method,
     cells: usize,
 ) -> Result<Level, Refusal> {
-    run_level(field, method, &cells.into(), &mut |_, _| {})
+    run_level(field, method, &cells.into(), &mut ())
 }
 
 fn refusal(domain: fn(&mut Domain<f64, 1>)) -> Refusal {
@@ -100,7 +100,7 @@ fn refused<const D: usize>(
 where
     f64: Solve<D>,
 {
-    run_level(field, &with(setup), cells, &mut |_, _| {}).unwrap_err()
+    run_level(field, &with(setup), cells, &mut ()).unwrap_err()
 }
 
 fn failure(level: Level) -> Failure {
@@ -124,7 +124,7 @@ fn conditions_that_an_annulus_cannot_meet_are_refused_by_name() {
         let text = refusal.to_string();
         assert!(text.contains(&face.to_string()) && text.contains("--fill fitted"), "{text}");
         let fitted =
-            run_level(&sector(face, condition), &Method::default(), &8.into(), &mut |_, _| {});
+            run_level(&sector(face, condition), &Method::default(), &8.into(), &mut ());
         assert!(fitted.is_ok(), "{fitted:?}");
 
         let condition = Condition::Roller;

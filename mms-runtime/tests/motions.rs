@@ -20,7 +20,7 @@ fn details<const D: usize>(
 where
     f64: Solve<D>,
 {
-    let run = f64::run(field, method, &cells.into(), Watch::Everything, &mut |_, _| {}).unwrap();
+    let run = f64::run(field, method, &cells.into(), Watch::Everything, &mut ()).unwrap();
     run.details.unwrap_or_else(|| panic!("{method:?}: {:?}", run.level.errors))
 }
 

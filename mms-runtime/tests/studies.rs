@@ -17,7 +17,7 @@ fn run<T: Solve<D>, const D: usize>(
     method: &Method,
     cells: usize,
 ) -> Run {
-    T::run(field, method, &Division::Uniform(cells), Watch::Parts(PARTS), &mut |_, _| {}).unwrap()
+    T::run(field, method, &Division::Uniform(cells), Watch::Parts(PARTS), &mut ()).unwrap()
 }
 
 fn total(shape: ShapeName, integrator: IntegratorName) -> Method {
@@ -124,7 +124,7 @@ fn a_study_in_single_precision_stops_at_its_floor() {
     let method = total(ShapeName::Linear, IntegratorName::Leapfrog);
     let runs = [128, 256, 512, 1024].map(|cells| {
         let cells = Division::Uniform(cells);
-        f32::run(&Bar::default(), &method, &cells, Watch::Displacement, &mut |_, _| {}).unwrap()
+        f32::run(&Bar::default(), &method, &cells, Watch::Displacement, &mut ()).unwrap()
     });
     let points = runs.each_ref().map(|run| Refinement::Both.displacement(run));
     let noise = points.map(|point| point.is_noise());

@@ -19,7 +19,7 @@ fn run(faces: Condition, method: &Method, threads: usize) -> Run {
     let mut method = method.clone();
     method.setup.threads = threads;
     method.setup.end_time = Some(0.15);
-    f64::run(&sliding(faces), &method, &40.into(), Watch::Everything, &mut |_, _| {}).unwrap()
+    f64::run(&sliding(faces), &method, &40.into(), Watch::Everything, &mut ()).unwrap()
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn slabs_do_not_change_the_order() {
             &method,
             &cells.into(),
             Watch::Displacement,
-            &mut |_, _| {},
+            &mut (),
         );
         run.unwrap().level
     };

@@ -4,6 +4,7 @@ use std::io::IsTerminal as _;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_runtime::Division;
+use mms_runtime::study::Observer;
 
 /// A bar on a terminal, a line per run elsewhere.
 pub struct Progress {
@@ -18,23 +19,18 @@ impl Progress {
             ProgressBar::hidden()
         };
         if let Ok(style) =
-            ProgressStyle::with_template("{msg} {bar:40} {percent:>3}% {eta:>4} left")
+            ProgressStyle::with_template(
+            "{msg} {bar:40} {percent:>3}% {per_sec} particles and steps, {eta:>4} left",
+        )
         {
             bar.set_style(style);
         }
         Progress { bar }
     }
 
-    pub fn step(&self, cells: &Division, step: usize, steps: usize) {
-        if step <= 1 {
-            self.bar.reset();
-            self.bar.set_length(steps as u64);
-            self.bar.set_message(format!("{cells} cells"));
-        }
-        self.bar.set_position(step as u64);
-        if step == steps && self.bar.is_hidden() {
-            anstream::eprintln!("{cells} cells: {steps} steps done");
-        }
+    /// Follows a run.
+    pub fn of(&self, cells: Division) -> OfRun<'_> {
+        OfRun { bar: &self.bar, cells }
     }
 
     pub fn say(&self, line: &str) {
@@ -43,5 +39,27 @@ impl Progress {
 
     pub fn finish(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// How far one run is, in particles and steps.
+pub struct OfRun<'a> {
+    bar: &'a ProgressBar,
+    cells: Division,
+}
+
+impl Observer for OfRun<'_> {
+    fn begin(&mut self, particles: usize, steps: usize) {
+        self.bar.reset();
+        self.bar.set_length(particles as u64 * steps as u64);
+        self.bar.set_message(format!("{} cells", self.cells));
+    }
+
+    fn step(&mut self, step: usize, steps: usize) {
+        let all = self.bar.length().unwrap_or_default();
+        self.bar.set_position(all / steps as u64 * step as u64);
+        if step == steps && self.bar.is_hidden() {
+            anstream::eprintln!("{} cells: {steps} steps done", self.cells);
+        }
     }
 }

@@ -1,15 +1,17 @@
 //! `mms run`: one simulation.
 
+use std::path::PathBuf;
+
 use clap::Args;
-use mms_runtime::study::Watch;
-use mms_runtime::{Division, Method, Refusal};
+use mms_runtime::study::{Frame, Observer, Watch};
+use mms_runtime::Division;
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
-use super::progress::Progress;
+use super::progress::{OfRun, Progress};
 use super::{Outcome, print, print_json};
 use crate::report::run::Run as Report;
-use crate::scene::{Scene, Solvable};
+use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
 #[derive(Args)]
@@ -27,9 +29,41 @@ pub struct Run {
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
+    /// Write states for ParaView to this folder: FIELD.pvd, which is the file to open, and one .vtu file
+    /// for each.
+    #[arg(long, value_name = "DIR")]
+    vtk: Option<PathBuf>,
+    /// How many states to write after the initial one.
+    #[arg(long, value_name = "N", default_value_t = 20, requires = "vtk", value_parser = clap::value_parser!(u32).range(1..))]
+    frames: u32,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
+}
+
+/// Who follows a run.
+struct Followers<'a> {
+    progress: OfRun<'a>,
+    vtk: Option<Writer>,
+}
+
+impl Observer for Followers<'_> {
+    fn begin(&mut self, particles: usize, steps: usize) {
+        self.progress.begin(particles, steps);
+    }
+
+    fn step(&mut self, step: usize, steps: usize) {
+        self.progress.step(step, steps);
+    }
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        self.vtk.as_ref().is_some_and(|vtk| vtk.wants(step, steps))
+    }
+
+    fn see(&mut self, frame: &Frame) -> Result<(), String> {
+        let Some(vtk) = &mut self.vtk else { return Ok(()) };
+        vtk.write(frame).map_err(|error| format!("{error:#}"))
+    }
 }
 
 impl Run {
@@ -38,14 +72,22 @@ impl Run {
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
+        let vtk = self.vtk.as_deref().map(|folder| {
+            Writer::new(folder, input.name.trim_start_matches('.'), self.frames as usize)
+        });
+        let progress = Progress::new();
+        let mut followers = Followers { progress: progress.of(cells), vtk: vtk.transpose()? };
         let run = match self.method.precision {
             Precision::F32 => {
-                self.solve(&input.scene(&self.set, |entry| entry.single)?, &method, &cells)
+                let scene = input.scene(&self.set, |entry| entry.single)?;
+                scene.run(&method, &cells, Watch::Everything, &mut followers)
             }
             Precision::F64 => {
-                self.solve(&input.scene(&self.set, |entry| entry.double)?, &method, &cells)
+                let scene = input.scene(&self.set, |entry| entry.double)?;
+                scene.run(&method, &cells, Watch::Everything, &mut followers)
             }
         };
+        progress.finish();
         let run = match run {
             Ok(run) => run,
             Err(refusal) => {
@@ -65,23 +107,13 @@ impl Run {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
+            if let Some(vtk) = &followers.vtk {
+                print(&format!("\nwrote {}", vtk.list().display()))?;
+            }
         }
         if let Err(failure) = &report.run.level.errors {
             anstream::eprintln!("error: {failure}");
         }
         Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
-    }
-
-    fn solve<T: Solvable>(
-        &self,
-        scene: &Scene<T>,
-        method: &Method,
-        cells: &Division,
-    ) -> Result<mms_runtime::Run, Refusal> {
-        let progress = Progress::new();
-        let mut step = |step: usize, steps: usize| progress.step(cells, step, steps);
-        let run = scene.run(method, cells, Watch::Everything, &mut step);
-        progress.finish();
-        run
     }
 }

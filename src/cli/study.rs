@@ -188,8 +188,7 @@ impl Study {
     ) -> (Vec<Result<Run, Refused>>, Option<Fit>) {
         let progress = Progress::new();
         let run = |method: &Method, cells: Division, watch: Watch| {
-            let mut step = |step: usize, steps: usize| progress.step(&cells, step, steps);
-            let run = scene.run(method, &cells, watch, &mut step);
+            let run = scene.run(method, &cells, watch, &mut progress.of(cells));
             match run.as_ref().map(|run| &run.level.errors) {
                 Ok(Ok(_)) => {}
                 Ok(Err(failure)) => progress.say(&format!("{cells} cells: {failure}")),

@@ -19,3 +19,4 @@ mod study;
 mod study_files;
 mod study_methods;
 mod verify;
+mod vtk;

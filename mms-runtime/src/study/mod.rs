@@ -4,6 +4,7 @@ mod balance;
 mod deviations;
 mod errors;
 mod fit;
+mod observer;
 mod order;
 mod refinement;
 mod run;
@@ -15,9 +16,10 @@ pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
 pub use fit::{Fit, fit};
+pub use observer::{Frame, Observer};
 pub use order::{Orders, observed_order, orders};
 pub use refinement::{Refinement, differences};
-pub use run::{Details, Diagnostics, Progress, Run, Solve, Watch};
+pub use run::{Details, Diagnostics, Run, Solve, Watch};
 pub use series::{Point, Series};
 pub use snapshots::Snapshots;
 pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
@@ -51,7 +53,7 @@ pub fn run_level<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
     cells: &Division,
-    progress: &mut Progress<'_>,
+    observer: &mut dyn Observer,
 ) -> Result<Level, Refusal> {
-    T::run(field, method, cells, Watch::Displacement, progress).map(|run| run.level)
+    T::run(field, method, cells, Watch::Displacement, observer).map(|run| run.level)
 }

@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use super::balance::{Account, Balance};
 use super::deviations::{Deviations, Watcher};
-use super::{Errors, Level, Snapshots};
+use super::{Errors, Frame, Level, Observer, Snapshots};
 use crate::formulation::{Formulation, FormulationVisitor};
 use crate::integrator::{Integrator, IntegratorVisitor};
 use crate::shape::{Shape, ShapeVisitor};
 use crate::solver::Seconds;
 use crate::tensor::jacobian;
-use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
+use crate::{Cause, Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
 
 /// Which errors are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,9 +95,6 @@ impl Diagnostics {
     }
 }
 
-/// Called with the number of the step and the number of steps, after each step.
-pub type Progress<'a> = dyn FnMut(usize, usize) + Send + 'a;
-
 /// A precision that there is a solver for in `D` dimensions. It is compiled in this crate, once: who calls
 /// it through this trait compiles none.
 pub trait Solve<const D: usize>: Real {
@@ -112,7 +109,7 @@ pub trait Solve<const D: usize>: Real {
         method: &Method,
         cells: &Division,
         watch: Watch,
-        progress: &mut Progress<'_>,
+        observer: &mut dyn Observer,
     ) -> Result<Run, Refusal>;
 }
 
@@ -124,10 +121,10 @@ macro_rules! solve {
                 method: &Method,
                 cells: &Division,
                 watch: Watch,
-                progress: &mut Progress<'_>,
+                observer: &mut dyn Observer,
             ) -> Result<Run, Refusal> {
                 method.validate()?;
-                let scene = WithFormulation { field, method, cells, watch, progress };
+                let scene = WithFormulation { field, method, cells, watch, observer };
                 method.formulation.visit(scene)
             }
         })*
@@ -142,7 +139,7 @@ struct WithFormulation<'a, T, const D: usize> {
     method: &'a Method,
     cells: &'a Division,
     watch: Watch,
-    progress: &'a mut Progress<'a>,
+    observer: &'a mut dyn Observer,
 }
 
 impl<T: Real, const D: usize> FormulationVisitor for WithFormulation<'_, T, D> {
@@ -165,7 +162,7 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
     type Output = Result<Run, Refusal>;
 
     fn visit<S: Shape>(self) -> Self::Output {
-        let WithFormulation { field, method, cells, watch, progress } = self.scene;
+        let WithFormulation { field, method, cells, watch, observer } = self.scene;
         let start = Instant::now();
         let solver = Solver::<T, D, _, S, L>::new(field, &method.setup, cells)?;
         let lattice = &solver.grid().lattice;
@@ -182,7 +179,7 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
         let (details, seconds, snapshots) = Default::default();
         let mut run = Run { level, details, seconds, snapshots };
         let fastest_wave = method.setup.fastest_wave;
-        let scene = WithIntegrator { solver, fastest_wave, watch, watcher, progress };
+        let scene = WithIntegrator { solver, fastest_wave, watch, watcher, observer };
         let result = match method.setup.threads {
             1 => method.integrator.visit(scene),
             threads => pool(threads)?.install(|| method.integrator.visit(scene)),
@@ -212,7 +209,7 @@ struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
     fastest_wave: Option<f64>,
     watch: Watch,
     watcher: Watcher<T, D>,
-    progress: &'a mut Progress<'a>,
+    observer: &'a mut dyn Observer,
 }
 
 impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
@@ -221,11 +218,13 @@ impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
     type Output = Result<(Details, Seconds, Snapshots), Failure>;
 
     fn visit<I: Integrator>(self) -> Self::Output {
-        let Self { mut solver, fastest_wave, watch, mut watcher, progress } = self;
+        let Self { mut solver, fastest_wave, watch, mut watcher, observer } = self;
         let steps = solver.steps();
         fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
         solver.check()?;
+        observer.begin(solver.particles().len(), steps);
         let mut last = watcher.measure(&solver)?;
+        show(&solver, 0, observer)?;
         let (mut largest, mut snapshots) = (last, Snapshots::default());
         let mut account = (watch != Watch::Displacement).then(|| Account::new(&solver));
         for step in 1..=steps {
@@ -247,10 +246,35 @@ impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
             {
                 snapshots.take(solver.particles());
             }
-            progress(step, steps);
+            observer.step(step, steps);
+            show(&solver, step, observer)?;
         }
         let round_off = watcher.round_off(steps);
         let diagnostics = Diagnostics::of(&solver, account.map(Account::close));
         Ok((Details { largest, last, round_off, diagnostics }, solver.seconds(), snapshots))
     }
+}
+
+/// Shows the state after a step to an observer that wants it.
+fn show<T: Real, const D: usize, F, S, L>(
+    solver: &Solver<'_, T, D, F, S, L>,
+    step: usize,
+    observer: &mut dyn Observer,
+) -> Result<(), Failure>
+where
+    F: ManufacturedField<T, D> + ?Sized,
+    S: Shape,
+    L: Formulation,
+{
+    if !observer.wants(step, solver.steps()) {
+        return Ok(());
+    }
+    let stopped = |reason| Failure {
+        step,
+        time: solver.present(),
+        particle: None,
+        reference_position: Vec::new(),
+        cause: Cause::Stopped { reason },
+    };
+    observer.see(&Frame::of(solver, step)).map_err(stopped)
 }

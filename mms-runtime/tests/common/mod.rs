@@ -381,6 +381,6 @@ pub fn levels<T: Solve<D>, const D: usize>(
     method: &Method,
     cells: &[usize],
 ) -> Vec<Level> {
-    let level = |&cells: &usize| run_level(field, method, &cells.into(), &mut |_, _| {}).unwrap();
+    let level = |&cells: &usize| run_level(field, method, &cells.into(), &mut ()).unwrap();
     cells.iter().map(level).collect()
 }
