@@ -1,0 +1,80 @@
+//! Random fields, in C and in Python: more of them than six with `PROPTEST_CASES`.
+
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::emit::{Subject, Target};
+use mms_codegen::{Compiled, Options};
+use proptest::prelude::*;
+use proptest::test_runner::Config;
+
+use super::build::{can_build, prove, quick};
+
+/// A formula in X, t and two parameters, with a value everywhere.
+fn formula() -> impl Strategy<Value = String> {
+    let number = (1..50_u32, 1..9_u32).prop_map(|(above, below)| format!("{above}/{below}"));
+    let leaf = prop_oneof![
+        3 => prop::sample::select(vec!["X", "t", "a", "b", "pi"]).prop_map(String::from),
+        1 => number,
+    ];
+    leaf.prop_recursive(5, 40, 2, |inner| {
+        let two = (inner.clone(), inner.clone());
+        let pair = prop::sample::select(vec![
+            "({})+({})",
+            "({})-({})",
+            "({})*({})",
+            "({})/(2+({})^2)",
+            "atan2({},3+({})^2)",
+            "(1+({})^2)^sin({})",
+            "hypot({},1+({})^2)",
+        ]);
+        let single = prop::sample::select(vec![
+            "sin({})",
+            "cos(pi*({}))",
+            "tanh(sin({}))",
+            "atan({})",
+            "exp(sin({}))",
+            "sinh(cos({}))",
+            "sqrt(1+({})^2)",
+            "ln(1+({})^2)",
+            "cbrt(2+sin({}))",
+            "acos(sin({})/2)",
+            "-({})^3",
+        ]);
+        prop_oneof![
+            (pair, two).prop_map(|(form, (a, b))| form.replacen("{}", &a, 1).replacen("{}", &b, 1)),
+            (single, inner).prop_map(|(form, a)| form.replace("{}", &a)),
+        ]
+    })
+}
+
+fn field(formula: &str) -> Option<Compiled> {
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = {{ value = 0.3 }}\nb = {{ value = 1.7 }}\n\
+         [displacement]\nu = [\"X*sin({formula})/1000\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\n\
+         mu = 1\ndensity = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
+    );
+    // One that turns the body inside out is refused.
+    compile_unproved("field", "x.toml", &text, &|path| Err(path.into()), &Options::default()).ok()
+}
+
+#[test]
+fn random_fields_prove_themselves() {
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|it| it.parse().ok()).unwrap_or(6);
+    let targets: Vec<&Target> = ["c", "python"]
+        .iter()
+        .filter_map(|name| Target::find(name))
+        .filter(|target| can_build(target))
+        .collect();
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
+    proptest!(config, |(formula in formula())| {
+        let field = field(&formula);
+        prop_assume!(field.is_some());
+        let field = field.expect("it compiles");
+        let subject = Subject::new(&field);
+        // A number of which formulas keep no digit says nothing about their emission.
+        let accepted = &subject.vectors().accepted;
+        prop_assume!(accepted.iter().all(|accepted| *accepted < u32::from(u16::MAX)));
+        for target in &targets {
+            prove(target, &subject, "fuzz", quick);
+        }
+    });
+}
