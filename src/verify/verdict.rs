@@ -44,7 +44,7 @@ impl fmt::Display for Verdict {
 /// A row's outcome, and what it rests on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
-    /// The orders of l1, l2 and linf between each level and the one before; those of the first are none.
+    /// The orders of l1, l2 and linf between each level and the one before; the first has none, nor has rounding.
     pub orders: Vec<[Option<f64>; 3]>,
     /// l2 over h^order or dt^order.
     pub constant: Option<f64>,
@@ -78,7 +78,10 @@ impl Judgement {
 ///   from that of the pair before, if there is one.
 /// * `pass`.
 pub fn judge(row: &Row, levels: &[Outcome]) -> Judgement {
-    let orders = orders(row, levels);
+    let orders = match row.order {
+        Expected::Word(Word::Exact) => vec![[None; 3]; levels.len()],
+        _ => orders(row, levels),
+    };
     let constant = constant(row, levels);
     let expected = match row.order {
         Expected::Word(Word::None) => Verdict::DoesNotConverge,
