@@ -145,8 +145,8 @@ fn see(
         return (Verdict::Fail, seen);
     }
     let written = row.constant.unwrap_or(f64::NAN);
-    let ratio = constant.unwrap_or(f64::NAN) / written;
-    if !((ratio - 1.0).abs() <= CONSTANT_TOLERANCE) {
+    let near = |constant: f64| (constant / written - 1.0).abs() <= CONSTANT_TOLERANCE;
+    if !constant.is_some_and(near) {
         let found = constant.map_or("none".into(), |constant| format!("{constant:.4e}"));
         return (Verdict::Fail, format!("error constant {found}, not {written:.4e}"));
     }
@@ -167,7 +167,7 @@ fn exact(row: &Row, levels: &[Outcome]) -> (Verdict, String) {
             Outcome::Stopped { failure, .. } => return (Verdict::Fail, failure.clone()),
             Outcome::Refused { .. } => continue,
         };
-        if !(largest <= ROUNDING) {
+        if largest.is_nan() || largest > ROUNDING {
             return (Verdict::Fail, format!("an error of {largest:.1e} in linf"));
         }
     }
