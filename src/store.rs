@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::report::write_whole;
@@ -74,10 +75,9 @@ impl Store {
         let entries = fs::read_dir(folder).with_context(|| format!("cannot read `{shown}`"))?;
         for entry in entries {
             let path = entry.with_context(|| format!("cannot read `{shown}`"))?.path();
-            if path.extension().is_some_and(|extension| extension == "json") {
-                if let Entry::SetAside(what) = store.read::<serde_json::Value>(&path, None)? {
-                    set_aside.push(what);
-                }
+            let is_result = path.extension().is_some_and(|extension| extension == "json");
+            if is_result && let Entry::SetAside(what) = store.read::<Value>(&path, None)? {
+                set_aside.push(what);
             }
         }
         set_aside.sort();
@@ -242,7 +242,9 @@ mod tests {
     #[test]
     fn no_damaged_file_is_trusted_and_none_is_deleted() {
         let whole = |store: &Store| fs::read(file(store, "one")).unwrap();
-        let damages: [(&str, fn(&[u8], &[u8]) -> Vec<u8>); 7] = [
+        /// What is made of one result, and of the other.
+        type Damage = fn(&[u8], &[u8]) -> Vec<u8>;
+        let damages: [(&str, Damage); 7] = [
             ("not a whole result", |one, _| one[..one.len() / 2].to_vec()),
             ("not a whole result", |_, _| Vec::new()),
             ("not a whole result", |_, _| vec![0xff, 0x00, 0x80]),

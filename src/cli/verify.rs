@@ -22,8 +22,8 @@ use crate::verify::work::{self, Watcher, outcomes};
 /// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
 /// verdict held to theory.
 ///
-/// Results are stored as runs finish. The same command resumes, after Ctrl-C as after a power cut, and takes from
-/// the store what it holds; a program that was built anew starts anew. Several processes may share a store.
+/// Results are stored as runs finish. Interrupted or killed, the same command resumes with what the store holds; a
+/// program that was built anew starts anew. Several processes may share a store.
 #[derive(Args)]
 pub struct Verify {
     /// Fewer levels and rows: within a minute on two processors, where the whole matrix takes some minutes.
@@ -207,7 +207,7 @@ impl Watcher for Progress {
         if self.bar.is_hidden() {
             let end = outcome.failure().unwrap_or_else(|| "done".into());
             let left = self.bar.eta().as_secs();
-            anstream::eprintln!("{count}, about {left} s left: {}: {end}", job.key.command);
+            anstream::eprintln!("{count}, about {left} s left: {}: {end}", job.command);
         }
     }
 

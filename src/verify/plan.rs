@@ -17,8 +17,8 @@ pub struct Key {
     program: String,
     /// The digest of the field's text, and of its own material's.
     field: String,
-    /// The command that does the same.
-    pub command: String,
+    /// Method, cells, precision, parameters and motion.
+    run: String,
     /// Of what errors are measured.
     quantity: &'static str,
 }
@@ -26,8 +26,10 @@ pub struct Key {
 /// A run: a level of a row, or of several.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// What it is.
+    /// What its result depends on.
     pub key: Key,
+    /// The command that does the same.
+    pub command: String,
     /// Its field.
     pub entry: &'static Entry,
     /// Cells, precision, parameters and motion.
@@ -106,14 +108,17 @@ fn job(
         Quantity::MeanVelocity(_) => Quantity::Displacement,
         other => other,
     };
-    let work = work(&study, &method, &study.cells[0], dimension);
+    let cells = &study.cells[0];
+    let work = work(&study, &method, cells, dimension);
+    let (precision, Study { set, variant, .. }) = (study.method.precision.name(), &study);
     let key = Key {
         program: program.to_owned(),
         field: digest([entry.text, entry.material.unwrap_or_default()]),
-        command: format!("mms run {arguments}"),
+        run: format!("{method:?}, {cells} cells, {precision}, {set:?}, {variant:?}"),
         quantity: quantity.name(),
     };
-    Ok(Job { key, entry, study, method, quantity, work })
+    let command = format!("mms run {arguments}");
+    Ok(Job { key, command, entry, study, method, quantity, work })
 }
 
 /// Particles times steps, about; and what is not compiled takes longer.

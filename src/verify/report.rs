@@ -144,7 +144,7 @@ impl Report<'_> {
             if row.group() != group {
                 group = row.group();
                 page += &format!(
-                    "\n## {group}\n\n| mode | study | levels | formal order | observed | constant | verdict | theory |\n|---|---|---|---|---|---|---|---|\n"
+                    "\n## {group}\n\n| mode | study | refined | formal order | observed | constant | verdict | theory |\n|---|---|---|---|---|---|---|---|\n"
                 );
             }
             let observed: Vec<_> =

@@ -134,7 +134,8 @@ pub fn outcomes(
             anyhow::Ok(done)
         };
         let results = std::thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads.get()).map(|_| scope.spawn(worker)).collect();
+            let count = threads.get().min(left.len());
+            let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
             let results = workers.into_iter().map(|worker| worker.join());
             results.collect::<Vec<_>>()
         });
