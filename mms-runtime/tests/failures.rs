@@ -123,8 +123,7 @@ fn conditions_that_an_annulus_cannot_meet_are_refused_by_name() {
         assert_eq!(refusal, Refusal::RaggedFace { face, condition });
         let text = refusal.to_string();
         assert!(text.contains(&face.to_string()) && text.contains("--fill fitted"), "{text}");
-        let fitted =
-            run_level(&sector(face, condition), &Method::default(), &8.into(), &mut ());
+        let fitted = run_level(&sector(face, condition), &Method::default(), &8.into(), &mut ());
         assert!(fitted.is_ok(), "{fitted:?}");
 
         let condition = Condition::Roller;

@@ -18,11 +18,9 @@ impl Progress {
         } else {
             ProgressBar::hidden()
         };
-        if let Ok(style) =
-            ProgressStyle::with_template(
+        if let Ok(style) = ProgressStyle::with_template(
             "{msg} {bar:40} {percent:>3}% {per_sec} particles and steps, {eta:>4} left",
-        )
-        {
+        ) {
             bar.set_style(style);
         }
         Progress { bar }

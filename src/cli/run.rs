@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use mms_runtime::study::{Frame, Observer, Watch};
 use mms_runtime::Division;
+use mms_runtime::study::{Frame, Observer, Watch};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};

@@ -26,11 +26,11 @@ fn numbers(document: &Document, name: &str) -> Vec<f64> {
 #[test]
 fn states_are_written_for_paraview() {
     let folder = Folder::new();
-    let run = folder.mms("run axis_aligned_2d --cells 8 --vtk out --frames 3 --json").exits(0).json();
+    let run =
+        folder.mms("run axis_aligned_2d --cells 8 --vtk out --frames 3 --json").exits(0).json();
     let list = folder.read("out/axis_aligned_2d.pvd");
     let list = Document::parse(&list).expect("XML");
-    let states: Vec<_> =
-        list.descendants().filter(|node| node.has_tag_name("DataSet")).collect();
+    let states: Vec<_> = list.descendants().filter(|node| node.has_tag_name("DataSet")).collect();
     assert_eq!(states.len(), 4);
     let time = |state: &Node| state.attribute("timestep").and_then(|time| time.parse().ok());
     let times: Vec<f64> = states.iter().filter_map(time).collect();
