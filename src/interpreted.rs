@@ -128,7 +128,7 @@ impl<T: Real + Number, const D: usize> Material<T, D> for Interpreted<T> {
             let coordinates = point.as_slice();
             interpreter
                 .set_point(&plan, Point { coordinates, normal: &[], gradient: rows.as_slice() });
-            *energy = interpreter.output(output)[0].clone();
+            *energy = interpreter.output(output)[0];
         }
         true
     }

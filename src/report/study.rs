@@ -113,6 +113,9 @@ fn orders(point: &Point, before: Option<Point>) -> Orders {
     before.map_or_else(Orders::default, |before| point.orders_from(&before))
 }
 
+/// The errors of a level, if it ended, and the orders that led to them.
+type Judged = (Option<Errors>, Orders);
+
 /// Norms, and the orders that led to them.
 fn norms(errors: Option<Errors>, observed: Orders) -> Value {
     json!({
@@ -147,7 +150,7 @@ impl Study {
     }
 
     /// Of u, v, F and P: symbol, key, and errors and orders of each level.
-    fn quantities(&self) -> [(&'static str, &'static str, Vec<(Option<Errors>, Orders)>); 4] {
+    fn quantities(&self) -> [(&'static str, &'static str, Vec<Judged>); 4] {
         let names = quantities(&Deviations::default());
         std::array::from_fn(|which| {
             let point = |run: &Run| Point {
