@@ -124,7 +124,11 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             found.iter().zip(&expected).for_each(|(found, expected)| close(found, expected));
         }
 
-        // q_i = x_i, of which the slopes are 1.
+        // q_i = x_i, of which the slopes are 1. Of hat functions nobody asks for them: at a node they are
+        // quotients of numbers that vanish.
+        if S::DEGREE == 1 {
+            return;
+        }
         let place = |node: usize| Nodal::new(&lattice.position(node), T::zero());
         let places: Vec<_> = (0..lattice.len()).map(place).collect();
         let sums = Sums { stencil: &stencil, lattice: &lattice, nodes: &places };
