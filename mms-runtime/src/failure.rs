@@ -48,6 +48,23 @@ pub enum Refusal {
         /// What the system says.
         reason: String,
     },
+    /// More memory than there is.
+    #[error(
+        "it takes about {needed} MB of memory, and {available} MB are free: use fewer cells, fewer \
+         particles per cell, or single precision"
+    )]
+    TooLittleMemory {
+        /// What it takes, in 10^6 bytes.
+        needed: u64,
+        /// What there is, in 10^6 bytes.
+        available: u64,
+    },
+    /// A checkpoint of another scene, or none.
+    #[error("the state to go on from does not fit: {reason}")]
+    NoState {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Numbers for another dimension.
     #[error("{given} numbers of {what} for a body in {dimension} dimension(s)")]
     WrongDimension {

@@ -71,6 +71,8 @@ pub trait Real:
     + mms_math::batch::Float
     + nalgebra::RealField
     + bytemuck::Pod
+    + serde::Serialize
+    + serde::de::DeserializeOwned
     + Send
     + Sync
 {
@@ -90,6 +92,8 @@ impl<T> Real for T where
         + mms_math::batch::Float
         + nalgebra::RealField
         + bytemuck::Pod
+        + serde::Serialize
+        + serde::de::DeserializeOwned
         + Send
         + Sync
 {

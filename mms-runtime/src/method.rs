@@ -103,6 +103,8 @@ pub struct Setup {
     pub end_time: Option<f64>,
     /// How many threads work on one run, from 1. Its results do not depend on it.
     pub threads: usize,
+    /// How many bytes of memory a run may take; without it as many as it does.
+    pub memory: Option<u64>,
 }
 
 impl Setup {
@@ -138,6 +140,7 @@ impl Default for Setup {
             fastest_wave: None,
             end_time: None,
             threads: 1,
+            memory: None,
         }
     }
 }

@@ -7,10 +7,13 @@
 mod advance;
 mod clock;
 mod map;
+mod need;
 mod operations;
+mod present;
 mod scene;
 mod setup;
 mod slabs;
+mod state;
 mod threads;
 
 use crate::boundary::Boundary;
@@ -19,12 +22,14 @@ use crate::integrator::Integrator;
 use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
-use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
+use crate::tensor::{is_finite, jacobian, matrix_is_finite};
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
 use slabs::Slabs;
 
 pub use clock::Seconds;
+pub use present::Present;
+pub(crate) use state::State;
 
 /// A body of particles, its grid, and the field that drives it, with the shape function `S` in the
 /// formulation `L`.
@@ -97,18 +102,22 @@ where
 
     /// A failure of one particle, now.
     pub(crate) fn failure(&self, particle: usize, cause: Cause) -> Failure {
-        Failure {
-            step: self.clock.step,
-            time: self.clock.time_of(self.clock.step),
-            particle: Some(self.particles.id[particle] as usize),
-            reference_position: components(&self.particles.reference_position[particle]),
-            cause,
-        }
+        self.present().failure(particle, cause)
     }
 
-    /// The field that drives the run.
-    pub fn field(&self) -> &F {
-        self.field
+    /// The state, as measurements see it.
+    pub fn present(&self) -> Present<'_, T, D, F> {
+        let Clock { step, time_step, lag, .. } = self.clock;
+        let time = self.clock.time_of(step);
+        Present {
+            field: self.field,
+            particles: &self.particles,
+            step,
+            time,
+            time_of_velocity: time - lag * time_step,
+            time_step,
+            moves: L::MOVES,
+        }
     }
 
     /// The particles.
@@ -119,16 +128,6 @@ where
     /// The grid, as the last step left it.
     pub fn grid(&self) -> &Grid<T, D> {
         &self.grid
-    }
-
-    /// The time t^n of the particles' positions.
-    pub fn present(&self) -> f64 {
-        self.clock.time_of(self.clock.step)
-    }
-
-    /// The time of the particles' velocities.
-    pub fn time_of_velocity(&self) -> f64 {
-        self.present() - self.clock.lag * self.clock.time_step
     }
 
     /// dt.

@@ -87,7 +87,7 @@ fn balance<I: Integrator, S: Shape, L: Formulation>(transfer: Transfer, faces: C
     let mut solver = Solver::<f64, 1, _, S, L>::new(field, &setup, &EIGHT).unwrap();
     solver.step::<I>().unwrap();
     for _ in 0..5 {
-        let (before, time) = (momentum(&solver), solver.present());
+        let (before, time) = (momentum(&solver), solver.present().time);
         solver.step::<I>().unwrap();
         let particles = solver.particles();
         let body: f64 =
@@ -205,7 +205,7 @@ impl<S: Shape, L: Formulation> IntegratorVisitor for ShearedFlow<S, L> {
         for _ in 0..solver.steps() {
             solver.step::<I>().unwrap();
         }
-        let exact = affine.gradient::<f64, 3>(solver.present());
+        let exact = affine.gradient::<f64, 3>(solver.present().time);
         for h in &solver.particles().displacement_gradient {
             assert!((h - exact).amax() < 0.02, "{h}, not {exact}");
         }

@@ -6,20 +6,13 @@ use common::wave::Wave;
 use mms_runtime::study::{Level, Watch};
 use mms_runtime::{
     Condition, FormulationName, IntegratorName, Method, Run, Setup, ShapeName, Solve, Transfer,
-    Vector,
 };
-
-/// A wave in a box that slides by some cells: enough particles for several slabs, and they change places.
-fn sliding(faces: Condition) -> Wave<2> {
-    let slide = Vector::repeat(1.0);
-    Wave { slide, ..Wave::on_box([1.0, 0.75]).with_all_faces(faces) }
-}
 
 fn run(faces: Condition, method: &Method, threads: usize) -> Run {
     let mut method = method.clone();
     method.setup.threads = threads;
     method.setup.end_time = Some(0.15);
-    f64::run(&sliding(faces), &method, &40.into(), Watch::Everything, &mut ()).unwrap()
+    f64::run(&Wave::sliding(faces), &method, &40.into(), Watch::Everything, &mut ()).unwrap()
 }
 
 #[test]
@@ -55,7 +48,7 @@ fn slabs_do_not_change_the_order() {
         let setup = Setup { end_time: Some(0.15), ..Setup::default() };
         let method = Method { setup, ..Method::default() };
         let run = f64::run(
-            &sliding(Condition::Prescribed),
+            &Wave::sliding(Condition::Prescribed),
             &method,
             &cells.into(),
             Watch::Displacement,

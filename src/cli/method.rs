@@ -174,6 +174,7 @@ impl MethodOptions {
             fastest_wave: None,
             end_time: self.end_time,
             threads: self.threads.map_or_else(processors, usize::from),
+            memory: None,
         };
         let Self { shape, integrator, formulation, .. } = *self;
         let method = Method { shape, integrator, formulation, setup };

@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
+
 use crate::Refusal;
 use crate::failure::{at_most, positive};
 
@@ -41,7 +43,7 @@ impl Clock {
 }
 
 /// Wall-clock seconds of the parts of all steps. Where threads work on two of them, they share the time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
     /// The field's body force and tractions.
     pub forcing: f64,

@@ -2,6 +2,7 @@
 
 use super::Solver;
 use super::clock::{Clock, Seconds};
+use super::need::Need;
 use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
@@ -39,7 +40,11 @@ where
         let domain = field.domain();
         let [lower, upper] = bounding_box(&domain.body)?;
         let cell_size = cell_size(&(upper - lower), cells)?;
-        let filling = fill(&domain.body, setup, &cell_size)?;
+        let need = Need::new::<T, S, L, D>(setup.memory);
+        let spacing = spacing::<D>(setup, &cell_size)?;
+        let expected = (upper - lower).component_div(&spacing).iter().product();
+        need.check(expected, 0.0)?;
+        let filling = fill(&domain.body, setup, &spacing)?;
 
         let mut particles = Particles::new(&filling, setup.transfer);
         let speed = largest_wave_speed(field, &particles)?;
@@ -60,6 +65,7 @@ where
         };
         let periodic = std::array::from_fn(|a| setup.periodic[a]);
         let lattice = Lattice::new(std::array::from_fn(axis), S::DEGREE, periodic)?;
+        need.check(particles.len() as f64, lattice.len() as f64)?;
         let boundary = Boundary::new(&domain, &lattice, &filling.pieces, L::MOVES)?;
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
         let count = particles.len();
@@ -133,12 +139,11 @@ fn cell_size<const D: usize>(
     }
 }
 
-/// The body full of particles.
-fn fill<T: Real, const D: usize>(
-    body: &Body<T, D>,
+/// The distance between particles along each axis.
+fn spacing<const D: usize>(
     setup: &Setup,
     cell_size: &Vector<f64, D>,
-) -> Result<Filling<D>, Refusal> {
+) -> Result<Vector<f64, D>, Refusal> {
     let per_cell = &setup.particles_per_cell;
     match *per_cell {
         Division::PerAxis(_, given) if given != D => {
@@ -150,12 +155,20 @@ fn fill<T: Real, const D: usize>(
     for number in per_cell.numbers() {
         positive("the number of particles per cell", number as f64)?;
     }
-    let spacing = Vector::from_fn(|a, _| cell_size[a] / per_cell.along(a) as f64);
+    Ok(Vector::from_fn(|a, _| cell_size[a] / per_cell.along(a) as f64))
+}
+
+/// The body full of particles.
+fn fill<T: Real, const D: usize>(
+    body: &Body<T, D>,
+    setup: &Setup,
+    spacing: &Vector<f64, D>,
+) -> Result<Filling<D>, Refusal> {
     let along_faces = match body {
         Body::Box { .. } => Fill::Cartesian,
         Body::Annulus { .. } => Fill::Fitted,
     };
-    let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), &spacing)?;
+    let mut filling = Filling::new(body, setup.fill.unwrap_or(along_faces), spacing)?;
     if setup.jitter != 0.0 {
         filling.jitter(setup.jitter, setup.seed);
     }

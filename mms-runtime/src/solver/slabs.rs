@@ -85,6 +85,32 @@ impl Slabs {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
+    /// Where the particles of each slab end.
+    pub fn ends(&self) -> Vec<usize> {
+        self.all.iter().map(|slab| slab.particles.end).collect()
+    }
+
+    /// Takes the particles of each slab from where they end, if `ends` divide so many.
+    pub fn accept(&mut self, ends: &[usize], particles: usize) -> bool {
+        let divides = ends.is_sorted() && ends.last() == Some(&particles);
+        if ends.len() != self.all.len() || !divides {
+            return false;
+        }
+        let mut first = 0;
+        for (slab, &end) in self.all.iter_mut().zip(ends) {
+            slab.particles = first..end;
+            first = end;
+        }
+        true
+    }
+
+    /// Remembers where each particle stands, where they do not stand in their first order.
+    pub fn stand(&mut self, ids: &[u32]) {
+        if self.all.len() > 1 {
+            ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
+        }
+    }
+
     /// Sorts the particles, with their `domains` and `weights` if there are such, by the cells of their positions.
     pub fn sort<T: Real, V, W, const D: usize>(
         &mut self,
@@ -109,9 +135,7 @@ impl Slabs {
         reorder(domains, order);
         reorder(weights, order);
         particles.reorder(order);
-        for (p, &id) in particles.id.iter().enumerate() {
-            self.place[id as usize] = p as u32;
-        }
+        self.stand(&particles.id);
         let stride = lattice.stride[D - 1] as u64;
         let mut first = 0;
         let slabs = self.all.len();

@@ -1,11 +1,12 @@
 //! What the body force and the faces do to a body: the balance of momentum and that of energy.
 
-use crate::formulation::Formulation;
-use crate::shape::Shape;
-use crate::{ManufacturedField, Real, Solver, Vector};
+use serde::{Deserialize, Serialize};
+
+use crate::solver::Present;
+use crate::{ManufacturedField, Real, Vector};
 
 /// What drove the body, in double precision.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balance {
     /// The time that energies and work are of: the last that has a velocity at it, or on both sides of it.
     pub time: f64,
@@ -29,49 +30,53 @@ pub(super) struct Account<T, const D: usize> {
     velocity: Vec<Vector<T, D>>,
     time_of_velocity: f64,
     kinetic_energy: f64,
-    /// The work of b until then.
+    /// W of each particle.
+    energy: Vec<T>,
+    tally: Tally,
+}
+
+/// What does not follow from the state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Tally {
+    /// The work of b until the time of the velocities.
     work: f64,
     /// Kinetic and strain energy at the start.
     start: Option<f64>,
-    /// W of each particle.
-    energy: Vec<T>,
     balance: Balance,
 }
 
 impl<T: Real, const D: usize> Account<T, D> {
-    /// Of the state that a run starts from.
-    pub fn new<F, S, L>(solver: &Solver<'_, T, D, F, S, L>) -> Self
+    /// Of the state that a run starts from, or goes on from with what was tallied before.
+    pub fn new<F>(present: &Present<'_, T, D, F>, before: Option<Tally>) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
     {
-        let count = solver.particles().len();
+        let count = present.particles.len();
         let mut account = Self {
             velocity: vec![Vector::zeros(); count],
-            time_of_velocity: solver.time_of_velocity(),
+            time_of_velocity: 0.0,
             kinetic_energy: 0.0,
-            work: 0.0,
-            start: None,
             energy: vec![T::zero(); count],
-            balance: Balance::default(),
+            tally: Tally::default(),
         };
-        account.remember(solver);
-        let strain = account.strain_energy(solver);
-        account.start = strain.map(|strain| strain + account.kinetic_energy);
-        account.balance.strain_energy = strain;
+        account.remember(present);
+        account.tally = before.unwrap_or_else(|| {
+            let strain_energy = account.strain_energy(present);
+            let start = strain_energy.map(|strain| strain + account.kinetic_energy);
+            Tally { work: 0.0, start, balance: Balance { strain_energy, ..Balance::default() } }
+        });
         account
     }
 
+    /// What does not follow from the state.
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
     /// After each step.
-    pub fn step<F, S, L>(&mut self, solver: &Solver<'_, T, D, F, S, L>)
-    where
-        F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
-    {
-        let particles = solver.particles();
-        let elapsed = solver.time_of_velocity() - self.time_of_velocity;
+    pub fn step<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
+        let particles = present.particles;
+        let elapsed = present.time_of_velocity - self.time_of_velocity;
         let (mut work, mut force) = (0.0, Vector::<f64, D>::zeros());
         for (p, &id) in particles.id.iter().enumerate() {
             let before = self.velocity[id as usize].map(Real::to_f64);
@@ -82,46 +87,39 @@ impl<T: Real, const D: usize> Account<T, D> {
             force += ((after - before) / elapsed - b) * m;
         }
         let before = self.kinetic_energy;
-        self.remember(solver);
-        let balance = &mut self.balance;
+        self.remember(present);
+        let Tally { work: until_now, balance, .. } = &mut self.tally;
         balance.surface_force = force.as_slice().to_vec();
-        let is_behind = solver.present() > self.time_of_velocity;
+        let is_behind = present.time > self.time_of_velocity;
         // The positions of the step's start lie between the velocities before and after it.
         (balance.kinetic_energy, balance.body_work) = match is_behind {
-            true => ((before + self.kinetic_energy) / 2.0, self.work + work / 2.0),
-            false => (self.kinetic_energy, self.work + work),
+            true => ((before + self.kinetic_energy) / 2.0, *until_now + work / 2.0),
+            false => (self.kinetic_energy, *until_now + work),
         };
-        self.work += work;
-        balance.time = solver.present() - if is_behind { solver.time_step_length() } else { 0.0 };
+        *until_now += work;
+        balance.time = present.time - if is_behind { present.time_step } else { 0.0 };
     }
 
-    /// Before the last step, if velocities are behind, and after it: the strain energy.
-    pub fn look<F, S, L>(&mut self, solver: &Solver<'_, T, D, F, S, L>)
+    /// Before a step, if velocities are behind, or after it: the strain energy.
+    pub fn look<F>(&mut self, present: &Present<'_, T, D, F>)
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
     {
-        self.balance.strain_energy = self.strain_energy(solver);
+        self.tally.balance.strain_energy = self.strain_energy(present);
     }
 
-    /// At the end.
-    pub fn close(mut self) -> Balance {
-        let known = self.balance.strain_energy.zip(self.start);
-        self.balance.energy_residual = known.map(|(strain, start)| {
-            strain + self.balance.kinetic_energy - start - self.balance.body_work
-        });
-        self.balance
+    /// The balance, after a step that was looked at.
+    pub fn balance(&self) -> Balance {
+        let Tally { start, balance, .. } = &self.tally;
+        let known = balance.strain_energy.zip(*start);
+        let energy_residual = known
+            .map(|(strain, start)| strain + balance.kinetic_energy - start - balance.body_work);
+        Balance { energy_residual, ..balance.clone() }
     }
 
-    fn remember<F, S, L>(&mut self, solver: &Solver<'_, T, D, F, S, L>)
-    where
-        F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
-    {
-        let particles = solver.particles();
-        self.time_of_velocity = solver.time_of_velocity();
+    fn remember<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
+        let particles = present.particles;
+        self.time_of_velocity = present.time_of_velocity;
         self.kinetic_energy = 0.0;
         for (p, &id) in particles.id.iter().enumerate() {
             let v = particles.velocity[p];
@@ -131,15 +129,13 @@ impl<T: Real, const D: usize> Account<T, D> {
         }
     }
 
-    fn strain_energy<F, S, L>(&mut self, solver: &Solver<'_, T, D, F, S, L>) -> Option<f64>
+    fn strain_energy<F>(&mut self, present: &Present<'_, T, D, F>) -> Option<f64>
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
     {
-        let particles = solver.particles();
+        let particles = present.particles;
         let (x, h) = (&particles.reference_position, &particles.displacement_gradient);
-        let offered = solver.field().strain_energy(x, h, &mut self.energy);
+        let offered = present.field.strain_energy(x, h, &mut self.energy);
         let shares = self.energy.iter().zip(&particles.reference_volume);
         offered.then(|| shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum())
     }

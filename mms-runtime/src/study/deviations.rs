@@ -1,14 +1,15 @@
 //! The errors of a state: of displacement, velocity, F and P.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Errors, Watch};
-use crate::formulation::Formulation;
 use crate::particle::Particles;
-use crate::shape::Shape;
+use crate::solver::Present;
 use crate::tensor::inverse_deformation_gradient;
-use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Solver, Vector};
+use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Vector};
 
 /// The errors of a state against the field's. Those that are not measured are 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Deviations {
     /// Of u.
     pub displacement: Errors,
@@ -43,14 +44,8 @@ pub(super) struct Watcher<T, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Watcher<T, D> {
-    /// For the particles of a solver.
-    pub fn new<F, S, L>(watch: Watch, solver: &Solver<'_, T, D, F, S, L>) -> Self
-    where
-        F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
-    {
-        let count = solver.particles().len();
+    /// For so many particles.
+    pub fn new(watch: Watch, count: usize) -> Self {
         let tensors = if watch == Watch::Displacement { 0 } else { count };
         let matrices = || vec![Matrix::zeros(); tensors];
         Self {
@@ -68,6 +63,16 @@ impl<T: Real, const D: usize> Watcher<T, D> {
     /// no better than that, and the stress of a strain H acts as far from its place.
     pub fn round_off(&self, steps: usize) -> f64 {
         T::default_epsilon().to_f64() * (steps as f64 / 12.0).sqrt() * self.size
+    }
+
+    /// What rounding is relative to, so far.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Goes on from there.
+    pub fn resume(&mut self, size: f64) {
+        self.size = size;
     }
 
     /// Looks at what rounding is relative to.
@@ -88,27 +93,22 @@ impl<T: Real, const D: usize> Watcher<T, D> {
     ///
     /// # Errors
     /// An error that is not finite.
-    pub fn measure<F, S, L>(
-        &mut self,
-        solver: &Solver<'_, T, D, F, S, L>,
-    ) -> Result<Deviations, Failure>
+    pub fn measure<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<Deviations, Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
     {
-        let (field, particles) = (solver.field(), solver.particles());
+        let Present { field, particles, .. } = *present;
         let reference = &particles.reference_position;
-        let now = T::of(solver.present());
-        let odd = |quantity| move |p| solver.failure(p, Cause::NotFinite { quantity });
+        let now = T::of(present.time);
+        let odd = |quantity| move |p| present.failure(p, Cause::NotFinite { quantity });
         field.displacement(now, reference, &mut self.vector);
         let displacement = Errors::of(&particles.displacement, &self.vector)
             .map_err(odd("displacement's error"))?;
-        self.weigh(particles, L::MOVES);
+        self.weigh(particles, present.moves);
         if self.watch == Watch::Displacement {
             return Ok(Deviations { displacement, ..Deviations::default() });
         }
-        field.velocity(T::of(solver.time_of_velocity()), reference, &mut self.vector);
+        field.velocity(T::of(present.time_of_velocity), reference, &mut self.vector);
         let velocity =
             Errors::of(&particles.velocity, &self.vector).map_err(odd("velocity's error"))?;
 

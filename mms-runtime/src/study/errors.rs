@@ -1,10 +1,12 @@
 //! Error norms.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Matrix, Real, Vector};
 
 /// Norms over the particles of the distance between a computed and an exact value, such as delta_p =
 /// |d_p - u(X_p, t)|; of a run, the largest over its steps. In the unit of the quantity, computed in double precision whatever the solver's.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// mean_p delta_p.
     pub l1: f64,

@@ -1,6 +1,7 @@
 //! Convergence studies: one method on levels of refinement, its errors, orders and verdict.
 
 mod balance;
+mod course;
 mod deviations;
 mod errors;
 mod fit;
@@ -16,7 +17,7 @@ pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
 pub use fit::{Fit, fit};
-pub use observer::{Frame, Observer};
+pub use observer::{Checkpoint, Frame, Observer, Record};
 pub use order::{Orders, observed_order, orders};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};

@@ -1,9 +1,11 @@
 //! Who follows a run: its progress, and its states.
 
-use crate::formulation::Formulation;
-use crate::shape::Shape;
+use std::io::{self, Read, Write};
+
+use super::{Diagnostics, Errors};
+use crate::solver::Present;
 use crate::tensor::{deformation_gradient, jacobian};
-use crate::{ManufacturedField, Matrix, Real, Solver, Vector};
+use crate::{ManufacturedField, Matrix, Real, Vector};
 
 /// Follows a run. A closure does, if it wants no states, and `()` looks away.
 pub trait Observer: Send {
@@ -25,6 +27,58 @@ pub trait Observer: Send {
     fn see(&mut self, _frame: &Frame) -> Result<(), String> {
         Ok(())
     }
+
+    /// Whether [`record`](Observer::record) wants what every step led to. It takes the time of the material's
+    /// strain energy.
+    fn records(&self) -> bool {
+        false
+    }
+
+    /// What a step led to.
+    fn record(&mut self, _record: &Record) {}
+
+    /// A checkpoint of the same scene, to go on from instead of starting.
+    fn resume(&mut self) -> Option<Box<dyn Read + '_>> {
+        None
+    }
+
+    /// Whether there shall be a checkpoint after this step, or the run shall stop.
+    fn keeps(&self, _step: usize, _steps: usize) -> bool {
+        false
+    }
+
+    /// A checkpoint that was wanted.
+    ///
+    /// # Errors
+    /// Why the run should stop.
+    fn keep(&mut self, _checkpoint: &dyn Checkpoint) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// What a run goes on from, to the bit.
+pub trait Checkpoint {
+    /// After this step.
+    fn step(&self) -> usize;
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// What cannot be written.
+    fn write(&self, to: &mut dyn Write) -> io::Result<()>;
+}
+
+/// What a step led to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// The step, from 1.
+    pub step: usize,
+    /// The time of positions, F and stress.
+    pub time: f64,
+    /// The errors of the displacement.
+    pub displacement: Errors,
+    /// Sums over the particles; without a balance where only the displacement is watched.
+    pub diagnostics: Diagnostics,
 }
 
 impl Observer for () {
@@ -63,19 +117,14 @@ pub struct Frame {
 
 impl Frame {
     /// The state of a solver.
-    pub(super) fn of<T: Real, const D: usize, F, S, L>(
-        solver: &Solver<'_, T, D, F, S, L>,
-        step: usize,
-    ) -> Self
+    pub(super) fn of<T: Real, const D: usize, F>(present: &Present<'_, T, D, F>) -> Self
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
     {
-        let (field, particles) = (solver.field(), solver.particles());
+        let Present { field, particles, .. } = *present;
         let (x, h) = (&particles.reference_position, &particles.displacement_gradient);
         let mut exact = vec![Vector::zeros(); particles.len()];
-        field.displacement(T::of(solver.present()), x, &mut exact);
+        field.displacement(T::of(present.time), x, &mut exact);
         let mut stress = vec![Matrix::zeros(); particles.len()];
         field.kirchhoff_stress(x, h, &mut stress);
         let d = &particles.displacement;
@@ -91,8 +140,8 @@ impl Frame {
             })
         };
         Self {
-            step,
-            time: solver.present(),
+            step: present.step,
+            time: present.time,
             dimension: D,
             position: vectors(&|p| particles.position(p)),
             displacement: vectors(&|p| d[p]),

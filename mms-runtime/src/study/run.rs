@@ -2,15 +2,15 @@
 
 use std::time::Instant;
 
-use super::balance::{Account, Balance};
-use super::deviations::{Deviations, Watcher};
-use super::{Errors, Frame, Level, Observer, Snapshots};
+use super::course::{Course, Saved, SavedCourse};
+use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
 use crate::formulation::{Formulation, FormulationVisitor};
 use crate::integrator::{Integrator, IntegratorVisitor};
+use crate::particle::Particles;
 use crate::shape::{Shape, ShapeVisitor};
 use crate::solver::Seconds;
 use crate::tensor::jacobian;
-use crate::{Cause, Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
+use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
 
 /// Which errors are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,16 +66,10 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    fn of<T: Real, const D: usize, F, S, L>(
-        solver: &Solver<'_, T, D, F, S, L>,
+    pub(super) fn of<T: Real, const D: usize>(
+        particles: &Particles<T, D>,
         balance: Option<Balance>,
-    ) -> Self
-    where
-        F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
-        L: Formulation,
-    {
-        let particles = solver.particles();
+    ) -> Self {
         let (mut momentum, mut kinetic_energy) = (Vector::<f64, D>::zeros(), 0.0);
         for (m, v) in particles.mass.iter().zip(&particles.velocity) {
             let (m, v) = (m.to_f64(), v.map(Real::to_f64));
@@ -164,7 +158,17 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
     fn visit<S: Shape>(self) -> Self::Output {
         let WithFormulation { field, method, cells, watch, observer } = self.scene;
         let start = Instant::now();
-        let solver = Solver::<T, D, _, S, L>::new(field, &method.setup, cells)?;
+        let mut solver = Solver::<T, D, _, S, L>::new(field, &method.setup, cells)?;
+        let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
+        let mut before = 0.0;
+        let saved = match saved {
+            None => None,
+            Some(Saved { state, course, elapsed }) => {
+                solver.restore(state)?;
+                before = elapsed;
+                Some((course, elapsed))
+            }
+        };
         let lattice = &solver.grid().lattice;
         let level = Level {
             cells: *cells,
@@ -175,16 +179,15 @@ impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, 
             errors: Ok(Errors::default()),
             seconds: 0.0,
         };
-        let watcher = Watcher::new(watch, &solver);
         let (details, seconds, snapshots) = Default::default();
         let mut run = Run { level, details, seconds, snapshots };
         let fastest_wave = method.setup.fastest_wave;
-        let scene = WithIntegrator { solver, fastest_wave, watch, watcher, observer };
+        let scene = WithIntegrator { solver, fastest_wave, watch, saved, observer };
         let result = match method.setup.threads {
             1 => method.integrator.visit(scene),
             threads => pool(threads)?.install(|| method.integrator.visit(scene)),
         };
-        run.level.seconds = start.elapsed().as_secs_f64();
+        run.level.seconds = before + start.elapsed().as_secs_f64();
         run.level.errors = match result {
             Ok((details, seconds, snapshots)) => {
                 let errors = details.largest.displacement;
@@ -208,7 +211,7 @@ struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
     solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S, L>,
     fastest_wave: Option<f64>,
     watch: Watch,
-    watcher: Watcher<T, D>,
+    saved: Option<(SavedCourse<'a>, f64)>,
     observer: &'a mut dyn Observer,
 }
 
@@ -218,63 +221,18 @@ impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
     type Output = Result<(Details, Seconds, Snapshots), Failure>;
 
     fn visit<I: Integrator>(self) -> Self::Output {
-        let Self { mut solver, fastest_wave, watch, mut watcher, observer } = self;
-        let steps = solver.steps();
+        let Self { mut solver, fastest_wave, watch, saved, observer } = self;
+        let (steps, behind) = (solver.steps(), I::LAG > 0.0);
         fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
         solver.check()?;
-        observer.begin(solver.particles().len(), steps);
-        let mut last = watcher.measure(&solver)?;
-        show(&solver, 0, observer)?;
-        let (mut largest, mut snapshots) = (last, Snapshots::default());
-        let mut account = (watch != Watch::Displacement).then(|| Account::new(&solver));
-        for step in 1..=steps {
-            // Where velocities are behind, the last time that has one on both sides is before the last step.
-            if let Some(account) = account.as_mut().filter(|_| step == steps && I::LAG > 0.0) {
-                account.look(&solver);
-            }
+        let mut course = Course::begin(watch, &solver.present(), steps, saved, observer)?;
+        while solver.present().step < steps {
+            course.before_step(&solver.present(), behind);
             solver.step::<I>()?;
-            if let Some(account) = &mut account {
-                account.step(&solver);
-                if step == steps && I::LAG == 0.0 {
-                    account.look(&solver);
-                }
-            }
-            last = watcher.measure(&solver)?;
-            largest = largest.larger(&last);
-            if let Watch::Parts(parts) = watch
-                && step * parts % steps == 0
-            {
-                snapshots.take(solver.particles());
-            }
-            observer.step(step, steps);
-            show(&solver, step, observer)?;
+            course.after_step(&solver.present(), behind)?;
+            course.keep(&solver.present(), || solver.state())?;
         }
-        let round_off = watcher.round_off(steps);
-        let diagnostics = Diagnostics::of(&solver, account.map(Account::close));
-        Ok((Details { largest, last, round_off, diagnostics }, solver.seconds(), snapshots))
+        let (details, snapshots) = course.close(&solver.present());
+        Ok((details, solver.seconds(), snapshots))
     }
-}
-
-/// Shows the state after a step to an observer that wants it.
-fn show<T: Real, const D: usize, F, S, L>(
-    solver: &Solver<'_, T, D, F, S, L>,
-    step: usize,
-    observer: &mut dyn Observer,
-) -> Result<(), Failure>
-where
-    F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
-    L: Formulation,
-{
-    if !observer.wants(step, solver.steps()) {
-        return Ok(());
-    }
-    let stopped = |reason| Failure {
-        step,
-        time: solver.present(),
-        particle: None,
-        reference_position: Vec::new(),
-        cause: Cause::Stopped { reason },
-    };
-    observer.see(&Frame::of(solver, step)).map_err(stopped)
 }

@@ -1,11 +1,13 @@
 //! Displacements at a few times, to compare runs with different time steps on one grid.
 
+use serde::{Deserialize, Serialize};
+
 use super::Errors;
 use crate::particle::Particles;
 use crate::{Real, Vector};
 
 /// The displacements of all particles at some times, in double precision.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshots {
     dimension: usize,
     particles: usize,

@@ -72,6 +72,13 @@ impl Wave<2> {
     pub fn on_box(upper: [f64; 2]) -> Self {
         Self::on(Body::Box { lower: Vector::zeros(), upper: Vector::from(upper) })
     }
+
+    /// In a box that slides by some cells: enough particles on 40 cells for several slabs, and they change
+    /// places.
+    pub fn sliding(faces: Condition) -> Self {
+        let slide = Vector::repeat(1.0);
+        Self { slide, ..Self::on_box([1.0, 0.75]).with_all_faces(faces) }
+    }
 }
 
 impl<const D: usize> Wave<D> {

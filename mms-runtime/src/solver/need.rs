@@ -1,0 +1,48 @@
+//! What a run takes of memory, about: refused before it is taken.
+
+use crate::formulation::Formulation;
+use crate::nodal::Nodal;
+use crate::shape::Shape;
+use crate::{Matrix, Real, Refusal, Vector};
+
+/// Bytes of a particle and of a node, and those that there are.
+pub(super) struct Need {
+    particle: usize,
+    node: usize,
+    available: Option<u64>,
+}
+
+impl Need {
+    /// What is kept in this scene, if so many bytes are `available`.
+    pub fn new<T: Real, S: Shape, L: Formulation, const D: usize>(available: Option<u64>) -> Self {
+        let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
+        let matrix = size_of::<Matrix<T, D>>();
+        // Id, X, d, v, b, H, C, m, V0 and the domain, and weights that stay.
+        let weights = if L::MOVES { 0 } else { size_of::<S::Stencil<T, D>>() };
+        let state = size_of::<u32>() + 4 * vector + 2 * matrix + 2 * number + weights;
+        // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
+        let measured = 2 * vector + 3 * matrix + number;
+        let filling = size_of::<f64>() * (D + 1 + D * D);
+        Self {
+            particle: state + size_of::<S::Domain<T, D>>() + measured + filling,
+            // Momentum, force, velocity and acceleration.
+            node: 4 * size_of::<Nodal<T>>(),
+            available,
+        }
+    }
+
+    /// Refuses what there is no memory for.
+    ///
+    /// # Errors
+    /// So many particles and nodes.
+    pub fn check(&self, particles: f64, nodes: f64) -> Result<(), Refusal> {
+        let needed = particles * self.particle as f64 + nodes * self.node as f64;
+        match self.available {
+            Some(available) if needed > available as f64 => Err(Refusal::TooLittleMemory {
+                needed: (needed / 1e6) as u64,
+                available: available / 1_000_000,
+            }),
+            _ => Ok(()),
+        }
+    }
+}

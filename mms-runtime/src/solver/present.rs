@@ -1,0 +1,49 @@
+//! A solver's state as measurements see it, whatever the shape function and the formulation: so they are
+//! compiled once per dimension and precision.
+
+use crate::particle::Particles;
+use crate::tensor::components;
+use crate::{Cause, Failure, Real};
+
+/// The state after a step.
+#[derive(Clone, Copy)]
+pub struct Present<'a, T, const D: usize, F: ?Sized> {
+    /// The field that drives the run.
+    pub field: &'a F,
+    /// The particles.
+    pub particles: &'a Particles<T, D>,
+    /// How many steps have been made.
+    pub step: usize,
+    /// The time t^n of the particles' positions.
+    pub time: f64,
+    /// The time of their velocities.
+    pub time_of_velocity: f64,
+    /// dt.
+    pub time_step: f64,
+    /// Whether the body moves through the grid.
+    pub moves: bool,
+}
+
+impl<T: Real, const D: usize, F: ?Sized> Present<'_, T, D, F> {
+    /// A failure of one particle, now.
+    pub(crate) fn failure(&self, particle: usize, cause: Cause) -> Failure {
+        Failure {
+            step: self.step,
+            time: self.time,
+            particle: Some(self.particles.id[particle] as usize),
+            reference_position: components(&self.particles.reference_position[particle]),
+            cause,
+        }
+    }
+
+    /// A failure of nobody in particular, now.
+    pub(crate) fn stopped(&self, reason: String) -> Failure {
+        Failure {
+            step: self.step,
+            time: self.time,
+            particle: None,
+            reference_position: Vec::new(),
+            cause: Cause::Stopped { reason },
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The state of a solver: what it goes on from, to the bit.
+//!
+//! Particles stand in the order in which they are added to the nodes, for sums depend on it. What follows from
+//! the scene alone, or from the state at the beginning of every step, is left out.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use super::Solver;
+use super::clock::Seconds;
+use crate::shape::Shape;
+use crate::{Matrix, Real, Refusal, Vector};
+
+/// What changes in a run.
+#[derive(Serialize, Deserialize)]
+#[serde(bound = "T: Real")]
+pub(crate) struct State<'a, T: Real, const D: usize> {
+    /// How many steps have been made.
+    step: usize,
+    /// How many time steps the velocities are behind.
+    lag: f64,
+    /// The particles' numbers, in their order.
+    id: Cow<'a, [u32]>,
+    displacement: Cow<'a, [Vector<T, D>]>,
+    velocity: Cow<'a, [Vector<T, D>]>,
+    displacement_gradient: Cow<'a, [Matrix<T, D>]>,
+    /// C, with APIC only.
+    affine: Cow<'a, [Matrix<T, D>]>,
+    /// Where the particles of each slab end.
+    ends: Vec<usize>,
+    seconds: Seconds,
+}
+
+impl<T: Real, const D: usize, F: ?Sized, S: Shape, L> Solver<'_, T, D, F, S, L> {
+    /// The state after the last step.
+    pub(crate) fn state(&self) -> State<'_, T, D> {
+        let particles = &self.particles;
+        State {
+            step: self.clock.step,
+            lag: self.clock.lag,
+            id: Cow::from(&particles.id),
+            displacement: Cow::from(&particles.displacement),
+            velocity: Cow::from(&particles.velocity),
+            displacement_gradient: Cow::from(&particles.displacement_gradient),
+            affine: Cow::from(&particles.affine),
+            ends: self.slabs.ends(),
+            seconds: self.seconds,
+        }
+    }
+
+    /// Goes on from a state of the same scene.
+    ///
+    /// # Errors
+    /// It is one of another scene.
+    pub(crate) fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal> {
+        let fits = |fits: bool, what: &str| match fits {
+            true => Ok(()),
+            false => Err(Refusal::NoState { reason: format!("it has other {what}") }),
+        };
+        let count = self.particles.len();
+        fits(state.step <= self.clock.steps, "steps")?;
+        let lengths =
+            [state.displacement.len(), state.velocity.len(), state.displacement_gradient.len()];
+        fits(lengths == [count; 3] && is_order(&state.id, count), "particles")?;
+        fits(state.affine.len() == self.particles.affine.len(), "transfers")?;
+        fits(self.slabs.accept(&state.ends, count), "slabs")?;
+        let mut order: Vec<u32> =
+            state.id.iter().map(|&id| self.slabs.place_of(id as usize) as u32).collect();
+        crate::particle::reorder(&mut self.domains, &mut order);
+        self.particles.reorder(&mut order);
+        self.slabs.stand(&self.particles.id);
+        self.particles.displacement = state.displacement.into_owned();
+        self.particles.velocity = state.velocity.into_owned();
+        self.particles.displacement_gradient = state.displacement_gradient.into_owned();
+        self.particles.affine = state.affine.into_owned();
+        (self.clock.step, self.clock.lag) = (state.step, state.lag);
+        self.seconds = state.seconds;
+        Ok(())
+    }
+}
+
+/// Whether there is every number below `count`, once.
+fn is_order(ids: &[u32], count: usize) -> bool {
+    let mut seen = vec![false; count];
+    let fresh =
+        |&id: &u32| seen.get_mut(id as usize).is_some_and(|seen| !std::mem::replace(seen, true));
+    ids.len() == count && ids.iter().all(fresh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_order;
+
+    #[test]
+    fn an_order_has_every_number_once() {
+        assert!(is_order(&[2, 0, 1], 3));
+        for ids in [&[0, 1][..], &[0, 1, 1], &[0, 1, 3], &[0, 1, 2, 3]] {
+            assert!(!is_order(ids, 3), "{ids:?}");
+        }
+    }
+}

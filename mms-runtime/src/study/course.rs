@@ -1,0 +1,256 @@
+//! The course of a run: what is measured of it, step by step, and kept in checkpoints.
+
+use std::borrow::Cow;
+use std::io::{self, Read, Write};
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use super::balance::{Account, Tally};
+use super::deviations::{Deviations, Watcher};
+use super::{Checkpoint, Details, Diagnostics, Frame, Observer, Record, Snapshots, Watch};
+use crate::solver::{Present, State};
+use crate::{Failure, ManufacturedField, Real, Refusal};
+
+/// What is known of a run so far, the solver's state among it.
+#[derive(Serialize, Deserialize)]
+#[serde(bound = "T: Real")]
+pub(super) struct Saved<'a, T: Real, const D: usize> {
+    pub state: State<'a, T, D>,
+    pub course: SavedCourse<'a>,
+    /// Wall-clock seconds.
+    pub elapsed: f64,
+}
+
+/// What was measured so far and does not follow from the state.
+#[derive(Serialize, Deserialize)]
+pub(super) struct SavedCourse<'a> {
+    step: usize,
+    largest: Deviations,
+    size: f64,
+    tally: Option<Cow<'a, Tally>>,
+    snapshots: Cow<'a, Snapshots>,
+}
+
+/// A checkpoint's bytes that were read at once.
+const BUFFER: usize = 1 << 16;
+
+impl<T: Real, const D: usize> Saved<'_, T, D> {
+    /// Reads what [`Checkpoint::write`] has written.
+    ///
+    /// # Errors
+    /// Bytes that mean nothing.
+    pub fn read(from: Box<dyn Read + '_>) -> Result<Self, Refusal> {
+        let mut buffer = vec![0; BUFFER];
+        let read = postcard::from_io((from, &mut buffer));
+        let (saved, _) =
+            read.map_err(|error| Refusal::NoState { reason: format!("no checkpoint: {error}") })?;
+        Ok(saved)
+    }
+}
+
+impl<T: Real, const D: usize> Checkpoint for Saved<'_, T, D> {
+    fn step(&self) -> usize {
+        self.course.step
+    }
+
+    fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        // The error of a writer is in the chain of what it is given.
+        let mut to = Remember { to, error: None };
+        match postcard::to_io(self, &mut to) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(to.error.unwrap_or_else(|| io::Error::other(error))),
+        }
+    }
+}
+
+/// Keeps the error that a writer has, for formats that have one of their own.
+struct Remember<'a> {
+    to: &'a mut dyn Write,
+    error: Option<io::Error>,
+}
+
+impl Write for Remember<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.to.write(bytes).map_err(|error| {
+            let kind = error.kind();
+            self.error = Some(error);
+            kind.into()
+        })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
+/// Measures a run, and tells who follows it.
+pub(super) struct Course<'a, T, const D: usize> {
+    watch: Watch,
+    watcher: Watcher<T, D>,
+    account: Option<Account<T, D>>,
+    largest: Deviations,
+    last: Deviations,
+    snapshots: Snapshots,
+    steps: usize,
+    records: bool,
+    start: Instant,
+    before: f64,
+    observer: &'a mut dyn Observer,
+}
+
+impl<'a, T: Real, const D: usize> Course<'a, T, D> {
+    /// Of a run from its first state, or from one that was `saved` along with what was measured and the seconds
+    /// that it had taken.
+    ///
+    /// # Errors
+    /// An error that is not finite; an observer that cannot go on.
+    pub fn begin<F>(
+        watch: Watch,
+        present: &Present<'_, T, D, F>,
+        steps: usize,
+        saved: Option<(SavedCourse<'_>, f64)>,
+        observer: &'a mut dyn Observer,
+    ) -> Result<Self, Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let start = Instant::now();
+        let count = present.particles.len();
+        observer.begin(count, steps);
+        let mut watcher = Watcher::new(watch, count);
+        let last = watcher.measure(present)?;
+        let watches_all = watch != Watch::Displacement;
+        let records = observer.records();
+        let mut course = Self {
+            watch,
+            watcher,
+            account: None,
+            largest: last,
+            last,
+            snapshots: Snapshots::default(),
+            steps,
+            records,
+            start,
+            before: 0.0,
+            observer,
+        };
+        let mut tally = None;
+        match saved {
+            None => course.show(present)?,
+            Some((saved, elapsed)) => {
+                course.before = elapsed;
+                course.largest = saved.largest;
+                course.watcher.resume(saved.size);
+                course.snapshots = saved.snapshots.into_owned();
+                tally = saved.tally.map(Cow::into_owned);
+            }
+        }
+        course.account = watches_all.then(|| Account::new(present, tally));
+        Ok(course)
+    }
+
+    /// Before each step; velocities will be `behind` positions.
+    pub fn before_step<F>(&mut self, present: &Present<'_, T, D, F>, behind: bool)
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        // Where velocities are behind, the last time that has one on both sides is before the last step.
+        if behind && self.looks_at(present.step + 1) {
+            self.account.iter_mut().for_each(|account| account.look(present));
+        }
+    }
+
+    /// After each step.
+    ///
+    /// # Errors
+    /// An error that is not finite; an observer that cannot go on.
+    pub fn after_step<F>(
+        &mut self,
+        present: &Present<'_, T, D, F>,
+        behind: bool,
+    ) -> Result<(), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let (step, steps) = (present.step, self.steps);
+        let looks = self.looks_at(step);
+        if let Some(account) = &mut self.account {
+            account.step(present);
+            if looks && !behind {
+                account.look(present);
+            }
+        }
+        self.last = self.watcher.measure(present)?;
+        self.largest = self.largest.larger(&self.last);
+        if let Watch::Parts(parts) = self.watch
+            && step * parts % steps == 0
+        {
+            self.snapshots.take(present.particles);
+        }
+        self.observer.step(step, steps);
+        if self.records {
+            let diagnostics = self.diagnostics(present);
+            let displacement = self.last.displacement;
+            self.observer.record(&Record { step, time: present.time, displacement, diagnostics });
+        }
+        self.show(present)
+    }
+
+    /// Lets an observer keep a checkpoint, if it wants one after this step.
+    ///
+    /// # Errors
+    /// An observer that cannot go on.
+    pub fn keep<'s, F>(
+        &mut self,
+        present: &Present<'_, T, D, F>,
+        state: impl FnOnce() -> State<'s, T, D>,
+    ) -> Result<(), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        if !self.observer.keeps(present.step, self.steps) {
+            return Ok(());
+        }
+        let course = SavedCourse {
+            step: present.step,
+            largest: self.largest,
+            size: self.watcher.size(),
+            tally: self.account.as_ref().map(|account| Cow::Borrowed(account.tally())),
+            snapshots: Cow::Borrowed(&self.snapshots),
+        };
+        let elapsed = self.before + self.start.elapsed().as_secs_f64();
+        let saved = Saved { state: state(), course, elapsed };
+        self.observer.keep(&saved).map_err(|reason| present.stopped(reason))
+    }
+
+    /// What was measured.
+    pub fn close<F>(self, present: &Present<'_, T, D, F>) -> (Details, Snapshots)
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let round_off = self.watcher.round_off(self.steps);
+        let diagnostics = self.diagnostics(present);
+        let Self { largest, last, snapshots, .. } = self;
+        (Details { largest, last, round_off, diagnostics }, snapshots)
+    }
+
+    fn looks_at(&self, step: usize) -> bool {
+        self.records || step == self.steps
+    }
+
+    fn diagnostics<F: ?Sized>(&self, present: &Present<'_, T, D, F>) -> Diagnostics {
+        Diagnostics::of(present.particles, self.account.as_ref().map(Account::balance))
+    }
+
+    /// Shows the state to an observer that wants it.
+    fn show<F>(&mut self, present: &Present<'_, T, D, F>) -> Result<(), Failure>
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        if !self.observer.wants(present.step, self.steps) {
+            return Ok(());
+        }
+        self.observer.see(&Frame::of(present)).map_err(|reason| present.stopped(reason))
+    }
+}
