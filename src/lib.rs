@@ -5,8 +5,10 @@
 //! result, one module per file. [`scene`] lets a solver run on any of them, and on files that were
 //! never compiled.
 
+mod checkpoint;
 pub mod cli;
 pub mod gallery;
+mod history;
 pub mod interpreted;
 pub mod report;
 pub mod scene;

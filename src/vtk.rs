@@ -46,6 +46,16 @@ impl Writer {
         Ok(writer)
     }
 
+    /// The states so far: times and files.
+    pub fn written(&self) -> &[(f64, String)] {
+        &self.written
+    }
+
+    /// Goes on after these.
+    pub fn resume(&mut self, written: Vec<(f64, String)>) {
+        self.written = written;
+    }
+
     /// Whether the state after a step is one of those that are equally far apart.
     pub fn wants(&self, step: usize, steps: usize) -> bool {
         let passed = |step: usize| step * self.frames / steps;

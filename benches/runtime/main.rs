@@ -13,7 +13,6 @@ use std::time::Instant;
 
 use block::{Block, Body};
 use mms::scene::Scene;
-use mms_runtime::formulation::Updated;
 use mms_runtime::integrator::Leapfrog;
 use mms_runtime::shape::{Cpdi, Cpgimp, Linear, QuadraticBspline, Shape, Ugimp};
 use mms_runtime::{Division, ManufacturedField, Real, Setup, Solver, Transfer};
@@ -40,7 +39,7 @@ struct Row {
 }
 
 /// Advances by some steps. The time of a particle in a step, in nanoseconds.
-fn turn<T, const D: usize, F, S>(solver: &mut Solver<'_, T, D, F, S, Updated>, steps: usize) -> f64
+fn turn<T, const D: usize, F, S>(solver: &mut Solver<'_, T, D, F, S>, steps: usize) -> f64
 where
     T: Real,
     F: ManufacturedField<T, D> + ?Sized,
@@ -74,7 +73,8 @@ where
     let along = (PARTICLES as f64).powf(1.0 / D as f64) / 2.0;
     let setup = Setup { transfer, threads, courant: 0.2, ..Setup::default() };
     let cells = Division::Uniform(along.round() as usize);
-    let solver = Solver::<T, D, Block<T, D>, S, Updated>::new(block, &setup, &cells);
+    let solver =
+        Solver::<T, D, Block<T, D>, S>::new(block, FormulationName::Updated, &setup, &cells);
     let mut solver = solver.unwrap_or_else(|refusal| panic!("{case}: {refusal}"));
     let bytes = solver.particles().bytes_per_particle();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

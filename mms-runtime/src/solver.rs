@@ -17,7 +17,7 @@ mod state;
 mod threads;
 
 use crate::boundary::Boundary;
-use crate::formulation::Formulation;
+use crate::formulation::Configuration;
 use crate::integrator::Integrator;
 use crate::nodal::Nodal;
 use crate::particle::Particles;
@@ -31,9 +31,8 @@ pub use clock::Seconds;
 pub use present::Present;
 pub(crate) use state::State;
 
-/// A body of particles, its grid, and the field that drives it, with the shape function `S` in the
-/// formulation `L`.
-pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape, L> {
+/// A body of particles, its grid, and the field that drives it, with the shape function `S`.
+pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     field: &'f F,
     clock: Clock,
     particles: Particles<T, D>,
@@ -51,14 +50,13 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape, L> {
     /// Whether a state may be bad.
     suspect: bool,
     seconds: Seconds,
-    formulation: std::marker::PhantomData<L>,
+    formulation: Configuration<T, D>,
 }
 
-impl<T: Real, const D: usize, F, S, L> Solver<'_, T, D, F, S, L>
+impl<T: Real, const D: usize, F, S> Solver<'_, T, D, F, S>
 where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
-    L: Formulation,
 {
     /// Advances by one time step and checks the new state.
     ///
@@ -66,7 +64,7 @@ where
     /// What the step led to, or could not do.
     pub fn step<I: Integrator>(&mut self) -> Result<(), Failure> {
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
-        self.keeps_weights = I::KEEPS_WEIGHTS || !L::MOVES;
+        self.keeps_weights = I::KEEPS_WEIGHTS || !self.formulation.moves;
         I::step::<T>(self).map_err(|failure| Failure { step, time, ..failure })?;
         self.clock.step += 1;
         self.clock.lag = I::LAG;
@@ -116,7 +114,7 @@ where
             time,
             time_of_velocity: time - lag * time_step,
             time_step,
-            moves: L::MOVES,
+            moves: self.formulation.moves,
         }
     }
 

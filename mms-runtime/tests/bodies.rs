@@ -254,14 +254,15 @@ fn fitted_fills_turn_with_their_sector() {
 /// Particles per cell along each axis, of cells that are not cubes.
 #[test]
 fn particles_per_cell_along_each_axis() {
-    use mms_runtime::formulation::Updated;
+    use mms_runtime::FormulationName;
     use mms_runtime::shape::Cpgimp;
     use mms_runtime::{Division, Setup, Solver};
     let field = common::wave::Wave::on_box([1.0, 0.5]);
     let particles_per_cell: Division = "3x1".parse().unwrap();
     let setup = Setup { particles_per_cell, ..Setup::default() };
     let cells: Division = "4x8".parse().unwrap();
-    let solver = Solver::<f64, 2, _, Cpgimp, Updated>::new(&field, &setup, &cells).unwrap();
+    let solver =
+        Solver::<f64, 2, _, Cpgimp>::new(&field, FormulationName::Updated, &setup, &cells).unwrap();
     assert_eq!(solver.particles().len(), 12 * 8);
     assert_eq!(solver.grid().lattice.cell_size, Vector::<f64, 2>::new(0.25, 0.0625));
     let mut columns: Vec<f64> =

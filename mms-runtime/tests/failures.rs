@@ -5,7 +5,6 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Affine, Bar, method, methods, wave::Wave};
-use mms_runtime::formulation::Updated;
 use mms_runtime::shape::Cpgimp;
 use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
@@ -321,7 +320,7 @@ fn a_wall_between_nodes_is_refused() {
     let field: &dyn ManufacturedField<f64, 2> = &field;
     let solver = |cells: usize, offset: f64| {
         let setup = Setup { offset: [0.0, offset, 0.0], ..Setup::default() };
-        Solver::<f64, 2, _, Cpgimp, Updated>::new(field, &setup, &cells.into())
+        Solver::<f64, 2, _, Cpgimp>::new(field, FormulationName::Updated, &setup, &cells.into())
     };
     for (cells, offset) in [(8, 0.0), (20, 0.5)] {
         let refused = solver(cells, offset).err();

@@ -96,6 +96,18 @@ fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 
+/// How many bytes of memory are free here, within the limit of a container if there is one; without bound where
+/// the system does not tell.
+fn memory() -> u64 {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    let free = match system.cgroup_limits() {
+        Some(limits) => system.available_memory().min(limits.free_memory),
+        None => system.available_memory(),
+    };
+    if free == 0 { u64::MAX } else { free }
+}
+
 /// The name of an axis.
 #[derive(Clone, Copy, Debug)]
 struct Axis(usize);
@@ -113,6 +125,7 @@ impl MethodOptions {
     /// The method for a field with some parameters set, its time step held to the stable one.
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
         let mut method = self.method(input.compiled.field.dimension)?;
+        method.setup.memory = Some(memory());
         if !self.allow_unstable {
             method.setup.fastest_wave = fastest_wave(input, settings, &method)?;
         }

@@ -4,6 +4,7 @@ mod accuracy;
 mod check;
 mod emit;
 mod eval;
+mod follow;
 pub(crate) mod input;
 mod list;
 pub(crate) mod method;

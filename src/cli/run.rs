@@ -2,15 +2,20 @@
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::Args;
-use mms_runtime::Division;
-use mms_runtime::study::{Frame, Observer, Watch};
+use mms_runtime::study::Watch;
+use mms_runtime::{Division, Method};
 
+use super::follow::{Followers, Interrupted};
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
-use super::progress::{OfRun, Progress};
+use super::progress::Progress;
 use super::{Outcome, print, print_json};
+use crate::checkpoint::{Found, Head, Keeper};
+use crate::history::History;
 use crate::report::run::Run as Report;
+use crate::store::digest;
 use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
@@ -36,34 +41,23 @@ pub struct Run {
     /// How many states to write after the initial one.
     #[arg(long, value_name = "N", default_value_t = 20, requires = "vtk", value_parser = clap::value_parser!(u32).range(1..))]
     frames: u32,
+    /// Write what every step led to as a CSV file: errors, J, mass, momentum, energies, the work of the
+    /// body force, the force of the faces.
+    #[arg(long, value_name = "FILE")]
+    history: Option<PathBuf>,
+    /// Write what the run can go on from to this file, again and again, and when it is interrupted.
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// How many steps there are from one checkpoint to the next.
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "checkpoint", value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
+    /// Go on from a checkpoint of the same run: it ends with the same numbers as if it had never
+    /// stopped.
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
-}
-
-/// Who follows a run.
-struct Followers<'a> {
-    progress: OfRun<'a>,
-    vtk: Option<Writer>,
-}
-
-impl Observer for Followers<'_> {
-    fn begin(&mut self, particles: usize, steps: usize) {
-        self.progress.begin(particles, steps);
-    }
-
-    fn step(&mut self, step: usize, steps: usize) {
-        self.progress.step(step, steps);
-    }
-
-    fn wants(&self, step: usize, steps: usize) -> bool {
-        self.vtk.as_ref().is_some_and(|vtk| vtk.wants(step, steps))
-    }
-
-    fn see(&mut self, frame: &Frame) -> Result<(), String> {
-        let Some(vtk) = &mut self.vtk else { return Ok(()) };
-        vtk.write(frame).map_err(|error| format!("{error:#}"))
-    }
 }
 
 impl Run {
@@ -72,11 +66,8 @@ impl Run {
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
-        let vtk = self.vtk.as_deref().map(|folder| {
-            Writer::new(folder, input.name.trim_start_matches('.'), self.frames as usize)
-        });
         let progress = Progress::new();
-        let mut followers = Followers { progress: progress.of(cells), vtk: vtk.transpose()? };
+        let mut followers = self.followers(&input, &method, cells, &progress)?;
         let run = match self.method.precision {
             Precision::F32 => {
                 let scene = input.scene(&self.set, |entry| entry.single)?;
@@ -88,6 +79,7 @@ impl Run {
             }
         };
         progress.finish();
+        followers.end()?;
         let run = match run {
             Ok(run) => run,
             Err(refusal) => {
@@ -107,8 +99,8 @@ impl Run {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
-            if let Some(vtk) = &followers.vtk {
-                print(&format!("\nwrote {}", vtk.list().display()))?;
+            if let Some(list) = followers.list_of_states() {
+                print(&format!("\nwrote {}", list.display()))?;
             }
         }
         if let Err(failure) = &report.run.level.errors {
@@ -116,4 +108,70 @@ impl Run {
         }
         Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
     }
+
+    /// Who follows the run: what it writes, and where it goes on from.
+    fn followers<'a>(
+        &self,
+        input: &Input,
+        method: &Method,
+        cells: Division,
+        progress: &'a Progress,
+    ) -> anyhow::Result<Followers<'a>> {
+        let head = Head::new(self.key(input, method, cells), command());
+        let resumed = self.resume.as_deref().map(Found::open).transpose()?;
+        if let (Some(path), Some(found)) = (&self.resume, &resumed)
+            && found.head.key != head.key
+        {
+            bail!(
+                "`--resume {}`: it is a checkpoint of another run, `{}`, and goes on with its options \
+                 only, in the same version of this program",
+                path.display(),
+                found.head.command
+            );
+        }
+        let before = resumed.as_ref().map(|found| found.head.clone());
+        let vtk = self.vtk.as_deref().map(|folder| {
+            Writer::new(folder, input.name.trim_start_matches('.'), self.frames as usize)
+        });
+        let mut vtk = vtk.transpose()?;
+        if let (Some(vtk), Some(head)) = (&mut vtk, &before) {
+            vtk.resume(head.states.clone());
+        }
+        let step = before.map_or(0, |head| head.step);
+        let dimension = input.compiled.field.dimension;
+        let history =
+            self.history.as_deref().map(|path| History::new(path, dimension, step)).transpose()?;
+        let keeper = self.checkpoint.as_deref();
+        let keeper = keeper.map(|path| Keeper::new(path, self.every as usize, head)).transpose()?;
+        let interrupted = Interrupted::listen()?;
+        Ok(Followers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
+    }
+
+    /// What tells this run from all others, as far as its numbers depend on it.
+    fn key(&self, input: &Input, method: &Method, cells: Division) -> String {
+        let mut method = method.clone();
+        (method.setup.threads, method.setup.memory) = (1, None);
+        let scene = format!("{method:?}, {cells} cells, {:?}", self.method.precision);
+        let field = format!("{:?}, {:?}", self.set, self.variant);
+        let program = env!("CARGO_PKG_VERSION").to_owned();
+        digest([program, input.compiled.provenance(), scene, field])
+    }
+}
+
+/// The command line, as one would type it, but for where it goes on from.
+fn command() -> String {
+    let plain = |word: &str| {
+        !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_-./=,:+".contains(c))
+    };
+    let mut words = vec!["mms".to_owned()];
+    let mut arguments = std::env::args().skip(1);
+    while let Some(word) = arguments.next() {
+        match word.as_str() {
+            "--resume" => drop(arguments.next()),
+            resume if resume.starts_with("--resume=") => {}
+            plain_word if plain(plain_word) => words.push(word),
+            quoted => words.push(format!("'{}'", quoted.replace('\'', r"'\''"))),
+        }
+    }
+    words.join(" ")
 }

@@ -8,13 +8,22 @@ mod study;
 
 pub use study::{Refused, Study};
 
+use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
 
 /// Never leaves half a file under its final name.
 pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
+    write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
+}
+
+/// The same, with whatever is written.
+pub(crate) fn write_with(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
     let mut file = builder().tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
-    file.write_all(content.as_bytes())?;
+    write(file.as_file_mut())?;
     file.persist(path)?;
     Ok(())
 }

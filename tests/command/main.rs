@@ -3,6 +3,7 @@
 mod accuracy;
 mod bound;
 mod check;
+mod checkpoint;
 mod emit;
 mod eval;
 mod form;

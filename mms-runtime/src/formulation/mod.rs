@@ -16,9 +16,42 @@ pub trait Formulation: Send + Sync + 'static {
     /// otherwise weights are those of the reference positions, computed once, and dF/dt is that sum.
     const MOVES: bool;
 
-    /// The stress that works on grad w per reference volume, from tau and H; `None` where F is singular.
+    /// From tau and H of some particles the stresses that work on grad w per reference volume.
+    ///
+    /// # Errors
+    /// The first particle where F is singular.
     fn stress<T: Real, const D: usize>(
-        kirchhoff: &Matrix<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Option<Matrix<T, D>>;
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) -> Result<(), usize>;
+}
+
+/// From H of some particles, and what is tau before, the stresses; or where F is singular.
+type StressOf<M> = fn(&[M], &mut [M]) -> Result<(), usize>;
+
+/// A formulation as a value: solvers are compiled once for all.
+#[derive(Clone, Copy)]
+pub(crate) struct Configuration<T, const D: usize> {
+    /// [`Formulation::MOVES`].
+    pub moves: bool,
+    /// [`Formulation::stress`].
+    pub stress: StressOf<Matrix<T, D>>,
+}
+
+impl FormulationName {
+    /// The formulation of this name.
+    pub(crate) fn configuration<T: Real, const D: usize>(self) -> Configuration<T, D> {
+        self.visit(Configure(std::marker::PhantomData))
+    }
+}
+
+/// Makes a value of a formulation.
+struct Configure<T, const D: usize>(std::marker::PhantomData<T>);
+
+impl<T: Real, const D: usize> FormulationVisitor for Configure<T, D> {
+    type Output = Configuration<T, D>;
+
+    fn visit<L: Formulation>(self) -> Self::Output {
+        Configuration { moves: L::MOVES, stress: L::stress }
+    }
 }

@@ -16,10 +16,13 @@ impl Formulation for Total {
     const MOVES: bool = false;
 
     fn stress<T: Real, const D: usize>(
-        kirchhoff: &Matrix<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Option<Matrix<T, D>> {
-        let inverse = inverse_deformation_gradient(displacement_gradient)?;
-        Some(kirchhoff * inverse.transpose())
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) -> Result<(), usize> {
+        for (p, (h, stress)) in displacement_gradient.iter().zip(stress).enumerate() {
+            let inverse = inverse_deformation_gradient(h).ok_or(p)?;
+            *stress *= inverse.transpose();
+        }
+        Ok(())
     }
 }

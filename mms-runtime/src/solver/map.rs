@@ -1,6 +1,5 @@
 //! From particles to nodes: mass and momentum, and forces.
 
-use std::marker::PhantomData;
 use std::ops::Range;
 
 use mms_math::dispatch::{Work, narrow};
@@ -9,7 +8,7 @@ use mms_math::machine::{Fused, Machine, Plain};
 use super::clock::{Seconds, timed};
 use super::scene::{BLOCK, Room, Scene};
 use super::slabs::Slab;
-use crate::formulation::Formulation;
+use crate::formulation::Configuration;
 use crate::nodal::{Window, columns, four};
 use crate::particle::Particles;
 use crate::shape::Shape;
@@ -48,19 +47,18 @@ impl From<(usize, Cause)> for Stop {
 }
 
 /// The sums of the particles of one slab.
-pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape, L> {
+pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape> {
     pub scene: Scene<'a, T, D, S>,
     pub particles: &'a Particles<T, D>,
     pub field: &'a F,
     pub carried: Carried,
-    pub formulation: PhantomData<L>,
+    pub formulation: Configuration<T, D>,
 }
 
-impl<T: Real, const D: usize, F, S, L> Map<'_, T, D, F, S, L>
+impl<T: Real, const D: usize, F, S> Map<'_, T, D, F, S>
 where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
-    L: Formulation,
 {
     /// Adds to momentum and force of the nodes in the slab's window.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
@@ -94,9 +92,9 @@ where
         let gradients = &self.particles.displacement_gradient[part.clone()];
         let reference = &self.particles.reference_position[part.clone()];
         self.field.kirchhoff_stress(reference, gradients, stress);
-        for ((p, h), stress) in part.zip(gradients).zip(stress) {
-            let singular = || (p, Cause::Inverted { jacobian: 0.0 });
-            *stress = L::stress(stress, h).ok_or_else(singular)?;
+        let singular = |k| (part.start + k, Cause::Inverted { jacobian: 0.0 });
+        (self.formulation.stress)(gradients, stress).map_err(singular)?;
+        for (p, stress) in part.clone().zip(&*stress) {
             // Almost always one test does for all components.
             if !stress.sum().is_finite() && !matrix_is_finite(stress) {
                 return Err(Stop::Failed(p, Cause::NotFinite { quantity: "stress" }));

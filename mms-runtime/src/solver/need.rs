@@ -1,6 +1,5 @@
 //! What a run takes of memory, about: refused before it is taken.
 
-use crate::formulation::Formulation;
 use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::{Matrix, Real, Refusal, Vector};
@@ -14,11 +13,11 @@ pub(super) struct Need {
 
 impl Need {
     /// What is kept in this scene, if so many bytes are `available`.
-    pub fn new<T: Real, S: Shape, L: Formulation, const D: usize>(available: Option<u64>) -> Self {
+    pub fn new<T: Real, S: Shape, const D: usize>(moves: bool, available: Option<u64>) -> Self {
         let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
         let matrix = size_of::<Matrix<T, D>>();
         // Id, X, d, v, b, H, C, m, V0 and the domain, and weights that stay.
-        let weights = if L::MOVES { 0 } else { size_of::<S::Stencil<T, D>>() };
+        let weights = if moves { 0 } else { size_of::<S::Stencil<T, D>>() };
         let state = size_of::<u32>() + 4 * vector + 2 * matrix + 2 * number + weights;
         // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
         let measured = 2 * vector + 3 * matrix + number;

@@ -1,6 +1,5 @@
 //! The operations that integrators are made of.
 
-use std::marker::PhantomData;
 use std::time::Instant;
 
 use mms_math::dispatch::narrow;
@@ -13,7 +12,6 @@ use super::map::{Carried, Map, Stop};
 use super::scene::{BLOCK, Scene};
 use super::threads::{each_pair, each_part};
 use crate::boundary::traction::Place;
-use crate::formulation::Formulation;
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
@@ -22,11 +20,10 @@ use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
-impl<T: Real, const D: usize, F, S, L> Operations<T> for Solver<'_, T, D, F, S, L>
+impl<T: Real, const D: usize, F, S> Operations<T> for Solver<'_, T, D, F, S>
 where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
-    L: Formulation,
 {
     fn time(&self) -> T {
         T::of(self.clock.time_of(self.clock.step))
@@ -100,7 +97,7 @@ where
         let (reference_position, columns) = particles.columns();
         let scene = Scene::<T, D, S> {
             lattice,
-            moves: L::MOVES,
+            moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
             domains,
@@ -125,22 +122,21 @@ fn both_sound(
     Ok(first? & second?)
 }
 
-impl<T: Real, const D: usize, F, S, L> Solver<'_, T, D, F, S, L>
+impl<T: Real, const D: usize, F, S> Solver<'_, T, D, F, S>
 where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
-    L: Formulation,
 {
     /// Finds the particles' weights if those are kept.
     fn weigh(&mut self) -> Result<(), Failure> {
-        let once = !L::MOVES && !self.weights.is_empty();
+        let once = !self.formulation.moves && !self.weights.is_empty();
         if !self.keeps_weights || once {
             return Ok(());
         }
         let Self { grid, particles, domains, weights, transfer, seconds, .. } = self;
         let scene = Scene::<T, D, S> {
             lattice: &grid.lattice,
-            moves: L::MOVES,
+            moves: self.formulation.moves,
             transfer: *transfer,
             reference_position: &particles.reference_position,
             domains,
@@ -198,7 +194,8 @@ where
     }
 
     fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {
-        let Self { field, grid, particles, domains, weights, slabs, transfer, .. } = self;
+        let Self { grid, particles, domains, weights, slabs, transfer, .. } = self;
+        let (field, formulation) = (self.field, self.formulation);
         let Grid { lattice, momentum, force, .. } = grid;
         let nodes: [&mut [Nodal<T>]; 2] = match carried {
             Carried::Momentum => [momentum, &mut []],
@@ -215,14 +212,13 @@ where
         let reference_position = &particles.reference_position;
         let scene = Scene::<T, D, S> {
             lattice,
-            moves: L::MOVES,
+            moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
             domains,
             weights,
         };
-        let formulation = PhantomData::<L>;
-        let map = Map::<T, D, F, S, L> { scene, particles, field, carried, formulation };
+        let map = Map { scene, particles, field, carried, formulation };
         let start = Instant::now();
         let taken =
             slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;
@@ -254,7 +250,7 @@ where
         let lattice = &grid.lattice;
         let scene = Scene::<T, D, S> {
             lattice,
-            moves: L::MOVES,
+            moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
             domains,
@@ -291,7 +287,7 @@ where
     fn find_acceleration(&mut self, time: T) -> Result<(), Failure> {
         let Self { grid, particles, slabs, field, boundary, seconds, .. } = self;
         let place = |id: usize, reference: &Vector<T, D>| {
-            if !L::MOVES {
+            if !self.formulation.moves {
                 return Place { position: *reference, carrier: None };
             }
             let p = slabs.place_of(id);

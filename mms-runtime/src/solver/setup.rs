@@ -7,7 +7,6 @@ use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
 use crate::failure::positive;
-use crate::formulation::Formulation;
 use crate::lattice::Axis;
 use crate::method::{Division, Setup};
 use crate::nodal::Nodal;
@@ -15,7 +14,8 @@ use crate::particle::Particles;
 use crate::shape::{MAX_NODES, Shape};
 use crate::tensor::{components, is_finite, matrix_is_finite};
 use crate::{
-    Body, Cause, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
+    Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Real, Refusal,
+    Vector,
 };
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
@@ -24,23 +24,29 @@ const MOTION_SAMPLES: usize = 64;
 /// Cells around the body's motion, on top of what its particles' stencils reach.
 const MARGIN: f64 = 2.0;
 
-impl<'f, T: Real, const D: usize, F, S, L> Solver<'f, T, D, F, S, L>
+impl<'f, T: Real, const D: usize, F, S> Solver<'f, T, D, F, S>
 where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
-    L: Formulation,
 {
     /// The field's body at the start of its time window, divided into `cells`: displacement, velocity and H
     /// are the field's.
     ///
     /// # Errors
     /// What cannot be started, and why.
-    pub fn new(field: &'f F, setup: &Setup, cells: &Division) -> Result<Self, Refusal> {
+    pub fn new(
+        field: &'f F,
+        formulation: FormulationName,
+        setup: &Setup,
+        cells: &Division,
+    ) -> Result<Self, Refusal> {
         setup.validate()?;
+        let formulation = formulation.configuration();
+        let moves = formulation.moves;
         let domain = field.domain();
         let [lower, upper] = bounding_box(&domain.body)?;
         let cell_size = cell_size(&(upper - lower), cells)?;
-        let need = Need::new::<T, S, L, D>(setup.memory);
+        let need = Need::new::<T, S, D>(moves, setup.memory);
         let spacing = spacing::<D>(setup, &cell_size)?;
         let expected = (upper - lower).component_div(&spacing).iter().product();
         need.check(expected, 0.0)?;
@@ -55,18 +61,20 @@ where
         let clock = Clock::new(window, time_step, setup.parts)?;
 
         let mut motion = [lower, upper];
-        if L::MOVES {
+        if moves {
             motion = extent_of_motion(field, &mut particles, &clock)?;
         }
+        let is_box = matches!(domain.body, Body::Box { .. });
+        let ends_at = |face: Face| S::DEGREE > 1 && is_box && (!moves || is_wall(&domain, face));
         let axis = |a: usize| {
             let body = [lower[a], upper[a]];
             let reach = [motion[0][a], motion[1][a]];
-            cells_along::<T, D, S, L>(&domain, setup, a, cell_size[a], body, reach)
+            cells_along(setup, a, cell_size[a], body, reach, &ends_at)
         };
         let periodic = std::array::from_fn(|a| setup.periodic[a]);
         let lattice = Lattice::new(std::array::from_fn(axis), S::DEGREE, periodic)?;
         need.check(particles.len() as f64, lattice.len() as f64)?;
-        let boundary = Boundary::new(&domain, &lattice, &filling.pieces, L::MOVES)?;
+        let boundary = Boundary::new(&domain, &lattice, &filling.pieces, moves)?;
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
         let count = particles.len();
         let residual_nodes = if particles.residual.is_empty() { 0 } else { lattice.len() };
@@ -82,7 +90,7 @@ where
         let mut domains: Vec<_> = domains.collect();
         let kept: &mut [S::Stencil<T, D>] = &mut [];
         slabs.sort(&grid.lattice, &mut particles, &mut domains, kept, |all, p| {
-            if L::MOVES { all.position(p) } else { all.reference_position[p] }
+            if moves { all.position(p) } else { all.reference_position[p] }
         });
         Ok(Self {
             field,
@@ -98,7 +106,7 @@ where
             residual: std::array::from_fn(|_| vec![Nodal::zero(); residual_nodes]),
             suspect: false,
             seconds: Seconds::default(),
-            formulation: std::marker::PhantomData,
+            formulation,
         })
     }
 
@@ -175,14 +183,14 @@ fn fill<T: Real, const D: usize>(
     Ok(filling)
 }
 
-/// The cells of an axis: enough for the `motion` of a body between `body`.
-fn cells_along<T: Real, const D: usize, S: Shape, L: Formulation>(
-    domain: &Domain<T, D>,
+/// The cells of an axis: enough for the `motion` of a body between `body`; splines end at some faces.
+fn cells_along(
     setup: &Setup,
     a: usize,
     cell_size: f64,
     body: [f64; 2],
     motion: [f64; 2],
+    ends_at: &dyn Fn(Face) -> bool,
 ) -> Axis {
     let whole = |distance: f64| (distance / cell_size).ceil().max(0.0);
     let padding = MAX_NODES as f64 + MARGIN;
@@ -194,11 +202,10 @@ fn cells_along<T: Real, const D: usize, S: Shape, L: Formulation>(
     let last = first + (body[1] - body[0]) / cell_size;
     // Far too many are refused when they are counted; a conversion saturates.
     let cells = (last.ceil() + after + padding).min(f64::from(u32::MAX)) as usize;
-    let is_box = matches!(domain.body, Body::Box { .. });
     let ends = |face: Face, knot: f64, else_at: i64| {
-        let rests = is_box && (!L::MOVES || is_wall(domain, face)) && !setup.periodic[a];
         let on_knot = (knot - knot.round()).abs() < 1e-4;
-        if S::DEGREE > 1 && rests && on_knot { knot.round() as i64 } else { else_at }
+        let ended = ends_at(face) && !setup.periodic[a] && on_knot;
+        if ended { knot.round() as i64 } else { else_at }
     };
     Axis {
         lower: body[0] - first * cell_size,

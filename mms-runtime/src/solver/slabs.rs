@@ -129,8 +129,7 @@ impl Slabs {
             *cell = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>() as u64;
         }
         let Self { order, cell, .. } = self;
-        order.iter_mut().zip(0..).for_each(|(from, p)| *from = p);
-        order.sort_unstable_by_key(|&p| (cell[p as usize], particles.id[p as usize]));
+        arrange(order, cell, &particles.id);
         reorder(cell, order);
         reorder(domains, order);
         reorder(weights, order);
@@ -172,6 +171,12 @@ impl Slabs {
         }
         Ok(done)
     }
+}
+
+/// The order of the particles by their cells, and within a cell by their numbers.
+fn arrange(order: &mut [u32], cell: &[u64], id: &[u32]) {
+    order.iter_mut().zip(0..).for_each(|(from, p)| *from = p);
+    order.sort_unstable_by_key(|&p| (cell[p as usize], id[p as usize]));
 }
 
 /// Every other slab.

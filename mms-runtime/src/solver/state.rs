@@ -32,7 +32,7 @@ pub(crate) struct State<'a, T: Real, const D: usize> {
     seconds: Seconds,
 }
 
-impl<T: Real, const D: usize, F: ?Sized, S: Shape, L> Solver<'_, T, D, F, S, L> {
+impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
     /// The state after the last step.
     pub(crate) fn state(&self) -> State<'_, T, D> {
         let particles = &self.particles;

@@ -204,7 +204,7 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
     pub fn keep<'s, F>(
         &mut self,
         present: &Present<'_, T, D, F>,
-        state: impl FnOnce() -> State<'s, T, D>,
+        state: &dyn Fn() -> State<'s, T, D>,
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,

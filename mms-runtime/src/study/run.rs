@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use super::course::{Course, Saved, SavedCourse};
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
-use crate::formulation::{Formulation, FormulationVisitor};
 use crate::integrator::{Integrator, IntegratorVisitor};
 use crate::particle::Particles;
 use crate::shape::{Shape, ShapeVisitor};
@@ -118,8 +117,7 @@ macro_rules! solve {
                 observer: &mut dyn Observer,
             ) -> Result<Run, Refusal> {
                 method.validate()?;
-                let scene = WithFormulation { field, method, cells, watch, observer };
-                method.formulation.visit(scene)
+                method.shape.visit(WithShape { field, method, cells, watch, observer })
             }
         })*
     };
@@ -127,8 +125,8 @@ macro_rules! solve {
 
 solve!(f32 1, f32 2, f32 3, f64 1, f64 2, f64 3);
 
-/// From names to the solver compiled for them: first the formulation,
-struct WithFormulation<'a, T, const D: usize> {
+/// From names to the solver compiled for them: first the shape function,
+struct WithShape<'a, T, const D: usize> {
     field: &'a dyn ManufacturedField<T, D>,
     method: &'a Method,
     cells: &'a Division,
@@ -136,29 +134,14 @@ struct WithFormulation<'a, T, const D: usize> {
     observer: &'a mut dyn Observer,
 }
 
-impl<T: Real, const D: usize> FormulationVisitor for WithFormulation<'_, T, D> {
-    type Output = Result<Run, Refusal>;
-
-    fn visit<L: Formulation>(self) -> Self::Output {
-        self.method
-            .shape
-            .visit(WithShape { scene: self, formulation: std::marker::PhantomData::<L> })
-    }
-}
-
-/// then the shape function,
-struct WithShape<'a, T, const D: usize, L> {
-    scene: WithFormulation<'a, T, D>,
-    formulation: std::marker::PhantomData<L>,
-}
-
-impl<T: Real, const D: usize, L: Formulation> ShapeVisitor for WithShape<'_, T, D, L> {
+impl<T: Real, const D: usize> ShapeVisitor for WithShape<'_, T, D> {
     type Output = Result<Run, Refusal>;
 
     fn visit<S: Shape>(self) -> Self::Output {
-        let WithFormulation { field, method, cells, watch, observer } = self.scene;
+        let Self { field, method, cells, watch, observer } = self;
         let start = Instant::now();
-        let mut solver = Solver::<T, D, _, S, L>::new(field, &method.setup, cells)?;
+        let mut solver =
+            Solver::<T, D, _, S>::new(field, method.formulation, &method.setup, cells)?;
         let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
         let mut before = 0.0;
         let saved = match saved {
@@ -207,17 +190,15 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
 }
 
 /// and last the integrator.
-struct WithIntegrator<'a, T: Real, const D: usize, S: Shape, L> {
-    solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S, L>,
+struct WithIntegrator<'a, T: Real, const D: usize, S: Shape> {
+    solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S>,
     fastest_wave: Option<f64>,
     watch: Watch,
     saved: Option<(SavedCourse<'a>, f64)>,
     observer: &'a mut dyn Observer,
 }
 
-impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
-    for WithIntegrator<'_, T, D, S, L>
-{
+impl<T: Real, const D: usize, S: Shape> IntegratorVisitor for WithIntegrator<'_, T, D, S> {
     type Output = Result<(Details, Seconds, Snapshots), Failure>;
 
     fn visit<I: Integrator>(self) -> Self::Output {
@@ -230,7 +211,7 @@ impl<T: Real, const D: usize, S: Shape, L: Formulation> IntegratorVisitor
             course.before_step(&solver.present(), behind);
             solver.step::<I>()?;
             course.after_step(&solver.present(), behind)?;
-            course.keep(&solver.present(), || solver.state())?;
+            course.keep(&solver.present(), &|| solver.state())?;
         }
         let (details, snapshots) = course.close(&solver.present());
         Ok((details, solver.seconds(), snapshots))

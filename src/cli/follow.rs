@@ -1,0 +1,114 @@
+//! Who follows a run of `mms run`: its progress, what it writes, and where it goes on from.
+
+use std::io::Read;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::Context as _;
+use mms_runtime::study::{Checkpoint, Frame, Observer, Record};
+
+use super::progress::OfRun;
+use crate::checkpoint::{Found, Keeper};
+use crate::history::History;
+use crate::vtk::Writer;
+
+/// What a process ends with whom a second signal does not let wait: 128 and the number of SIGINT.
+const KILLED: i32 = 130;
+
+/// Whether somebody wants the run to stop.
+pub struct Interrupted(Arc<AtomicBool>);
+
+impl Interrupted {
+    /// Waits for Ctrl-C, or a request to terminate; a second one ends the process at once.
+    pub fn listen() -> anyhow::Result<Self> {
+        let flag = Arc::new(AtomicBool::new(false));
+        let seen = flag.clone();
+        ctrlc::set_handler(move || {
+            if seen.swap(true, Ordering::Relaxed) {
+                std::process::exit(KILLED);
+            }
+        })
+        .context("cannot wait for Ctrl-C")?;
+        Ok(Interrupted(flag))
+    }
+
+    fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Everybody.
+pub struct Followers<'a> {
+    pub progress: OfRun<'a>,
+    pub vtk: Option<Writer>,
+    pub history: Option<History>,
+    pub keeper: Option<Keeper>,
+    pub resumed: Option<Found>,
+    pub interrupted: Interrupted,
+}
+
+impl Followers<'_> {
+    /// Writes what is left to write.
+    pub fn end(&self) -> anyhow::Result<()> {
+        self.history.as_ref().map_or(Ok(()), History::write)
+    }
+
+    /// The list of the states that were written for ParaView.
+    pub fn list_of_states(&self) -> Option<PathBuf> {
+        self.vtk.as_ref().map(Writer::list)
+    }
+
+    fn try_to_keep(&mut self, checkpoint: &dyn Checkpoint) -> anyhow::Result<()> {
+        let Some(keeper) = &mut self.keeper else { return Ok(()) };
+        // Never behind the checkpoint.
+        self.history.as_ref().map_or(Ok(()), History::write)?;
+        keeper.keep(checkpoint, self.vtk.as_ref().map_or(&[], Writer::written))
+    }
+}
+
+impl Observer for Followers<'_> {
+    fn begin(&mut self, particles: usize, steps: usize) {
+        self.progress.begin(particles, steps);
+    }
+
+    fn step(&mut self, step: usize, steps: usize) {
+        self.progress.step(step, steps);
+    }
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        self.vtk.as_ref().is_some_and(|vtk| vtk.wants(step, steps))
+    }
+
+    fn see(&mut self, frame: &Frame) -> Result<(), String> {
+        let Some(vtk) = &mut self.vtk else { return Ok(()) };
+        vtk.write(frame).map_err(|error| format!("{error:#}"))
+    }
+
+    fn records(&self) -> bool {
+        self.history.is_some()
+    }
+
+    fn record(&mut self, record: &Record) {
+        self.history.iter_mut().for_each(|history| history.push(record));
+    }
+
+    fn resume(&mut self) -> Option<Box<dyn Read + '_>> {
+        self.resumed.take().map(|found| Box::new(found.state()) as Box<dyn Read>)
+    }
+
+    fn keeps(&self, step: usize, _: usize) -> bool {
+        self.interrupted.is_set() || self.keeper.as_ref().is_some_and(|keeper| keeper.wants(step))
+    }
+
+    fn keep(&mut self, checkpoint: &dyn Checkpoint) -> Result<(), String> {
+        self.try_to_keep(checkpoint).map_err(|error| format!("{error:#}"))?;
+        if !self.interrupted.is_set() {
+            return Ok(());
+        }
+        Err(match &self.keeper {
+            Some(keeper) => format!("interrupted; `{}` goes on from here", keeper.resuming()),
+            None => "interrupted, and no checkpoint was asked for (`--checkpoint FILE`)".into(),
+        })
+    }
+}

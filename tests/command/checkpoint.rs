@@ -1,0 +1,245 @@
+//! Runs that are killed, interrupted or cannot write, and go on.
+
+use std::fs;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::mms::Folder;
+
+/// A run of some hundred steps, and everything that it writes but its checkpoints.
+const RUN: &str =
+    "run axis_aligned_2d --cells 16 --courant 0.1 --history run.csv --vtk states --frames 5 --json";
+
+/// Where its checkpoints go.
+const KEEPING: &str = "--checkpoint run.checkpoint --every 20";
+
+/// A document but for what takes time.
+fn timeless(mut document: Value) -> Value {
+    let run = document.as_object_mut().expect("an object");
+    run.remove("seconds").expect("seconds");
+    run.remove("ns_per_particle_step").expect("nanoseconds");
+    document
+}
+
+/// What a run leaves, byte by byte: the history, the list of states, and the states.
+fn written(folder: &Folder) -> Vec<(String, String)> {
+    let mut names = vec!["run.csv".to_owned()];
+    let states = fs::read_dir(folder.path("states")).expect("a folder");
+    let name = |entry: std::io::Result<fs::DirEntry>| {
+        format!("states/{}", entry.expect("an entry").file_name().to_string_lossy())
+    };
+    names.extend(states.map(name).filter(|name| !name.contains(".tmp")));
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), folder.read(&name))).collect()
+}
+
+/// What the run ends with if nothing happens to it.
+fn undisturbed() -> (Value, Vec<(String, String)>) {
+    let folder = Folder::new();
+    let document = timeless(folder.mms(RUN).exits(0).json());
+    (document, written(&folder))
+}
+
+/// The run, which goes on if there is something to go on from.
+fn arguments(folder: &Folder) -> String {
+    let resume =
+        if folder.path("run.checkpoint").exists() { "--resume run.checkpoint" } else { "" };
+    format!("{RUN} {KEEPING} {resume}")
+}
+
+fn start(folder: &Folder) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_mms"))
+        .args(arguments(folder).split_whitespace())
+        .current_dir(folder.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts")
+}
+
+/// At a hundred instants anywhere in the run.
+#[test]
+fn killed_a_hundred_times_it_ends_with_the_same_bytes() {
+    let start_of_one = Instant::now();
+    let (document, files) = undisturbed();
+    let whole = start_of_one.elapsed();
+    let (mut kills, mut resumed, mut random) = (0, 0, 1_u64);
+    while kills < 100 {
+        let folder = Folder::new();
+        // Each life is short of the whole run, so that it takes several.
+        for _ in 0..8 {
+            random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            resumed += usize::from(folder.path("run.checkpoint").exists());
+            let mut process = start(&folder);
+            let part = f64::from((random >> 48) as u16) / f64::from(u16::MAX);
+            std::thread::sleep(Duration::from_secs_f64(whole.as_secs_f64() * part));
+            process.kill().expect("it was started");
+            process.wait().expect("it was killed");
+            kills += 1;
+        }
+        let last = folder.mms(&arguments(&folder)).exits(0);
+        assert_eq!(timeless(last.json()), document);
+        assert_eq!(written(&folder), files);
+    }
+    assert!(resumed > 10, "{resumed} of {kills} went on from a checkpoint");
+}
+
+/// Whoever types Ctrl-C is told how to go on.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_says_how_to_go_on() {
+    let (document, files) = undisturbed();
+    let folder = Folder::new();
+    let process = start(&folder);
+    // The first state says that it runs.
+    while !folder.path("states/axis_aligned_2d_0001.vtu").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let signal = Command::new("kill").args(["-INT", &process.id().to_string()]).status();
+    assert!(signal.expect("a signal").success());
+    let output = process.wait_with_output().expect("it ends");
+    let said = String::from_utf8(output.stderr).expect("a text");
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    let command = said.split('`').nth(1).expect("a command");
+    assert_eq!(command, format!("mms {RUN} {KEEPING} --resume run.checkpoint"), "{said}");
+    let rest = folder.mms(command.strip_prefix("mms ").expect("the program")).exits(0);
+    assert_eq!(timeless(rest.json()), document);
+    assert_eq!(written(&folder), files);
+}
+
+/// A checkpoint of the middle of a short run.
+fn kept(folder: &Folder) -> Vec<u8> {
+    folder.mms("run bar_1d --cells 8 --checkpoint kept --every 7").exits(0);
+    fs::read(folder.path("kept")).expect("a checkpoint")
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused_and_stays_as_it_is() {
+    let folder = Folder::new();
+    let whole = kept(&folder);
+    let mut damaged: Vec<(Vec<u8>, &str)> = Vec::new();
+    for part in 0..12 {
+        damaged.push((whole[..whole.len() * part / 12].to_vec(), "no whole checkpoint"));
+        let mut changed = whole.clone();
+        changed[whole.len() * part / 12] ^= 1 << (part % 8);
+        damaged.push((changed, "its checksum does not fit its content"));
+    }
+    damaged.push((b"step,time\n1,0.1\n".to_vec(), "no whole checkpoint"));
+    for (content, complaint) in damaged {
+        fs::write(folder.path("kept"), &content).expect("written");
+        folder.mms("run bar_1d --cells 8 --resume kept").exits(2).complains(complaint);
+        assert_eq!(fs::read(folder.path("kept")).expect("still there"), content);
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_run_is_refused_by_the_command_that_wrote_it() {
+    let folder = Folder::new();
+    kept(&folder);
+    for other in [
+        "run bar_1d --cells 9",
+        "run bar_1d --cells 8 --courant 0.3",
+        "run bar_1d --cells 8 --precision f32",
+        "run bar_1d --cells 8 --set young=2e6",
+        "run periodic_bar --cells 8",
+    ] {
+        folder
+            .mms(&format!("{other} --resume kept"))
+            .exits(2)
+            .complains("`mms run bar_1d --cells 8 --checkpoint kept --every 7`");
+    }
+    // Neither threads nor what is written belong to the run.
+    folder.mms("run bar_1d --cells 8 --resume kept --threads 2 --vtk states").exits(0);
+    folder.mms("run bar_1d --cells 8 --resume missing").exits(2).complains("missing");
+    folder.mms("run bar_1d --cells 8 --every 3").exits(2);
+}
+
+/// Single precision, too.
+#[test]
+fn a_run_in_single_precision_goes_on_to_the_bit() {
+    let folder = Folder::new();
+    let run = "run bar_1d --cells 8 --precision f32 --json";
+    let whole = folder.mms(&format!("{run} --checkpoint kept --every 7")).exits(0).json();
+    let rest = folder.mms(&format!("{run} --resume kept")).exits(0).json();
+    assert_eq!(timeless(rest), timeless(whole));
+}
+
+/// Said before any work is done.
+#[test]
+fn what_cannot_be_written_is_refused_at_once() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    for option in ["--checkpoint file/kept", "--history file/run.csv"] {
+        folder.mms(&format!("run bar_1d --cells 8 {option}")).exits(2).complains(option);
+    }
+    folder.mms("run bar_1d --cells 8 --checkpoint .").exits(2).complains("it is a folder");
+    let wrong = "run bar_1d --cells 8 --resume kept --history file";
+    kept(&folder);
+    folder.mms(wrong).exits(2).complains("does not hold the");
+    assert_eq!(folder.read("file"), "", "left as it was");
+}
+
+/// As on a disk that is full: the run says what it could not write, and the last checkpoint stays.
+#[test]
+#[cfg(unix)]
+fn a_disk_that_fills_up_loses_nothing() {
+    let folder = Folder::new();
+    let before = kept(&folder);
+    let limited = |arguments: &str| {
+        let script = format!(
+            "trap '' XFSZ; ulimit -f 1; exec {} run bar_1d {arguments}",
+            env!("CARGO_BIN_EXE_mms")
+        );
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(folder.path(""))
+            .output()
+            .expect("a shell");
+        (output.status.code(), String::from_utf8(output.stderr).expect("a text"))
+    };
+    let (code, said) = limited("--cells 64 --checkpoint kept --every 7");
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("cannot write `kept`"), "{said}");
+    assert_eq!(fs::read(folder.path("kept")).expect("the one before"), before);
+    let (code, said) = limited("--cells 64 --history run.csv");
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("cannot write `run.csv`"), "{said}");
+    let names: Vec<_> = fs::read_dir(folder.path(""))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("a name"))
+        .collect();
+    assert!(names.iter().all(|name| name == "kept" || name == "run.csv"), "{names:?}");
+}
+
+/// One row per step; the last one is what the run itself says.
+#[test]
+fn the_history_closes_with_the_numbers_of_the_run() {
+    let folder = Folder::new();
+    let run = folder.mms("run bar_1d --cells 16 --history run.csv --json").exits(0).json();
+    let text = folder.read("run.csv");
+    let mut rows = csv::Reader::from_reader(text.as_bytes());
+    let names = rows.headers().expect("names").clone();
+    let rows: Vec<_> = rows.records().map(|row| row.expect("a row")).collect();
+    assert_eq!(rows.len() as u64, run["steps"].as_u64().expect("a number"));
+    let last = |name: &str| -> f64 {
+        let column = names.iter().position(|it| it == name).expect(name);
+        rows.last().expect("a step")[column].parse().expect("a number")
+    };
+    let balance = &run["diagnostics"]["balance"];
+    for (name, value) in [
+        ("displacement_l2", &run["errors"]["displacement"]["at_end"]["l2"]),
+        ("mass", &run["diagnostics"]["mass"]),
+        ("momentum_x", &run["diagnostics"]["momentum"][0]),
+        ("jacobian_least", &run["diagnostics"]["jacobian"][0]),
+        ("time_of_energies", &balance["time"]),
+        ("kinetic_energy", &balance["kinetic_energy"]),
+        ("strain_energy", &balance["strain_energy"]),
+        ("body_work", &balance["body_work"]),
+        ("energy_residual", &balance["energy_residual"]),
+        ("surface_force_x", &balance["surface_force"][0]),
+    ] {
+        assert_eq!(Some(last(name)), value.as_f64(), "{name}");
+    }
+}
