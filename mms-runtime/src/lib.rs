@@ -4,8 +4,9 @@
 //! * [`ManufacturedField`] and [`Material`] are what generated code implements; they are evaluated
 //!   over slices of particles and are object-safe.
 //! * [`Solver`] advances a body of particles through a background grid. It is written once for one
-//!   to three dimensions and for `f32` and `f64`; shape function and time integrator are types, so
-//!   that one solver is compiled per combination and none per field.
+//!   to three dimensions and for `f32` and `f64`; one is compiled per dimension, precision and shape
+//!   function, and none per field. Formulation and transfer are values, looked at once per pass, and a
+//!   time integrator is compiled once per precision.
 //! * [`study`] runs a method over levels of refinement, measures the errors against the field, and
 //!   judges the observed orders.
 //!
