@@ -13,9 +13,9 @@
  * an evaluation has the parameters of the moment at which it starts. Only mms_field_free must come
  * after all else. No panic and no exception leaves the library.
  *
- * Values are those of `mms eval`, bit for bit. They are interpreted: a point takes microseconds, and
- * all points of a call share what needs only the parameters and the time. Where that counts, embed
- * the code that `mms emit` writes.
+ * Values are those of `mms eval`, bit for bit. They are interpreted: a point takes less than a
+ * microsecond, and the points of a call share what needs only the parameters and the time. Where that
+ * counts, embed the code that `mms emit` writes.
  */
 
 
