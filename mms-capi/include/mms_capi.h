@@ -11,7 +11,7 @@
  *
  * There is no global state. Any function may be called on any thread at any time, also on one field:
  * an evaluation has the parameters of the moment at which it starts. Only mms_field_free must come
- * after all else. No panic and no exception leaves the library.
+ * after all else. No panic leaves the library: it becomes MMS_CODE_DEFECT.
  *
  * Values are those of `mms eval`, bit for bit. They are interpreted: a point takes less than a
  * microsecond, and the points of a call share what needs only the parameters and the time. Where that
