@@ -16,7 +16,7 @@ use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
 use crate::pass::half_turns::half_turns;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
-use crate::program::interpret::{Interpreter, Number};
+use crate::program::interpret::{Interpreter, Number, Point};
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
 use crate::selection::{Form, Selection};
@@ -453,6 +453,18 @@ impl Compiled {
         Ok(schedule(&graph, &BTreeMap::from([(output, components)])))
     }
 
+    /// The face of that name; otherwise what is wrong with it, in one line.
+    pub fn face(&self, name: &str) -> Result<Face, String> {
+        let faces = Face::of(&self.field.domain.body, self.field.dimension);
+        let names = || faces.iter().map(|face| face.name());
+        faces.iter().copied().find(|face| face.name() == name).ok_or_else(|| {
+            match did_you_mean(name, names()) {
+                Some(near) => format!("no such face; did you mean `{near}`?"),
+                None => format!("this body has {}", names().collect::<Vec<_>>().join(", ")),
+            }
+        })
+    }
+
     /// The outward reference unit normal of a face, as a program of its own.
     pub fn normal(&self, face: Face) -> Program {
         let mut graph = self.graph.clone();
@@ -460,6 +472,24 @@ impl Compiled {
         let dimension = self.model.displacement.len();
         let normal = face::normal(&mut graph, &self.model.domain.body, dimension, face);
         schedule(&graph, &BTreeMap::from([(Output::Face(face, Datum::Normal), normal)]))
+    }
+
+    /// The outward reference unit normals of a face at points of it, `dimension` components each.
+    pub fn normals<T: Number, P: AsRef<[T]>>(
+        &self,
+        face: Face,
+        parameters: &[T],
+        points: impl IntoIterator<Item = P>,
+    ) -> Vec<Vec<T>> {
+        let program = self.normal(face);
+        let output = Output::Face(face, Datum::Normal);
+        let mut interpreter = Interpreter::new(&program, parameters);
+        let plan = interpreter.plan(&[output]);
+        let normal = |point: P| {
+            interpreter.set_point(&plan, Point::at(point.as_ref()));
+            interpreter.output(output)
+        };
+        points.into_iter().map(normal).collect()
     }
 
     /// The quantities that have a closed form, each beside it, as one program.

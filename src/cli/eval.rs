@@ -1,16 +1,12 @@
 //! `mms eval`: numbers.
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
-use mms_codegen::Compiled;
 use mms_codegen::compile::constant;
-use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::Face;
-use mms_codegen::suggest::did_you_mean;
 use mms_runtime::math::{Double, Scalar as _};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
@@ -190,7 +186,11 @@ impl Eval {
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let normals = match (&self.normal, &self.face) {
             (Some(normal), _) => vec![unit(normal, dimension)?; points.len()],
-            (None, Some(face)) => normals(&input.compiled, face, &parameters, &points)?,
+            (None, Some(name)) => {
+                let face = input.compiled.face(name);
+                let face = face.map_err(|mistake| anyhow!("`--face {name}`: {mistake}"))?;
+                input.compiled.normals(face, &parameters, &points)
+            }
             (None, None) if quantities.contains(&Quantity::Traction) => {
                 bail!(
                     "`traction` needs the reference normal of a boundary: give --face or --normal"
@@ -242,34 +242,6 @@ fn unit<T: Digits>(normal: &str, dimension: usize) -> anyhow::Result<Vec<T>> {
         bail!("`--normal`: expected a unit vector, found one of length {}", squared.sqrt());
     }
     Ok(components)
-}
-
-/// The outward normals of a face at points of it.
-fn normals<T: Digits>(
-    compiled: &Compiled,
-    face: &str,
-    parameters: &[T],
-    points: &[Vec<T>],
-) -> anyhow::Result<Vec<Vec<T>>> {
-    let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
-    let names = || faces.iter().map(|face| face.name());
-    let Some(face) = faces.iter().find(|known| known.name() == face) else {
-        match did_you_mean(face, names()) {
-            Some(near) => bail!("`--face {face}`: no such face; did you mean `{near}`?"),
-            None => {
-                bail!("`--face {face}`: this body has {}", names().collect::<Vec<_>>().join(", "))
-            }
-        }
-    };
-    let program = compiled.normal(*face);
-    let output = Output::Face(*face, Datum::Normal);
-    let mut interpreter = Interpreter::new(&program, parameters);
-    let plan = interpreter.plan(&[output]);
-    let normals = points.iter().map(|point| {
-        interpreter.set_point(&plan, Point::at(point));
-        interpreter.output(output)
-    });
-    Ok(normals.collect())
 }
 
 fn coordinates<T: Digits>(option: &str, text: &str, dimension: usize) -> anyhow::Result<Vec<T>> {

@@ -1,0 +1,37 @@
+//! Compiles a field to a file of Rust, which `src/main.rs` includes. For what the macro does not: a
+//! field that is chosen, or written, while the program is built.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::{env, fs, process};
+
+use mms_codegen::emit::rust::file;
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::Freeze;
+use mms_codegen::{Options, Selection, compile_with};
+
+const FIELD: &str = "fields/spring_1d.toml";
+
+fn main() -> std::io::Result<()> {
+    println!("cargo::rerun-if-changed={FIELD}");
+    let text = fs::read_to_string(FIELD)?;
+    // Of a material that the field brings along, as in `model = "./mine.toml"`.
+    let load = |material: &str| {
+        let path = Path::new("fields").join(material);
+        println!("cargo::rerun-if-changed={}", path.display());
+        fs::read_to_string(path).map_err(|error| error.to_string())
+    };
+    let selection = Selection {
+        quantities: Some(BTreeSet::from([Quantity::BodyForce, Quantity::Displacement])),
+        freeze: Freeze::Everything,
+        ..Selection::default()
+    };
+    let compiled = compile_with("spring_1d", FIELD, &text, &load, &Options::from(selection));
+    let compiled = compiled.unwrap_or_else(|failure| {
+        // Every mistake, at its line and column.
+        eprintln!("{failure}");
+        process::exit(1);
+    });
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
+    fs::write(out.join("spring_1d.rs"), file(&compiled).text)
+}

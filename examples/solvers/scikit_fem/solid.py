@@ -1,0 +1,122 @@
+"""A total-Lagrangian solid of neo-Hookean material in plane strain, discretised with scikit-fem.
+
+It knows nothing of the field that it is verified with but what is given to it: moduli, density, and
+functions for b, for tractions and for the errors.
+"""
+
+import numpy as np
+from skfem import (
+    Basis, BilinearForm, ElementTriP1, ElementTriP2, ElementVector, FacetBasis, Functional,
+    LinearForm, MeshTri, condense, solve,
+)
+
+ELEMENTS = {1: ElementTriP1, 2: ElementTriP2}
+
+
+def _inverse(f):
+    """The inverse of F at every point, and J."""
+    j = f[0, 0] * f[1, 1] - f[0, 1] * f[1, 0]
+    return np.array([[f[1, 1], -f[0, 1]], [-f[1, 0], f[0, 0]]]) / j, j
+
+
+def _deformation(h):
+    """F = I + H."""
+    return h + np.eye(2)[:, :, None, None]
+
+
+class Solid:
+    """A square of n x n x 2 triangles of a degree; its sides are held where `is_held` says so."""
+
+    def __init__(self, degree, n, parameters, is_held):
+        length, young, nu = parameters.length, parameters.young, parameters.nu
+        ticks = np.linspace(0.0, length, n + 1)
+        mesh = MeshTri.init_tensor(ticks, ticks)
+        element = ElementVector(ELEMENTS[degree]())
+        # Exact enough that quadrature shows in no error.
+        self.order = 2 * degree + 4
+        self.basis = Basis(mesh, element, intorder=self.order)
+        self.loaded = mesh.facets_satisfying(lambda x: ~is_held(x), boundaries_only=True)
+        held = mesh.facets_satisfying(is_held, boundaries_only=True)
+        self.held = self.basis.get_dofs(held).all()
+        self.mu = young / (2.0 * (1.0 + nu))
+        self.lam = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+        self.rho0 = parameters.rho0
+
+    def stress(self, h):
+        """P = mu (F - F^-T) + lambda ln J F^-T."""
+        f = _deformation(h)
+        g, j = _inverse(f)
+        return self.mu * f + (self.lam * np.log(j) - self.mu) * g.transpose(1, 0, 2, 3)
+
+    def internal_force(self, u):
+        """The integral of P : grad v."""
+        form = LinearForm(lambda v, w: np.einsum("ij...,ij...", w.stress, v.grad))
+        return form.assemble(self.basis, stress=self.stress(self.basis.interpolate(u).grad))
+
+    def tangent(self, u):
+        """The derivative of the internal force."""
+        g, j = _inverse(_deformation(self.basis.interpolate(u).grad))
+        twist = self.mu - self.lam * np.log(j)
+
+        def form(du, v, w):
+            gd = np.einsum("ij...,jk...->ik...", w.g, du.grad)
+            gv = np.einsum("ij...,jk...->ik...", w.g, v.grad)
+            stretch = np.einsum("ij...,ij...", du.grad, v.grad)
+            turn = np.einsum("ij...,ji...", gd, gv)
+            return self.mu * stretch + w.twist * turn + self.lam * np.trace(gd) * np.trace(gv)
+
+        return BilinearForm(form).assemble(self.basis, g=g, twist=twist)
+
+    def body_force(self, b):
+        """The integral of rho0 b . v, of a function of x."""
+        form = LinearForm(lambda v, w: self.rho0 * np.sum(w.b * v.value, axis=0))
+        return form.assemble(self.basis, b=b(self.basis.default_parameters()["x"]))
+
+    def surface_force(self, traction):
+        """The integral of T . v over the sides that are not held, of a function of x and N."""
+        mesh, element = self.basis.mesh, self.basis.elem
+        faces = FacetBasis(mesh, element, facets=self.loaded, intorder=self.order)
+        at = faces.default_parameters()
+        form = LinearForm(lambda v, w: np.sum(w.t * v.value, axis=0))
+        return form.assemble(faces, t=traction(at["x"], at["n"]))
+
+    def balance(self, force, u):
+        """The displacement that balances a force, by Newton's method from u."""
+        for _ in range(20):
+            residual = force - self.internal_force(u)
+            correction = solve(*condense(self.tangent(u), residual, D=self.held))
+            u = u + correction
+            if np.linalg.norm(correction) <= 1e-11 * np.linalg.norm(u):
+                return u
+        raise ArithmeticError("Newton's method does not converge")
+
+    def mass(self):
+        """The integral of rho0 du . v."""
+        form = BilinearForm(lambda du, v, w: self.rho0 * np.sum(du.value * v.value, axis=0))
+        return form.assemble(self.basis)
+
+    def interpolated(self, function):
+        """The values of a function of x at the nodes."""
+        values = np.array(function(self.basis.doflocs))
+        u = np.empty(self.basis.N)
+        for component, dofs in enumerate(self.basis.split_indices()):
+            u[dofs] = values[component, dofs]
+        return u
+
+    def error(self, u, exact):
+        """The norm of the difference in L2, relative to the size of the body."""
+        squared = Functional(lambda w: np.sum((w.u.value - exact(w.x)) ** 2, axis=0))
+        return np.sqrt(squared.assemble(self.basis, u=self.basis.interpolate(u)))
+
+
+def verdict(name, levels, errors, expected, tolerance=0.15):
+    """Prints errors and orders, and whether the last order is the expected one."""
+    print(f"{name}, order {expected} expected")
+    orders = [None] + [
+        np.log(coarse / fine) / np.log(m / n)
+        for coarse, fine, m, n in zip(errors, errors[1:], levels[1:], levels)
+    ]
+    for n, error, order in zip(levels, errors, orders):
+        print(f"{n:6d} {error:10.3e}" + ("" if order is None else f" {order:6.2f}"))
+    # Not `order < expected - tolerance`: that would let a number pass that is none.
+    return abs(orders[-1] - expected) <= tolerance

@@ -1,0 +1,38 @@
+//! Embeds `fields/*.toml`, so that the folder is the list of the gallery, and gives the shared
+//! library its name.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
+
+fn main() -> io::Result<()> {
+    let folder =
+        PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by Cargo")).join("fields");
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let mut files =
+        fs::read_dir(&folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    let mut list = String::from("&[\n");
+    for path in &files {
+        println!("cargo::rerun-if-changed={}", path.display());
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        writeln!(list, "    (c{stem:?}, include_str!({path:?})),").expect("writing to a string");
+    }
+    list.push(']');
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
+    fs::write(Path::new(&out).join("gallery.rs"), list)?;
+    name_the_library();
+    Ok(())
+}
+
+/// What a program that is linked with the library asks for when it starts: its name, wherever it was
+/// built.
+fn name_the_library() {
+    let name = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
+        Ok("linux") => "-soname,libmms_capi.so",
+        Ok("macos") => "-install_name,@rpath/libmms_capi.dylib",
+        _ => return,
+    };
+    println!("cargo::rustc-cdylib-link-arg=-Wl,{name}");
+}

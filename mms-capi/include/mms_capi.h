@@ -1,0 +1,218 @@
+/* Manufactured solutions for solid mechanics: any field, any quantity, in batches.
+ *
+ * Names and texts are UTF-8 and end with a NUL. Numbers are double, angles radians, units those of
+ * the field, SI in the gallery. D is the dimension of a field.
+ *
+ * Functions that can fail return a code, and take a buffer `message` of `capacity` bytes, for what is
+ * wrong: a text that ends with a NUL, cut where there is no room for all of it, empty if nothing is
+ * wrong. NULL is allowed where no message is wanted; 1024 bytes are enough but for the mistakes of a
+ * field file. A pointer that is needed and is NULL, and a text that is not UTF-8, are
+ * MMS_CODE_INVALID_ARGUMENT. Arrays must have the sizes that are stated; those of no elements may be NULL.
+ *
+ * There is no global state. Any function may be called on any thread at any time, also on one field:
+ * an evaluation has the parameters of the moment at which it starts. Only mms_field_free must come
+ * after all else. No panic leaves the library: it becomes MMS_CODE_DEFECT.
+ *
+ * Values are those of `mms eval`, bit for bit. They are interpreted: a point takes less than a
+ * microsecond, and the points of a call share what needs only the parameters and the time. Where that
+ * counts, embed the code that `mms emit` writes.
+ */
+
+
+#ifndef MMS_CAPI_H
+#define MMS_CAPI_H
+
+/* Made of mms-capi/src/abi.rs: MMS_BLESS=1 cargo test -p mms-capi --test header */
+
+#include <stddef.h>
+#include <stdint.h>
+
+// How a call went.
+enum mms_code
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It did what it is for.
+  MMS_CODE_OK = 0,
+  // A null pointer, a text that is not UTF-8, a time or a point that is not finite, a normal that
+  // is missing or not a unit vector.
+  MMS_CODE_INVALID_ARGUMENT = 1,
+  // No field, parameter, quantity, face or bound has that name.
+  MMS_CODE_UNKNOWN_NAME = 2,
+  // The text of a field or of its material has mistakes; the message shows each at its line and
+  // column.
+  MMS_CODE_INVALID_FIELD = 3,
+  // A value that the field does not allow: outside its range, or one that leaves no body, no time
+  // window or no positive density.
+  MMS_CODE_INVALID_PARAMETER = 4,
+  // A value that is not defined at a point, or is beyond the range of a double.
+  MMS_CODE_NOT_FINITE = 5,
+  // A mistake of this library.
+  MMS_CODE_DEFECT = 6,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum mms_code mms_code;
+#else
+typedef int32_t mms_code;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A field and the values of its parameters.
+typedef struct mms_field mms_field;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The version of the library, such as "0.1.0".
+const char *mms_version(void);
+
+// How many fields the gallery has.
+size_t mms_gallery_size(void);
+
+// The name of a field of the gallery; NULL from `mms_gallery_size()` on. Names are in alphabetical
+// order, and are never freed.
+const char *mms_gallery_name(size_t index);
+
+// How many quantities there are. Every field has all of them.
+size_t mms_quantity_count(void);
+
+// The name of a quantity, such as "body_force"; NULL from `mms_quantity_count()` on. Names are never
+// freed.
+const char *mms_quantity_name(size_t index);
+
+// Makes `*field` the field of that name of the gallery.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME. On failure `*field` is NULL.
+mms_code mms_field_from_gallery(const char *name,
+                                struct mms_field **field,
+                                char *message,
+                                size_t capacity);
+
+// Makes `*field` the field of a text, the content of a field file. `name` is an identifier that
+// messages call it by. `material` is the content of the material file that the field names, as in
+// `model = "./mine.toml"`, or NULL where it names a material that ships.
+//
+// Codes: MMS_CODE_INVALID_FIELD, with every mistake at its line and column. On failure `*field` is NULL.
+mms_code mms_field_from_text(const char *name,
+                             const char *toml,
+                             const char *material,
+                             struct mms_field **field,
+                             char *message,
+                             size_t capacity);
+
+// Frees a field, and what its functions returned. NULL is allowed. No other call may be at work on
+// the field.
+void mms_field_free(struct mms_field *field);
+
+// The name of a field; NULL for NULL. It lives as long as the field, as do all texts of a field.
+const char *mms_field_name(const struct mms_field *field);
+
+// The title of a field, a sentence; NULL for NULL.
+const char *mms_field_title(const struct mms_field *field);
+
+// D, the number of coordinates of a point: 1, 2 or 3; 0 for NULL.
+size_t mms_field_dimension(const struct mms_field *field);
+
+// How many parameters a field has; 0 for NULL.
+size_t mms_field_parameter_count(const struct mms_field *field);
+
+// The name of a parameter, in the order of the file; NULL beyond the last.
+const char *mms_field_parameter_name(const struct mms_field *field, size_t index);
+
+// How many faces the body of a field has; 0 for NULL.
+size_t mms_field_face_count(const struct mms_field *field);
+
+// The name of a face, such as "x_max" or "inner"; NULL beyond the last.
+const char *mms_field_face_name(const struct mms_field *field, size_t index);
+
+// Writes the value of a parameter to `*value`.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME.
+mms_code mms_field_get_parameter(const struct mms_field *field,
+                                 const char *name,
+                                 double *value,
+                                 char *message,
+                                 size_t capacity);
+
+// Sets a parameter. Parameters whose defaults depend on it follow, unless they were set.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
+mms_code mms_field_set_parameter(struct mms_field *field,
+                                 const char *name,
+                                 double value,
+                                 char *message,
+                                 size_t capacity);
+
+// Sets `count` parameters at once, where one alone would not be allowed, as in a body that moves
+// away. An evaluation on another thread sees all of them or none.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_PARAMETER. On failure nothing changes.
+mms_code mms_field_set_parameters(struct mms_field *field,
+                                  size_t count,
+                                  const char *const *names,
+                                  const double *values,
+                                  char *message,
+                                  size_t capacity);
+
+// Writes the number of components of a quantity to `*components`: 1, D or D x D.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME.
+mms_code mms_field_components(const struct mms_field *field,
+                              const char *quantity,
+                              size_t *components,
+                              char *message,
+                              size_t capacity);
+
+// Evaluates a quantity at `count` points of the reference body, at one time.
+//
+// `quantity` is a name, or one of the symbols u x v a H F J C B E P sigma b W. `points` are count x
+// D coordinates, those of a point side by side. `values` get count x C numbers, those of a point
+// side by side, with C from `mms_field_components`; a tensor is stored by rows. `normals` are count
+// x D components of reference unit normals for "traction" (see `mms_field_normals`), and NULL for
+// all else. `values` may not overlap with the others.
+//
+// Every value is a finite number, or the call fails: the message then names the first point, and
+// `values` are unspecified.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_ARGUMENT, MMS_CODE_NOT_FINITE.
+mms_code mms_field_evaluate(const struct mms_field *field,
+                            const char *quantity,
+                            double time,
+                            size_t count,
+                            const double *points,
+                            const double *normals,
+                            double *values,
+                            char *message,
+                            size_t capacity);
+
+// Writes the outward reference unit normals of a face at `count` points of it: count x D numbers for
+// count x D coordinates.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, MMS_CODE_INVALID_ARGUMENT, MMS_CODE_NOT_FINITE.
+mms_code mms_field_normals(const struct mms_field *field,
+                           const char *face,
+                           size_t count,
+                           const double *points,
+                           double *normals,
+                           char *message,
+                           size_t capacity);
+
+// Writes where the body or the time window ends: "lower", "upper" (D coordinates each, of a box),
+// "inner", "outer" (a radius each, of an annulus), "theta" (first and last angle), "time" (first
+// and last). It follows the parameters.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
+mms_code mms_field_bound(const struct mms_field *field,
+                         const char *name,
+                         double *values,
+                         char *message,
+                         size_t capacity);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* MMS_CAPI_H */

@@ -1,0 +1,249 @@
+//! A field, compiled and interpreted: all that the C interface does, in safe Rust.
+
+use std::collections::BTreeMap;
+use std::ffi::CString;
+use std::sync::{PoisonError, RwLock};
+
+use mms_codegen::Compiled;
+use mms_codegen::certify::declared::accepts;
+use mms_codegen::compile::compile;
+use mms_codegen::expr::Rational;
+use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::program::{Bound, Output};
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::quantity;
+use mms_codegen::spec::Face;
+use mms_codegen::suggest::did_you_mean;
+
+use crate::error::{Error, MmsCode};
+
+/// How far the length of a normal may be from 1.
+const UNIT: f64 = 1e-6;
+
+/// A field and the values of its parameters.
+#[derive(Debug)]
+pub struct Field {
+    compiled: Compiled,
+    values: RwLock<Values>,
+    /// What C programs are shown, with a NUL at the end.
+    pub name: CString,
+    /// Its title.
+    pub title: CString,
+    /// The names of its parameters, in the order of the file.
+    pub parameters: Vec<CString>,
+    /// The names of its faces.
+    pub faces: Vec<CString>,
+}
+
+/// The parameters of a field at one moment.
+#[derive(Clone, Debug)]
+struct Values {
+    /// Those that were set, by position. The others are at their defaults, which may depend on these.
+    set: BTreeMap<usize, Rational>,
+    /// All of them, in the order of the file.
+    all: Vec<f64>,
+}
+
+impl Field {
+    /// The field of a text. `name` is what messages call it; `material` is the text of its material,
+    /// where that is none of those that ship.
+    pub fn compile(name: &str, text: &str, material: Option<&str>) -> Result<Self, Error> {
+        let load = |_: &str| {
+            material
+                .map(String::from)
+                .ok_or_else(|| "the text of the material was not given".into())
+        };
+        let compiled = compile(name, &format!("{name}.toml"), text, &load)
+            .map_err(|failure| Error::new(MmsCode::InvalidField, failure))?;
+        let shown = |text: &str| {
+            CString::new(text).map_err(|error| {
+                Error::new(MmsCode::InvalidField, format!("{text:?} cannot be shown: {error}"))
+            })
+        };
+        let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
+        let parameters = compiled.model.parameters.iter();
+        let all = compiled.parameters(&BTreeMap::new());
+        Ok(Field {
+            name: shown(name)?,
+            title: shown(&compiled.field.title)?,
+            parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
+            faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
+            values: RwLock::new(Values { set: BTreeMap::new(), all }),
+            compiled,
+        })
+    }
+
+    /// The number of coordinates of a point.
+    pub fn dimension(&self) -> usize {
+        self.compiled.field.dimension
+    }
+
+    /// The number of components of a quantity.
+    pub fn components(&self, name: &str) -> Result<usize, Error> {
+        Ok(find(name)?.shape().components(self.dimension()))
+    }
+
+    /// The value of a parameter.
+    pub fn parameter(&self, name: &str) -> Result<f64, Error> {
+        Ok(self.values()[self.position(name)?])
+    }
+
+    /// Sets parameters, all of them or, where the field does not allow that, none. Those that depend
+    /// on them and were not set follow.
+    pub fn set<'a>(&self, settings: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), Error> {
+        let settings = settings.into_iter().map(|(name, value)| {
+            let exact = Rational::try_from(value).map_err(|_| {
+                let message = format!("`{name}` = {value}: expected a finite number");
+                Error::new(MmsCode::InvalidParameter, message)
+            })?;
+            Ok((self.position(name)?, exact))
+        });
+        let settings = settings.collect::<Result<Vec<_>, Error>>()?;
+        // Held to the end: of two settings at a time, the later one starts from what the other made.
+        let mut values = self.values.write().unwrap_or_else(PoisonError::into_inner);
+        let mut set = values.set.clone();
+        set.extend(settings);
+        accepts(&self.compiled, &set)
+            .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
+        let all = self.compiled.parameters(&set);
+        *values = Values { set, all };
+        Ok(())
+    }
+
+    /// Evaluates a quantity at points of `dimension` coordinates each; `normals` has one for each
+    /// point where the quantity is the traction, and is not read otherwise. `values` has the
+    /// components of each point in turn, tensors in rows; it is unspecified where this fails.
+    pub fn evaluate(
+        &self,
+        name: &str,
+        time: f64,
+        points: &[f64],
+        normals: Option<&[f64]>,
+        values: &mut [f64],
+    ) -> Result<(), Error> {
+        let quantity = find(name)?;
+        let dimension = self.dimension();
+        finite("the time", &[time])?;
+        let normals = match (quantity, normals) {
+            (Quantity::Traction, Some(normals)) => normals,
+            (Quantity::Traction, None) => {
+                let message = "`traction` needs the reference unit normal at each point";
+                return Err(Error::new(MmsCode::InvalidArgument, message));
+            }
+            _ => &[],
+        };
+        let parameters = self.values();
+        let mut interpreter = Interpreter::new(&self.compiled.program, &parameters);
+        interpreter.set_time(&time);
+        let output = Output::Quantity(quantity);
+        let plan = interpreter.plan(&[output]);
+        let components = quantity.shape().components(dimension);
+        let results = values.chunks_exact_mut(components);
+        for (index, (coordinates, result)) in
+            points.chunks_exact(dimension).zip(results).enumerate()
+        {
+            finite(&format!("point {index}"), coordinates)?;
+            let normal = match normals {
+                [] => &[][..],
+                normals => unit(index, &normals[index * dimension..][..dimension])?,
+            };
+            interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
+            result.copy_from_slice(&interpreter.output(output));
+            if let Some(odd) = result.iter().find(|value| !value.is_finite()) {
+                let message = format!(
+                    "{} of `{}` is {odd} at point {index}, X = {coordinates:?}, t = {time:?}: not defined there, or beyond the range of a double",
+                    quantity.name(),
+                    self.compiled.field.name,
+                );
+                return Err(Error::new(MmsCode::NotFinite, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// The outward reference unit normals of a face at points of it.
+    pub fn normals(&self, face: &str, points: &[f64], normals: &mut [f64]) -> Result<(), Error> {
+        let dimension = self.dimension();
+        let known = self.compiled.face(face).map_err(|mistake| {
+            Error::new(MmsCode::UnknownName, format!("no face `{face}`: {mistake}"))
+        })?;
+        for (index, point) in points.chunks_exact(dimension).enumerate() {
+            finite(&format!("point {index}"), point)?;
+        }
+        let found = self.compiled.normals(known, &self.values(), points.chunks_exact(dimension));
+        for (index, (normal, found)) in normals.chunks_exact_mut(dimension).zip(found).enumerate() {
+            if found.iter().any(|component| !component.is_finite()) {
+                let message =
+                    format!("point {index} is not on a face `{face}`, which has no normal there");
+                return Err(Error::new(MmsCode::NotFinite, message));
+            }
+            normal.copy_from_slice(&found);
+        }
+        Ok(())
+    }
+
+    /// What the body and the time window end at.
+    pub fn bound(&self, name: &str) -> Result<Vec<f64>, Error> {
+        const NAMED: &[(&str, Bound)] = &[
+            ("lower", Bound::Lower),
+            ("upper", Bound::Upper),
+            ("inner", Bound::Inner),
+            ("outer", Bound::Outer),
+            ("theta", Bound::Theta),
+            ("time", Bound::Time),
+        ];
+        let program = &self.compiled.program;
+        let there = |bound| program.outputs.contains_key(&Output::Bound(bound));
+        let known: Vec<_> = NAMED.iter().filter(|(_, bound)| there(*bound)).collect();
+        let Some((_, bound)) = known.iter().find(|(known, _)| *known == name) else {
+            let names = known.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+            let message = format!("no bound `{name}`: this body has {names}");
+            return Err(Error::new(MmsCode::UnknownName, message));
+        };
+        Ok(Interpreter::new(program, &self.values()).output(Output::Bound(*bound)))
+    }
+
+    /// The parameters at this moment.
+    fn values(&self) -> Vec<f64> {
+        self.values.read().unwrap_or_else(PoisonError::into_inner).all.clone()
+    }
+
+    fn position(&self, name: &str) -> Result<usize, Error> {
+        let parameters = &self.compiled.model.parameters;
+        let names = || parameters.iter().map(|parameter| parameter.name.as_str());
+        names().position(|known| known == name).ok_or_else(|| {
+            let advice = match did_you_mean(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the field has {}", names().collect::<Vec<_>>().join(", ")),
+            };
+            Error::new(MmsCode::UnknownName, format!("no parameter `{name}`; {advice}"))
+        })
+    }
+}
+
+fn find(name: &str) -> Result<Quantity, Error> {
+    quantity(name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
+}
+
+fn finite(what: &str, numbers: &[f64]) -> Result<(), Error> {
+    match numbers.iter().find(|number| !number.is_finite()) {
+        None => Ok(()),
+        Some(odd) => {
+            let message = format!("{what} has {odd}: expected finite numbers");
+            Err(Error::new(MmsCode::InvalidArgument, message))
+        }
+    }
+}
+
+/// A normal, if it is one.
+fn unit(index: usize, normal: &[f64]) -> Result<&[f64], Error> {
+    let squared: f64 = normal.iter().map(|component| component * component).sum();
+    if (squared - 1.0).abs() <= UNIT {
+        return Ok(normal);
+    }
+    let message = format!(
+        "the normal at point {index} has the length {}: expected a unit vector",
+        squared.sqrt()
+    );
+    Err(Error::new(MmsCode::InvalidArgument, message))
+}

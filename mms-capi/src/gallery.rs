@@ -1,0 +1,37 @@
+//! The texts of the fields that ship: the folder `fields/` is the list.
+
+use std::ffi::CStr;
+
+use mms_codegen::suggest::did_you_mean;
+
+use crate::error::{Error, MmsCode};
+use crate::field::Field;
+
+/// Names and texts, in the order of the names.
+pub const FIELDS: &[(&CStr, &str)] = include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
+
+/// The field of that name.
+pub fn field(name: &str) -> Result<Field, Error> {
+    let names = || FIELDS.iter().filter_map(|(name, _)| name.to_str().ok());
+    let Some((_, text)) = FIELDS.iter().find(|(known, _)| known.to_str() == Ok(name)) else {
+        let advice = match did_you_mean(name, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("it holds {}", names().collect::<Vec<_>>().join(", ")),
+        };
+        let message = format!("no field `{name}` in the gallery; {advice}");
+        return Err(Error::new(MmsCode::UnknownName, message));
+    };
+    Field::compile(name, text, None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_keyboard_is_named() {
+        let error = field("bar1d").expect_err("no such field");
+        assert_eq!(error.code, MmsCode::UnknownName);
+        assert_eq!(error.message, "no field `bar1d` in the gallery; did you mean `bar_1d`?");
+    }
+}

@@ -1,0 +1,17 @@
+//! Any field, any quantity, in batches, for programs that are not written in Rust: `mms_capi.h` and
+//! the library behind it.
+//!
+//! The interface is documented in the header, `include/mms_capi.h`, which a test keeps in step with
+//! `src/abi.rs`. In short: a *handle* is made of a name of the gallery or of the text of a field
+//! file; parameters are set and read by name; every quantity is evaluated at any number of points.
+//! Each function says by a code how it went, and writes what is wrong into a buffer of the caller.
+//! There is no state but that of a handle, any function may be called on any thread, and no panic
+//! leaves the library.
+//!
+//! Values are those of the interpreter, bit for bit those of `mms eval`.
+
+mod abi;
+mod border;
+mod error;
+mod field;
+mod gallery;
