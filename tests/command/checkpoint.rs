@@ -9,8 +9,7 @@ use serde_json::Value;
 use crate::mms::Folder;
 
 /// A run of some hundred steps, and everything that it writes but its checkpoints.
-const RUN: &str =
-    "run axis_aligned_2d --cells 16 --courant 0.1 --history run.csv --vtk states --frames 5 --json";
+const RUN: &str = "run bar_1d --cells 64 --history run.csv --vtk states --frames 5 --json";
 
 /// Where its checkpoints go.
 const KEEPING: &str = "--checkpoint run.checkpoint --every 20";
@@ -49,9 +48,9 @@ fn arguments(folder: &Folder) -> String {
     format!("{RUN} {KEEPING} {resume}")
 }
 
-fn start(folder: &Folder) -> Child {
+fn spawn(folder: &Folder, arguments: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_mms"))
-        .args(arguments(folder).split_whitespace())
+        .args(arguments.split_whitespace())
         .current_dir(folder.path(""))
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -72,7 +71,7 @@ fn killed_a_hundred_times_it_ends_with_the_same_bytes() {
         for _ in 0..8 {
             random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             resumed += usize::from(folder.path("run.checkpoint").exists());
-            let mut process = start(&folder);
+            let mut process = spawn(&folder, &arguments(&folder));
             let part = f64::from((random >> 48) as u16) / f64::from(u16::MAX);
             std::thread::sleep(Duration::from_secs_f64(whole.as_secs_f64() * part));
             process.kill().expect("it was started");
@@ -86,15 +85,11 @@ fn killed_a_hundred_times_it_ends_with_the_same_bytes() {
     assert!(resumed > 10, "{resumed} of {kills} went on from a checkpoint");
 }
 
-/// Whoever types Ctrl-C is told how to go on.
-#[test]
+/// Runs a command until it has written a state, then types Ctrl-C: what is said, and the step of the checkpoint.
 #[cfg(unix)]
-fn an_interrupted_run_says_how_to_go_on() {
-    let (document, files) = undisturbed();
-    let folder = Folder::new();
-    let process = start(&folder);
-    // The first state says that it runs.
-    while !folder.path("states/axis_aligned_2d_0001.vtu").exists() {
+fn interrupt(folder: &Folder, arguments: &str, state: &str) -> (String, u64) {
+    let process = spawn(folder, arguments);
+    while !folder.path(state).exists() {
         std::thread::sleep(Duration::from_millis(1));
     }
     let signal = Command::new("kill").args(["-INT", &process.id().to_string()]).status();
@@ -102,11 +97,28 @@ fn an_interrupted_run_says_how_to_go_on() {
     let output = process.wait_with_output().expect("it ends");
     let said = String::from_utf8(output.stderr).expect("a text");
     assert_eq!(output.status.code(), Some(3), "{said}");
+    let kept = fs::read(folder.path("kept")).expect("a checkpoint");
+    let line = kept.split(|&byte| byte == b'\n').next().expect("a line");
+    let head: Value = serde_json::from_slice(line).expect("JSON");
+    (said, head["step"].as_u64().expect("a number"))
+}
+
+/// Whoever types Ctrl-C in a run that would take hours is told how to go on, and it does.
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_says_how_to_go_on() {
+    let folder = Folder::new();
+    let run =
+        "run bar_1d --cells 16 --courant 1e-6 --vtk states --frames 1000000 --checkpoint kept";
+    let (said, first) = interrupt(&folder, run, "states/bar_1d_0001.vtu");
+    assert!(said.contains("interrupted"), "{said}");
     let command = said.split('`').nth(1).expect("a command");
-    assert_eq!(command, format!("mms {RUN} {KEEPING} --resume run.checkpoint"), "{said}");
-    let rest = folder.mms(command.strip_prefix("mms ").expect("the program")).exits(0);
-    assert_eq!(timeless(rest.json()), document);
-    assert_eq!(written(&folder), files);
+    assert_eq!(command, format!("mms {run} --resume kept"), "{said}");
+    let later = format!("states/bar_1d_{:04}.vtu", first / 16 + 10);
+    let again = command.strip_prefix("mms ").expect("the program");
+    let (said, second) = interrupt(&folder, again, &later);
+    assert!(second > first, "{first}, then {second}");
+    assert!(said.contains(&format!("`{command}`")), "the same command goes on: {said}");
 }
 
 /// A checkpoint of the middle of a short run.

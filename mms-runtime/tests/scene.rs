@@ -1,0 +1,47 @@
+//! A program that runs one scene holds the code of that scene and of no other: what its symbols say.
+
+mod common;
+
+use common::Bar;
+use mms_runtime::integrator::Leapfrog;
+use mms_runtime::shape::Cpgimp;
+use mms_runtime::{FormulationName, ManufacturedField, Setup, Solver};
+use object::{Object as _, ObjectSymbol as _};
+
+/// The functions of this program, and their sizes.
+fn functions() -> Vec<(String, u64)> {
+    let path = std::env::current_exe().expect("this program");
+    let bytes = std::fs::read(path).expect("its file");
+    let file = object::File::parse(&*bytes).expect("an object file");
+    let symbols = file.symbols().filter(|symbol| symbol.kind() == object::SymbolKind::Text);
+    symbols.filter_map(|it| Some((it.name().ok()?.to_owned(), it.size()))).collect()
+}
+
+/// One dimension, one precision, one shape function: the sums onto nodes, those onto particles and the residual
+/// of XPIC, each for the processor's registers and for none; and no spline or parallelogram.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_bar_needs_the_solver_of_a_bar() {
+    let bar = Bar::default();
+    let field: &dyn ManufacturedField<f64, 1> = &bar;
+    let (updated, setup) = (FormulationName::Updated, Setup::default());
+    let mut solver =
+        Solver::<f64, 1, _, Cpgimp>::new(field, updated, &setup, &16.into()).expect("a bar");
+    solver.step::<Leapfrog>().expect("a step");
+
+    let all = functions();
+    let named = |parts: &[&str]| -> Vec<&str> {
+        let names = all.iter().map(|(name, _)| name.as_str());
+        names.filter(|name| parts.iter().all(|part| name.contains(part))).collect()
+    };
+    assert!(!named(&["mms_runtime"]).is_empty(), "names are there");
+    let kernels = named(&["dispatch", "baseline"]);
+    assert_eq!(kernels.len(), 3, "{kernels:?}");
+    if cfg!(target_arch = "x86_64") {
+        assert_eq!(named(&["dispatch", "avx2"]).len(), 3);
+    }
+    for other in ["set_near_ends", "cpdi", "Musl", "Usf"] {
+        let found = named(&["mms_runtime", other]);
+        assert!(found.is_empty(), "{found:?}");
+    }
+}
