@@ -91,8 +91,8 @@ mms_code mms_field_from_gallery(const char *name,
                                 char *message,
                                 size_t capacity);
 
-// Makes `*field` the field of a text, the content of a field file. `name` is an identifier that
-// messages call it by. `material` is the content of the material file that the field names, as in
+// Makes `*field` the field of a text, the content of a field file. `name` is what
+// messages call it. `material` is the content of the material file that the field names, as in
 // `model = "./mine.toml"`, or NULL where it names a material that ships.
 //
 // Codes: MMS_CODE_INVALID_FIELD, with every mistake at its line and column. On failure `*field` is NULL.

@@ -35,7 +35,7 @@ pub extern "C" fn mms_gallery_size() -> usize {
 /// order, and are never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn mms_gallery_name(index: usize) -> *const c_char {
-    gallery::FIELDS.get(index).map_or(std::ptr::null(), |(name, _)| name.as_ptr())
+    gallery::FIELDS.get(index).map_or(std::ptr::null(), |(name, ..)| name.as_ptr())
 }
 
 /// How many quantities there are. Every field has all of them.
@@ -67,8 +67,8 @@ pub unsafe extern "C" fn mms_field_from_gallery(
     unsafe { make(field, message, capacity, || gallery::field(text("name", name)?)) }
 }
 
-/// Makes `*field` the field of a text, the content of a field file. `name` is an identifier that
-/// messages call it by. `material` is the content of the material file that the field names, as in
+/// Makes `*field` the field of a text, the content of a field file. `name` is what
+/// messages call it. `material` is the content of the material file that the field names, as in
 /// `model = "./mine.toml"`, or NULL where it names a material that ships.
 ///
 /// Codes: MMS_CODE_INVALID_FIELD, with every mistake at its line and column. On failure `*field` is NULL.

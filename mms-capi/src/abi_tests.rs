@@ -174,6 +174,12 @@ fn parameters_are_set_together_or_not_at_all() {
     });
     assert_eq!(code, MmsCode::InvalidParameter);
     assert_eq!([bar.get(c"amplitude"), bar.get(c"length"), bar.get(c"rho0")], [0.1, 1.0, 1000.0]);
+    let twice = [c"rho0".as_ptr(), c"rho0".as_ptr()];
+    // SAFETY: every pointer is good.
+    let (code, message) = said(|m, n| unsafe {
+        mms_field_set_parameters(bar.0, 2, twice.as_ptr(), values.as_ptr(), m, n)
+    });
+    assert_eq!((code, message.as_str()), (MmsCode::InvalidParameter, "`rho0` is set twice"));
     let values = [0.05, 2.0];
     // SAFETY: every pointer is good.
     done(|m, n| unsafe {

@@ -91,18 +91,20 @@ impl Field {
     /// Sets parameters, all of them or, where the field does not allow that, none. Those that depend
     /// on them and were not set follow.
     pub fn set<'a>(&self, settings: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), Error> {
-        let settings = settings.into_iter().map(|(name, value)| {
-            let exact = Rational::try_from(value).map_err(|_| {
-                let message = format!("`{name}` = {value}: expected a finite number");
-                Error::new(MmsCode::InvalidParameter, message)
-            })?;
-            Ok((self.position(name)?, exact))
-        });
-        let settings = settings.collect::<Result<Vec<_>, Error>>()?;
+        let mut new = BTreeMap::new();
+        for (name, value) in settings {
+            let refuse = |message| Err(Error::new(MmsCode::InvalidParameter, message));
+            let Ok(exact) = Rational::try_from(value) else {
+                return refuse(format!("`{name}` = {value}: expected a finite number"));
+            };
+            if new.insert(self.position(name)?, exact).is_some() {
+                return refuse(format!("`{name}` is set twice"));
+            }
+        }
         // Held to the end: of two settings at a time, the later one starts from what the other made.
         let mut values = self.values.write().unwrap_or_else(PoisonError::into_inner);
         let mut set = values.set.clone();
-        set.extend(settings);
+        set.extend(new);
         accepts(&self.compiled, &set)
             .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
         let all = self.compiled.parameters(&set);

@@ -7,13 +7,15 @@ use mms_codegen::suggest::did_you_mean;
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
 
-/// Names and texts, in the order of the names.
-pub const FIELDS: &[(&CStr, &str)] = include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
+/// Names, texts, and the texts of the materials that fields bring along, in the order of the names.
+pub const FIELDS: &[(&CStr, &str, Option<&str>)] =
+    include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
 
 /// The field of that name.
 pub fn field(name: &str) -> Result<Field, Error> {
-    let names = || FIELDS.iter().filter_map(|(name, _)| name.to_str().ok());
-    let Some((_, text)) = FIELDS.iter().find(|(known, _)| known.to_str() == Ok(name)) else {
+    let names = || FIELDS.iter().filter_map(|(name, ..)| name.to_str().ok());
+    let Some((_, text, material)) = FIELDS.iter().find(|(known, ..)| known.to_str() == Ok(name))
+    else {
         let advice = match did_you_mean(name, names()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("it holds {}", names().collect::<Vec<_>>().join(", ")),
@@ -21,7 +23,7 @@ pub fn field(name: &str) -> Result<Field, Error> {
         let message = format!("no field `{name}` in the gallery; {advice}");
         return Err(Error::new(MmsCode::UnknownName, message));
     };
-    Field::compile(name, text, None)
+    Field::compile(name, text, *material)
 }
 
 #[cfg(test)]

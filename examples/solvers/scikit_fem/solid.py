@@ -104,7 +104,7 @@ class Solid:
         return u
 
     def error(self, u, exact):
-        """The norm of the difference in L2, relative to the size of the body."""
+        """The norm in L2 of the difference to a function of x."""
         squared = Functional(lambda w: np.sum((w.u.value - exact(w.x)) ** 2, axis=0))
         return np.sqrt(squared.assemble(self.basis, u=self.basis.interpolate(u)))
 

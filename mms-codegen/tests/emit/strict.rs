@@ -73,6 +73,19 @@ fn fortran_proves_itself_in_single_precision() {
     });
 }
 
+#[test]
+fn numpy_proves_itself_in_single_precision() {
+    let python = std::env::var("MMS_PYTHON").unwrap_or("python3".into());
+    if !is_installed(&format!("{python} -c 'import numpy'")) {
+        return;
+    }
+    for name in ["generalized_vortex", "self_weight_column", "plane_strain_gent"] {
+        let field = field(name, &Options::default());
+        let folder = format!("strict/float32/{name}");
+        prove(target("numpy"), &Subject::new(&field), &folder, |line| line + " float32");
+    }
+}
+
 /// Where multiplications are fused with sums, as some compilers do unless they are told not to.
 #[test]
 fn c_keeps_its_digits_where_operations_are_fused() {

@@ -27,10 +27,15 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
         Form::SymPy => "import sympy as sp\n\n",
         Form::Ufl => "import ufl\nfrom ufl.corealg.traversal import unique_post_traversal\n\n",
     };
-    let _ = write!(
-        text,
-        "import {name} as field\n\nEPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n"
-    );
+    let _ = write!(text, "import {name} as field\n\n");
+    text += match form {
+        Form::NumPy => {
+            "# What is computed in: double precision, or what the first argument says, such as float32.\n\
+            KIND = np.dtype(sys.argv[1] if len(sys.argv) > 1 else \"float64\")\n\
+            EPS, LEAST = float(np.finfo(KIND).eps), float(np.finfo(KIND).tiny)\n\n"
+        }
+        _ => "EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n",
+    };
     text += &tables(port, vectors);
     text += include_str!("support/check.py");
     text += match form {
@@ -170,9 +175,10 @@ fn program(port: &Port<'_>, form: Form, vectors: &Vectors) -> String {
             owner = instants[row] if kind == \"instants\" else fields[which]\n        \
             # Arrays of other shapes, which broadcast to one of two rows and three columns.\n        \
             shapes = [(2, 1), (3,), (2, 3)]\n        \
-            inputs = [np.full(shapes[k % 3], samples[row][column]) for k, column in enumerate(columns)]\n        \
+            inputs = [np.full(shapes[k % 3], samples[row][column], KIND) for k, column in enumerate(columns)]\n        \
             found = getattr(owner, name)(*inputs)\n        \
             if columns:\n            \
+            assert found.dtype == KIND\n            \
             found = np.reshape(found, (len(expected), -1))\n            \
             assert np.all(found == found[:, :1])\n            \
             found = [float(value) for value in found[:, 0]]\n        \
