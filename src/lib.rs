@@ -8,6 +8,7 @@
 pub mod cli;
 pub mod gallery;
 pub mod interpreted;
+mod page;
 pub mod report;
 pub mod scene;
 pub mod schema;

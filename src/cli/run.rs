@@ -9,8 +9,9 @@ use mms_runtime::study::{Frame, Observer, Watch};
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
 use super::progress::{OfRun, Progress};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
 use crate::report::run::Run as Report;
+use crate::report::{pretty, write_files};
 use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
@@ -36,6 +37,9 @@ pub struct Run {
     /// How many states to write after the initial one.
     #[arg(long, value_name = "N", default_value_t = 20, requires = "vtk", value_parser = clap::value_parser!(u32).range(1..))]
     frames: u32,
+    /// Write run.json there, which is what `--json` prints.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -102,13 +106,21 @@ impl Run {
             precision: self.method.precision.name(),
             method,
             run,
+            provenance: this_command("run", input.provenance(&self.set))?,
+        };
+        let written = match &self.output {
+            Some(folder) => {
+                write_files(folder, "run", [("json", pretty(&report.document())?)])?
+            }
+            None => Vec::new(),
         };
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
-            if let Some(vtk) = &followers.vtk {
-                print(&format!("\nwrote {}", vtk.list().display()))?;
+            let states = followers.vtk.iter().map(|vtk| vtk.list().display().to_string());
+            for path in states.chain(written) {
+                print(&format!("\nwrote {path}"))?;
             }
         }
         if let Err(failure) = &report.run.level.errors {

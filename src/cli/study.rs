@@ -10,7 +10,7 @@ use mms_runtime::{Division, Method, Run, Verdict};
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
 use crate::report::{Refused, Study as Report};
 use crate::scene::{Scene, Solvable};
 
@@ -132,6 +132,7 @@ impl Study {
             levels,
             expected_order,
             tolerance,
+            provenance: this_command("study", input.provenance(&self.set))?,
         };
         if self.json {
             print_json(&report.document())?;
