@@ -15,7 +15,7 @@ mod saved;
 mod schema;
 mod show;
 mod stability;
-mod study;
+pub(crate) mod study;
 mod verify;
 
 use std::process::ExitCode;

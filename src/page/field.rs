@@ -7,6 +7,7 @@ use mms_codegen::{Options, Selection};
 
 use super::motion::Motion;
 use crate::cli::input;
+use crate::gallery::Entry;
 use crate::report::provenance::{Input, Provenance};
 
 /// The quantities that lead from u to b.
@@ -65,6 +66,19 @@ fn content(input: &Input) -> Result<Content, String> {
 }
 
 impl Shown {
+    /// A field of the gallery, as it is.
+    pub fn of_gallery(entry: &Entry) -> anyhow::Result<Self> {
+        let found = input::Input::find_with(entry.name, &Options::default())?;
+        let input = found.provenance(&[]);
+        Ok(Self { content: content(&input), input })
+    }
+
+    /// Its formulas, if they are known.
+    #[cfg(test)]
+    pub fn formulas(&self) -> Option<&str> {
+        self.content.as_ref().ok().map(|content| content.formulas.as_str())
+    }
+
     /// Its section.
     pub fn html(&self, id: &str) -> Markup {
         let given = self.input.field.as_deref().unwrap_or_default();

@@ -7,6 +7,7 @@ mod accuracy;
 mod field;
 mod folder;
 mod frame;
+pub mod gallery;
 mod mark;
 mod motion;
 mod picture;
@@ -53,7 +54,8 @@ impl Verdicts {
         Self { expected: is_expected.into(), all: 1, word: word.into() }
     }
 
-    fn are_expected(&self) -> bool {
+    /// Whether there is none that is not.
+    pub fn are_expected(&self) -> bool {
         self.expected == self.all
     }
 }
@@ -112,20 +114,6 @@ pub struct Page {
 }
 
 impl Page {
-    /// A page of documents, each with a name and of a known kind.
-    ///
-    /// # Errors
-    /// The name of a document that is of no known kind, and why.
-    pub fn of<'a>(
-        title: &str,
-        documents: impl IntoIterator<Item = (&'a str, &'a Value)>,
-    ) -> Result<Self, String> {
-        let entries = documents.into_iter().map(|(name, document)| {
-            entry(name, document).map_err(|reason| format!("{name}: {reason}"))
-        });
-        Ok(Self::new(title, entries.collect::<Result<_, _>>()?, Vec::new()))
-    }
-
     fn new(title: &str, mut entries: Vec<Entry>, set_aside: Vec<String>) -> Self {
         let place = |entry: &Entry| KINDS.iter().position(|kind| kind.heading == entry.heading);
         entries.sort_by_key(|entry| place(entry).unwrap_or(KINDS.len()));

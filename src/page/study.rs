@@ -194,7 +194,11 @@ impl Study {
     fn levels(&self) -> Markup {
         let mut columns = vec![Text("cells"), Number("particles"), Number("steps")];
         columns.extend(NORMS);
-        columns.extend([Number("round-off"), Number("time"), Text("remark")]);
+        // A page that is the same everywhere has no times.
+        let is_timed = self.levels.iter().any(|level| level.seconds.is_some());
+        columns.push(Number("round-off"));
+        columns.extend(is_timed.then_some(Number("time")));
+        columns.push(Text("remark"));
         let rows = self.levels.iter().enumerate().map(|(at, level)| {
             let mut cells = vec![
                 html! { (plain(&level.cells)) },
@@ -204,7 +208,9 @@ impl Study {
             cells.extend(level.norms.cells());
             let noise = self.noise.get(at).is_some_and(|noise| *noise).then_some("noise");
             let remark = level.failure.as_deref().or(noise).unwrap_or_default();
-            cells.extend([small(level.round_off), seconds(level.seconds), html! { (remark) }]);
+            cells.push(small(level.round_off));
+            cells.extend(is_timed.then(|| seconds(level.seconds)));
+            cells.push(html! { (remark) });
             cells
         });
         table("Errors of the displacement, the largest over time", &columns, rows)
