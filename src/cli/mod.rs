@@ -106,8 +106,7 @@ fn answer() -> anyhow::Result<Outcome> {
 /// What this command line makes of an input.
 fn this_command(kind: &str, input: Input) -> anyhow::Result<Provenance> {
     let arguments = saved::expand(std::env::args_os())?;
-    let words: Vec<_> =
-        arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let words: Vec<_> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     Ok(Provenance::new(kind, &words, input))
 }
 

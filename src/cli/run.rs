@@ -109,9 +109,7 @@ impl Run {
             provenance: this_command("run", input.provenance(&self.set))?,
         };
         let written = match &self.output {
-            Some(folder) => {
-                write_files(folder, "run", [("json", pretty(&report.document())?)])?
-            }
+            Some(folder) => write_files(folder, "run", [("json", pretty(&report.document())?)])?,
             None => Vec::new(),
         };
         if self.json {

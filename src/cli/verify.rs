@@ -75,9 +75,15 @@ impl Verify {
             let judgement = judge(row, &levels);
             Ok(Judged { row, study: row.study()?.0, levels, judgement })
         });
-        let report = Report { quick: self.quick, rows: judged.collect::<anyhow::Result<_>>()?, provenance: this_command("verify", input())? };
+        let report = Report {
+            quick: self.quick,
+            rows: judged.collect::<anyhow::Result<_>>()?,
+            provenance: this_command("verify", input())?,
+        };
         if let Some(folder) = &self.output {
-            for path in write_files(folder, "verification", [("json", pretty(&report.document())?)])? {
+            for path in
+                write_files(folder, "verification", [("json", pretty(&report.document())?)])?
+            {
                 anstream::eprintln!("{path}");
             }
         }

@@ -5,8 +5,7 @@ use mms_codegen::accuracy::Precision;
 use mms_codegen::selection::Form;
 use serde::Deserialize;
 
-use super::mark::Column::{Number, Text};
-use super::mark::{count, number, table, verdict};
+use super::mark::{Column, count, number, numbers, table, verdict, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 use crate::report::accuracy::eps;
@@ -57,7 +56,7 @@ impl Section for Accuracy {
     }
 
     fn body(&self, id: &str) -> Markup {
-        let (worst, plot) = (self.worst(), self.plot());
+        let plot = self.plot();
         html! {
             p {
                 "Errors at " (count(Some(self.points))) " points, in units of round-off (eps) of each precision. "
@@ -73,7 +72,11 @@ impl Section for Accuracy {
                     }
                 }
             }
-            (rows("The regime with the largest error, of each quantity, precision and form", &worst))
+            (self.regimes())
+            details {
+                summary { "The worst of each quantity" }
+                (rows("The regime with the largest error, of each quantity, precision and form", &self.worst()))
+            }
             details {
                 summary { "All " (self.rows.len()) " rows" }
                 (rows("Every regime", &self.rows.iter().collect::<Vec<_>>()))
@@ -91,6 +94,36 @@ impl Section for Accuracy {
 }
 
 impl Accuracy {
+    /// Of each regime the largest errors.
+    fn regimes(&self) -> Markup {
+        let mut regimes: Vec<&str> = Vec::new();
+        for row in &self.rows {
+            if !regimes.contains(&row.regime.as_str()) {
+                regimes.push(&row.regime);
+            }
+        }
+        let ways = || {
+            Precision::ALL.into_iter().flat_map(|it| Form::ALL.map(|form| (it.name(), form.name())))
+        };
+        let columns: Vec<_> = std::iter::once(words("regime"))
+            .chain(
+                ways()
+                    .map(|(precision, form)| Column::Number(format!("{precision}, {form}").into())),
+            )
+            .collect();
+        let rows = regimes.into_iter().map(|regime| {
+            let largest = |(precision, form): (&str, &str)| {
+                let of = |row: &&Row| {
+                    row.regime == regime && row.precision == precision && row.form == form
+                };
+                let errors = self.rows.iter().filter(of).filter_map(|row| row.max_scaled_eps);
+                number(errors.reduce(f64::max), eps)
+            };
+            std::iter::once(html! { (regime) }).chain(ways().map(largest)).collect()
+        });
+        table("Largest error of any quantity, in eps of its largest value", &columns, rows)
+    }
+
     /// Of each quantity, precision and form the row of the largest error.
     fn worst(&self) -> Vec<&Row> {
         let mut worst: Vec<&Row> = Vec::new();
@@ -128,7 +161,9 @@ impl Accuracy {
                     })
                 };
                 // No time of any is no time of all; an error that is not finite has no place.
-                let Some(time) = rows().map(|row| row.ns_per_point).sum::<Option<f64>>() else { continue };
+                let Some(time) = rows().map(|row| row.ns_per_point).sum::<Option<f64>>() else {
+                    continue;
+                };
                 let errors = rows().map(|row| row.max_scaled_eps.unwrap_or(f64::NAN));
                 let error = precision.eps() * errors.fold(0.0, f64::max);
                 if time > 0.0 {
@@ -154,7 +189,13 @@ impl Accuracy {
         let description = format!("{}.", described.collect::<Vec<_>>().join("; "));
         if front.len() > 1 {
             let name = "Pareto front".to_owned();
-            curves.push(Curve { name, points: front, style: 0, is_hollow: false, line: Line::Dashed });
+            curves.push(Curve {
+                name,
+                points: front,
+                style: 0,
+                is_hollow: false,
+                line: Line::Dashed,
+            });
         }
         Plot {
             title: format!("Error over time of {}", self.field),
@@ -170,22 +211,22 @@ impl Accuracy {
 
 fn rows(caption: &str, rows: &[&Row]) -> Markup {
     let columns = [
-        Text("quantity"),
-        Text("precision"),
-        Text("form"),
-        Text("regime"),
-        Number("median"),
-        Number("99 %"),
-        Number("max"),
-        Number("max/largest"),
-        Number("not finite"),
-        Number("ns/point"),
-        Text("promise"),
+        words("quantity"),
+        words("precision"),
+        words("form"),
+        words("regime"),
+        numbers("median"),
+        numbers("99 %"),
+        numbers("max"),
+        numbers("max/largest"),
+        numbers("not finite"),
+        numbers("ns/point"),
+        words("promise"),
     ];
     let cells = rows.iter().map(|row| {
         let of = |value: Option<f64>| number(value, eps);
         vec![
-            html! { (row.quantity.replace('_', " ")) },
+            html! { (row.quantity) },
             html! { (row.precision) },
             html! { (row.form) },
             html! { (row.regime) },

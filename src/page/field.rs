@@ -42,7 +42,10 @@ pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<Show
             inputs.push(input);
         }
     }
-    inputs.into_iter().map(|input| Shown { input: input.clone(), content: content(input) }).collect()
+    inputs
+        .into_iter()
+        .map(|input| Shown { input: input.clone(), content: content(input) })
+        .collect()
 }
 
 fn content(input: &Input) -> Result<Content, String> {

@@ -25,7 +25,7 @@ impl Page {
         for path in &files {
             let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
             match read(path, &name)? {
-                Found::Result(entry) => entries.push(entry),
+                Found::Result(entry) => entries.push(*entry),
                 Found::Stored => stored += 1,
                 Found::Other(reason) => set_aside.push(format!("{name}: {reason}")),
             }
@@ -47,7 +47,7 @@ impl Page {
 
 /// What a file is.
 enum Found {
-    Result(Entry),
+    Result(Box<Entry>),
     /// One run of a store.
     Stored,
     /// None of these, and why.
@@ -81,13 +81,13 @@ fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
     let Ok(text) = String::from_utf8(bytes) else { return Ok(Found::Other("not text".into())) };
     if path.extension().is_some_and(|extension| extension == "pvd") {
         return Ok(match states::States::read(path, &text) {
-            Ok(states) => Found::Result(Entry {
+            Ok(states) => Found::Result(Box::new(Entry {
                 id: String::new(),
                 heading: states::HEADING,
                 file: name.to_owned(),
                 provenance: None,
                 section: Box::new(states),
-            }),
+            })),
             Err(error) => Found::Other(format!("{error:#}")),
         });
     }
@@ -98,5 +98,5 @@ fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
     if document.get("format").is_some_and(|format| format == store::FORMAT) {
         return Ok(Found::Stored);
     }
-    Ok(entry(name, &document).map_or_else(Found::Other, Found::Result))
+    Ok(entry(name, &document).map_or_else(Found::Other, |entry| Found::Result(Box::new(entry))))
 }

@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::mark::{Column, table, verdict};
+use super::mark::{table, verdict, words};
 use super::{Entry, Page, Verdicts, origin};
 
 /// What a browser has to know before it draws.
@@ -92,7 +92,7 @@ fn contents(page: &Page) -> Markup {
 
 /// What was run, and what came of it.
 fn summary(page: &Page) -> Markup {
-    let columns = [Column::Text("result"), Column::Text("kind"), Column::Text("verdict")];
+    let columns = [words("result"), words("kind"), words("verdict")];
     let rows = page.entries.iter().map(|entry| {
         let verdicts = entry.section.verdicts();
         vec![

@@ -5,7 +5,7 @@ use maud::html;
 use mms_codegen::spec::{FieldSpec, StudySpec};
 use serde_json::Value;
 
-use super::mark::{Column, table};
+use super::mark::{table, words};
 use super::{Page, Verdicts, field, frame};
 use crate::cli::study::Study;
 use crate::gallery::Entry;
@@ -19,12 +19,15 @@ pub fn page(entry: &Entry) -> anyhow::Result<Page> {
     let title = format!("{}: {}", field.name, field.title);
     let mut results = Vec::new();
     for (number, study) in field.studies.iter().enumerate() {
-        let report = Study::anywhere(&words(&field.name, study))?;
+        let report = Study::anywhere(&command(&field.name, study))?;
         let mut document = report.map(|report| report.document()).unwrap_or_default();
         for level in document["levels"].as_array_mut().into_iter().flatten() {
             level["seconds"] = Value::Null;
         }
-        results.push(super::entry(&format!("[[study]] {}", number + 1), &document).map_err(anyhow::Error::msg)?);
+        results.push(
+            super::entry(&format!("[[study]] {}", number + 1), &document)
+                .map_err(anyhow::Error::msg)?,
+        );
     }
     let mut page = Page::new(&title, results, Vec::new());
     if page.fields.is_empty() {
@@ -34,7 +37,7 @@ pub fn page(entry: &Entry) -> anyhow::Result<Page> {
 }
 
 /// The command that runs a study of a field file.
-fn words(name: &str, study: &StudySpec) -> Vec<String> {
+fn command(name: &str, study: &StudySpec) -> Vec<String> {
     let cells = study.cells.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
     let options = [
         ("shape", Some(study.shape.clone())),
@@ -53,7 +56,7 @@ fn words(name: &str, study: &StudySpec) -> Vec<String> {
 
 /// The page that lists all pages, each with what is said on it.
 pub fn index(fields: &[(FieldSpec, Verdicts)]) -> String {
-    let columns = [Column::Text("field"), Column::Text("dimension"), Column::Text("title"), Column::Text("studies")];
+    let columns = [words("field"), words("dimension"), words("title"), words("studies")];
     let rows = fields.iter().map(|(field, verdicts)| {
         vec![
             html! { a href=(format!("{}.html", field.name)) { (field.name) } },
@@ -86,13 +89,16 @@ mod tests {
     fn the_pages_are_those_of_the_gallery_with_its_formulas() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
         let mut pages: BTreeSet<String> = std::fs::read_dir(&folder)
-            .map(|entries| entries.map(|it| it.unwrap().file_name().into_string().unwrap()).collect())
+            .map(|entries| {
+                entries.map(|it| it.unwrap().file_name().into_string().unwrap()).collect()
+            })
             .unwrap_or_default();
         assert!(pages.remove("index.html"), "{WRITE}");
         let expected: BTreeSet<_> = FIELDS.iter().map(|it| format!("{}.html", it.name)).collect();
         assert_eq!(pages, expected, "{WRITE}");
         for entry in FIELDS {
-            let page = std::fs::read_to_string(folder.join(format!("{}.html", entry.name))).unwrap();
+            let page =
+                std::fs::read_to_string(folder.join(format!("{}.html", entry.name))).unwrap();
             let shown = field::Shown::of_gallery(entry).unwrap();
             let formulas = shown.formulas().expect("formulas");
             assert!(page.contains(formulas), "{}: its formulas changed: {WRITE}", entry.name);

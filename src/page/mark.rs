@@ -1,5 +1,7 @@
 //! What all sections are made of: numbers, verdicts and tables.
 
+use std::borrow::Cow;
+
 use maud::{Markup, html};
 use serde_json::{Map, Value};
 
@@ -53,7 +55,8 @@ pub fn verdict(word: &str, is_expected: bool) -> Markup {
 
 /// What an object of a document has, but for what is null or empty.
 pub fn list(object: &Map<String, Value>) -> Markup {
-    let is_there = |value: &Value| !value.is_null() && value.as_array().is_none_or(|it| !it.is_empty());
+    let is_there =
+        |value: &Value| !value.is_null() && value.as_array().is_none_or(|it| !it.is_empty());
     html! {
         dl.inline {
             @for (key, value) in object.iter().filter(|(_, value)| is_there(value)) {
@@ -64,18 +67,32 @@ pub fn list(object: &Map<String, Value>) -> Markup {
 }
 
 /// The head of a column, and how its cells are set.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub enum Column {
     /// To the right.
-    Number(&'static str),
+    Number(Cow<'static, str>),
     /// To the left.
-    Text(&'static str),
+    Text(Cow<'static, str>),
+}
+
+/// A column of numbers.
+pub const fn numbers(name: &'static str) -> Column {
+    Number(Cow::Borrowed(name))
+}
+
+/// A column of words.
+pub const fn words(name: &'static str) -> Column {
+    Text(Cow::Borrowed(name))
 }
 
 use Column::{Number, Text};
 
 /// A table. The first cell of a row says what the row is of.
-pub fn table(caption: &str, columns: &[Column], rows: impl IntoIterator<Item = Vec<Markup>>) -> Markup {
+pub fn table(
+    caption: &str,
+    columns: &[Column],
+    rows: impl IntoIterator<Item = Vec<Markup>>,
+) -> Markup {
     let class = |column: &Column| matches!(column, Text(_)).then_some("text");
     html! {
         // Wider than a screen, it scrolls by itself, by keyboard too.

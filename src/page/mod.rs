@@ -165,7 +165,7 @@ fn entry(file: &str, document: &Value) -> Result<Entry, String> {
 /// Where a result is from.
 fn origin(entry: &Entry) -> Markup {
     let Some(Provenance { version, command, input, machine, .. }) = &entry.provenance else {
-        return html! { p.origin { "From " code { (entry.file) } "." } };
+        return html! { dl.origin { dt { "file" } dd { code { (entry.file) } } } };
     };
     html! {
         dl.origin {

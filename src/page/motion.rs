@@ -15,7 +15,7 @@ use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::plot::short;
 
 /// Times of a picture, from the first to the last of the window.
-const MOMENTS: usize = 5;
+const MOMENTS: usize = 6;
 
 /// Displacements are drawn larger, if the largest is less than this share of the size of the body.
 const SMALL: f64 = 0.05;
@@ -82,7 +82,7 @@ impl Motion {
                 (pictures(id, &format!("The body of {name}"), &self.moments, &self.scale, 0.0))
                 figcaption {
                     "The motion that the field prescribes, exact and not of a run: a grid on the body, "
-                    @if self.is_static { "which is at rest," } @else { "at five times of its window," }
+                    @if self.is_static { "which is at rest," } @else { "at six times of its window," }
                     " coloured by the size of the displacement."
                     @if self.factor != 1.0 { " Displacements are drawn " (short(self.factor)) " times as large." }
                     @if self.moments.iter().any(|it| !it.outline.is_empty()) { " Dashed: the reference body." }
@@ -138,22 +138,32 @@ fn cells(interpreter: &Interpreter<'_, f64>, body: &Body) -> Vec<Cell> {
             };
             match edges.len() {
                 1 => along(0, 24).map(|[a, b]| vec![vec![a], vec![b]]).collect(),
-                2 => quads(along(0, 10), along(1, 10)).map(|quad| quad.map(Vec::from).into()).collect(),
-                _ => (0..3).flat_map(|axis| faces(axis, [lower[axis], upper[axis]], |axis| along(axis, 6))).collect(),
+                2 => quads(along(0, 10), along(1, 10))
+                    .map(|quad| quad.map(Vec::from).into())
+                    .collect(),
+                _ => (0..3)
+                    .flat_map(|axis| faces(axis, [lower[axis], upper[axis]], |axis| along(axis, 6)))
+                    .collect(),
             }
         }
         Body::Annulus { .. } => {
-            let (inner, outer, theta) = (bound(Bound::Inner)[0], bound(Bound::Outer)[0], bound(Bound::Theta));
+            let (inner, outer, theta) =
+                (bound(Bound::Inner)[0], bound(Bound::Outer)[0], bound(Bound::Theta));
             let turns = (theta[1] - theta[0]) / std::f64::consts::TAU;
             let around = ((32.0 * turns).round() as usize).max(8);
             let place = |[r, theta]: [f64; 2]| vec![r * theta.cos(), r * theta.sin()];
-            quads(parts(inner, outer, 4), parts(theta[0], theta[1], around)).map(|quad| quad.map(place).into()).collect()
+            quads(parts(inner, outer, 4), parts(theta[0], theta[1], around))
+                .map(|quad| quad.map(place).into())
+                .collect()
         }
     }
 }
 
 /// Rectangles, their corners counter-clockwise.
-fn quads<P: Iterator<Item = [f64; 2]> + Clone>(first: P, second: P) -> impl Iterator<Item = [[f64; 2]; 4]> {
+fn quads<P: Iterator<Item = [f64; 2]> + Clone>(
+    first: P,
+    second: P,
+) -> impl Iterator<Item = [[f64; 2]; 4]> {
     first.flat_map(move |[a, b]| second.clone().map(move |[c, d]| [[a, c], [b, c], [b, d], [a, d]]))
 }
 
@@ -220,7 +230,9 @@ fn outline(cells: &[Cell]) -> Vec<Vec<[f64; 2]>> {
     if cells[0][0].len() != 2 {
         return Vec::new();
     }
-    let key = |place: &[f64]| [place[0].to_bits(), place[1].to_bits()];
+    // Where an annulus closes, rounding is between what is one.
+    let unit = 1e-9 * size(cells);
+    let key = |place: &[f64]| [(place[0] / unit).round() as i64, (place[1] / unit).round() as i64];
     let edges = || cells.iter().flat_map(|cell| cell.iter().zip(cell.iter().cycle().skip(1)));
     let mut seen = BTreeMap::new();
     for (a, b) in edges() {

@@ -111,7 +111,10 @@ impl Window {
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> [i64; 2] {
-        [((x - self.left) * self.scale).round() as i64, ((self.top - y) * self.scale).round() as i64]
+        [
+            ((x - self.left) * self.scale).round() as i64,
+            ((self.top - y) * self.scale).round() as i64,
+        ]
     }
 
     /// A line through points, its steps relative to the point before.

@@ -119,10 +119,8 @@ impl Plot {
         let triangle = self.triangle();
         let floor = if self.shows_floor() { self.floor.as_slice() } else { &[] };
         let all = || points.iter().chain(triangle.iter().flatten()).chain(floor);
-        let frame = Frame {
-            x: span(all().map(|[x, _]| *x), 1.25),
-            y: span(all().map(|[_, y]| *y), 1.8),
-        };
+        let frame =
+            Frame { x: span(all().map(|[x, _]| *x), 1.25), y: span(all().map(|[_, y]| *y), 1.8) };
         let [title, description] = [format!("{id}-title"), format!("{id}-text")];
         Some(html! {
             svg viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-labelledby=(format!("{title} {description}")) xmlns="http://www.w3.org/2000/svg" {

@@ -6,8 +6,8 @@ use maud::{Markup, html};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::mark::Column::{Number, Text};
-use super::mark::{count, list, plain, seconds, small, table};
+use super::mark::{count, list, number, numbers, plain, seconds, small, table, words};
+use super::plot::short;
 use super::{Section, Verdicts};
 
 /// What `mms run` writes.
@@ -74,7 +74,7 @@ impl Section for Run {
             @if let Some(errors) = &self.errors { (norms(errors)) }
             @if let Some(state) = &self.diagnostics { (at_end(state)) }
             @if let Some(parts) = &self.seconds {
-                (table("What it took", &[Text("part"), Number("time")], parts.iter().map(|(part, time)| {
+                (table("What it took", &[words("part"), numbers("time")], parts.iter().map(|(part, time)| {
                     vec![html! { (part) }, seconds(Some(*time))]
                 })))
             }
@@ -88,35 +88,37 @@ impl Section for Run {
 
 fn norms(errors: &BTreeMap<String, Times>) -> Markup {
     let columns = [
-        Text("error of"),
-        Number("l1"),
-        Number("l2"),
-        Number("linf"),
-        Number("l1 at the end"),
-        Number("l2 at the end"),
-        Number("linf at the end"),
+        words("error of"),
+        numbers("l1"),
+        numbers("l2"),
+        numbers("linf"),
+        numbers("l1 at the end"),
+        numbers("l2 at the end"),
+        numbers("linf at the end"),
     ];
     let rows = errors.iter().map(|(quantity, Times { over_time, at_end })| {
         let norms = [over_time, at_end].map(|it| [it.l1, it.l2, it.linf]).concat();
-        let name = html! { (quantity.replace('_', " ")) };
+        let name = html! { (quantity) };
         std::iter::once(name).chain(norms.into_iter().map(|norm| small(Some(norm)))).collect()
     });
     table("Errors, the largest over time and those at the end", &columns, rows)
 }
 
 fn at_end(state: &State) -> Markup {
-    let numbers = |values: &[f64]| html! {
-        @for (at, value) in values.iter().enumerate() {
-            @if at > 0 { ", " }
-            (small(Some(*value)))
+    let shown = |values: &[f64]| {
+        html! {
+            @for (at, value) in values.iter().enumerate() {
+                @if at > 0 { ", " }
+                (number(Some(*value), short))
+            }
         }
     };
     let rows = [
-        ("mass", numbers(&[state.mass])),
-        ("momentum", numbers(&state.momentum)),
-        ("kinetic energy", numbers(&[state.kinetic_energy])),
-        ("least and greatest J", numbers(&state.jacobian)),
+        ("mass", shown(&[state.mass])),
+        ("momentum", shown(&state.momentum)),
+        ("kinetic energy", shown(&[state.kinetic_energy])),
+        ("least and greatest J", shown(&state.jacobian)),
     ];
     let rows = rows.into_iter().map(|(name, value)| vec![html! { (name) }, value]);
-    table("The state at the end", &[Text("sum over particles"), Number("value")], rows)
+    table("The state at the end", &[words("sum over particles"), numbers("value")], rows)
 }

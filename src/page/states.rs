@@ -15,7 +15,7 @@ use super::{Section, Verdicts};
 pub const HEADING: &str = "States of runs";
 
 /// States on a page, at most.
-const MOMENTS: usize = 5;
+const MOMENTS: usize = 6;
 
 /// Particles in a picture, at most; of more every second, third, ... is drawn.
 const PARTICLES: usize = 1000;
@@ -72,6 +72,21 @@ impl States {
         };
         (1..3).rev().find(|axis| is_used(*axis)).map_or(1, |axis| axis + 1)
     }
+
+    /// The size of dots that hardly touch: of the distances to the nearest other one, at first, that in the middle.
+    fn spacing(&self, step: usize) -> f64 {
+        let first = self.drawn.first().map_or(&[][..], |state| &state.particles);
+        let places: Vec<[f64; 3]> = first.iter().step_by(step).map(|it| it.0).collect();
+        let distance =
+            |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]);
+        let nearest = |(at, place): (usize, &[f64; 3])| {
+            let others = places.iter().enumerate().filter(|(other, _)| *other != at);
+            others.map(|(_, other)| distance(place, other)).fold(f64::INFINITY, f64::min)
+        };
+        let mut nearest: Vec<_> = places.iter().enumerate().map(nearest).collect();
+        nearest.sort_by(f64::total_cmp);
+        nearest.get(nearest.len() / 2).copied().filter(|it| it.is_finite()).unwrap_or_default()
+    }
 }
 
 /// The particles of a state.
@@ -113,19 +128,17 @@ impl Section for States {
         let largest = errors().fold(0.0, f64::max);
         let least = errors().fold(f64::INFINITY, f64::min).max(LEAST * largest);
         // Without errors, or with one alone, there are no steps between them.
-        let range = if least < largest { [least, largest] } else { [0.0, largest.max(f64::MIN_POSITIVE)] };
+        let range =
+            if least < largest { [least, largest] } else { [0.0, largest.max(f64::MIN_POSITIVE)] };
         let scale = Scale { name: "error of u", range, is_logarithmic: least < largest };
         let dimension = self.dimension();
         let count = self.drawn.iter().map(|it| it.particles.len()).max().unwrap_or(0);
         let step = count.div_ceil(PARTICLES).max(1);
-        let moments: Vec<_> = self
-            .drawn
-            .iter()
-            .map(|state| moment(state, dimension, step, &scale))
-            .collect();
+        let moments: Vec<_> =
+            self.drawn.iter().map(|state| moment(state, dimension, step, &scale)).collect();
         html! {
             figure {
-                (pictures(id, &format!("Particles of {}", self.name), &moments, &scale, spacing(&moments)))
+                (pictures(id, &format!("Particles of {}", self.name), &moments, &scale, self.spacing(step)))
                 figcaption {
                     "Particles of a run where they are, coloured by how far they are from where the field says."
                     @if step > 1 { " One of " (step) " is drawn." }
@@ -151,18 +164,4 @@ fn moment(state: &State, dimension: usize, step: usize, scale: &Scale) -> Moment
     };
     let shapes = particles.into_iter().map(shape).collect();
     Moment { time: state.time, shapes, outline: Vec::new() }
-}
-
-/// The size of dots that just do not touch where particles are spread evenly.
-fn spacing(moments: &[Moment]) -> f64 {
-    let Some(first) = moments.first() else { return 0.0 };
-    let extent = |axis: usize| {
-        let along = || first.shapes.iter().map(|shape| shape.corners[0][axis]);
-        along().fold(f64::MIN, f64::max) - along().fold(f64::MAX, f64::min)
-    };
-    let count = first.shapes.len().max(1) as f64;
-    match [extent(0), extent(1)] {
-        [length, 0.0] => 0.7 * length / count,
-        [width, height] => 0.7 * (width * height / count).sqrt(),
-    }
 }

@@ -6,8 +6,7 @@ use maud::{Markup, html};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::mark::Column::{Number, Text};
-use super::mark::{count, list, order, plain, seconds, small, table};
+use super::mark::{Column, count, list, numbers, order, plain, seconds, small, table, words};
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
@@ -89,8 +88,14 @@ impl Norms {
 }
 
 /// The heads of [`Norms::cells`].
-const NORMS: [super::mark::Column; 6] =
-    [Number("l1"), Number("order"), Number("l2"), Number("order"), Number("linf"), Number("order")];
+const NORMS: [Column; 6] = [
+    numbers("l1"),
+    numbers("order"),
+    numbers("l2"),
+    numbers("order"),
+    numbers("linf"),
+    numbers("order"),
+];
 
 impl Section for Study {
     fn title(&self) -> String {
@@ -113,7 +118,11 @@ impl Section for Study {
             p {
                 @match self.observed_order {
                     Some(observed) => {
-                        "Observed order " (order(Some(observed))) " (l2, finest pair), expected " (self.expected_order) "."
+                        "On the finest pair the order is " (order(Some(observed))) " in l2"
+                        @if let Some(largest) = self.norms().last().and_then(|(_, norms)| norms.order_linf) {
+                            " and " (order(Some(largest))) " in linf"
+                        }
+                        "; expected is " (self.expected_order) "."
                     }
                     None => { "No observed order; expected " (self.expected_order) "." }
                 }
@@ -144,23 +153,41 @@ impl Study {
         if self.refinement == "time" { "dt" } else { "h" }
     }
 
+    /// What is refined, on a level.
+    fn refined(&self, level: &Level) -> Option<f64> {
+        if self.refinement == "time" { level.time_step } else { level.cell_size }
+    }
+
+    /// What is judged: the errors, or in time the differences to the next level.
+    fn norms(&self) -> Vec<(Option<f64>, &Norms)> {
+        match &self.differences {
+            Some(steps) => steps.iter().map(|it| (Some(it.time_step), &it.norms)).collect(),
+            None => self.levels.iter().map(|it| (self.refined(it), &it.norms)).collect(),
+        }
+    }
+
     fn plot(&self) -> Plot {
-        let length = |level: &Level| if self.refinement == "time" { level.time_step } else { level.cell_size };
-        let rows: Vec<(Option<f64>, &Norms)> = match &self.differences {
-            Some(differences) => differences.iter().map(|it| (Some(it.time_step), &it.norms)).collect(),
-            None => self.levels.iter().map(|it| (length(it), &it.norms)).collect(),
-        };
+        let rows = self.norms();
         let curve = |(style, name): (usize, &str)| {
-            let points = rows.iter().filter_map(|(at, norms)| Some([(*at)?, norms.errors()[style].1?]));
+            let points =
+                rows.iter().filter_map(|(at, norms)| Some([(*at)?, norms.errors()[style].1?]));
             let points = points.collect();
             Curve { name: name.to_owned(), points, style, is_hollow: false, line: Line::Solid }
         };
         let curves: Vec<_> = ["l1", "l2", "linf"].into_iter().enumerate().map(curve).collect();
         let floor = match self.differences {
             Some(_) => Vec::new(),
-            None => self.levels.iter().filter_map(|it| Some([length(it)?, it.round_off?])).collect(),
+            None => self
+                .levels
+                .iter()
+                .filter_map(|it| Some([self.refined(it)?, it.round_off?]))
+                .collect(),
         };
-        let what = if self.differences.is_some() { "difference to the next level" } else { "largest error of u over time" };
+        let what = if self.differences.is_some() {
+            "difference to the next level"
+        } else {
+            "largest error of u over time"
+        };
         let described = rows.iter().filter_map(|(at, norms)| {
             Some(format!("{} {}: l2 {:.2e}", self.length(), short((*at)?), norms.l2?))
         });
@@ -184,27 +211,28 @@ impl Study {
         let highest = plot.floor.iter().map(|[_, floor]| *floor).fold(0.0, f64::max);
         if highest > 0.0 {
             text += &match plot.shows_floor() {
-                true => format!(" Below the dashed line, at most {highest:.1e}, an error may be nothing but round-off."),
-                false => format!(" The predicted round-off floor, at most {highest:.1e}, lies far below the picture."),
+                true => format!(
+                    " Below the dashed line, at most {highest:.1e}, an error may be nothing but round-off."
+                ),
+                false => format!(
+                    " The predicted round-off floor, at most {highest:.1e}, lies far below the picture."
+                ),
             };
         }
         text
     }
 
     fn levels(&self) -> Markup {
-        let mut columns = vec![Text("cells"), Number("particles"), Number("steps")];
+        let mut columns = vec![words("cells"), numbers("particles"), numbers("steps")];
         columns.extend(NORMS);
         // A page that is the same everywhere has no times.
         let is_timed = self.levels.iter().any(|level| level.seconds.is_some());
-        columns.push(Number("round-off"));
-        columns.extend(is_timed.then_some(Number("time")));
-        columns.push(Text("remark"));
+        columns.push(numbers("round-off"));
+        columns.extend(is_timed.then_some(numbers("time")));
+        columns.push(words("remark"));
         let rows = self.levels.iter().enumerate().map(|(at, level)| {
-            let mut cells = vec![
-                html! { (plain(&level.cells)) },
-                count(level.particles),
-                count(level.steps),
-            ];
+            let mut cells =
+                vec![html! { (plain(&level.cells)) }, count(level.particles), count(level.steps)];
             cells.extend(level.norms.cells());
             let noise = self.noise.get(at).is_some_and(|noise| *noise).then_some("noise");
             let remark = level.failure.as_deref().or(noise).unwrap_or_default();
@@ -219,7 +247,7 @@ impl Study {
     /// The errors of v, F and P.
     fn others(&self) -> Markup {
         let others = self.quantities.iter().filter(|(name, _)| *name != "displacement");
-        let mut columns = vec![Text("cells")];
+        let mut columns = vec![words("cells")];
         columns.extend(NORMS);
         html! {
             details {
@@ -230,7 +258,7 @@ impl Study {
                         cells.extend(norms.cells());
                         cells
                     });
-                    (table(&format!("Errors of the {}", name.replace('_', " ")), &columns, rows))
+                    (table(&format!("Errors of the {}", name), &columns, rows))
                 }
             }
         }
@@ -238,7 +266,7 @@ impl Study {
 }
 
 fn steps(differences: &[Difference]) -> Markup {
-    let mut columns = vec![Number("time step")];
+    let mut columns = vec![numbers("time step")];
     columns.extend(NORMS);
     let rows = differences.iter().map(|difference| {
         let mut cells = vec![small(Some(difference.time_step))];

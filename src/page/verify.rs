@@ -3,8 +3,7 @@
 use maud::{Markup, html};
 use serde::Deserialize;
 
-use super::mark::Column::{Number, Text};
-use super::mark::{order, seconds, small, table, verdict};
+use super::mark::{numbers, order, seconds, small, table, verdict, words};
 use super::{Section, Verdicts};
 
 /// What `mms verify` writes.
@@ -93,26 +92,30 @@ impl Section for Matrix {
 
 fn rows(group: &[Row], id: &str) -> Markup {
     let columns = [
-        Text("mode"),
-        Text("study"),
-        Text("refined"),
-        Text("error of"),
-        Number("formal order"),
-        Number("observed"),
-        Number("before"),
-        Number("constant"),
-        Number("expected"),
-        Text("verdict"),
-        Number("time"),
+        words("mode"),
+        words("refined"),
+        words("error of"),
+        numbers("formal order"),
+        numbers("observed"),
+        numbers("before"),
+        numbers("constant"),
+        numbers("expected"),
+        words("verdict"),
+        numbers("time"),
     ];
     let cells = group.iter().map(|row| {
         // That of the finest pair is the one beside it.
         let before = row.levels.len().checked_sub(2).and_then(|at| row.levels[at].order_l2);
         vec![
-            html! { span id=(row.place(id)) { (row.parts().1) } p.theory { (row.theory) } },
-            html! { code { (row.study) } },
+            html! {
+                div.mode id=(row.place(id)) {
+                    (row.parts().1)
+                    p { (row.theory) }
+                    p { code { (row.study) } }
+                }
+            },
             html! { (row.refined) },
-            html! { (row.quantity.replace('_', " ")) },
+            html! { (row.quantity) },
             html! { (row.formal_order) },
             order(row.observed_order),
             order(before),

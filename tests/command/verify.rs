@@ -21,7 +21,8 @@ fn document(folder: &Folder, store: &str) -> Value {
 fn timeless(document: &Value) -> Value {
     match document {
         Value::Object(map) => {
-            let kept = map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
+            let kept =
+                map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
             Value::Object(kept.map(|(key, value)| (key.clone(), timeless(value))).collect())
         }
         Value::Array(items) => items.iter().map(timeless).collect(),

@@ -92,7 +92,12 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw()?;
     if !marks.is_empty() {
         chart
-            .draw_series(DashedLineSeries::new(front(marks.iter().map(|mark| (mark.ns_per_point, mark.error))), 6, 4, FRONT.stroke_width(2)))?
+            .draw_series(DashedLineSeries::new(
+                front(marks.iter().map(|mark| (mark.ns_per_point, mark.error))),
+                6,
+                4,
+                FRONT.stroke_width(2),
+            ))?
             .label("Pareto front")
             .legend(|(x, y)| {
                 DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))
