@@ -73,11 +73,12 @@ impl Section for Accuracy {
                 }
             }
             (self.regimes())
-            details {
+            details.bulk {
                 summary { "The worst of each quantity" }
                 (rows("The regime with the largest error, of each quantity, precision and form", &self.worst()))
             }
-            details {
+            // On paper only if it is open.
+            details.bulk {
                 summary { "All " (self.rows.len()) " rows" }
                 (rows("Every regime", &self.rows.iter().collect::<Vec<_>>()))
             }

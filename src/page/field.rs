@@ -106,7 +106,9 @@ impl Shown {
                     Ok(content) => {
                         @if let Some(motion) = &content.motion { (motion.html(&format!("{id}-motion"), name)) }
                         p { "From u to b; " code { "mms show " (given) } " has every quantity." }
-                        div.formulas { (PreEscaped(&content.formulas)) }
+                        div.scroll.formulas role="region" tabindex="0" aria-label=(format!("Formulas of {name}")) {
+                            (PreEscaped(&content.formulas))
+                        }
                     }
                     Err(reason) => p.alert { "Its formulas are not shown: " (reason) "." }
                 }

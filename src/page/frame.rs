@@ -35,7 +35,7 @@ pub fn page(page: &Page) -> Markup {
         a.skip href="#main" { "Skip to the results" }
         header {
             h1 { (page.title) }
-            p.summary { (said(&verdicts)) }
+            @if !page.entries.is_empty() { p.summary { (said(&verdicts)) } }
             (contents(page))
         }
         main #main tabindex="-1" {
