@@ -135,7 +135,9 @@ impl Page {
         let expected = each().map(|verdicts| verdicts.expected).sum();
         let all = each().map(|verdicts| verdicts.all).sum();
         let word = match all - expected {
-            0 if all == 0 => "nothing here has a verdict".into(),
+            _ if all == 0 => "nothing here has a verdict".into(),
+            0 if all == 1 => "the verdict is as expected".into(),
+            1 if all == 1 => "the verdict is not as expected".into(),
             0 => format!("all {all} verdicts are as expected"),
             1 => format!("1 of {all} verdicts is not as expected"),
             several => format!("{several} of {all} verdicts are not as expected"),

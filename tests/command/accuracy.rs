@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::mms::{BAR, Folder, keys};
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "quantity",
     "precision",
     "form",
