@@ -12,7 +12,8 @@ use super::mms::{Folder, Run};
 static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let folder = Folder::new();
     folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
-    folder.mms("study axis_aligned_1d --refine time --cells 16 --levels 3 --output all/time");
+    let time = "--formulation total --shape linear --refine time --cells 32 --levels 3";
+    folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
     folder.mms("verify --row time/usl --store store --output all/matrix").exits(0);
     folder
         .mms("run axis_aligned_2d --cells 4 --output all/run --vtk all/states --frames 3")
@@ -145,7 +146,7 @@ fn the_numbers_of_a_study_are_those_of_its_document() {
 #[test]
 fn the_numbers_of_a_study_in_time_are_those_of_its_document() {
     let (page, study) = (parse(&PAGE), document("time/convergence"));
-    let mut tables = tables(&page, "axis_aligned_1d: cpgimp leapfrog, in time");
+    let mut tables = tables(&page, "bar_1d: linear leapfrog, in time");
     let steps = tables.remove("Differences of displacements to the next level").expect("steps");
     assert_rows(&steps, array(&study["differences"]), &with_norms(&["time_step"], &[]));
     tables.remove("Errors of the displacement, the largest over time").expect("levels");
