@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn every_field_of_the_gallery_has_its_picture() {
+    fn bodies_of_every_dimension_have_their_pictures() {
         for name in ["bar_1d", "expanding_ring", "twisted_column"] {
             let compiled = gallery::find(name).unwrap().compile().unwrap();
             let motion = Motion::of(&compiled, &BTreeMap::new()).expect("a finite motion");

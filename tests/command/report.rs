@@ -91,9 +91,11 @@ fn assert_shows((shown, number): &Cell, value: &Value, place: &str) {
             let number = number.or_else(|| shown.parse().ok());
             assert_eq!(number, Some(value), "{place}");
             if let Ok(read) = shown.parse::<f64>() {
-                // Three digits of an error, two decimals of an order.
-                let last =
-                    0.005 * if shown.contains('e') { value.abs() } else { value.abs().max(1.0) };
+                // Half of the last digit that is shown.
+                let (digits, exponent) = shown.split_once('e').unwrap_or((shown, "0"));
+                let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+                let exponent: i32 = exponent.parse().expect("an exponent");
+                let last = 0.5 * 10f64.powi(exponent - decimals as i32);
                 assert!(
                     (read - value).abs() <= last * (1.0 + 1e-9),
                     "{place}: {shown} for {value:e}"
