@@ -10,6 +10,7 @@ pub mod cli;
 pub mod gallery;
 mod history;
 pub mod interpreted;
+mod page;
 pub mod report;
 pub mod scene;
 pub mod schema;

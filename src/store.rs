@@ -19,7 +19,7 @@ use serde_json::value::RawValue;
 use crate::report::write_whole;
 
 /// What the first key of every file says.
-const FORMAT: &str = "mms result 1";
+pub const FORMAT: &str = "mms result 1";
 
 /// A folder of results.
 pub struct Store {

@@ -427,12 +427,17 @@ impl Compiled {
 
     /// What the output was made by and of: the crate's version and a hash of the input texts.
     pub fn provenance(&self) -> String {
+        format!("mms-codegen {} from input {}", env!("CARGO_PKG_VERSION"), self.input_hash())
+    }
+
+    /// What tells the input texts from others: 16 hexadecimal digits.
+    pub fn input_hash(&self) -> String {
         // FNV-1a (Fowler, Noll & Vo): tells inputs apart, and is the same everywhere.
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         for byte in self.sources.texts().flat_map(str::bytes) {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
-        format!("mms-codegen {} from input {hash:016x}", env!("CARGO_PKG_VERSION"))
+        format!("{hash:016x}")
     }
 
     /// Path and text of the material's file, where it is the user's own.

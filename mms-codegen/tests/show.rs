@@ -409,6 +409,44 @@ fn mathml_is_well_formed() {
     }
 }
 
+/// What a formula is made of, whatever the notation: its digits, bars, roots and powers.
+#[test]
+fn mathml_has_the_structure_of_latex() {
+    let digits = |text: &str| {
+        let mut digits: Vec<_> = text.chars().filter(char::is_ascii_digit).collect();
+        digits.sort_unstable();
+        digits.into_iter().collect::<String>()
+    };
+    let count = |text: &str, part: &str| text.matches(part).count();
+    for field in &fields() {
+        let document = whole(field);
+        for (_, line) in lines(&document) {
+            let latex = document.formula(line.value, &latex::Latex);
+            let mathml = document.formula(line.value, &mathml::MathMl);
+            let page = format!("<math>{mathml}</math>");
+            let parsed = roxmltree::Document::parse(&page).expect("XML");
+            let texts: String = parsed.descendants().filter_map(|node| node.text()).collect();
+            assert_eq!(digits(&latex), digits(&texts), "{latex}\n{mathml}");
+            let roots = count(&mathml, "<msqrt>") + count(&mathml, "<mroot>");
+            assert_eq!(count(&latex, "\\sqrt"), roots, "{latex}\n{mathml}");
+            assert_eq!(count(&latex, "\\frac"), count(&mathml, "<mfrac>"), "{latex}\n{mathml}");
+            assert_eq!(count(&latex, "^"), count(&mathml, "<msup>"), "{latex}\n{mathml}");
+        }
+    }
+}
+
+/// On a page of others, headings are theirs; the formulas are those of the page.
+#[test]
+fn a_part_of_a_page_has_its_formulas_and_lower_headings() {
+    let fields = fields();
+    let document = whole(&fields[0]);
+    let (page, part) = (mathml::page(&document), mathml::part(&document, 4));
+    assert!(page.contains(&part.replace("<h4>", "<h2>").replace("</h4>", "</h2>")));
+    assert!(
+        part.contains("<h4>displacement</h4>") && !part.contains("<h1>") && !part.contains("<h2>")
+    );
+}
+
 #[test]
 fn names_of_users_are_kept_apart_from_those_of_quantities() {
     let field = compiled("odd_names", include_str!("../../tests/programs/odd_names.toml"));

@@ -12,9 +12,9 @@ use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, Options};
 
 use super::input::{Motion, Text, quantities, settings};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
 use crate::report::accuracy::Report;
-use crate::report::write_whole;
+use crate::report::provenance::Input;
 use crate::workbench::{Module, Time, Way, Workbench, time};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and
@@ -95,14 +95,17 @@ impl Accuracy {
             true => timed(&text, &options, &quantities),
             false => None,
         };
+        let twin = &options.selection.twin;
+        let input = Input::new(&self.field, twin, &self.set, &compiled);
         let report = Report {
             field: text.name().into(),
             points: request.points,
             accuracy,
             times: times.unwrap_or_default(),
+            provenance: this_command("accuracy", input)?,
         };
         if let Some(folder) = &self.output {
-            for path in report.write(folder, write_whole)? {
+            for path in report.write(folder)? {
                 anstream::eprintln!("{path}");
             }
         }

@@ -19,6 +19,7 @@ use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_runtime::Real;
 
 use crate::gallery::{self, Entry};
+use crate::report::provenance;
 use crate::scene::Scene;
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
@@ -93,6 +94,10 @@ pub struct Input {
     pub compiled: Arc<Compiled>,
     /// Its compiled code, where it is of the gallery and taken as it is.
     pub entry: Option<&'static Entry>,
+    /// What the user named.
+    given: String,
+    /// The motion on top.
+    twin: Twin,
 }
 
 impl Input {
@@ -110,7 +115,18 @@ impl Input {
         let entry = text
             .entry()
             .filter(|_| options.selection.twin == Twin::Nothing && options.form == Form::Stable);
-        Ok(Input { name: compiled.field.name.clone(), compiled: Arc::new(compiled), entry })
+        Ok(Input {
+            name: compiled.field.name.clone(),
+            compiled: Arc::new(compiled),
+            entry,
+            given: field.to_owned(),
+            twin: options.selection.twin.clone(),
+        })
+    }
+
+    /// What a result of the field, with some settings, is of.
+    pub fn provenance(&self, settings: &[String]) -> provenance::Input {
+        provenance::Input::new(&self.given, &self.twin, settings, &self.compiled)
     }
 
     /// The compiled field, where it is of the gallery, and the interpreted one otherwise; with the parameters

@@ -10,17 +10,20 @@ mod list;
 pub(crate) mod method;
 mod new;
 mod progress;
+mod report;
 mod run;
 mod saved;
 mod schema;
 mod show;
 mod stability;
-mod study;
+pub(crate) mod study;
 mod verify;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use crate::report::provenance::{Input, Provenance};
 
 /// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order
 /// of convergence of an MPM/GIMP solver on them.
@@ -48,6 +51,7 @@ enum Command {
     Run(run::Run),
     Study(study::Study),
     Verify(verify::Verify),
+    Report(report::Report),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -94,9 +98,17 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(),
         Some(Command::Verify(verify)) => verify.run(),
+        Some(Command::Report(report)) => report.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }
+}
+
+/// What this command line makes of an input.
+fn this_command(kind: &str, input: Input) -> anyhow::Result<Provenance> {
+    let arguments = saved::expand(std::env::args_os())?;
+    let words: Vec<_> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    Ok(Provenance::new(kind, &words, input))
 }
 
 /// Prints one JSON document.

@@ -14,7 +14,9 @@ use super::progress::Progress;
 use super::{Outcome, print, print_json};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
+use crate::report::provenance::Provenance;
 use crate::report::run::Run as Report;
+use crate::report::{pretty, write_files};
 use crate::store::digest;
 use crate::vtk::Writer;
 
@@ -55,6 +57,9 @@ pub struct Run {
     /// stopped.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
+    /// Write run.json there, which is what `--json` prints.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -67,7 +72,9 @@ impl Run {
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
         let progress = Progress::new();
-        let mut followers = self.followers(&input, &method, cells, &progress)?;
+        let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
+        let head = Head::new(self.key(&input, &method, cells), provenance.command.clone());
+        let mut followers = self.followers(&input, cells, head, &progress)?;
         let run = match self.method.precision {
             Precision::F32 => {
                 let scene = input.scene(&self.set, |entry| entry.single)?;
@@ -94,13 +101,19 @@ impl Run {
             precision: self.method.precision.name(),
             method,
             run,
+            provenance,
+        };
+        let written = match &self.output {
+            Some(folder) => write_files(folder, "run", [("json", pretty(&report.document())?)])?,
+            None => Vec::new(),
         };
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
-            if let Some(list) = followers.list_of_states() {
-                print(&format!("\nwrote {}", list.display()))?;
+            let states = followers.list_of_states().map(|list| list.display().to_string());
+            for path in states.into_iter().chain(written) {
+                print(&format!("\nwrote {path}"))?;
             }
         }
         if let Err(failure) = &report.run.level.errors {
@@ -113,11 +126,10 @@ impl Run {
     fn followers<'a>(
         &self,
         input: &Input,
-        method: &Method,
         cells: Division,
+        head: Head,
         progress: &'a Progress,
     ) -> anyhow::Result<Followers<'a>> {
-        let head = Head::new(self.key(input, method, cells), command());
         let resumed = self.resume.as_deref().map(Found::open).transpose()?;
         if let (Some(path), Some(found)) = (&self.resume, &resumed)
             && found.head.key != head.key
@@ -158,20 +170,16 @@ impl Run {
     }
 }
 
-/// The command line, as one would type it, but for where it goes on from.
-fn command() -> String {
-    let plain = |word: &str| {
-        !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_-./=,:+".contains(c))
-    };
-    let mut words = vec!["mms".to_owned()];
-    let mut arguments = std::env::args().skip(1);
-    while let Some(word) = arguments.next() {
+/// The command line without `--resume`: what makes the run again.
+fn from_the_start() -> Vec<String> {
+    let mut all = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let mut kept = Vec::new();
+    while let Some(word) = all.next() {
         match word.as_str() {
-            "--resume" => drop(arguments.next()),
+            "--resume" => drop(all.next()),
             resume if resume.starts_with("--resume=") => {}
-            plain_word if plain(plain_word) => words.push(word),
-            quoted => words.push(format!("'{}'", quoted.replace('\'', r"'\''"))),
+            _ => kept.push(word),
         }
     }
-    words.join(" ")
+    kept
 }

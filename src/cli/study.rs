@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use anyhow::bail;
-use clap::Args;
+use clap::{Args, Parser};
 use mms_runtime::study::{Fit, Refinement, Series, TOLERANCE, Watch, differences, fit};
 use mms_runtime::{Division, Method, Run, Verdict};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
+use crate::report::provenance::Provenance;
 use crate::report::{Refused, Study as Report};
 use crate::scene::{Scene, Solvable};
 
@@ -82,56 +83,27 @@ fn quartered(method: &Method) -> Method {
     method
 }
 
+/// A study on its own, with the defaults of its options.
+#[derive(Parser)]
+struct Alone {
+    #[command(flatten)]
+    study: Study,
+}
+
 /// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
-pub fn main_job() -> anyhow::Result<Outcome> {
-    /// A study on its own, with the defaults of its options.
-    #[derive(clap::Parser)]
-    struct MainJob {
-        #[command(flatten)]
-        study: Study,
-    }
-    <MainJob as clap::Parser>::parse_from(["mms", "bar_1d"]).study.run()
+pub(super) fn main_job() -> anyhow::Result<Outcome> {
+    Alone::parse_from(["mms", "bar_1d"]).study.run()
 }
 
 impl Study {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub(super) fn run(self) -> anyhow::Result<Outcome> {
         self.validate()?;
         let input = Input::find(&self.field, &self.variant)?;
         let folder = self.folder(&input.name)?;
-        let method = self.method.method_for(&input, &self.set)?;
-        let (levels, fit) = match self.method.precision {
-            Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
-            Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
-        };
-        let started: Vec<_> = levels.iter().flatten().collect();
-        if started.is_empty() {
+        let provenance = this_command("study", input.provenance(&self.set))?;
+        let Some(report) = self.report(&input, provenance)? else {
             anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
             return Ok(Outcome::RunFailed);
-        }
-        let (expected_order, tolerance) = self.expectation(&input);
-        let differences = (self.refine == Refinement::Time).then(|| differences(&started));
-        let series = differences.clone().unwrap_or_else(|| {
-            Series::new(started.iter().map(|run| self.refine.displacement(run)))
-        });
-        let mut judgement = series.judge(expected_order, tolerance);
-        let stopped = started.iter().any(|run| run.level.errors.is_err());
-        if stopped || started.len() < levels.len() {
-            judgement.verdict = Verdict::Fail;
-        }
-        let report = Report {
-            field: input.name.clone(),
-            title: input.compiled.field.title.clone(),
-            precision: self.method.precision.name(),
-            refinement: self.refine,
-            judgement,
-            uncertainty: series.uncertainty(),
-            error_constant: series.error_constant(expected_order),
-            fit,
-            differences,
-            method,
-            levels,
-            expected_order,
-            tolerance,
         };
         if self.json {
             print_json(&report.document())?;
@@ -146,6 +118,55 @@ impl Study {
             Verdict::Pass => Outcome::AsExpected,
             Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
         })
+    }
+
+    /// The study of a command line, `study` first, as any machine makes it; nothing, if no level could be started.
+    pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
+        let study = Alone::try_parse_from(words)?.study;
+        study.validate()?;
+        let input = Input::find(&study.field, &study.variant)?;
+        let command: Vec<_> = [&["mms".to_owned()], words].concat();
+        let provenance = Provenance::new("study", &command, input.provenance(&study.set));
+        study.report(&input, Provenance { machine: None, ..provenance })
+    }
+
+    /// The study of a field; nothing, if no level could be started.
+    fn report(&self, input: &Input, provenance: Provenance) -> anyhow::Result<Option<Report>> {
+        let method = self.method.method_for(input, &self.set)?;
+        let (levels, fit) = match self.method.precision {
+            Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
+            Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
+        };
+        let started: Vec<_> = levels.iter().flatten().collect();
+        if started.is_empty() {
+            return Ok(None);
+        }
+        let (expected_order, tolerance) = self.expectation(input);
+        let differences = (self.refine == Refinement::Time).then(|| differences(&started));
+        let series = differences.clone().unwrap_or_else(|| {
+            Series::new(started.iter().map(|run| self.refine.displacement(run)))
+        });
+        let mut judgement = series.judge(expected_order, tolerance);
+        let stopped = started.iter().any(|run| run.level.errors.is_err());
+        if stopped || started.len() < levels.len() {
+            judgement.verdict = Verdict::Fail;
+        }
+        Ok(Some(Report {
+            field: input.name.clone(),
+            title: input.compiled.field.title.clone(),
+            precision: self.method.precision.name(),
+            refinement: self.refine,
+            judgement,
+            uncertainty: series.uncertainty(),
+            error_constant: series.error_constant(expected_order),
+            fit,
+            differences,
+            method,
+            levels,
+            expected_order,
+            tolerance,
+            provenance,
+        }))
     }
 
     /// Where to write. What can be seen to be wrong with it is said before any work is done.

@@ -11,9 +11,11 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_codegen::suggest::did_you_mean;
 
-use super::{Outcome, print, print_json};
-use crate::store::Store;
-use crate::verify::matrix::{Row, rows};
+use super::{Outcome, print, print_json, this_command};
+use crate::gallery::FIELDS;
+use crate::report::{pretty, provenance, write_files};
+use crate::store::{Store, digest};
+use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};
 use crate::verify::report::{Judged, Report};
 use crate::verify::verdict::judge;
@@ -38,6 +40,9 @@ pub struct Verify {
     /// Where results are kept.
     #[arg(long, value_name = "DIR", default_value = "target/mms/verify")]
     store: PathBuf,
+    /// Write verification.json there, which is what `--json` prints.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// How many runs go side by side; by default as many as there are processors.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
@@ -70,7 +75,18 @@ impl Verify {
             let judgement = judge(row, &levels);
             Ok(Judged { row, study: row.study()?.0, levels, judgement })
         });
-        let report = Report { quick: self.quick, rows: judged.collect::<anyhow::Result<_>>()? };
+        let report = Report {
+            quick: self.quick,
+            rows: judged.collect::<anyhow::Result<_>>()?,
+            provenance: this_command("verify", input())?,
+        };
+        if let Some(folder) = &self.output {
+            for path in
+                write_files(folder, "verification", [("json", pretty(&report.document())?)])?
+            {
+                anstream::eprintln!("{path}");
+            }
+        }
         if self.json {
             print_json(&report.document())?;
         } else if self.page {
@@ -128,6 +144,13 @@ impl Verify {
         });
         print(&lines.collect::<String>())
     }
+}
+
+/// What the matrix is of: its rows, and the fields of the gallery.
+fn input() -> provenance::Input {
+    let fields = FIELDS.iter().map(|entry| entry.text).collect::<String>();
+    let hash = digest([MATRIX, &fields]);
+    provenance::Input { field: None, rigid: None, set: Vec::new(), hash }
 }
 
 /// What tells this program from any other: no result outlives the code that computed it.

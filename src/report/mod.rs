@@ -2,7 +2,8 @@
 
 pub mod accuracy;
 pub(crate) mod method;
-mod picture;
+pub(crate) mod picture;
+pub mod provenance;
 pub mod run;
 mod study;
 
@@ -11,6 +12,32 @@ pub use study::{Refused, Study};
 use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
+
+use anyhow::Context as _;
+use serde_json::Value;
+
+/// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
+/// their paths.
+pub(crate) fn write_files<const N: usize>(
+    folder: &Path,
+    stem: &str,
+    files: [(&str, String); N],
+) -> anyhow::Result<Vec<String>> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+    let write = |(extension, content): (&str, String)| {
+        let path = folder.join(stem).with_extension(extension);
+        write_whole(&path, &content)
+            .with_context(|| format!("cannot write `{}`", path.display()))?;
+        Ok(path.display().to_string())
+    };
+    files.into_iter().map(write).collect()
+}
+
+/// A document as the content of a file.
+pub(crate) fn pretty(document: &Value) -> anyhow::Result<String> {
+    Ok(serde_json::to_string_pretty(document)? + "\n")
+}
 
 /// Never leaves half a file under its final name.
 pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {

@@ -121,15 +121,28 @@ fn slope(all: &[(f64, f64)], order: f64) -> Vec<(f64, f64)> {
     vec![(*h, start), (end, start * (end / h).powf(order))]
 }
 
+/// The points that no other one beats in both coordinates, from left to right.
+pub(crate) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut points: Vec<_> = points.collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut least = f64::INFINITY;
+    points.retain(|(_, error)| {
+        let better = *error < least;
+        least = least.min(*error);
+        better
+    });
+    points
+}
+
 /// The range of some positive values, widened by a factor; a harmless one where there are none.
-pub(super) fn span(values: impl Iterator<Item = f64>, factor: f64) -> (f64, f64) {
+pub(crate) fn span(values: impl Iterator<Item = f64>, factor: f64) -> (f64, f64) {
     let (least, greatest) = values
         .fold((f64::INFINITY, 0.0_f64), |(least, greatest), v| (least.min(v), greatest.max(v)));
     if greatest > 0.0 { (least / factor, greatest * factor) } else { (0.1, 1.0) }
 }
 
 /// Those of the values whose labels do not overlap on a logarithmic axis.
-fn apart(values: impl Iterator<Item = f64>, range: (f64, f64)) -> Vec<f64> {
+pub(crate) fn apart(values: impl Iterator<Item = f64>, range: (f64, f64)) -> Vec<f64> {
     let room = (range.1 / range.0).ln() / 9.0;
     let mut values: Vec<_> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -138,7 +151,7 @@ fn apart(values: impl Iterator<Item = f64>, range: (f64, f64)) -> Vec<f64> {
 }
 
 /// Labelled and unlabelled places on a logarithmic axis: decades if there are two or more.
-pub(super) fn ticks(range: (f64, f64)) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn ticks(range: (f64, f64)) -> (Vec<f64>, Vec<f64>) {
     let exponents = range.0.log10().floor() as i32..=range.1.log10().ceil() as i32;
     let inside = |digits: &[u8]| -> Vec<f64> {
         let values = exponents.clone().flat_map(|exponent| {

@@ -6,6 +6,7 @@ use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Errors, Method};
 use serde_json::{Map, Value, json};
 
+use super::provenance::Provenance;
 use super::{duration, method};
 
 /// A run that was started.
@@ -20,6 +21,8 @@ pub struct Run {
     pub precision: &'static str,
     /// What came of it.
     pub run: mms_runtime::Run,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
 /// What errors are of: symbol, key and value.
@@ -44,7 +47,7 @@ impl Run {
     pub fn document(&self) -> Value {
         let (level, seconds) = (&self.run.level, self.run.seconds);
         let details = self.run.details.as_ref();
-        json!({
+        self.provenance.sign(json!({
             "field": self.field,
             "method": method::document(&self.method, self.precision),
             "cells": method::division(&level.cells),
@@ -68,7 +71,7 @@ impl Run {
                 "stress": seconds.stress,
             })),
             "failure": level.errors.as_ref().err().map(ToString::to_string),
-        })
+        }))
     }
 
     /// The text for a terminal.

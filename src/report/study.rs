@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_runtime::study::{Deviations, Fit, Judgement, Orders, Point, Refinement, Series};
@@ -10,8 +9,9 @@ use mms_runtime::{Division, Errors, Method, Refusal, Run};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::provenance::Provenance;
 use super::run::quantities;
-use super::{duration, method, picture, write_whole};
+use super::{duration, method, picture, pretty, write_files};
 
 /// A finished study.
 pub struct Study {
@@ -41,6 +41,8 @@ pub struct Study {
     pub error_constant: Option<f64>,
     /// Space and time in one formula, where that was asked for, and found.
     pub fit: Option<Fit>,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
 /// A level that was not started.
@@ -197,7 +199,7 @@ impl Study {
         };
         let differences =
             self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
-        json!({
+        self.provenance.sign(json!({
             "field": self.field,
             "method": method::document(&self.method, self.precision),
             "refinement": self.refinement.name(),
@@ -217,7 +219,7 @@ impl Study {
                 "residual": fit.residual,
             })),
             "verdict": self.judgement.verdict.to_string(),
-        })
+        }))
     }
 
     /// The tables for a terminal, with the verdict.
@@ -346,19 +348,12 @@ impl Study {
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
-        let json = serde_json::to_string_pretty(&self.document())? + "\n";
-        let files = [("svg", picture::draw(self)?), ("csv", self.csv()?), ("json", json)];
-        files
-            .into_iter()
-            .map(|(extension, content)| {
-                let path = folder.join("convergence").with_extension(extension);
-                write_whole(&path, &content)
-                    .with_context(|| format!("cannot write `{}`", path.display()))?;
-                Ok(path.display().to_string())
-            })
-            .collect()
+        let files = [
+            ("svg", picture::draw(self)?),
+            ("csv", self.csv()?),
+            ("json", pretty(&self.document())?),
+        ];
+        write_files(folder, "convergence", files)
     }
 
     fn csv(&self) -> anyhow::Result<String> {

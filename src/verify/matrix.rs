@@ -11,7 +11,7 @@ use crate::cli::method::MethodOptions;
 use crate::gallery::{self, Entry};
 
 /// The rows, in their order.
-const MATRIX: &str = include_str!("matrix.toml");
+pub const MATRIX: &str = include_str!("matrix.toml");
 
 /// A row as it is written.
 #[derive(Clone, Debug, Deserialize)]

@@ -9,6 +9,7 @@ use super::verdict::Judgement;
 use super::work::Outcome;
 use crate::report::duration;
 use crate::report::method::division;
+use crate::report::provenance::Provenance;
 
 /// Rows, with what came of them.
 pub struct Report<'a> {
@@ -16,6 +17,8 @@ pub struct Report<'a> {
     pub quick: bool,
     /// The rows that were run.
     pub rows: Vec<Judged<'a>>,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
 /// A row, with what came of it.
@@ -86,11 +89,11 @@ impl Report<'_> {
 
     /// The JSON document.
     pub fn document(&self) -> Value {
-        json!({
+        self.provenance.sign(json!({
             "matrix": if self.quick { "quick" } else { "full" },
             "rows": self.rows.iter().map(Judged::document).collect::<Vec<_>>(),
             "unexpected": self.unexpected().map(|judged| &judged.row.name).collect::<Vec<_>>(),
-        })
+        }))
     }
 
     /// The table for a terminal.

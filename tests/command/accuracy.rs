@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::mms::{BAR, Folder, keys};
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "quantity",
     "precision",
     "form",
@@ -17,6 +17,7 @@ const KEYS: [&str; 13] = [
     "not_finite",
     "overflowed",
     "undefined",
+    "within_bound",
     "ns_per_point",
 ];
 
@@ -28,7 +29,7 @@ fn rows(document: &Value) -> &[Value] {
 fn the_document_has_a_row_for_each_precision_and_form() {
     let arguments = "accuracy bar_1d --quantity body_force --regime declared --points 20 --json";
     let document = Folder::new().mms(arguments).exits(0).json();
-    assert_eq!(keys(&document), ["field", "points", "rows", "left_out"]);
+    assert_eq!(keys(&document), ["field", "points", "bound_eps", "rows", "left_out", "provenance"]);
     assert_eq!(
         (document["field"].as_str(), document["points"].as_u64()),
         (Some("bar_1d"), Some(20))

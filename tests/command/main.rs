@@ -12,6 +12,7 @@ mod material;
 mod mms;
 mod new;
 mod overview;
+mod report;
 mod rigid;
 mod run;
 mod saved;

@@ -30,6 +30,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
         "ns_per_particle_step",
         "seconds",
         "failure",
+        "provenance",
     ];
     assert_eq!(keys(&document), own);
     let quantities = ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];

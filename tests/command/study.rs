@@ -28,6 +28,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "error_constant",
             "fit",
             "verdict",
+            "provenance",
         ]
     );
     assert_eq!(

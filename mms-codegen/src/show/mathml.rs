@@ -13,16 +13,24 @@ use crate::quantity::Quantity;
 /// The whole derivation as a page.
 pub fn page(document: &Document) -> String {
     let title = format!("{}: {}", escape(&document.name), escape(&document.title));
-    let mut text = format!(
+    format!(
         "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n\
-         <head><meta charset=\"utf-8\"/><title>{title}</title></head>\n<body>\n"
-    );
+         <head><meta charset=\"utf-8\"/><title>{title}</title></head>\n<body>\n\
+         <h1>{title}</h1>\n{}</body>\n</html>\n",
+        part(document, 2)
+    )
+}
+
+/// What follows the title on a page, for a page of the caller's: its headings are `h2` for a level of 2, and
+/// so on.
+pub fn part(document: &Document, level: u8) -> String {
+    let mut text = String::new();
     for block in blocks(document) {
         match block {
-            Block::Title(..) => text.push_str(&format!("<h1>{title}</h1>\n")),
+            Block::Title(..) => {}
             Block::Note(note) => text.push_str(&format!("<p>{}</p>\n", escape(&note))),
             Block::Heading { name, relation, note, .. } => {
-                text.push_str(&format!("<h2>{}</h2>\n", escape(name)));
+                text.push_str(&format!("<h{level}>{}</h{level}>\n", escape(name)));
                 if let Some(note) = note {
                     text.push_str(&format!("<p>{}</p>\n", escape(&note)));
                 }
@@ -40,7 +48,6 @@ pub fn page(document: &Document) -> String {
             }
         }
     }
-    text.push_str("</body>\n</html>\n");
     text
 }
 

@@ -4,7 +4,6 @@ mod picture;
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_codegen::accuracy::{Accuracy, Errors, Precision, Row};
@@ -12,6 +11,8 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Form;
 use serde_json::{Value, json};
 
+use super::provenance::Provenance;
+use super::{pretty, write_files};
 use crate::workbench::Time;
 
 /// What the stable form promises, in eps of the largest value of a quantity.
@@ -31,19 +32,21 @@ pub struct Report {
     pub accuracy: Accuracy,
     /// What the emitted code costs; empty where that was not measured.
     pub times: Vec<(Form, Time)>,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
-/// Whether a row is beyond what is promised of it.
-fn is_broken(row: &Row) -> bool {
+/// Whether a row is within what is promised of it; nothing is promised of some.
+fn within_bound(row: &Row) -> Option<bool> {
     let Errors { max_scaled_eps, not_finite, .. } = row.errors;
     let is_promised = row.form == Form::Stable && PROMISED.contains(&row.regime.as_str());
-    is_promised && (max_scaled_eps > BOUND || max_scaled_eps.is_nan() || not_finite > 0)
+    is_promised.then_some(max_scaled_eps <= BOUND && not_finite == 0)
 }
 
 impl Report {
     /// The rows that are beyond what is promised of them.
     pub fn broken(&self) -> Vec<&Row> {
-        self.accuracy.rows.iter().filter(|row| is_broken(row)).collect()
+        self.accuracy.rows.iter().filter(|row| within_bound(row) == Some(false)).collect()
     }
 
     /// What the emitted code of a row takes.
@@ -71,6 +74,7 @@ impl Report {
                 "not_finite": errors.not_finite,
                 "overflowed": errors.overflowed,
                 "undefined": errors.undefined,
+                "within_bound": within_bound(row),
                 "ns_per_point": self.time(row.quantity, row.precision, row.form),
             })
         });
@@ -81,12 +85,13 @@ impl Report {
                 "reason": it.reason,
             })
         });
-        json!({
+        self.provenance.sign(json!({
             "field": self.field,
             "points": self.points,
+            "bound_eps": BOUND,
             "rows": rows.collect::<Vec<_>>(),
             "left_out": left_out.collect::<Vec<_>>(),
-        })
+        }))
     }
 
     /// The rows that are shown: all, or of each quantity, precision and form that of the largest
@@ -171,26 +176,12 @@ impl Report {
 
     /// Writes accuracy.json and, where there are times, accuracy.svg into a folder; returns their
     /// paths.
-    pub fn write(
-        &self,
-        folder: &Path,
-        write_whole: impl Fn(&Path, &str) -> anyhow::Result<()>,
-    ) -> anyhow::Result<Vec<String>> {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
-        let mut files = vec![("json", serde_json::to_string_pretty(&self.document())? + "\n")];
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let mut paths = write_files(folder, "accuracy", [("json", pretty(&self.document())?)])?;
         if !self.times.is_empty() {
-            files.push(("svg", picture::draw(self)?));
+            paths.extend(write_files(folder, "accuracy", [("svg", picture::draw(self)?)])?);
         }
-        files
-            .into_iter()
-            .map(|(extension, content)| {
-                let path = folder.join("accuracy").with_extension(extension);
-                write_whole(&path, &content)
-                    .with_context(|| format!("cannot write `{}`", path.display()))?;
-                Ok(path.display().to_string())
-            })
-            .collect()
+        Ok(paths)
     }
 }
 

@@ -6,7 +6,7 @@ use mms_codegen::selection::Form;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use super::super::picture::{span, ticks};
+use super::super::picture::{front, span, ticks};
 use super::Report;
 
 const SIZE: (u32, u32) = (760, 520);
@@ -58,19 +58,6 @@ fn marks(report: &Report) -> Vec<Mark> {
     marks
 }
 
-/// Those that no other one beats in both, from fast to accurate.
-fn front(marks: &[Mark]) -> Vec<(f64, f64)> {
-    let mut points: Vec<_> = marks.iter().map(|mark| (mark.ns_per_point, mark.error)).collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    points.retain(|(_, error)| {
-        let better = *error < least;
-        least = least.min(*error);
-        better
-    });
-    points
-}
-
 fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
@@ -105,7 +92,12 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw()?;
     if !marks.is_empty() {
         chart
-            .draw_series(DashedLineSeries::new(front(&marks), 6, 4, FRONT.stroke_width(2)))?
+            .draw_series(DashedLineSeries::new(
+                front(marks.iter().map(|mark| (mark.ns_per_point, mark.error))),
+                6,
+                4,
+                FRONT.stroke_width(2),
+            ))?
             .label("Pareto front")
             .legend(|(x, y)| {
                 DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))

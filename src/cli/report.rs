@@ -1,0 +1,78 @@
+//! `mms report`: results of a folder on a page.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+
+use super::{Outcome, print};
+use crate::gallery::{self, FIELDS};
+use crate::page::{self, Page, Verdicts};
+use crate::report::{write_files, write_whole};
+
+/// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
+/// convergence, the verification matrix, states of runs, the formulas and motions of the fields, and the commands
+/// that make it all again.
+///
+/// Results are the JSON documents that `mms study`, `verify`, `accuracy` and `run` write with `--output`, or print
+/// with `--json`, and the states of `run --vtk`, in DIR and in the folders in it. Files that are none of these are
+/// named, on the page and on stderr.
+///
+/// Exit code 1 if a verdict is not the expected one.
+#[derive(Args)]
+pub struct Report {
+    /// The folder with the results.
+    #[arg(value_name = "DIR", required_unless_present = "gallery")]
+    folder: Option<PathBuf>,
+    /// The file to write; DIR/report.html by default.
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Run the studies of every field of the gallery instead, and write a page for each, and index.html, to this
+    /// folder; takes a minute or two.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["folder", "output"])]
+    gallery: Option<PathBuf>,
+}
+
+impl Report {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let verdicts = match (&self.gallery, &self.folder) {
+            (Some(folder), _) => gallery(folder)?,
+            (None, Some(folder)) => self.results(folder)?,
+            (None, None) => bail!("expected a folder with results"),
+        };
+        Ok(if verdicts.are_expected() { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    /// Writes the page of a folder.
+    fn results(&self, folder: &Path) -> anyhow::Result<Verdicts> {
+        let page = Page::read(folder)?;
+        for line in page.set_aside() {
+            anstream::eprintln!("not on the page: {line}");
+        }
+        let path = self.output.clone().unwrap_or_else(|| folder.join("report.html"));
+        write_whole(&path, &page.html())
+            .with_context(|| format!("cannot write `{}`", path.display()))?;
+        let verdicts = page.verdicts();
+        print(&format!("{}\nwrote {}", verdicts.word, path.display()))?;
+        Ok(verdicts)
+    }
+}
+
+/// Writes the pages of the gallery.
+fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
+    let write = |name: &str, page: String| write_files(folder, name, [("html", page)]);
+    let mut fields = Vec::new();
+    for (entry, field) in FIELDS.iter().zip(gallery::fields()) {
+        anstream::eprintln!("{}", entry.name);
+        let page = page::gallery::page(entry)?;
+        write(entry.name, page.html())?;
+        fields.push((field, page.verdicts()));
+    }
+    write("index", page::gallery::index(&fields))?;
+    let (expected, all) = fields.iter().fold((0, 0), |(expected, all), (_, verdicts)| {
+        (expected + verdicts.expected, all + verdicts.all)
+    });
+    let word = format!("{expected} of {all} studies pass");
+    print(&format!("{word}\nwrote {} pages to {}", FIELDS.len() + 1, folder.display()))?;
+    Ok(Verdicts { expected, all, word })
+}

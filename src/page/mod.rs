@@ -1,0 +1,182 @@
+//! All results of a folder on one page of HTML: complete in itself, readable without a script, and well-formed
+//! XML.
+//!
+//! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
+
+mod accuracy;
+mod field;
+mod folder;
+mod frame;
+pub mod gallery;
+mod mark;
+mod motion;
+mod picture;
+mod plot;
+mod run;
+mod states;
+mod study;
+mod verify;
+
+use maud::{Markup, html};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::report::provenance::Provenance;
+use field::Shown;
+
+/// A result, ready to be shown.
+pub trait Section {
+    /// What it is, in a line.
+    fn title(&self) -> String;
+
+    /// What is said of it.
+    fn verdicts(&self) -> Verdicts;
+
+    /// What stands below its heading, which is an `h3`. Names of places in it begin with `id`.
+    fn body(&self, id: &str) -> Markup;
+}
+
+/// How many verdicts a result has, and how many of them are the expected ones.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Verdicts {
+    /// Of all.
+    pub expected: usize,
+    /// All.
+    pub all: usize,
+    /// The same in a word or two.
+    pub word: String,
+}
+
+impl Verdicts {
+    /// One verdict.
+    fn one(word: &str, is_expected: bool) -> Self {
+        Self { expected: is_expected.into(), all: 1, word: word.into() }
+    }
+
+    /// Whether there is none that is not.
+    pub fn are_expected(&self) -> bool {
+        self.expected == self.all
+    }
+}
+
+/// How a kind of document is read.
+struct Kind {
+    /// The `kind` of its provenance.
+    name: &'static str,
+    /// What stands above all of them.
+    heading: &'static str,
+    read: fn(&Value) -> serde_json::Result<Box<dyn Section>>,
+}
+
+impl Kind {
+    const fn of<T: Section + DeserializeOwned + 'static>(
+        name: &'static str,
+        heading: &'static str,
+    ) -> Self {
+        let read = |document: &Value| -> serde_json::Result<Box<dyn Section>> {
+            Ok(Box::new(T::deserialize(document)?))
+        };
+        Self { name, heading, read }
+    }
+}
+
+/// The kinds of documents, in their order on a page.
+const KINDS: &[Kind] = &[
+    Kind::of::<study::Study>("study", "Convergence studies"),
+    Kind::of::<verify::Matrix>("verify", "Verification matrix"),
+    Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
+    Kind::of::<run::Run>("run", "Single runs"),
+];
+
+/// A result with what is known of it.
+struct Entry {
+    /// The name of its place on the page.
+    id: String,
+    /// What stands above all of its kind.
+    heading: &'static str,
+    /// Its file, below the folder.
+    file: String,
+    /// Where it is from, if that is written down.
+    provenance: Option<Provenance>,
+    section: Box<dyn Section>,
+}
+
+/// A page.
+pub struct Page {
+    title: String,
+    /// In the order of [`KINDS`], then of their files.
+    entries: Vec<Entry>,
+    /// The fields of the entries.
+    fields: Vec<Shown>,
+    /// Files that are not shown, and why.
+    set_aside: Vec<String>,
+}
+
+impl Page {
+    fn new(title: &str, mut entries: Vec<Entry>, set_aside: Vec<String>) -> Self {
+        let place = |entry: &Entry| KINDS.iter().position(|kind| kind.heading == entry.heading);
+        entries.sort_by_key(|entry| place(entry).unwrap_or(KINDS.len()));
+        for (number, entry) in entries.iter_mut().enumerate() {
+            entry.id = format!("result-{}", number + 1);
+        }
+        let fields = field::fields(entries.iter().filter_map(|entry| entry.provenance.as_ref()));
+        Self { title: title.to_owned(), entries, fields, set_aside }
+    }
+
+    /// What was not understood, a line each.
+    pub fn set_aside(&self) -> &[String] {
+        &self.set_aside
+    }
+
+    /// What is said of all results together.
+    pub fn verdicts(&self) -> Verdicts {
+        let each = || self.entries.iter().map(|entry| entry.section.verdicts());
+        let expected = each().map(|verdicts| verdicts.expected).sum();
+        let all = each().map(|verdicts| verdicts.all).sum();
+        let word = match all - expected {
+            _ if all == 0 => "nothing here has a verdict".into(),
+            0 if all == 1 => "the verdict is as expected".into(),
+            1 if all == 1 => "the verdict is not as expected".into(),
+            0 => format!("all {all} verdicts are as expected"),
+            1 => format!("1 of {all} verdicts is not as expected"),
+            several => format!("{several} of {all} verdicts are not as expected"),
+        };
+        Verdicts { expected, all, word }
+    }
+
+    /// The page.
+    pub fn html(&self) -> String {
+        frame::page(self).into_string()
+    }
+}
+
+/// The result of a document.
+fn entry(file: &str, document: &Value) -> Result<Entry, String> {
+    let provenance = document.get("provenance").ok_or("it does not say what made it")?;
+    let provenance = Provenance::deserialize(provenance)
+        .map_err(|error| format!("where it is from cannot be read: {error}"))?;
+    let known = KINDS.iter().find(|kind| kind.name == provenance.kind);
+    let kind = known.ok_or_else(|| format!("nothing is known of a `{}`", provenance.kind))?;
+    let section = (kind.read)(document)
+        .map_err(|error| format!("not what `mms {}` writes: {error}", kind.name))?;
+    let [id, file] = [String::new(), file.to_owned()];
+    Ok(Entry { id, heading: kind.heading, file, provenance: Some(provenance), section })
+}
+
+/// Where a result is from.
+fn origin(entry: &Entry) -> Markup {
+    let Some(Provenance { version, command, input, machine, .. }) = &entry.provenance else {
+        return html! { dl.origin { dt { "file" } dd { code { (entry.file) } } } };
+    };
+    html! {
+        dl.origin {
+            dt { "command" } dd { code { (command) } }
+            dt { "file" } dd { code { (entry.file) } }
+            dt { "version" } dd { "mms " (version) ", input " code { (input.hash) } }
+            @if let Some(machine) = machine {
+                dt { "machine" } dd { (machine.processor) ", " (machine.cores) " cores" }
+            }
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Bodies in motion: shapes in a plane at several times, in one scale, coloured in eight steps.
+
+use std::fmt::Write as _;
+
+use maud::{Markup, html};
+
+use super::plot::short;
+
+/// Steps of the colour scale.
+pub const STEPS: usize = 8;
+
+/// The width of a picture in its own units, which are whole numbers.
+const WIDTH: f64 = 1000.0;
+
+/// A body at a time.
+#[derive(Clone, PartialEq)]
+pub struct Moment {
+    /// When.
+    pub time: f64,
+    /// What is painted, one over the other.
+    pub shapes: Vec<Shape>,
+    /// Lines around it: where it was at rest.
+    pub outline: Vec<Vec<[f64; 2]>>,
+}
+
+/// A polygon, or a dot if it has one corner.
+#[derive(Clone, PartialEq)]
+pub struct Shape {
+    /// To the right and upwards.
+    pub corners: Vec<[f64; 2]>,
+    /// Its colour, less than [`STEPS`].
+    pub step: usize,
+}
+
+/// What the colours mean.
+pub struct Scale {
+    /// The quantity.
+    pub name: &'static str,
+    /// Where the first colour begins and the last one ends.
+    pub range: [f64; 2],
+    /// Whether equal steps are equal factors.
+    pub is_logarithmic: bool,
+}
+
+impl Scale {
+    /// The colour of a value.
+    pub fn step(&self, value: f64) -> usize {
+        let [from, to] = self.range;
+        let share = match self.is_logarithmic {
+            true => (value / from).ln() / (to / from).ln(),
+            false => (value - from) / (to - from),
+        };
+        ((share * STEPS as f64).max(0.0) as usize).min(STEPS - 1)
+    }
+
+    fn html(&self) -> Markup {
+        let how = if self.is_logarithmic { ", in equal factors" } else { "" };
+        html! {
+            p.scale {
+                (self.name) ": " (short(self.range[0])) " "
+                svg viewBox="0 0 160 12" aria-hidden="true" xmlns="http://www.w3.org/2000/svg" {
+                    @for step in 0..STEPS {
+                        rect class=(format!("c{step}")) x=(20 * step) y="0" width="20" height="12" {}
+                    }
+                }
+                " " (short(self.range[1])) (how)
+            }
+        }
+    }
+}
+
+/// A point of a body on paper, to the right and upwards; a body in space is seen from X = Y = Z.
+pub fn project(point: &[f64]) -> [f64; 2] {
+    match *point {
+        [x] => [x, 0.0],
+        [x, y] => [x, y],
+        [x, y, z, ..] => [(y - x) / 2f64.sqrt(), (2.0 * z - x - y) / 6f64.sqrt()],
+        [] => [0.0; 2],
+    }
+}
+
+/// From the bounds of all moments to those of a picture.
+struct Window {
+    left: f64,
+    top: f64,
+    scale: f64,
+    height: f64,
+}
+
+impl Window {
+    fn around(moments: &[Moment]) -> Self {
+        let shapes = moments.iter().flat_map(|it| it.shapes.iter().map(|shape| &shape.corners));
+        let points = shapes.chain(moments.iter().flat_map(|it| &it.outline)).flatten();
+        let (mut least, mut greatest) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points {
+            for axis in 0..2 {
+                least[axis] = least[axis].min(point[axis]);
+                greatest[axis] = greatest[axis].max(point[axis]);
+            }
+        }
+        let size = [greatest[0] - least[0], greatest[1] - least[1]];
+        let longest = size[0].max(size[1]).max(f64::MIN_POSITIVE);
+        let margin = 0.03 * longest;
+        let scale = WIDTH / (size[0].max(0.2 * longest) + 2.0 * margin);
+        Self {
+            left: least[0] - margin,
+            top: greatest[1] + margin,
+            scale,
+            height: ((size[1] + 2.0 * margin) * scale).ceil(),
+        }
+    }
+
+    fn place(&self, [x, y]: [f64; 2]) -> [i64; 2] {
+        [
+            ((x - self.left) * self.scale).round() as i64,
+            ((self.top - y) * self.scale).round() as i64,
+        ]
+    }
+
+    /// A line through points, its steps relative to the point before.
+    fn line(&self, points: &[[f64; 2]], path: &mut String) {
+        let mut before = [0; 2];
+        for (at, point) in points.iter().enumerate() {
+            let [x, y] = self.place(*point);
+            let _ = match at {
+                0 => write!(path, "M{x} {y}l"),
+                _ => write!(path, "{} {} ", x - before[0], y - before[1]),
+            };
+            before = [x, y];
+        }
+    }
+}
+
+/// The pictures of some moments side by side, and what their colours mean. `dot` is the size of dots, in the units
+/// of the points.
+pub fn pictures(id: &str, of: &str, moments: &[Moment], scale: &Scale, dot: f64) -> Markup {
+    let window = Window::around(moments);
+    let is_flat = window.height < 0.25 * WIDTH;
+    let dot = (dot * window.scale).round().max(4.0) as i64;
+    html! {
+        div class=(if is_flat { "moments flat" } else { "moments" }) {
+            @for (number, moment) in moments.iter().enumerate() {
+                @let label = format!("{id}-{number}");
+                div {
+                    svg viewBox=(format!("0 0 {WIDTH} {}", window.height)) role="img" aria-labelledby=(label) xmlns="http://www.w3.org/2000/svg" {
+                        title id=(label) { (of) " at t = " (short(moment.time)) }
+                        (shapes(moment, &window, dot))
+                        @if !moment.outline.is_empty() {
+                            @let mut path = String::new();
+                            @for line in &moment.outline { @let () = window.line(line, &mut path); }
+                            path.rest d=(path.trim_end()) {}
+                        }
+                    }
+                    p aria-hidden="true" { "t = " (short(moment.time)) }
+                }
+            }
+        }
+        (scale.html())
+    }
+}
+
+/// Shapes in their order; neighbours of one colour share an element.
+fn shapes(moment: &Moment, window: &Window, dot: i64) -> Markup {
+    html! {
+        @for group in moment.shapes.chunk_by(|a, b| a.step == b.step) {
+            @let mut path = String::new();
+            @for shape in group { @let () = draw(shape, window, dot, &mut path); }
+            path class=(format!("c{}", group[0].step)) d=(path) {}
+        }
+    }
+}
+
+fn draw(shape: &Shape, window: &Window, dot: i64, path: &mut String) {
+    if let [point] = shape.corners[..] {
+        let [x, y] = window.place(point);
+        let _ = write!(path, "M{} {}h{dot}v{dot}h-{dot}z", x - dot / 2, y - dot / 2);
+        return;
+    }
+    window.line(&shape.corners, path);
+    path.truncate(path.trim_end().len());
+    path.push('z');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_part_their_range_evenly() {
+        let range = [1e-8, 1.0];
+        let linear = Scale { name: "", range: [0.0, 8.0], is_logarithmic: false };
+        let logarithmic = Scale { name: "", range, is_logarithmic: true };
+        for step in 0..STEPS {
+            assert_eq!(linear.step(step as f64 + 0.5), step);
+            assert_eq!(logarithmic.step(3.0 * 10f64.powi(step as i32 - 8)), step);
+        }
+        assert_eq!([linear.step(-1.0), linear.step(9.0), logarithmic.step(0.0)], [0, 7, 0]);
+    }
+
+    #[test]
+    fn a_body_in_space_is_seen_upright_and_from_the_front() {
+        let [right, up] = project(&[0.0, 0.0, 1.0]);
+        assert!(right == 0.0 && up > 0.0);
+        assert!(project(&[0.0, 1.0, 0.0])[0] > 0.0 && project(&[1.0, 0.0, 0.0])[0] < 0.0);
+    }
+
+    #[test]
+    fn all_moments_have_one_scale_and_stay_inside() {
+        let square = |size: f64| Moment {
+            time: size,
+            shapes: vec![Shape {
+                corners: vec![[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]],
+                step: 3,
+            }],
+            outline: Vec::new(),
+        };
+        let window = Window::around(&[square(1.0), square(2.0)]);
+        let corners = [window.place([0.0, 0.0]), window.place([2.0, 2.0])];
+        assert!(corners.iter().flatten().all(|it| (0..=1000).contains(it)), "{corners:?}");
+        assert!(corners[0][1] > corners[1][1], "upwards is upwards");
+    }
+}

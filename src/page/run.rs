@@ -1,0 +1,124 @@
+//! Single runs.
+
+use std::collections::BTreeMap;
+
+use maud::{Markup, html};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+use super::mark::{count, list, number, numbers, plain, seconds, small, table, words};
+use super::plot::short;
+use super::{Section, Verdicts};
+
+/// What `mms run` writes.
+#[derive(Deserialize)]
+pub struct Run {
+    field: String,
+    method: Map<String, Value>,
+    cells: Value,
+    cell_size: f64,
+    time_step: f64,
+    steps: usize,
+    particles: usize,
+    errors: Option<BTreeMap<String, Times>>,
+    diagnostics: Option<State>,
+    ns_per_particle_step: Option<f64>,
+    seconds: Option<BTreeMap<String, f64>>,
+    failure: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Times {
+    over_time: Norms,
+    at_end: Norms,
+}
+
+#[derive(Deserialize)]
+struct Norms {
+    l1: f64,
+    l2: f64,
+    linf: f64,
+}
+
+#[derive(Deserialize)]
+struct State {
+    mass: f64,
+    momentum: Vec<f64>,
+    kinetic_energy: f64,
+    jacobian: [f64; 2],
+}
+
+impl Section for Run {
+    fn title(&self) -> String {
+        let word = |key: &str| plain(self.method.get(key).unwrap_or(&Value::Null));
+        let cells = plain(&self.cells);
+        format!("{}: {} {}, {cells} cells", self.field, word("shape"), word("integrator"))
+    }
+
+    /// A run that reached its end is not judged.
+    fn verdicts(&self) -> Verdicts {
+        match self.failure {
+            None => Verdicts { word: "reached its end".into(), ..Verdicts::default() },
+            Some(_) => Verdicts::one("stopped", false),
+        }
+    }
+
+    fn body(&self, _: &str) -> Markup {
+        html! {
+            @if let Some(failure) = &self.failure { p.alert { (failure) } }
+            p {
+                (count(Some(self.particles))) " particles, " (count(Some(self.steps))) " steps of "
+                (small(Some(self.time_step))) ", cells of " (small(Some(self.cell_size))) "."
+                @if let Some(ns) = self.ns_per_particle_step { " " (format!("{ns:.0}")) " ns per particle and step." }
+            }
+            @if let Some(errors) = &self.errors { (norms(errors)) }
+            @if let Some(state) = &self.diagnostics { (at_end(state)) }
+            @if let Some(parts) = &self.seconds {
+                (table("What it took", &[words("part"), numbers("time")], parts.iter().map(|(part, time)| {
+                    vec![html! { (part) }, seconds(Some(*time))]
+                })))
+            }
+            details {
+                summary { "The method" }
+                (list(&self.method))
+            }
+        }
+    }
+}
+
+fn norms(errors: &BTreeMap<String, Times>) -> Markup {
+    let columns = [
+        words("error of"),
+        numbers("l1"),
+        numbers("l2"),
+        numbers("linf"),
+        numbers("l1 at the end"),
+        numbers("l2 at the end"),
+        numbers("linf at the end"),
+    ];
+    let rows = errors.iter().map(|(quantity, Times { over_time, at_end })| {
+        let norms = [over_time, at_end].map(|it| [it.l1, it.l2, it.linf]).concat();
+        let name = html! { (quantity) };
+        std::iter::once(name).chain(norms.into_iter().map(|norm| small(Some(norm)))).collect()
+    });
+    table("Errors, the largest over time and those at the end", &columns, rows)
+}
+
+fn at_end(state: &State) -> Markup {
+    let shown = |values: &[f64]| {
+        html! {
+            @for (at, value) in values.iter().enumerate() {
+                @if at > 0 { ", " }
+                (number(Some(*value), short))
+            }
+        }
+    };
+    let rows = [
+        ("mass", shown(&[state.mass])),
+        ("momentum", shown(&state.momentum)),
+        ("kinetic energy", shown(&[state.kinetic_energy])),
+        ("least and greatest J", shown(&state.jacobian)),
+    ];
+    let rows = rows.into_iter().map(|(name, value)| vec![html! { (name) }, value]);
+    table("The state at the end", &[words("sum over particles"), numbers("value")], rows)
+}

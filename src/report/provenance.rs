@@ -1,0 +1,125 @@
+//! Where a document is from: who made it, of what, on which machine, and how to make it again.
+
+use mms_codegen::Compiled;
+use mms_codegen::twin::Twin;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// The key `provenance` of a document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// The subcommand that made the document: what kind of result it is.
+    pub kind: String,
+    /// The version of `mms`.
+    pub version: String,
+    /// What to type to make it again.
+    pub command: String,
+    /// What was computed with.
+    pub input: Input,
+    /// Where; nothing on a page that is the same everywhere.
+    pub machine: Option<Machine>,
+}
+
+/// What a result is of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Input {
+    /// A gallery name or a path to a TOML file, as it was given; nothing, if it is of several fields.
+    pub field: Option<String>,
+    /// The rigid motion on top, as `--rigid` takes it; empty for the standard one.
+    pub rigid: Option<String>,
+    /// Parameters that were set.
+    pub set: Vec<String>,
+    /// What tells the texts of field and material from others.
+    pub hash: String,
+}
+
+impl Input {
+    /// A field, taken in some way.
+    pub fn new(field: &str, rigid: &Twin, set: &[String], compiled: &Compiled) -> Self {
+        let rigid = match rigid {
+            Twin::Nothing => None,
+            Twin::Standard => Some(String::new()),
+            Twin::Given(keys) => Some(keys.clone()),
+        };
+        Self { field: Some(field.into()), rigid, set: set.to_vec(), hash: compiled.input_hash() }
+    }
+
+    /// The motion on top of the field.
+    pub fn twin(&self) -> Twin {
+        match self.rigid.as_deref() {
+            None => Twin::Nothing,
+            Some("") => Twin::Standard,
+            Some(keys) => Twin::Given(keys.into()),
+        }
+    }
+}
+
+/// What computed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    /// The name of the processor; of its architecture, where it does not tell.
+    pub processor: String,
+    /// How many of its cores there are for this program.
+    pub cores: usize,
+}
+
+impl Machine {
+    /// This one.
+    pub fn this() -> Self {
+        let described = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let name = described.lines().find_map(|line| {
+            let (key, value) = line.split_once(':')?;
+            (key.trim() == "model name").then(|| value.trim().to_owned())
+        });
+        Self {
+            processor: name.unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
+            cores: std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+}
+
+impl Provenance {
+    /// Of what this program computes here and now, by a command line, program included.
+    pub fn new(kind: &str, arguments: &[String], input: Input) -> Self {
+        let words = arguments.iter().skip(1).map(|word| quoted(word));
+        Self {
+            kind: kind.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            command: ["mms".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" "),
+            input,
+            machine: Some(Machine::this()),
+        }
+    }
+
+    /// A document, and below it where it is from.
+    pub fn sign(&self, mut document: Value) -> Value {
+        if let Value::Object(keys) = &mut document {
+            keys.insert("provenance".to_owned(), serde_json::json!(self));
+        }
+        document
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-+=.,:/@%".contains(&byte);
+    match !word.is_empty() && word.bytes().all(is_plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_is_what_a_shell_reads_back() {
+        let input = Input { field: None, rigid: None, set: Vec::new(), hash: String::new() };
+        let words = ["/bin/mms", "study", "--rigid=rotation = \"pi*t\"", "it's", "", "8,16"];
+        let words = words.map(str::to_owned);
+        let found = Provenance::new("study", &words, input).command;
+        let expected = r#"mms study '--rigid=rotation = "pi*t"' 'it'\''s' '' 8,16"#;
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,422 @@
+//! `mms report`: its page is XML, so that a parser of XML reads it.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use roxmltree::{Document, Node, ParsingOptions};
+use serde_json::Value;
+
+use super::mms::{Folder, Run};
+
+/// A folder with a result of each kind.
+static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
+    let time = "--formulation total --shape linear --refine time --cells 32 --levels 3";
+    folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
+    folder.mms("verify --row time/usl --store store --output all/matrix").exits(0);
+    folder
+        .mms("run axis_aligned_2d --cells 4 --output all/run --vtk all/states --frames 3")
+        .exits(0);
+    let accuracy =
+        "accuracy bar_1d --quantity J,P --regime declared,displacement_1e-8 --points 40 --json";
+    folder.write("all/accuracy/printed.json", &folder.mms(accuracy).exits(0).stdout);
+    folder.mms("report all").exits(0);
+    folder
+});
+
+/// The page of [`RESULTS`].
+static PAGE: LazyLock<String> = LazyLock::new(|| RESULTS.read("all/report.html"));
+
+fn document(name: &str) -> Value {
+    serde_json::from_str(&RESULTS.read(&format!("all/{name}.json"))).expect("JSON")
+}
+
+fn parse(page: &str) -> Document<'_> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    Document::parse_with_options(page, options).expect("XML")
+}
+
+fn named<'a, 'b>(node: Node<'a, 'b>, tag: &str) -> impl Iterator<Item = Node<'a, 'b>> {
+    let tag = tag.to_owned();
+    node.descendants().filter(move |node| node.tag_name().name() == tag)
+}
+
+fn text(node: Node) -> String {
+    node.descendants().filter(|node| node.is_text()).filter_map(|node| node.text()).collect()
+}
+
+/// A cell: what is shown, and the number behind it.
+type Cell = (String, Option<f64>);
+
+/// A table: its columns and its rows.
+struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+}
+
+/// The tables of the section whose heading begins like this, by their captions.
+fn tables(page: &Document, heading: &str) -> BTreeMap<String, Table> {
+    let section = named(page.root(), "section").find(|section| {
+        section.children().any(|it| it.tag_name().name() == "h3" && text(it).starts_with(heading))
+    });
+    let section = section.unwrap_or_else(|| panic!("no section `{heading}`"));
+    let cells = |row: Node| -> Vec<Cell> {
+        let cells = row.children().filter(Node::is_element);
+        cells
+            .map(|cell| {
+                let number = named(cell, "data").next().map(|data| {
+                    data.attribute("value").and_then(|value| value.parse().ok()).expect("a number")
+                });
+                (text(cell), number)
+            })
+            .collect()
+    };
+    let table = |table: Node| {
+        let mut rows = named(table, "tr").map(cells);
+        let columns = rows.next().expect("a head").into_iter().map(|(name, _)| name).collect();
+        let caption = text(named(table, "caption").next().expect("a caption"));
+        (caption, Table { columns, rows: rows.collect() })
+    };
+    named(section, "table").map(table).collect()
+}
+
+/// Asserts that a cell shows a member of a document, to the digits that it shows.
+fn assert_shows((shown, number): &Cell, value: &Value, place: &str) {
+    match value {
+        Value::Null => assert!(matches!(shown.as_str(), "\u{2013}" | ""), "{place}: {shown}"),
+        Value::Number(value) => {
+            let value = value.as_f64().expect("a number");
+            // Counts are shown as they are.
+            let number = number.or_else(|| shown.parse().ok());
+            assert_eq!(number, Some(value), "{place}");
+            if let Ok(read) = shown.parse::<f64>() {
+                // Half of the last digit that is shown.
+                let (digits, exponent) = shown.split_once('e').unwrap_or((shown, "0"));
+                let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+                let exponent: i32 = exponent.parse().expect("an exponent");
+                let last = 0.5 * 10f64.powi(exponent - decimals as i32);
+                assert!(
+                    (read - value).abs() <= last * (1.0 + 1e-9),
+                    "{place}: {shown} for {value:e}"
+                );
+            }
+        }
+        Value::String(value) => assert!(shown.ends_with(value.as_str()), "{place}: {shown}"),
+        other => panic!("{place}: {other}"),
+    }
+}
+
+/// Asserts that the rows of a table are objects of a document, whose keys its columns are.
+fn assert_rows(table: &Table, rows: &[Value], keys: &[&str]) {
+    assert_eq!(table.columns.len(), keys.len(), "{:?}", table.columns);
+    assert_eq!(table.rows.len(), rows.len());
+    assert!(!rows.is_empty());
+    for (cells, row) in table.rows.iter().zip(rows) {
+        for (cell, key) in cells.iter().zip(keys).filter(|(_, key)| !key.is_empty()) {
+            assert_shows(cell, &row[key], key);
+        }
+    }
+}
+
+fn array(value: &Value) -> &[Value] {
+    value.as_array().expect("an array")
+}
+
+const NORMS: [&str; 6] = ["l1", "order_l1", "l2", "order_l2", "linf", "order_linf"];
+
+fn with_norms<'a>(before: &[&'a str], after: &[&'a str]) -> Vec<&'a str> {
+    before.iter().chain(&NORMS).chain(after).copied().collect()
+}
+
+#[test]
+fn the_numbers_of_a_study_are_those_of_its_document() {
+    let (page, study) = (parse(&PAGE), document("bar/convergence"));
+    let mut tables = tables(&page, "bar_1d: cpgimp leapfrog");
+    let levels =
+        tables.remove("Errors of the displacement, the largest over time").expect("levels");
+    let keys = with_norms(&["cells", "particles", "steps"], &["round_off", "seconds", "failure"]);
+    assert_rows(&levels, array(&study["levels"]), &keys);
+    for name in ["velocity", "deformation_gradient", "first_piola_kirchhoff"] {
+        let caption = format!("Errors of the {name}");
+        let table = tables.remove(&caption).expect("a table");
+        assert_rows(&table, array(&study["quantities"][name]), &with_norms(&[""], &[]));
+    }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_a_study_in_time_are_those_of_its_document() {
+    let (page, study) = (parse(&PAGE), document("time/convergence"));
+    let mut tables = tables(&page, "bar_1d: linear leapfrog, in time");
+    let steps = tables.remove("Differences of displacements to the next level").expect("steps");
+    assert_rows(&steps, array(&study["differences"]), &with_norms(&["time_step"], &[]));
+    tables.remove("Errors of the displacement, the largest over time").expect("levels");
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_the_matrix_are_those_of_its_document() {
+    let (page, matrix) = (parse(&PAGE), document("matrix/verification"));
+    let mut tables = tables(&page, "The full matrix");
+    let table = tables.remove("Modes of time").expect("the group");
+    let keys = [
+        "study",
+        "refined",
+        "quantity",
+        "formal_order",
+        "observed_order",
+        "",
+        "error_constant",
+        "expected_error_constant",
+        "verdict",
+        "seconds",
+    ];
+    assert_rows(&table, array(&matrix["rows"]), &keys);
+    for (cells, row) in table.rows.iter().zip(array(&matrix["rows"])) {
+        let levels = array(&row["levels"]);
+        assert!(cells[0].0.contains(row["theory"].as_str().expect("a text")));
+        assert_shows(&cells[5], &levels[levels.len() - 2]["order_l2"], "before");
+    }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_a_run_are_those_of_its_document() {
+    let (page, run) = (parse(&PAGE), document("run/run"));
+    let mut tables = tables(&page, "axis_aligned_2d: cpgimp leapfrog, 4 cells");
+    let errors =
+        tables.remove("Errors, the largest over time and those at the end").expect("errors");
+    for row in &errors.rows {
+        let of = &run["errors"][row[0].0.as_str()];
+        let norms =
+            ["over_time", "at_end"].map(|when| ["l1", "l2", "linf"].map(|norm| &of[when][norm]));
+        for (cell, value) in row[1..].iter().zip(norms.concat()) {
+            assert_shows(cell, value, &row[0].0);
+        }
+    }
+    assert_eq!(errors.rows.len(), 4);
+    let state = tables.remove("The state at the end").expect("the state");
+    assert_shows(&state.rows[0][1], &run["diagnostics"]["mass"], "mass");
+    assert_shows(&state.rows[2][1], &run["diagnostics"]["kinetic_energy"], "energy");
+    let parts = tables.remove("What it took").expect("times");
+    for row in &parts.rows {
+        assert_eq!(row[1].1, run["seconds"][row[0].0.as_str()].as_f64(), "{}", row[0].0);
+    }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_accuracy_are_those_of_its_document() {
+    let (page, accuracy) = (parse(&PAGE), document("accuracy/printed"));
+    let tables = tables(&page, "bar_1d: errors against arbitrary precision");
+    let keys = [
+        "quantity",
+        "precision",
+        "form",
+        "regime",
+        "median_eps",
+        "p99_eps",
+        "max_eps",
+        "max_scaled_eps",
+        "not_finite",
+        "ns_per_point",
+        "",
+    ];
+    let rows = array(&accuracy["rows"]);
+    let regimes = &tables["Largest error of any quantity, in eps of its largest value"];
+    assert_eq!(regimes.rows.len(), 2);
+    for shown in &regimes.rows {
+        for (cell, way) in shown[1..].iter().zip(&regimes.columns[1..]) {
+            let (precision, form) = way.split_once(", ").expect("a precision and a form");
+            let of = |row: &&Value| {
+                row["regime"] == shown[0].0 && row["precision"] == precision && row["form"] == form
+            };
+            let errors = rows.iter().filter(of).filter_map(|row| row["max_scaled_eps"].as_f64());
+            assert_eq!(cell.1, errors.reduce(f64::max), "{way}");
+        }
+    }
+    assert_rows(&tables["Every regime"], rows, &keys);
+    let worst = &tables["The regime with the largest error, of each quantity, precision and form"];
+    assert_eq!(2 * worst.rows.len(), rows.len(), "two regimes");
+    for shown in &worst.rows {
+        let same = |row: &&Value| {
+            row["quantity"] == shown[0].0
+                && row["precision"] == shown[1].0
+                && row["form"] == shown[2].0
+        };
+        let errors = rows.iter().filter(same).filter_map(|row| row["max_scaled_eps"].as_f64());
+        assert_eq!(shown[7].1, Some(errors.fold(0.0, f64::max)));
+    }
+    assert_eq!(tables.len(), 3);
+}
+
+#[test]
+fn the_summary_has_every_result_and_its_verdict() {
+    let page = parse(&PAGE);
+    let table = named(page.root(), "table").next().expect("a table");
+    let rows: Vec<Vec<String>> = named(table, "tr")
+        .skip(1)
+        .map(|row| row.children().filter(Node::is_element).map(text).collect())
+        .collect();
+    assert_eq!(rows.len(), 6, "{rows:?}");
+    assert!(rows.iter().any(|row| row[0].starts_with("bar_1d") && row[2].ends_with("pass")));
+    assert!(rows.iter().any(|row| row[1] == "Verification matrix" && row[2].contains("1 of 1")));
+    let head = named(page.root(), "header").next().expect("a header");
+    assert!(text(head).contains("verdicts are as expected"), "{}", text(head));
+}
+
+#[test]
+fn nothing_on_the_page_is_from_elsewhere() {
+    let page = parse(&PAGE);
+    for node in page.descendants().filter(Node::is_element) {
+        let tag = node.tag_name().name();
+        assert!(
+            !matches!(tag, "script" | "link" | "img" | "iframe" | "object" | "base"),
+            "<{tag}>"
+        );
+        for attribute in node.attributes() {
+            let name = attribute.name();
+            assert!(!name.starts_with("on") && name != "src", "{tag} {name}");
+            if name == "href" {
+                assert!(attribute.value().starts_with('#'), "{}", attribute.value());
+            }
+        }
+    }
+    let style = text(named(page.root(), "style").next().expect("a style"));
+    assert!(!style.contains("url(") && !style.contains("@import"));
+}
+
+#[test]
+fn links_lead_to_places_and_every_place_is_one() {
+    let page = parse(&PAGE);
+    let ids: Vec<_> = page.descendants().filter_map(|node| node.attribute("id")).collect();
+    let mut once = ids.clone();
+    once.sort_unstable();
+    once.dedup();
+    assert_eq!(once.len(), ids.len(), "{ids:?}");
+    let links = page.descendants().filter_map(|node| node.attribute("href"));
+    let labels = page.descendants().filter_map(|node| node.attribute("aria-labelledby"));
+    let targets: Vec<_> =
+        links.map(|link| &link[1..]).chain(labels.flat_map(str::split_whitespace)).collect();
+    assert!(targets.len() > 10);
+    for target in targets {
+        assert!(ids.contains(&target), "`{target}` is nowhere");
+    }
+}
+
+#[test]
+fn a_screen_reader_finds_its_way() {
+    let page = parse(&PAGE);
+    let level = |node: &Node| node.tag_name().name().strip_prefix('h')?.parse::<usize>().ok();
+    let levels: Vec<usize> = page.descendants().filter_map(|node| level(&node)).collect();
+    assert_eq!(levels.iter().filter(|level| **level == 1).count(), 1);
+    assert_eq!(levels[0], 1);
+    assert!(levels.windows(2).all(|pair| pair[1] <= pair[0] + 1), "{levels:?}");
+    for table in named(page.root(), "table") {
+        assert!(named(table, "caption").next().is_some());
+        assert!(named(table, "th").all(|th| matches!(th.attribute("scope"), Some("col" | "row"))));
+    }
+    for svg in named(page.root(), "svg") {
+        let is_image =
+            svg.attribute("role") == Some("img") && svg.attribute("aria-labelledby").is_some();
+        assert!(is_image || svg.attribute("aria-hidden") == Some("true"));
+    }
+    assert!(named(page.root(), "math").count() > 20);
+    assert_eq!(page.root_element().attribute("lang"), Some("en"));
+}
+
+#[test]
+fn states_show_every_particle() {
+    let page = parse(&PAGE);
+    let section = named(page.root(), "section").find(|section| {
+        section.children().any(|it| text(it).starts_with("axis_aligned_2d: 4 states"))
+    });
+    let section = section.expect("the states");
+    let particles = document("run/run")["particles"].as_u64().expect("a number") as usize;
+    let pictures: Vec<_> =
+        named(section, "svg").filter(|svg| svg.attribute("role").is_some()).collect();
+    assert_eq!(pictures.len(), 4);
+    for picture in pictures {
+        let paths = named(picture, "path").filter_map(|path| path.attribute("d"));
+        assert_eq!(paths.map(|path| path.matches('z').count()).sum::<usize>(), particles);
+    }
+}
+
+#[test]
+fn a_page_says_where_each_result_is_from() {
+    for command in ["mms study bar_1d --cells 4,8,16 --output all/bar", "mms verify --row time/usl"]
+    {
+        assert!(PAGE.contains(command), "{command}");
+    }
+    let hash =
+        document("bar/convergence")["provenance"]["input"]["hash"].as_str().map(str::to_owned);
+    assert!(PAGE.contains(&hash.expect("a hash")));
+}
+
+#[test]
+fn a_verdict_that_is_not_as_expected_comes_first_and_exits_1() {
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 4,8 --integrator usl --output bad").exits(1);
+    folder.mms("report bad").exits(1).prints("the verdict is not as expected");
+    let page = folder.read("bad/report.html");
+    let page = parse(&page);
+    let main = named(page.root(), "header").next().expect("a header");
+    assert!(text(main).contains("the verdict is not as expected"));
+}
+
+#[test]
+fn what_is_no_result_is_named_and_left_where_it_is() {
+    let folder = Folder::new();
+    folder.mms("study bar_1d --cells 4,8 --output all/study");
+    folder.mms("verify --row time/usl --quick --store all/store").exits(0);
+    folder.write("all/a.json", "{");
+    folder.write("all/b.json", "[1, 2]");
+    folder.write("all/c.json", r#"{"provenance": 3}"#);
+    let study = folder.read("all/study/convergence.json");
+    folder.write("all/d.json", &study.replace("\"levels\"", "\"steps\""));
+    folder.write("all/e.json", &study.replace("\"study\"", "\"dance\""));
+    folder.write("all/f.pvd", "<VTKFile/>");
+    let run: Run = folder.mms("report all --output page.html");
+    let page = folder.read("page.html");
+    for (file, reason) in [
+        ("a.json", "not JSON"),
+        ("b.json", "it does not say what made it"),
+        ("c.json", "where it is from cannot be read"),
+        ("d.json", "not what `mms study` writes: missing field `levels`"),
+        ("e.json", "nothing is known of a `dance`"),
+        ("f.pvd", "no states in it"),
+    ] {
+        run.complains(&format!("{file}: {reason}"));
+        assert!(page.contains(&format!("{file}: {reason}")), "{file}");
+    }
+    run.complains("results of single runs, kept by `mms verify --store`");
+    assert_eq!(folder.read("all/a.json"), "{");
+}
+
+#[test]
+fn a_folder_without_results_exits_2() {
+    let folder = Folder::new();
+    folder.mms("report nowhere").exits(2).complains("`nowhere`: not a folder");
+    folder.write("empty/notes.txt", "");
+    folder.mms("report empty").exits(2).complains("`empty`: no results in it");
+    assert!(!folder.path("empty/report.html").exists());
+    folder.mms("study bar_1d --cells 4,8 --output one");
+    folder
+        .mms("report one --output no/where.html")
+        .exits(2)
+        .complains("cannot write `no/where.html`");
+}
+
+#[test]
+fn formulas_of_a_file_that_changed_are_not_shown() {
+    let folder = Folder::with_bar("mine.toml");
+    folder.mms("study mine.toml --cells 4,8 --output one");
+    folder.mms("report one");
+    assert!(folder.read("one/report.html").contains("<math"));
+    let text = folder.read("mine.toml");
+    folder.write("mine.toml", &text.replace("value = 0.2", "value = 0.1"));
+    folder.mms("report one");
+    let page = folder.read("one/report.html");
+    assert!(!page.contains("<math") && page.contains("its text is another one now"), "{page}");
+}
