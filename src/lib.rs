@@ -12,6 +12,8 @@ pub mod report;
 pub mod scene;
 pub mod schema;
 mod store;
+mod tradeoff;
+mod trial;
 mod verify;
 mod vtk;
 pub mod workbench;

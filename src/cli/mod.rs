@@ -8,15 +8,17 @@ pub(crate) mod input;
 mod list;
 pub(crate) mod method;
 mod new;
-mod progress;
+pub(crate) mod progress;
 mod run;
 mod saved;
 mod schema;
 mod show;
-mod stability;
+pub(crate) mod stability;
 mod study;
+mod tradeoff;
 mod verify;
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -47,6 +49,7 @@ enum Command {
     Run(run::Run),
     Study(study::Study),
     Verify(verify::Verify),
+    Tradeoff(tradeoff::Tradeoff),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -93,9 +96,21 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(),
         Some(Command::Verify(verify)) => verify.run(),
+        Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }
+}
+
+/// Where to write what is said of a field. What can be seen to be wrong with it is said before any work is done.
+fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
+    let own = name.trim_start_matches('.');
+    let own = if own.is_empty() { "field" } else { own };
+    let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
+    if folder.exists() && !folder.is_dir() {
+        anyhow::bail!("`--output {}`: not a folder", folder.display());
+    }
+    Ok(folder)
 }
 
 /// Prints one JSON document.

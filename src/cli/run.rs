@@ -11,6 +11,7 @@ use super::method::{MethodOptions, Precision};
 use super::progress::{OfRun, Progress};
 use super::{Outcome, print, print_json};
 use crate::report::run::Run as Report;
+use crate::scene::usual_cells;
 use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
@@ -71,7 +72,7 @@ impl Run {
         let input = Input::find(&self.field, &self.variant)?;
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
-        let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
+        let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
         let vtk = self.vtk.as_deref().map(|folder| {
             Writer::new(folder, input.name.trim_start_matches('.'), self.frames as usize)
         });

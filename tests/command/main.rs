@@ -18,5 +18,6 @@ mod show;
 mod study;
 mod study_files;
 mod study_methods;
+mod tradeoff;
 mod verify;
 mod vtk;

@@ -6,6 +6,7 @@ use mms_codegen::selection::Form;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
+use super::super::front::front;
 use super::super::picture::{span, ticks};
 use super::Report;
 
@@ -59,16 +60,9 @@ fn marks(report: &Report) -> Vec<Mark> {
 }
 
 /// Those that no other one beats in both, from fast to accurate.
-fn front(marks: &[Mark]) -> Vec<(f64, f64)> {
-    let mut points: Vec<_> = marks.iter().map(|mark| (mark.ns_per_point, mark.error)).collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    points.retain(|(_, error)| {
-        let better = *error < least;
-        least = least.min(*error);
-        better
-    });
-    points
+fn best(marks: &[Mark]) -> Vec<(f64, f64)> {
+    let points: Vec<_> = marks.iter().map(|mark| (mark.ns_per_point, mark.error)).collect();
+    front(&points).into_iter().map(|at| points[at]).collect()
 }
 
 fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
@@ -105,7 +99,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw()?;
     if !marks.is_empty() {
         chart
-            .draw_series(DashedLineSeries::new(front(&marks), 6, 4, FRONT.stroke_width(2)))?
+            .draw_series(DashedLineSeries::new(best(&marks), 6, 4, FRONT.stroke_width(2)))?
             .label("Pareto front")
             .legend(|(x, y)| {
                 DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))
