@@ -6,6 +6,7 @@
 //! never compiled.
 
 pub mod cli;
+mod extremes;
 pub mod gallery;
 pub mod interpreted;
 pub mod report;

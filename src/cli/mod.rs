@@ -4,6 +4,7 @@ mod accuracy;
 mod check;
 mod emit;
 mod eval;
+mod extremes;
 pub(crate) mod input;
 mod list;
 pub(crate) mod method;
@@ -50,6 +51,7 @@ enum Command {
     Study(study::Study),
     Verify(verify::Verify),
     Tradeoff(tradeoff::Tradeoff),
+    Extremes(extremes::Extremes),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -97,6 +99,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Study(study)) => study.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
+        Some(Command::Extremes(extremes)) => extremes.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }

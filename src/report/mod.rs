@@ -1,6 +1,7 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
+pub(crate) mod extremes;
 mod front;
 pub(crate) mod method;
 mod picture;
@@ -32,7 +33,11 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 
 /// Seconds for a person.
 pub(crate) fn duration(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
+    match seconds {
+        s if s < 1e-4 => format!("{:.0} us", s * 1e6),
+        s if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        s => format!("{s:.1} s"),
+    }
 }
 
 /// Bytes for a person.

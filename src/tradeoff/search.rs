@@ -17,7 +17,7 @@ use super::setting::{Axis, Setting};
 /// What is to be as small as can be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Cost {
-    /// Particle-steps times what one takes in the longest run with the same method.
+    /// Particle-steps times what one takes in the longest runs with the same method.
     #[default]
     Seconds,
     /// Particles times steps: the same on every machine.
@@ -136,11 +136,18 @@ pub struct Prediction {
 /// Orders below this are none, and none above the other is believed of coarse grids.
 const ORDERS: [f64; 2] = [0.5, 2.2];
 
+/// The order of what has a single run, since coarser ones stopped: what the methods are made for.
+const ASSUMED: f64 = 2.0;
+
 /// What another setting has to gain to be preferred: times are not known better than that.
 const GAIN: f64 = 0.9;
 
 /// How many settings are tuned, at most, and by what factor their predictions may be worse than the best.
 const TUNED: (usize, f64) = (3, 4.0);
+
+/// Runs of the longest's particle-steps over this are long, too; the quickest of them says what a particle takes in a step,
+/// since others may use the processor.
+const LONG: f64 = 8.0;
 
 /// How many runs a setting is given to meet the goal.
 const TRIES: usize = 8;
@@ -204,6 +211,7 @@ impl<'a> Search<'a> {
         }
         candidates.extend(tuned);
         search.reach_best(candidates)?;
+        search.reach_others()?;
         search.surround()?;
         let predicted = match search.choice() {
             Some(_) => None,
@@ -304,7 +312,7 @@ impl<'a> Search<'a> {
             shape: setting.shape,
             ..Setting::default()
         };
-        let order = self.order(setting).or_else(|| self.order(&kind))?;
+        let order = self.order(setting).or_else(|| self.order(&kind)).unwrap_or(ASSUMED);
         self.through(trial, order)
     }
 
@@ -374,6 +382,18 @@ impl<'a> Search<'a> {
                 break;
             }
             let setting = candidates.remove(best);
+            self.reach(&setting)?;
+        }
+        Ok(())
+    }
+
+    /// While nothing meets the goal: what is predicted to, of all that was run.
+    fn reach_others(&mut self) -> anyhow::Result<()> {
+        while self.choice().is_none() {
+            let Some((setting, _)) = self.best_prediction() else { break };
+            if self.next(&setting).is_none() {
+                break;
+            }
             self.reach(&setting)?;
         }
         Ok(())
@@ -487,7 +507,11 @@ impl<'a> Search<'a> {
         }
         let lines = settings.into_iter().filter_map(|it| {
             let line = self.line(&it)?;
-            Some((self.loss_of(&line)?, it, line.meet(&self.plan)?))
+            // A finer run has stopped: its power law has ended.
+            let stopped = |trial: &Trial| trial.error.is_err() && trial.cells as f64 > line.cells;
+            let has_ended = self.trials.iter().any(|trial| trial.setting == it && stopped(trial));
+            let met = line.meet(&self.plan).filter(|_| !has_ended)?;
+            Some((self.loss_of(&line)?, it, met))
         });
         let best = lines.min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, setting, prediction)| (setting, prediction))
@@ -500,11 +524,12 @@ pub fn cost(trials: &[Trial], trial: &Trial, cost: Cost) -> f64 {
         Cost::Memory => trial.memory,
         Cost::ParticleSteps => trial.particle_steps(),
         Cost::Seconds => {
-            let same =
-                trials.iter().filter(|it| it.error.is_ok() && it.setting.same_step(&trial.setting));
-            let longest = same.max_by(|a, b| a.particle_steps().total_cmp(&b.particle_steps()));
-            let longest = longest.unwrap_or(trial);
-            longest.seconds / longest.particle_steps().max(1.0) * trial.particle_steps()
+            let same = |it: &&Trial| it.error.is_ok() && it.setting.same_step(&trial.setting);
+            let runs = || trials.iter().filter(same).chain([trial]);
+            let longest = runs().map(Trial::particle_steps).fold(0.0, f64::max);
+            let long = runs().filter(|it| it.particle_steps() * LONG >= longest);
+            let each = long.map(|it| it.seconds / it.particle_steps().max(1.0));
+            each.fold(f64::INFINITY, f64::min) * trial.particle_steps()
         }
     }
 }

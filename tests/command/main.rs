@@ -5,6 +5,7 @@ mod bound;
 mod check;
 mod emit;
 mod eval;
+mod extremes;
 mod form;
 mod main_job;
 mod material;

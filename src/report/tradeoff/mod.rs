@@ -344,7 +344,7 @@ impl Report<'_> {
                  than {:.1e} are left out: raise `--most-work`",
                 it.cells, it.work, self.plan.most_work
             ),
-            None => "the error of no setting shrinks with the cells".into(),
+            None => "no setting is predicted to get there: errors no longer shrink with the cells, or runs stop".into(),
         };
         format!("An error of {target:e} is not reached: {least}; {more}.")
     }

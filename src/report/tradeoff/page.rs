@@ -16,7 +16,7 @@ $ cargo run --release -- tradeoff --page > docs/tradeoff.md
 ```
 
 Both take one thread. What the default takes follows from its power law, through the run of it that is nearest. A time
-is particle-steps times what one takes in the longest run with the method. Runs of more than 1e8 particle-steps are not
+is particle-steps times what one takes in the longest runs with the method. Runs of more than 1e8 particle-steps are not
 made.
 ";
 
