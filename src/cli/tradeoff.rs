@@ -148,7 +148,7 @@ impl Tradeoff {
             }
         }
         trials.finish();
-        print(&page.text())?;
+        print(page.text())?;
         Ok(Outcome::AsExpected)
     }
 
