@@ -7,6 +7,7 @@
 
 mod checkpoint;
 pub mod cli;
+mod extremes;
 pub mod gallery;
 mod history;
 pub mod interpreted;
@@ -15,6 +16,8 @@ pub mod report;
 pub mod scene;
 pub mod schema;
 mod store;
+mod tradeoff;
+mod trial;
 mod verify;
 mod vtk;
 pub mod workbench;

@@ -2,6 +2,12 @@
 
 use std::process::ExitCode;
 
+use peak_alloc::PeakAlloc;
+
+/// Counts what is allocated, so that a run can say what it takes.
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
 fn main() -> ExitCode {
     mms::cli::run()
 }

@@ -1,7 +1,12 @@
 //! A field of any dimension, ready for a solver.
 
 use mms_runtime::study::{Observer, Solve, Watch};
-use mms_runtime::{Division, Level, ManufacturedField, Method, Real, Refusal, Run};
+use mms_runtime::{Body, Division, Level, ManufacturedField, Method, Real, Refusal, Run};
+
+/// The cells along the longest edge of a run that names none, in one to three dimensions.
+pub fn usual_cells(dimension: usize) -> usize {
+    [32, 16, 8][dimension - 1]
+}
 
 /// A field of one, two or three dimensions in the precision `T`.
 pub enum Scene<T> {
@@ -54,6 +59,26 @@ impl<T> Scene<T> {
             Scene::Plane(_) => 32,
             Scene::Space(_) => 8,
         }
+    }
+}
+
+impl<T: Real> Scene<T> {
+    /// The edges of a box; none of another body.
+    pub fn edges(&self) -> Option<Vec<f64>> {
+        match self {
+            Scene::Line(field) => edges(field.domain().body),
+            Scene::Plane(field) => edges(field.domain().body),
+            Scene::Space(field) => edges(field.domain().body),
+        }
+    }
+}
+
+fn edges<T: Real, const D: usize>(body: Body<T, D>) -> Option<Vec<f64>> {
+    match body {
+        Body::Box { lower, upper } => {
+            Some((upper - lower).iter().map(|edge| edge.to_f64()).collect())
+        }
+        Body::Annulus { .. } => None,
     }
 }
 

@@ -9,6 +9,7 @@
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use anyhow::Context as _;
 use serde::de::DeserializeOwned;
@@ -187,6 +188,22 @@ fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
         _ => {}
     }
     Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", aside.display()))
+}
+
+/// What tells this program from any other: no result outlives the code that computed it.
+///
+/// # Errors
+/// This program cannot be found or looked at.
+pub fn program() -> anyhow::Result<String> {
+    let path = std::env::current_exe().context("cannot find this program")?;
+    let built = || {
+        let file = path.metadata()?;
+        let modified = file.modified()?.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        io::Result::Ok((file.len(), modified.as_nanos()))
+    };
+    let (length, modified) =
+        built().with_context(|| format!("cannot look at this program, `{}`", path.display()))?;
+    Ok(format!("{}, {length} bytes, {modified}", env!("CARGO_PKG_VERSION")))
 }
 
 /// 128 bits of texts one after the other, in hexadecimal.

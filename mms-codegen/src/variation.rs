@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::invariant::Kind;
-use crate::mechanics::model::Model;
+use crate::mechanics::model::{Body, Model};
 use crate::pass::substitute::substitute;
 use crate::source::{Sources, Spanned};
-use crate::spec::{FieldSpec, Formula, ParameterSpec};
+use crate::spec::{self, FieldSpec, Formula, ParameterSpec};
 
 /// What is changed of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,6 +23,8 @@ pub enum Variation {
     /// The body lies elsewhere: u(X - s, t), and its material likewise, with s = 0 a parameter behind
     /// those of the file, the same along each axis.
     Shifted,
+    /// The same, and the body of a box with it.
+    Moved,
     /// The material has this ratio of lambda to mu, a number as field files write it.
     Moduli(String),
 }
@@ -36,6 +38,9 @@ impl Variation {
     /// Whether a field can be varied so; otherwise what it lacks.
     pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
         match self {
+            Variation::Moved if !matches!(field.domain.body, spec::Body::Box { .. }) => {
+                Err("the body is no box: an annulus lies about the origin".into())
+            }
             Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {
                 Err("the material is not given by lambda and mu, kappa and mu, or young and nu, and no definition is called lambda".into())
             }
@@ -49,7 +54,9 @@ impl Variation {
         match self {
             Variation::Nothing => {}
             Variation::Scaled => add_parameter(sources, field, "scale of u", "1"),
-            Variation::Shifted => add_parameter(sources, field, "shift of X", "0"),
+            Variation::Shifted | Variation::Moved => {
+                add_parameter(sources, field, "shift of X", "0")
+            }
             Variation::Moduli(ratio) => set_moduli(sources, field, ratio),
         }
     }
@@ -66,6 +73,14 @@ impl Variation {
                 }
             }
             Variation::Shifted => shift(graph, model, parameter),
+            Variation::Moved => {
+                shift(graph, model, parameter);
+                if let Body::Box { lower, upper } = &mut model.domain.body {
+                    for bound in lower.iter_mut().chain(upper) {
+                        *bound = graph.add(*bound, parameter);
+                    }
+                }
+            }
         }
     }
 }

@@ -15,6 +15,7 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
+use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_runtime::Real;
 
@@ -47,6 +48,20 @@ impl Default for Motion {
 }
 
 impl Motion {
+    /// The arguments that ask for it.
+    pub fn arguments(&self) -> Vec<String> {
+        let mut arguments = Vec::new();
+        if self.max_nodes != Motion::default().max_nodes {
+            arguments.push(format!("--max-nodes={}", self.max_nodes));
+        }
+        match self.rigid.as_deref() {
+            None => {}
+            Some("") => arguments.push("--rigid".into()),
+            Some(motion) => arguments.push(format!("--rigid={motion}")),
+        }
+        arguments
+    }
+
     /// Everything of the field, or a part of it.
     pub fn options(&self, selection: Selection) -> Options {
         let twin = match self.rigid.as_deref() {
@@ -71,6 +86,11 @@ pub struct Variant {
 }
 
 impl Variant {
+    /// With a motion and a form.
+    pub fn new(motion: Motion, form: Form) -> Self {
+        Variant { motion, form }
+    }
+
     /// Everything of the field, or a part of it.
     pub fn options(&self, selection: Selection) -> Options {
         Options { form: self.form, ..self.motion.options(selection) }
@@ -112,9 +132,10 @@ impl Input {
         let compiled = text
             .compile_as(compile_with, options)
             .map_err(|failure| anyhow!("{}\n{failure}", text.what_failed(options)))?;
-        let entry = text
-            .entry()
-            .filter(|_| options.selection.twin == Twin::Nothing && options.form == Form::Stable);
+        let as_it_is = options.selection.twin == Twin::Nothing
+            && options.form == Form::Stable
+            && options.variation == Variation::Nothing;
+        let entry = text.entry().filter(|_| as_it_is);
         Ok(Input {
             name: compiled.field.name.clone(),
             compiled: Arc::new(compiled),
@@ -136,11 +157,19 @@ impl Input {
         settings: &[String],
         build: impl Fn(&Entry) -> fn(&[T]) -> Option<Scene<T>>,
     ) -> anyhow::Result<Scene<T>> {
-        let set = self.settings(settings)?;
+        self.scene_with(&self.settings(settings)?, build)
+    }
+
+    /// The same, with parameters that are set by position.
+    pub fn scene_with<T: Real + Number>(
+        &self,
+        set: &BTreeMap<usize, RBig>,
+        build: impl Fn(&Entry) -> fn(&[T]) -> Option<Scene<T>>,
+    ) -> anyhow::Result<Scene<T>> {
         match self.entry {
-            Some(entry) => build(entry)(&self.compiled.parameters::<T>(&set))
+            Some(entry) => build(entry)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
-            None => Ok(crate::interpreted::scene(self.compiled.clone(), &set)),
+            None => Ok(crate::interpreted::scene(self.compiled.clone(), set)),
         }
     }
 

@@ -78,7 +78,7 @@ pub struct MethodOptions {
     time_step: Option<f64>,
     /// Run with a time step above the stable one, in which a wave may cross a cell.
     #[arg(long)]
-    allow_unstable: bool,
+    pub allow_unstable: bool,
     /// When to end, instead of at the end of the field's time window.
     #[arg(long = "time", value_name = "T")]
     end_time: Option<f64>,

@@ -4,21 +4,24 @@ mod accuracy;
 mod check;
 mod emit;
 mod eval;
+mod extremes;
 mod follow;
 pub(crate) mod input;
 mod list;
 pub(crate) mod method;
 mod new;
-mod progress;
+pub(crate) mod progress;
 mod report;
 mod run;
 mod saved;
 mod schema;
 mod show;
-mod stability;
+pub(crate) mod stability;
 pub(crate) mod study;
+mod tradeoff;
 mod verify;
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -52,6 +55,8 @@ enum Command {
     Study(study::Study),
     Verify(verify::Verify),
     Report(report::Report),
+    Tradeoff(tradeoff::Tradeoff),
+    Extremes(extremes::Extremes),
     New(new::New),
     Schema(schema::Schema),
 }
@@ -99,6 +104,8 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Study(study)) => study.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
+        Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
+        Some(Command::Extremes(extremes)) => extremes.run(),
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }
@@ -109,6 +116,17 @@ fn this_command(kind: &str, input: Input) -> anyhow::Result<Provenance> {
     let arguments = saved::expand(std::env::args_os())?;
     let words: Vec<_> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
     Ok(Provenance::new(kind, &words, input))
+}
+
+/// Where to write what is said of a field. What can be seen to be wrong with it is said before any work is done.
+fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
+    let own = name.trim_start_matches('.');
+    let own = if own.is_empty() { "field" } else { own };
+    let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
+    if folder.exists() && !folder.is_dir() {
+        anyhow::bail!("`--output {}`: not a folder", folder.display());
+    }
+    Ok(folder)
 }
 
 /// Prints one JSON document.

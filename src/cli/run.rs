@@ -17,6 +17,7 @@ use crate::history::History;
 use crate::report::provenance::Provenance;
 use crate::report::run::Run as Report;
 use crate::report::{pretty, write_files};
+use crate::scene::usual_cells;
 use crate::store::digest;
 use crate::vtk::Writer;
 
@@ -70,7 +71,7 @@ impl Run {
         let input = Input::find(&self.field, &self.variant)?;
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
-        let cells = self.cells.unwrap_or(Division::Uniform([32, 16, 8][dimension - 1]));
+        let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
         let progress = Progress::new();
         let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
         let head = Head::new(self.key(&input, &method, cells), provenance.command.clone());

@@ -1,8 +1,12 @@
 //! The fastest wave of a field, which the time step of a run is held to.
 
+use std::collections::BTreeMap;
+
+use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::wave_speed;
 use mms_codegen::certify::rates::Frame;
 use mms_codegen::certify::sample::samples;
+use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
@@ -21,7 +25,15 @@ pub fn fastest_wave(
     settings: &[String],
     method: &Method,
 ) -> anyhow::Result<Option<f64>> {
-    let set = input.settings(settings)?;
+    Ok(fastest_wave_with(input, &input.settings(settings)?, method))
+}
+
+/// The same, with parameters that are set by position.
+pub fn fastest_wave_with(
+    input: &Input,
+    set: &BTreeMap<usize, Rational>,
+    method: &Method,
+) -> Option<f64> {
     let frame = match method.formulation {
         FormulationName::Updated => Frame::Deformed,
         FormulationName::Total => Frame::Reference,
@@ -30,24 +42,20 @@ pub fn fastest_wave(
     // the step follows from the greatest, and a bound that is sharper than needed does no harm.
     let asked = match method.setup.time_step {
         Some(_) => 0.0,
-        None => slowest_sound(input, &set) / method.setup.courant,
+        None => sound(&input.compiled, set)[0] / method.setup.courant,
     };
-    let fastest = wave_speed(&input.compiled, &set, frame, asked);
+    let fastest = wave_speed(&input.compiled, set, frame, asked);
     if fastest.is_none() {
         anstream::eprintln!(
             "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
             input.name
         );
     }
-    Ok(fastest)
+    fastest
 }
 
-/// The least c0 at some points; 0 where there is none.
-fn slowest_sound(
-    input: &Input,
-    set: &std::collections::BTreeMap<usize, mms_codegen::expr::Rational>,
-) -> f64 {
-    let compiled = &input.compiled;
+/// The least and the greatest c0 at some points; the least is 0 where there is none.
+pub fn sound(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> [f64; 2] {
     let parameters = compiled.parameters::<f64>(set);
     let output = Output::Response(Response::WaveSpeed);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
@@ -57,6 +65,8 @@ fn slowest_sound(
         interpreter.set_point(&plan, Point::at(&sample.coordinates));
         interpreter.output(output)[0]
     });
-    let least = speeds.fold(f64::INFINITY, f64::min);
-    if least.is_finite() && least > 0.0 { least } else { 0.0 }
+    let [least, greatest] = speeds.fold([f64::INFINITY, 0.0_f64], |[least, greatest], speed| {
+        [least.min(speed), greatest.max(speed)]
+    });
+    [if least.is_finite() && least > 0.0 { least } else { 0.0 }, greatest]
 }

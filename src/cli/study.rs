@@ -10,7 +10,7 @@ use mms_runtime::{Division, Method, Run, Verdict};
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json, this_command};
+use super::{Outcome, output_folder, print, print_json, this_command};
 use crate::report::provenance::Provenance;
 use crate::report::{Refused, Study as Report};
 use crate::scene::{Scene, Solvable};
@@ -99,7 +99,7 @@ impl Study {
     pub(super) fn run(self) -> anyhow::Result<Outcome> {
         self.validate()?;
         let input = Input::find(&self.field, &self.variant)?;
-        let folder = self.folder(&input.name)?;
+        let folder = output_folder(self.output.as_deref(), &input.name)?;
         let provenance = this_command("study", input.provenance(&self.set))?;
         let Some(report) = self.report(&input, provenance)? else {
             anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
@@ -167,17 +167,6 @@ impl Study {
             tolerance,
             provenance,
         }))
-    }
-
-    /// Where to write. What can be seen to be wrong with it is said before any work is done.
-    fn folder(&self, name: &str) -> anyhow::Result<PathBuf> {
-        let own = name.trim_start_matches('.');
-        let own = if own.is_empty() { "field" } else { own };
-        let folder = self.output.clone().unwrap_or_else(|| PathBuf::from("target/mms").join(own));
-        if folder.exists() && !folder.is_dir() {
-            bail!("`--output {}`: not a folder", folder.display());
-        }
-        Ok(folder)
     }
 
     fn validate(&self) -> anyhow::Result<()> {

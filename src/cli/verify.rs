@@ -4,9 +4,8 @@ use std::io::IsTerminal as _;
 use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::SystemTime;
 
-use anyhow::{Context as _, bail};
+use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_codegen::suggest::did_you_mean;
@@ -14,7 +13,7 @@ use mms_codegen::suggest::did_you_mean;
 use super::{Outcome, print, print_json, this_command};
 use crate::gallery::FIELDS;
 use crate::report::{pretty, provenance, write_files};
-use crate::store::{Store, digest};
+use crate::store::{Store, digest, program};
 use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};
 use crate::verify::report::{Judged, Report};
@@ -151,19 +150,6 @@ fn input() -> provenance::Input {
     let fields = FIELDS.iter().map(|entry| entry.text).collect::<String>();
     let hash = digest([MATRIX, &fields]);
     provenance::Input { field: None, rigid: None, set: Vec::new(), hash }
-}
-
-/// What tells this program from any other: no result outlives the code that computed it.
-fn program() -> anyhow::Result<String> {
-    let path = std::env::current_exe().context("cannot find this program")?;
-    let built = || {
-        let file = path.metadata()?;
-        let modified = file.modified()?.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-        std::io::Result::Ok((file.len(), modified.as_nanos()))
-    };
-    let (length, modified) =
-        built().with_context(|| format!("cannot look at this program, `{}`", path.display()))?;
-    Ok(format!("{}, {length} bytes, {modified}", env!("CARGO_PKG_VERSION")))
 }
 
 /// A bar on a terminal, a line per run elsewhere.

@@ -9,7 +9,7 @@ use super::mark::{Column, count, number, numbers, table, verdict, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 use crate::report::accuracy::eps;
-use crate::report::picture::front;
+use crate::report::front::front;
 
 /// What `mms accuracy` writes.
 #[derive(Deserialize)]
@@ -179,10 +179,9 @@ impl Accuracy {
             }
         }
         let points = curves.iter().flat_map(|curve| &curve.points);
-        let front: Vec<_> = front(points.map(|[time, error]| (*time, *error)))
-            .into_iter()
-            .map(|(time, error)| [time, error])
-            .collect();
+        let points: Vec<_> = points.map(|[time, error]| (*time, *error)).collect();
+        let front: Vec<_> =
+            front(&points).into_iter().map(|at| <[f64; 2]>::from(points[at])).collect();
         let described = curves.iter().filter_map(|curve| {
             let [time, error] = curve.points.first()?;
             Some(format!("{}: {time:.3} ns per point, error {error:.1e}", curve.name))

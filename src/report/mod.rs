@@ -1,11 +1,14 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
+pub(crate) mod extremes;
+pub(crate) mod front;
 pub(crate) mod method;
 pub(crate) mod picture;
 pub mod provenance;
 pub mod run;
 mod study;
+pub(crate) mod tradeoff;
 
 pub use study::{Refused, Study};
 
@@ -66,5 +69,19 @@ fn builder() -> tempfile::Builder<'static, 'static> {
 
 /// Seconds for a person.
 pub(crate) fn duration(seconds: f64) -> String {
-    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.1} s") }
+    match seconds {
+        s if s < 1e-4 => format!("{:.0} us", s * 1e6),
+        s if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        s => format!("{s:.1} s"),
+    }
+}
+
+/// Bytes for a person.
+pub(crate) fn bytes(count: f64) -> String {
+    let (unit, size) = match count {
+        c if c < 1e6 => ("kB", 1e3),
+        c if c < 1e9 => ("MB", 1e6),
+        _ => ("GB", 1e9),
+    };
+    format!("{:.1} {unit}", count / size)
 }

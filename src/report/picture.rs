@@ -121,19 +121,6 @@ fn slope(all: &[(f64, f64)], order: f64) -> Vec<(f64, f64)> {
     vec![(*h, start), (end, start * (end / h).powf(order))]
 }
 
-/// The points that no other one beats in both coordinates, from left to right.
-pub(crate) fn front(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    let mut points: Vec<_> = points.collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut least = f64::INFINITY;
-    points.retain(|(_, error)| {
-        let better = *error < least;
-        least = least.min(*error);
-        better
-    });
-    points
-}
-
 /// The range of some positive values, widened by a factor; a harmless one where there are none.
 pub(crate) fn span(values: impl Iterator<Item = f64>, factor: f64) -> (f64, f64) {
     let (least, greatest) = values

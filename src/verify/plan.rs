@@ -14,13 +14,13 @@ use crate::store::digest;
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Key {
     /// What tells this program from any other.
-    program: String,
+    pub program: String,
     /// The digest of the field's text, and of its own material's.
-    field: String,
+    pub field: String,
     /// Method, cells, precision, parameters and motion.
-    run: String,
+    pub run: String,
     /// Of what errors are measured.
-    quantity: &'static str,
+    pub quantity: &'static str,
 }
 
 /// A run: a level of a row, or of several.

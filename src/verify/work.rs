@@ -71,6 +71,14 @@ impl Outcome {
         }
     }
 
+    /// l1, l2 and linf of the quantity that was measured, if it reached its end.
+    pub fn norms(&self) -> Option<Norms> {
+        match self {
+            Outcome::Finished { errors, .. } => Some(*errors),
+            _ => None,
+        }
+    }
+
     /// What a row refines: h or dt.
     pub fn size(&self, row: &Row) -> Option<f64> {
         let time_alone = row.halvings > 0;
@@ -222,7 +230,8 @@ impl Work<'_> {
     }
 }
 
-fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
+/// What came of a run that was started, with the errors of a quantity.
+pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
     let run = Size {
         cell_size: level.cell_size,
         time_step: level.time_step,

@@ -12,6 +12,7 @@ pub(crate) mod probe;
 pub mod regime;
 mod subject;
 
+use std::collections::BTreeMap;
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::thread;
@@ -28,6 +29,7 @@ use subject::{Subject, first_line};
 
 use crate::certify::declared::accepts;
 use crate::compile::{Compiled, Failure, Options};
+use crate::expr::Rational;
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Binary;
@@ -104,6 +106,30 @@ pub struct Accuracy {
     pub rows: Vec<Row>,
     /// What was not, and why.
     pub left_out: Vec<LeftOut>,
+}
+
+/// A field in a regime, for who runs it: what is made of it, and the parameters that are set, by position.
+#[derive(Clone, Debug)]
+pub struct Varied {
+    /// The field that is made of the field.
+    pub variation: Variation,
+    /// The values.
+    pub values: BTreeMap<usize, Rational>,
+}
+
+/// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.
+pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
+    /// At how many points J is looked for.
+    const POINTS: usize = 1000;
+    let subject = Subject::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
+    let case = regime.case(&subject, POINTS)?;
+    let values = case.values(Precision::F64);
+    let variation = match case.variation {
+        Variation::Shifted => Variation::Moved,
+        other => other,
+    };
+    variation.fits(&subject.plain().field)?;
+    Ok(Varied { variation, values })
 }
 
 /// The names of the regimes of a field: those of all fields, then its own.

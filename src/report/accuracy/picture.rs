@@ -6,7 +6,8 @@ use mms_codegen::selection::Form;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use super::super::picture::{front, span, ticks};
+use super::super::front::front;
+use super::super::picture::{span, ticks};
 use super::Report;
 
 const SIZE: (u32, u32) = (760, 520);
@@ -58,6 +59,12 @@ fn marks(report: &Report) -> Vec<Mark> {
     marks
 }
 
+/// Those that no other one beats in both, from fast to accurate.
+fn best(marks: &[Mark]) -> Vec<(f64, f64)> {
+    let points: Vec<_> = marks.iter().map(|mark| (mark.ns_per_point, mark.error)).collect();
+    front(&points).into_iter().map(|at| points[at]).collect()
+}
+
 fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
@@ -92,12 +99,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw()?;
     if !marks.is_empty() {
         chart
-            .draw_series(DashedLineSeries::new(
-                front(marks.iter().map(|mark| (mark.ns_per_point, mark.error))),
-                6,
-                4,
-                FRONT.stroke_width(2),
-            ))?
+            .draw_series(DashedLineSeries::new(best(&marks), 6, 4, FRONT.stroke_width(2)))?
             .label("Pareto front")
             .legend(|(x, y)| {
                 DashedPathElement::new([(x, y), (x + 18, y)], 6, 4, FRONT.stroke_width(2))

@@ -1,0 +1,232 @@
+//! `mms extremes`: the solver at its limits.
+
+use anyhow::bail;
+use clap::Args;
+use mms_codegen::suggest::did_you_mean;
+use mms_runtime::study::Observer;
+use mms_runtime::{Division, IntegratorName, Method, Transfer};
+
+use super::method::{MethodOptions, Precision};
+use super::progress::Progress;
+use super::{Outcome, print, print_json};
+use crate::extremes::rows::{Row, rows};
+use crate::extremes::stable;
+use crate::extremes::subject::Subject;
+use crate::extremes::theory::{Elasticity, courant};
+use crate::extremes::verdict::{Declared, Seen, judge};
+use crate::report::extremes::{Judged, Report, Stability};
+use crate::scene::usual_cells;
+use crate::tradeoff::setting::Setting;
+
+/// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
+///
+/// Tiny motions and nearly inverted ones, nearly incompressible material, stiff and soft units, one cell and millions, one
+/// particle per cell and a thousand, Courant numbers from 0.01 to past the stable one, a million steps, a body far
+/// from the origin, single precision. Bounds are relative to the error of the field as declared, with the method's options.
+/// A field that cannot be put at an extreme says why.
+///
+/// Then the largest stable Courant number of each shape function, formulation, transfer and integrator, by bisection, beside
+/// that of von Neumann's analysis of the interior.
+#[derive(Args)]
+pub struct Extremes {
+    /// A gallery name, or a path to a TOML file.
+    field: String,
+    /// Fewer steps, and fewer methods whose stability is measured.
+    #[arg(long)]
+    quick: bool,
+    /// Only this row, as in units/soft, or the rows of this group, as in units, or stability; may be repeated.
+    #[arg(long, value_name = "NAME")]
+    row: Vec<String>,
+    #[command(flatten)]
+    method: MethodOptions,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The name of what is measured behind the rows.
+const STABILITY: &str = "stability";
+
+impl Extremes {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let all = rows()?;
+        let wanted = self.select(&all)?;
+        let declared = match Subject::new(&self.field, None)? {
+            Ok(declared) => declared,
+            Err(reason) => bail!("{reason}"),
+        };
+        let dimension = declared.input.compiled.field.dimension;
+        let method = self.method.method(dimension)?;
+        let progress = Progress::new();
+        let usual = Division::Uniform(usual_cells(dimension));
+        let seen = declared.run(&method, usual, self.method.precision, &mut progress.of(usual))?;
+        let declared_error = match seen {
+            Seen::Ended { l2, cell_size, .. } if l2 > 0.0 => Declared { l2, cell_size },
+            Seen::Ended { .. } => bail!(
+                "the method makes no error on `{}`, so that there is nothing to compare with: choose another one",
+                declared.input.name
+            ),
+            Seen::Stopped { reason, .. } | Seen::LeftOut { reason } => {
+                progress.finish();
+                anstream::eprintln!(
+                    "error: `{}` does not run as declared: {reason}",
+                    declared.input.name
+                );
+                return Ok(Outcome::RunFailed);
+            }
+        };
+        let mut judged = Vec::new();
+        for row in wanted {
+            judged.push(self.judge(row, &method, declared_error, &progress)?);
+        }
+        let stability = match self.wants(STABILITY) {
+            true => self.stability(&method, &progress)?,
+            false => Vec::new(),
+        };
+        progress.finish();
+        let report = Report {
+            field: declared.input.name.clone(),
+            title: declared.input.compiled.field.title.clone(),
+            method,
+            precision: self.method.precision.name(),
+            quick: self.quick,
+            declared: declared_error,
+            rows: judged,
+            stability,
+        };
+        if self.json {
+            print_json(&report.document())?;
+        } else {
+            print(&report.text())?;
+        }
+        let expected = report.unexpected().is_empty();
+        Ok(if expected { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    fn wants(&self, name: &str) -> bool {
+        self.row.is_empty() || self.row.iter().any(|row| row == name)
+    }
+
+    /// The rows that were asked for.
+    fn select<'a>(&self, all: &'a [Row]) -> anyhow::Result<Vec<&'a Row>> {
+        let names =
+            || all.iter().flat_map(|row| [row.name.as_str(), row.group()]).chain([STABILITY]);
+        for name in &self.row {
+            if names().any(|known| known == name) {
+                continue;
+            }
+            match did_you_mean(name, names()) {
+                Some(near) => bail!("`--row {name}`: no such row or group; did you mean `{near}`?"),
+                None => {
+                    let all: Vec<_> =
+                        all.iter().map(|row| row.name.as_str()).chain([STABILITY]).collect();
+                    bail!("`--row {name}`: no such row or group; there are {}", all.join(", "))
+                }
+            }
+        }
+        Ok(all.iter().filter(|row| self.wants(&row.name) || self.wants(row.group())).collect())
+    }
+
+    fn judge(
+        &self,
+        row: &Row,
+        base: &Method,
+        declared: Declared,
+        progress: &Progress,
+    ) -> anyhow::Result<Judged> {
+        let (setting, seen) = match Subject::new(&self.field, Some(row))? {
+            Err(reason) => (row.name.clone(), Seen::LeftOut { reason }),
+            Ok(subject) => {
+                let (method, cells) = subject.method(base, row, self.quick);
+                let precision = if row.single { Precision::F32 } else { self.method.precision };
+                let mut observer = progress.of(cells);
+                let seen =
+                    subject.run(&method, cells, precision, &mut observer as &mut dyn Observer)?;
+                (describe(&method, cells, precision, &subject.settings), seen)
+            }
+        };
+        let verdict = judge(row, declared, &seen);
+        if self.quiet_terminal() {
+            progress.say(&format!("{}: {}", row.name, verdict.name()));
+        }
+        Ok(Judged { row: row.clone(), setting, seen, verdict })
+    }
+
+    fn quiet_terminal(&self) -> bool {
+        !std::io::IsTerminal::is_terminal(&std::io::stderr())
+    }
+
+    /// The largest stable Courant numbers, on a motion so small that nothing else happens.
+    fn stability(&self, own: &Method, progress: &Progress) -> anyhow::Result<Vec<Stability>> {
+        let all = rows()?;
+        let Some(small) = all.iter().find(|row| row.name == "displacement/1e-8") else {
+            return Ok(Vec::new());
+        };
+        let subject = match Subject::new(&self.field, Some(small))? {
+            Ok(subject) => subject,
+            Err(reason) => {
+                progress.say(&format!("note: stability is not measured: {reason}"));
+                return Ok(Vec::new());
+            }
+        };
+        let elasticity = subject.elasticity()?;
+        let mut found = Vec::new();
+        for method in self.methods(own) {
+            let measured = stable::courant(&subject, &method)?;
+            let theory = elasticity
+                .as_ref()
+                .and_then(|elasticity: &Elasticity| courant(&method, elasticity));
+            if self.quiet_terminal() {
+                progress.say(&format!(
+                    "stability of {} {}: {measured:.3}",
+                    method.formulation, method.shape
+                ));
+            }
+            found.push(Stability { is_own: method == *own, method, theory, measured });
+        }
+        Ok(found)
+    }
+
+    /// The method itself; in full also every shape function in each formulation, every integrator and transfers.
+    fn methods(&self, own: &Method) -> Vec<Method> {
+        let mut methods = vec![own.clone()];
+        if self.quick {
+            return methods;
+        }
+        for Setting { formulation, shape, .. } in Setting::kinds() {
+            methods.push(Method { formulation, shape, ..own.clone() });
+        }
+        for &integrator in IntegratorName::ALL {
+            methods.push(Method { integrator, ..own.clone() });
+        }
+        for transfer in [Transfer::FLIP, Transfer::Pic, Transfer::Apic, Transfer::Xpic { order: 2 }]
+        {
+            let mut method = own.clone();
+            method.setup.transfer = transfer;
+            methods.push(method);
+        }
+        let mut once: Vec<Method> = Vec::new();
+        for method in methods {
+            if !once.contains(&method) {
+                once.push(method);
+            }
+        }
+        once
+    }
+}
+
+/// What is extreme about a run.
+fn describe(method: &Method, cells: Division, precision: Precision, settings: &str) -> String {
+    let setup = &method.setup;
+    let mut words = vec![format!("{cells} cells")];
+    if !settings.is_empty() {
+        words.push(settings.to_owned());
+    }
+    words.push(format!("{} per cell", setup.particles_per_cell));
+    words.push(match setup.time_step {
+        Some(step) => format!("time step {step:.2e}"),
+        None => format!("Courant {}", setup.courant),
+    });
+    words.push(precision.name().into());
+    words.join(", ")
+}

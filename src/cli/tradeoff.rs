@@ -1,0 +1,245 @@
+//! `mms tradeoff`: error against cost, and what to choose.
+
+use std::path::PathBuf;
+
+use anyhow::{Context as _, anyhow, bail};
+use clap::Args;
+use mms_codegen::selection::Form;
+
+use super::input::{Input, Motion, Variant};
+use super::{Outcome, print, print_json};
+use crate::report::tradeoff::Report;
+use crate::report::tradeoff::page::Page;
+use crate::scene::usual_cells;
+use crate::store::Store;
+use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
+use crate::tradeoff::setting::Setting;
+use crate::trial::{Trials, command};
+
+/// Find the cheapest method, numbers and grid for an error, or the least error for a time.
+///
+/// Tries shape functions, formulations, transfers, integrators, particles per cell, Courant numbers, precisions and
+/// forms: all kinds on two coarse grids, then around the best of them, then on the grids that these need. Prints runs
+/// with their error and cost, marks the Pareto front (*) and the choice (=>), and says what twice the accuracy costs
+/// there and what is nowhere worth its cost. Writes tradeoff.svg and .json.
+///
+/// The error is linf of the displacement, the largest over time and particles. Runs take one thread each and are
+/// stored, so that the same command resumes. Exit code 1: the target is not reached.
+#[derive(Args)]
+pub struct Tradeoff {
+    /// A gallery name, or a path to a TOML file.
+    #[arg(required_unless_present = "page")]
+    field: Option<String>,
+    /// The largest error to be met at the least cost; by default that of `mms run` without options.
+    #[arg(long, value_name = "E")]
+    target_linf: Option<f64>,
+    /// The time in which to have the least error.
+    #[arg(long, value_name = "S", conflicts_with = "target_linf")]
+    budget_seconds: Option<f64>,
+    /// What is to be small: seconds are particle-steps times what one takes with the method here; particle-steps
+    /// and memory decide in the same way on every machine.
+    #[arg(long, value_enum, default_value_t)]
+    cost: Cost,
+    /// Begin no run that is predicted to take more particle-steps.
+    #[arg(long, value_name = "N", default_value_t = 1e8)]
+    most_work: f64,
+    /// Set a parameter; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    motion: Motion,
+    /// Where results are kept.
+    #[arg(long, value_name = "DIR", default_value = "target/mms/tradeoff")]
+    store: PathBuf,
+    /// Where to write tradeoff.svg and .json; target/mms/FIELD by default.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Show every run, not the front, the default and what stopped alone.
+    #[arg(long)]
+    all: bool,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+    /// Print the page docs/tradeoff.md.
+    #[arg(long, conflicts_with_all = ["field", "json", "output", "budget_seconds", "target_linf", "set", "rigid"])]
+    page: bool,
+}
+
+impl Tradeoff {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let positive = |option: &str, value: Option<f64>| match value {
+            Some(value) if !(value > 0.0 && value.is_finite()) => {
+                bail!("`{option} {value}`: expected a positive number")
+            }
+            _ => Ok(()),
+        };
+        positive("--target-linf", self.target_linf)?;
+        positive("--budget-seconds", self.budget_seconds)?;
+        positive("--most-work", Some(self.most_work))?;
+        if self.budget_seconds.is_some() && self.cost != Cost::Seconds {
+            bail!("`--budget-seconds`: seconds are what is spent; leave out `--cost`");
+        }
+        let (store, set_aside) = Store::open(&self.store)?;
+        set_aside.iter().for_each(|what| anstream::eprintln!("warning: {what}"));
+        let mut trials = Trials::new(store)?;
+        if self.page {
+            return self.print_page(&mut trials);
+        }
+        let Some(field) = &self.field else { bail!("no field") };
+        let input = self.input(field)?;
+        let folder = super::output_folder(self.output.as_deref(), &input.name)?;
+        let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
+        let goal = match (self.target_linf, self.budget_seconds) {
+            (Some(target), _) => Goal::Error(target),
+            (None, Some(budget)) => Goal::Cost(budget),
+            (None, None) => bench.usual(input.compiled.field.dimension)?,
+        };
+        let plan = self.plan(&input, goal)?;
+        let found = Search::run(&mut bench, plan)?;
+        trials.finish();
+        let command =
+            |setting: &Setting, cells: usize| command(&self.arguments(field, setting, cells));
+        let report = self.report(&input, plan, found, &command);
+        let written = report.write(&folder)?;
+        if self.json {
+            print_json(&report.document())?;
+        } else {
+            print(&report.text(self.all))?;
+            print(&format!("\nwrote {}", written.join(", ")))?;
+        }
+        Ok(if report.choice().is_some() { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    fn input(&self, field: &str) -> anyhow::Result<Input> {
+        Input::find(field, &Variant::new(self.motion.clone(), Form::Stable))
+    }
+
+    fn report<'a>(
+        &self,
+        input: &Input,
+        plan: Plan,
+        found: Found,
+        command: &'a dyn Fn(&Setting, usize) -> String,
+    ) -> Report<'a> {
+        let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
+        Report { field, title, plan, found, command }
+    }
+
+    fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {
+        let scene = input.scene(&self.set, |entry| entry.double)?;
+        let dimension = input.compiled.field.dimension;
+        let grain = scene.edges().map_or(1, |edges| grain(&edges));
+        Ok(Plan { dimension, grain, goal, cost: self.cost, most_work: self.most_work })
+    }
+
+    /// The page, of some fields and targets.
+    fn print_page(&self, trials: &mut Trials) -> anyhow::Result<Outcome> {
+        let mut page = Page::new();
+        for field in Page::FIELDS {
+            let input = self.input(field)?;
+            for target in Page::TARGETS {
+                let plan = self.plan(&input, Goal::Error(target))?;
+                let mut bench = Bench { trials, field, set: &self.set, motion: &self.motion };
+                let found = Search::run(&mut bench, plan)?;
+                let command = |setting: &Setting, cells: usize| {
+                    command(&self.arguments(field, setting, cells))
+                };
+                page.add(&self.report(&input, plan, found, &command));
+            }
+        }
+        trials.finish();
+        print(page.text())?;
+        Ok(Outcome::AsExpected)
+    }
+
+    fn arguments(&self, field: &str, setting: &Setting, cells: usize) -> Vec<String> {
+        arguments(field, &self.set, &self.motion, setting, cells)
+    }
+}
+
+/// The arguments of `mms run` for a setting on a grid.
+fn arguments(
+    field: &str,
+    set: &[String],
+    motion: &Motion,
+    setting: &Setting,
+    cells: usize,
+) -> Vec<String> {
+    let mut arguments = vec![field.to_owned(), "--cells".into(), cells.to_string()];
+    arguments.extend(setting.options());
+    arguments.extend(set.iter().flat_map(|set| ["--set".to_owned(), set.clone()]));
+    arguments.extend(motion.arguments());
+    arguments.extend(["--threads".to_owned(), "1".to_owned()]);
+    arguments
+}
+
+/// Runs settings on a field.
+struct Bench<'a> {
+    trials: &'a mut Trials,
+    field: &'a str,
+    set: &'a [String],
+    motion: &'a Motion,
+}
+
+impl Runner for Bench<'_> {
+    fn run(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial> {
+        let arguments = arguments(self.field, self.set, self.motion, setting, cells);
+        let trial = self.trials.run(&arguments)?;
+        let size = trial.outcome.run();
+        let error = match (trial.outcome.failure(), trial.outcome.norms()) {
+            (None, Some([_, _, linf])) => Ok(linf),
+            (reason, _) => Err(reason.unwrap_or_default()),
+        };
+        Ok(Trial {
+            setting: *setting,
+            cells,
+            particles: size.map_or(0, |size| size.particles),
+            steps: size.map_or(0, |size| size.steps),
+            error,
+            seconds: size.map_or(0.0, |size| size.seconds),
+            memory: trial.memory as f64,
+        })
+    }
+}
+
+impl Bench<'_> {
+    /// The error of a run without options, as a goal.
+    fn usual(&mut self, dimension: usize) -> anyhow::Result<Goal> {
+        let setting = Setting::default();
+        let trial = self.run(&setting, usual_cells(dimension))?;
+        let error = trial.error.map_err(|reason| {
+            anyhow!("the default method has no error to aim for: {reason}\ngive `--target-linf` or `--budget-seconds`")
+        })?;
+        (error > 0.0).then_some(Goal::Error(error)).context(
+            "the default method makes no error to aim for: give `--target-linf` or `--budget-seconds`",
+        )
+    }
+}
+
+/// Which numbers of cells along the longest edge divide all edges into whole numbers of cells: multiples of this, as
+/// far as it is small.
+fn grain(edges: &[f64]) -> usize {
+    const MOST: usize = 64;
+    let longest = edges.iter().fold(0.0, |longest: f64, edge| longest.max(*edge));
+    let divides = |cells: usize| {
+        edges.iter().all(|edge| {
+            let along = edge / longest * cells as f64;
+            along.round() >= 1.0 && (along - along.round()).abs() < 1e-6
+        })
+    };
+    (1..=MOST).find(|&cells| divides(cells)).unwrap_or(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grain;
+
+    #[test]
+    fn cells_divide_every_edge() {
+        assert_eq!(grain(&[2.0]), 1);
+        assert_eq!(grain(&[1.0, 1.0, 1.0]), 1);
+        assert_eq!(grain(&[3.0, 1.0]), 3);
+        assert_eq!(grain(&[1.0, 0.4]), 5);
+        assert_eq!(grain(&[1.0, std::f64::consts::FRAC_1_PI]), 1);
+    }
+}

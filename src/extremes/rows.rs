@@ -1,0 +1,96 @@
+//! The rows: what is extreme, what is expected of it, and why.
+
+use anyhow::{Context as _, ensure};
+use mms_codegen::accuracy::regime;
+use serde::Deserialize;
+
+use super::verdict::Diagnosis;
+
+/// The rows, in their order.
+const ROWS: &str = include_str!("rows.toml");
+
+/// A number for each dimension of the body, 1 to 3.
+pub type PerDimension = [usize; 3];
+
+/// A row as it is written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// `group/mode`.
+    pub name: String,
+    /// The field is put in this regime of `mms accuracy`.
+    pub regime: Option<String>,
+    /// The material has this ratio of lambda to mu.
+    pub lambda_over_mu: Option<String>,
+    /// Cells along the longest edge, instead of those of `mms run`.
+    pub cells: Option<PerDimension>,
+    /// Particles per cell along each axis.
+    pub particles: Option<PerDimension>,
+    /// The Courant number.
+    pub courant: Option<f64>,
+    /// How many steps the time window takes; with `--quick`, and without.
+    pub steps: Option<[usize; 2]>,
+    /// After how many steps of the Courant number the run ends.
+    pub end: Option<usize>,
+    /// Whether steps above the stable one are allowed.
+    #[serde(default)]
+    pub allow_unstable: bool,
+    /// Whether it is run in single precision.
+    #[serde(default)]
+    pub single: bool,
+    /// The largest l2, over that of the field as declared on the grid of `mms run`, scaled with h^2 where the grid is
+    /// coarser; both over the largest displacement. Without it the row has to stop.
+    pub l2: Option<f64>,
+    /// With which diagnoses it may stop.
+    #[serde(default)]
+    pub stops: Vec<Diagnosis>,
+    /// Why.
+    pub theory: String,
+}
+
+impl Row {
+    /// What stands before the slash.
+    pub fn group(&self) -> &str {
+        self.name.split('/').next().unwrap_or_default()
+    }
+
+    /// Refuses what means nothing.
+    fn validate(&self) -> anyhow::Result<()> {
+        ensure!(self.name.split('/').count() == 2, "the name has to be group/mode");
+        if let Some(name) = &self.regime {
+            ensure!(regime::find(name).is_some(), "no regime `{name}`");
+        }
+        ensure!(self.regime.is_none() || self.lambda_over_mu.is_none(), "two changes of the field");
+        ensure!(self.l2.is_some() || !self.stops.is_empty(), "nothing is expected");
+        ensure!(self.steps.is_none() || self.courant.is_none(), "steps and a Courant number");
+        ensure!(!self.theory.is_empty(), "no theory");
+        Ok(())
+    }
+}
+
+/// The rows.
+///
+/// # Errors
+/// A row that means nothing; a test reads them all.
+pub fn rows() -> anyhow::Result<Vec<Row>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Rows {
+        row: Vec<Row>,
+    }
+    let Rows { row: rows } = toml::from_str(ROWS)?;
+    for (at, row) in rows.iter().enumerate() {
+        row.validate().with_context(|| format!("row `{}`", row.name))?;
+        ensure!(rows[..at].iter().all(|other| other.name != row.name), "`{}` twice", row.name);
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_row_means_something() {
+        let rows = super::rows().unwrap();
+        assert!(rows.len() > 20);
+    }
+}

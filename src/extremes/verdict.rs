@@ -1,0 +1,195 @@
+//! What is seen of a row, and whether it is what is expected.
+
+use mms_runtime::{Cause, Refusal};
+use serde::Deserialize;
+
+use super::rows::Row;
+
+/// Why there are no errors, in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Diagnosis {
+    /// The time step is above the stable one.
+    UnstableStep,
+    /// J <= 0.
+    Inverted,
+    /// A value is infinite or not a number.
+    NotFinite,
+    /// A particle left the grid.
+    Lost,
+    /// A particle's domain is wider than a cell.
+    HalfWidth,
+    /// A particle's domain is flat.
+    FlatDomain,
+    /// A node beside a prescribed face has no reference position.
+    NoReferencePosition,
+    /// The observer stopped the run.
+    Stopped,
+    /// The scene does not fit.
+    TooLarge,
+    /// The scene makes no sense for another reason.
+    Refused,
+}
+
+impl Diagnosis {
+    /// Of a run that stopped.
+    pub fn of_cause(cause: &Cause) -> Self {
+        match cause {
+            Cause::UnstableStep { .. } => Diagnosis::UnstableStep,
+            Cause::Inverted { .. } => Diagnosis::Inverted,
+            Cause::NotFinite { .. } => Diagnosis::NotFinite,
+            Cause::Lost { .. } => Diagnosis::Lost,
+            Cause::HalfWidth { .. } => Diagnosis::HalfWidth,
+            Cause::FlatDomain => Diagnosis::FlatDomain,
+            Cause::NoReferencePosition { .. } => Diagnosis::NoReferencePosition,
+            Cause::Stopped { .. } => Diagnosis::Stopped,
+        }
+    }
+
+    /// Of a run that was not started.
+    pub fn of_refusal(refusal: &Refusal) -> Self {
+        match refusal {
+            Refusal::TooLarge { .. } => Diagnosis::TooLarge,
+            _ => Diagnosis::Refused,
+        }
+    }
+
+    /// The word in rows and JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Diagnosis::UnstableStep => "unstable_step",
+            Diagnosis::Inverted => "inverted",
+            Diagnosis::NotFinite => "not_finite",
+            Diagnosis::Lost => "lost",
+            Diagnosis::HalfWidth => "half_width",
+            Diagnosis::FlatDomain => "flat_domain",
+            Diagnosis::NoReferencePosition => "no_reference_position",
+            Diagnosis::Stopped => "stopped",
+            Diagnosis::TooLarge => "too_large",
+            Diagnosis::Refused => "refused",
+        }
+    }
+}
+
+/// What came of a run. Errors are over the largest displacement of the field.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Seen {
+    /// It came to its end.
+    Ended {
+        /// The largest over time of the root mean square over particles.
+        l2: f64,
+        /// What round-off is predicted to leave of it.
+        round_off: f64,
+        /// h over the body's longest edge.
+        cell_size: f64,
+    },
+    /// It did not.
+    Stopped {
+        /// Why, in a word.
+        diagnosis: Diagnosis,
+        /// And in full.
+        reason: String,
+    },
+    /// The field cannot be put there.
+    LeftOut {
+        /// Why.
+        reason: String,
+    },
+}
+
+/// The field as declared: what rows are compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Declared {
+    /// Its l2 over the largest displacement.
+    pub l2: f64,
+    /// h over the body's longest edge.
+    pub cell_size: f64,
+}
+
+/// How a row ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is within its bound.
+    WithinBound,
+    /// It stops, as it may.
+    Stops,
+    /// It is beyond its bound, and does not say so.
+    BeyondBound,
+    /// It stops for a reason that is not among those expected.
+    WrongDiagnosis,
+    /// It runs where it has to stop.
+    DoesNotStop,
+    /// The field cannot be put there.
+    LeftOut,
+}
+
+impl Verdict {
+    /// The word in the table and in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::WithinBound => "within bound",
+            Verdict::Stops => "stops",
+            Verdict::BeyondBound => "beyond bound",
+            Verdict::WrongDiagnosis => "wrong diagnosis",
+            Verdict::DoesNotStop => "does not stop",
+            Verdict::LeftOut => "left out",
+        }
+    }
+
+    /// Whether it is what theory says.
+    pub fn is_expected(self) -> bool {
+        matches!(self, Verdict::WithinBound | Verdict::Stops | Verdict::LeftOut)
+    }
+}
+
+/// Noise of rounding is within this factor of what is predicted of it.
+const NOISE: f64 = 5.0;
+
+/// The largest l2 that a row allows, over the largest displacement, on a grid and with round-off.
+pub fn bound(row: &Row, declared: Declared, cell_size: f64, round_off: f64) -> Option<f64> {
+    let coarser = (cell_size / declared.cell_size).max(1.0);
+    row.l2.map(|factor| factor * declared.l2 * coarser.powi(2) + NOISE * round_off)
+}
+
+/// The verdict on what is seen.
+pub fn judge(row: &Row, declared: Declared, seen: &Seen) -> Verdict {
+    match seen {
+        Seen::LeftOut { .. } => Verdict::LeftOut,
+        Seen::Stopped { diagnosis, .. } if row.stops.contains(diagnosis) => Verdict::Stops,
+        Seen::Stopped { .. } => Verdict::WrongDiagnosis,
+        Seen::Ended { l2, round_off, cell_size } => {
+            match bound(row, declared, *cell_size, *round_off) {
+                None => Verdict::DoesNotStop,
+                Some(bound) if *l2 <= bound => Verdict::WithinBound,
+                Some(_) => Verdict::BeyondBound,
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(keys: &str) -> Row {
+        toml::from_str(&format!("name = \"a/b\"\ntheory = \"t\"\n{keys}")).unwrap()
+    }
+
+    #[test]
+    fn a_row_is_within_its_bound_or_stops_as_expected() {
+        let declared = Declared { l2: 1e-3, cell_size: 0.1 };
+        let ended = |l2: f64| Seen::Ended { l2, round_off: 1e-6, cell_size: 0.1 };
+        let bounded = row("l2 = 2\nstops = [\"lost\"]");
+        assert_eq!(judge(&bounded, declared, &ended(2e-3)), Verdict::WithinBound);
+        assert_eq!(judge(&bounded, declared, &ended(2.1e-3)), Verdict::BeyondBound);
+        assert_eq!(judge(&bounded, declared, &ended(f64::NAN)), Verdict::BeyondBound);
+        let coarse = Seen::Ended { l2: 7e-3, round_off: 0.0, cell_size: 0.2 };
+        assert_eq!(judge(&bounded, declared, &coarse), Verdict::WithinBound);
+        let stopped = |diagnosis| Seen::Stopped { diagnosis, reason: String::new() };
+        assert_eq!(judge(&bounded, declared, &stopped(Diagnosis::Lost)), Verdict::Stops);
+        let wrong = judge(&bounded, declared, &stopped(Diagnosis::Inverted));
+        assert_eq!((wrong, wrong.is_expected()), (Verdict::WrongDiagnosis, false));
+        let stops = row("stops = [\"unstable_step\"]");
+        assert_eq!(judge(&stops, declared, &ended(0.0)), Verdict::DoesNotStop);
+    }
+}

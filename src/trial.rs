@@ -1,0 +1,187 @@
+//! Runs in the words of `mms run`, one after the other: each from the store if it is there, and into it if it is
+//! not. Searches are made of them, and what they find can be run again as it is.
+
+use std::collections::BTreeMap;
+
+use anyhow::Context as _;
+use clap::Parser as _;
+use mms_runtime::study::{Observer, Watch};
+use mms_runtime::{Division, Method};
+use peak_alloc::PeakAlloc;
+use serde::{Deserialize, Serialize};
+
+use crate::cli::input::Input;
+use crate::cli::method::Precision;
+use crate::cli::progress::Progress;
+use crate::cli::stability::fastest_wave;
+use crate::scene::{Scene, Solvable};
+use crate::store::{Entry, Store};
+use crate::verify::matrix::{Quantity, Study};
+use crate::verify::plan::Key;
+use crate::verify::work::{Outcome, outcome};
+
+/// What came of a run, and what it took.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Trial {
+    /// Errors of the displacement, or why there are none.
+    pub outcome: Outcome,
+    /// The most bytes that it held at a time.
+    pub memory: usize,
+}
+
+/// Where runs are made.
+pub struct Trials {
+    store: Store,
+    program: String,
+    progress: Progress,
+    /// Fields with everything derived, by name and variant.
+    inputs: BTreeMap<String, Input>,
+    /// Bounds of the speed of waves, by what they depend on.
+    waves: BTreeMap<String, Option<f64>>,
+}
+
+impl Trials {
+    /// With a store, for results of this program.
+    ///
+    /// # Errors
+    /// This program cannot be found.
+    pub fn new(store: Store) -> anyhow::Result<Self> {
+        Ok(Self {
+            store,
+            program: crate::store::program()?,
+            progress: Progress::new(),
+            inputs: BTreeMap::new(),
+            waves: BTreeMap::new(),
+        })
+    }
+
+    /// What comes of `mms run` with these arguments, on one thread.
+    ///
+    /// # Errors
+    /// Arguments that mean nothing, a field that does not compile, a store that cannot be read or written.
+    pub fn run(&mut self, arguments: &[String]) -> anyhow::Result<Trial> {
+        let study = Study::try_parse_from(arguments)?;
+        let [cells] = *study.cells.as_slice() else { anyhow::bail!("a run has one grid") };
+        let name = format!("{} {:?}", study.field, study.variant);
+        if !self.inputs.contains_key(&name) {
+            self.inputs.insert(name.clone(), Input::find(&study.field, &study.variant)?);
+        }
+        let input = self.inputs.get(&name).context("it was put there")?;
+        let mut method = study.method.method(input.compiled.field.dimension)?;
+        method.setup.threads = 1;
+        let key = Key {
+            program: self.program.clone(),
+            field: input.compiled.provenance(),
+            run: format!("trial {}", command(arguments)),
+            quantity: Quantity::Displacement.name(),
+        };
+        // Two processes that search the same wait for each other's runs.
+        let _claim = self.store.claim(&key, true)?;
+        match self.store.load(&key)? {
+            Entry::Stored(trial) => return Ok(trial),
+            Entry::Missing => {}
+            Entry::SetAside(what) => self.progress.say(&format!("warning: {what}")),
+        }
+        if !study.method.allow_unstable {
+            let setup = (method.setup.courant, method.setup.time_step);
+            let wave = format!("{name} {:?} {} {setup:?}", study.set, method.formulation);
+            if !self.waves.contains_key(&wave) {
+                let fastest = fastest_wave(input, &study.set, &method)?;
+                self.waves.insert(wave.clone(), fastest);
+            }
+            method.setup.fastest_wave = self.waves.get(&wave).copied().flatten();
+        }
+        let mut observer = self.progress.of(cells);
+        let trial = match study.method.precision {
+            Precision::F32 => measure(
+                &input.scene(&study.set, |entry| entry.single)?,
+                &method,
+                &cells,
+                &mut observer,
+            ),
+            Precision::F64 => measure(
+                &input.scene(&study.set, |entry| entry.double)?,
+                &method,
+                &cells,
+                &mut observer,
+            ),
+        };
+        self.store.save(&key, &trial)?;
+        Ok(trial)
+    }
+
+    /// Clears what is shown of the run in progress.
+    pub fn finish(&self) {
+        self.progress.finish();
+    }
+}
+
+/// Runs that take less are repeated, and the least that one took is what counts: others may use the processor.
+const SHORT: f64 = 0.05;
+
+/// How often they are repeated, at most.
+const REPEATS: usize = 4;
+
+fn measure<T: Solvable>(
+    scene: &Scene<T>,
+    method: &Method,
+    cells: &Division,
+    observer: &mut dyn Observer,
+) -> Trial {
+    let mut best = once(scene, method, cells, observer);
+    let mut spent = 0.0;
+    for _ in 0..REPEATS {
+        let Outcome::Finished { run, .. } = &mut best.outcome else { break };
+        spent += run.seconds;
+        if spent > SHORT {
+            break;
+        }
+        let again = once(scene, method, cells, &mut ());
+        let seconds = again.outcome.run().map_or(run.seconds, |again| again.seconds);
+        run.seconds = run.seconds.min(seconds);
+        best.memory = best.memory.min(again.memory);
+    }
+    best
+}
+
+fn once<T: Solvable>(
+    scene: &Scene<T>,
+    method: &Method,
+    cells: &Division,
+    observer: &mut dyn Observer,
+) -> Trial {
+    let memory = PeakAlloc;
+    memory.reset_peak_usage();
+    let before = memory.current_usage();
+    let run = scene.run(method, cells, Watch::Displacement, observer);
+    let memory = memory.peak_usage().saturating_sub(before);
+    let outcome = match run {
+        Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+        Ok(run) => outcome(&run.level, run.details.as_ref(), &Quantity::Displacement),
+    };
+    Trial { outcome, memory }
+}
+
+/// `mms run` with arguments, as a shell takes it.
+pub fn command(arguments: &[String]) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:+".contains(c);
+    let quoted = arguments.iter().map(|argument| {
+        if !argument.is_empty() && argument.chars().all(plain) {
+            return format!(" {argument}");
+        }
+        format!(" '{}'", argument.replace('\'', r"'\''"))
+    });
+    format!("mms run{}", quoted.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_is_what_a_shell_takes_apart_again() {
+        let arguments = ["bar_1d", "--set", "young=2*pi", "it's"].map(String::from);
+        assert_eq!(command(&arguments), r"mms run bar_1d --set 'young=2*pi' 'it'\''s'");
+    }
+}

@@ -1,0 +1,104 @@
+//! `mms extremes`: what breaks, and how it says so.
+
+use serde_json::Value;
+
+use super::mms::{Folder, assert_close, keys};
+
+/// The document of some rows of the bar.
+fn document(options: &str, code: i32) -> Value {
+    Folder::new().mms(&format!("extremes bar_1d --quick --json {options}")).exits(code).json()
+}
+
+fn row<'a>(document: &'a Value, name: &str) -> &'a Value {
+    let rows = document["rows"].as_array().expect("rows");
+    rows.iter().find(|row| row["name"] == name).unwrap_or_else(|| panic!("no row {name}"))
+}
+
+#[test]
+fn every_row_of_the_bar_is_as_theory_expects() {
+    let document = document("", 0);
+    let own = ["field", "method", "quick", "declared_l2", "rows", "stability", "unexpected"];
+    assert_eq!(keys(&document), own);
+    assert_eq!(document["unexpected"], Value::Array(Vec::new()));
+    for row in document["rows"].as_array().expect("rows") {
+        let own = [
+            "name",
+            "setting",
+            "theory",
+            "allowed_factor",
+            "allowed_diagnoses",
+            "l2",
+            "bound",
+            "diagnosis",
+            "reason",
+            "verdict",
+            "expected",
+        ];
+        assert_eq!(keys(row), own);
+        // There is an error within its bound, or there is a reason.
+        match row["l2"].as_f64() {
+            Some(error) => {
+                assert!(row["bound"].as_f64().is_some_and(|bound| error <= bound), "{row:#}")
+            }
+            None => {
+                assert!(row["reason"].as_str().is_some_and(|reason| !reason.is_empty()), "{row:#}")
+            }
+        }
+    }
+    // Units change nothing but rounding, and a small motion is in proportion.
+    let declared = document["declared_l2"].as_f64().expect("an error");
+    for name in ["units/soft", "units/stiff", "units/small", "units/large"] {
+        assert_close(row(&document, name)["l2"].as_f64().expect("an error"), declared, 1e-9);
+    }
+    let [small, smaller] = ["displacement/1e-8", "displacement/1e-12"];
+    let [small, smaller] =
+        [small, smaller].map(|name| row(&document, name)["l2"].as_f64().expect("an error"));
+    assert_close(small, smaller, 1e-3);
+    for (name, diagnosis) in [("grid/beyond", "too_large"), ("courant/2", "unstable_step")] {
+        assert_eq!(row(&document, name)["diagnosis"], diagnosis);
+    }
+}
+
+/// In the interior of an endless grid theory and bisection agree; faces may be less stable.
+#[test]
+fn the_largest_stable_courant_number_is_that_of_theory() {
+    let methods = [
+        ("--formulation total --shape linear", 0.756),
+        ("--formulation total --shape linear --particles-per-cell 1", 0.707),
+        ("--formulation total --shape linear --integrator musl", 1.732),
+        ("--formulation total --shape linear --transfer apic", 1.0),
+        ("--formulation total --shape linear --transfer pic", 0.791),
+    ];
+    for (method, limit) in methods {
+        let document = document(&format!("--row stability {method}"), 0);
+        let found = &document["stability"][0];
+        assert_close(found["theory"].as_f64().expect("a number"), limit, 1e-3);
+        assert_close(found["measured"].as_f64().expect("a number"), limit, 0.05);
+        assert_eq!(found["verdict"], "as in the interior", "{method}");
+    }
+}
+
+#[test]
+fn a_field_that_cannot_be_put_somewhere_says_why() {
+    let folder = Folder::new();
+    let ring =
+        "extremes expanding_ring --shape cpdi --quick --row origin --row incompressible/0.49";
+    folder.mms(ring).exits(0).prints("left out").prints("an annulus lies about the origin");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_the_reason() {
+    let folder = Folder::new();
+    let cases = [
+        ("extremes", "FIELD", 2),
+        ("extremes bar", "no field `bar`", 2),
+        ("extremes bar_1d --row units/sof", "did you mean `units/soft`?", 2),
+        ("extremes bar_1d --row 12", "there are displacement/1e-4", 2),
+        ("extremes bar_1d --courant 0", "expected a positive number", 2),
+        ("extremes bar_1d --courant 5", "does not run as declared", 3),
+        ("extremes bar_1d --formulation total --shape linear --courant 0.9", "is inverted", 3),
+    ];
+    for (arguments, reason, code) in cases {
+        folder.mms(arguments).exits(code).complains(reason).prints_nothing();
+    }
+}

@@ -1,0 +1,163 @@
+//! `mms tradeoff`: what it recommends does what it says.
+
+use serde_json::Value;
+
+use super::mms::{Folder, assert_close, keys};
+
+/// The document of a search that decides in the same way everywhere.
+fn document(folder: &Folder, options: &str) -> Value {
+    folder.mms(&format!("tradeoff bar_1d --cost particle-steps --json {options}")).exits(0).json()
+}
+
+/// Runs a command of a document; its largest error and its particle-steps.
+fn run(folder: &Folder, command: &Value) -> (f64, f64) {
+    let command = command.as_str().and_then(|command| command.strip_prefix("mms "));
+    let run = folder.mms(&format!("{} --json", command.expect("a command"))).exits(0).json();
+    let work = run["particles"].as_f64().unwrap() * run["steps"].as_f64().unwrap();
+    (run["errors"]["displacement"]["over_time"]["linf"].as_f64().expect("an error"), work)
+}
+
+#[test]
+fn running_the_recommendation_meets_the_target_for_less() {
+    let folder = Folder::new();
+    for target in [1e-2, 1e-4] {
+        let found = document(&folder, &format!("--target-linf {target}"));
+        let choice = &found["choice"];
+        let (error, work) = run(&folder, &choice["command"]);
+        assert!(error <= target, "{choice:#}");
+        assert_eq!(choice["linf"].as_f64(), Some(error));
+        assert_eq!(choice["particle_steps"].as_f64(), Some(work));
+        // The default is beaten, by what its power law says.
+        let cells = found["default"]["cells"].as_f64().unwrap().ceil() + 2.0;
+        let default = serde_json::json!(format!("mms run bar_1d --cells {cells}"));
+        let (error, default_work) = run(&folder, &default);
+        assert!(error <= target && default_work > 2.0 * work, "{error}, {default_work} and {work}");
+    }
+}
+
+#[test]
+fn the_front_is_one_and_holds_the_choice() {
+    let folder = Folder::new();
+    let found = document(&folder, "--target-linf 1e-3");
+    let own = [
+        "field",
+        "cost",
+        "target_linf",
+        "budget_seconds",
+        "runs",
+        "choice",
+        "predicted",
+        "default",
+        "gain",
+        "exponent",
+        "dominated",
+    ];
+    assert_eq!(keys(&found), own);
+    let runs = found["runs"].as_array().expect("runs");
+    let point = |run: &Value| Some((run["particle_steps"].as_f64()?, run["linf"].as_f64()?));
+    for one in runs {
+        let beaten = |other: &Value| match (point(one), point(other)) {
+            (Some((work, error)), Some((less, lower))) => {
+                less <= work && lower <= error && (less < work || lower < error)
+            }
+            _ => false,
+        };
+        if one["front"] == true {
+            assert!(!runs.iter().any(beaten), "{one:#}");
+        }
+        // There is an error or a reason, and never both.
+        assert_ne!(one["linf"].is_null(), one["failure"].is_null(), "{one:#}");
+    }
+    assert!(
+        runs.iter().any(|run| run["command"] == found["choice"]["command"] && run["front"] == true)
+    );
+    assert!(
+        runs.iter().any(|run| run["failure"]
+            .as_str()
+            .is_some_and(|it| it.contains("above the stable one")))
+    );
+    // Boxes that neither follow nor keep still lose their order, wherever the bar is solved.
+    let dominated: Vec<_> =
+        found["dominated"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    for word in ["updated linear", "updated ugimp", "usl", "pic"] {
+        assert!(dominated.contains(&word), "{dominated:?}");
+    }
+    // Order 2 in one dimension and time: work grows as 1/error.
+    assert_close(found["exponent"].as_f64().unwrap(), 1.0, 0.2);
+}
+
+/// The same command asks the store, and says the same to the last digit; times included.
+#[test]
+fn a_search_resumes_and_repeats_itself() {
+    let folder = Folder::new();
+    let search = "tradeoff bar_1d --target-linf 1e-3 --store store";
+    let first = folder.mms(search).exits(0);
+    let again = folder.mms(search).exits(0);
+    assert_eq!(again.stdout, first.stdout);
+    assert!(first.stderr.contains("steps done") && again.stderr.is_empty(), "{again}");
+    // Half of the results lost: the others stay as they are.
+    let results: Vec<_> =
+        std::fs::read_dir(folder.path("store")).unwrap().map(|it| it.unwrap().path()).collect();
+    for path in results.iter().step_by(2) {
+        std::fs::remove_file(path).unwrap();
+    }
+    let half = folder.mms(search).exits(0);
+    half.complains("steps done").prints("For a largest error of 1e-3 choose ");
+    assert!(folder.read("target/mms/bar_1d/tradeoff.svg").contains("Pareto front"));
+}
+
+#[test]
+fn a_budget_in_seconds_gives_an_error_and_a_command() {
+    let folder = Folder::new();
+    let found = folder.mms("tradeoff bar_1d --budget-seconds 0.01 --json").exits(0).json();
+    assert!(found["choice"]["seconds"].as_f64().is_some_and(|seconds| seconds <= 0.01));
+    let (error, _) = run(&folder, &found["choice"]["command"]);
+    assert_eq!(found["choice"]["linf"].as_f64(), Some(error));
+}
+
+/// Beyond what may be run there is a prediction, and no promise.
+#[test]
+fn a_target_that_is_not_reached_is_said_to_be() {
+    let folder = Folder::new();
+    let search = "tradeoff bar_1d --cost particle-steps --target-linf 1e-7 --most-work 1e5";
+    let text = folder.mms(search).exits(1);
+    text.prints("An error of 1e-7 is not reached: the least is ").prints("raise `--most-work`");
+    let found = folder.mms(&format!("{search} --json")).exits(1).json();
+    assert!(found["choice"].is_null() && found["predicted"]["particle_steps"].as_f64() > Some(1e5));
+}
+
+/// Parameters and motions go with every run, and come back in the command.
+#[test]
+fn the_field_is_taken_as_it_is_asked_for() {
+    let folder = Folder::with_bar("bar.toml");
+    let search =
+        "tradeoff bar.toml --cost particle-steps --set amplitude=0.05 --target-linf 5e-3 --json";
+    let found = folder.mms(search).exits(0).json();
+    let command = found["choice"]["command"].as_str().expect("a command");
+    assert!(
+        command.contains("mms run bar.toml") && command.contains("--set amplitude=0.05"),
+        "{command}"
+    );
+    let (error, _) = run(&folder, &found["choice"]["command"]);
+    assert!(error <= 5e-3);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_with_the_reason() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    let cases = [
+        ("tradeoff", "FIELD"),
+        ("tradeoff bar", "no field `bar`"),
+        ("tradeoff bar_1d --target-linf 0", "`--target-linf 0`: expected a positive number"),
+        ("tradeoff bar_1d --budget-seconds nan", "expected a positive number"),
+        ("tradeoff bar_1d --budget-seconds 1 --target-linf 1", "cannot be used with"),
+        ("tradeoff bar_1d --budget-seconds 1 --cost memory", "leave out `--cost`"),
+        ("tradeoff bar_1d --set amplitud=1", "did you mean `amplitude`?"),
+        ("tradeoff bar_1d --output file", "not a folder"),
+        ("tradeoff bar_1d --page", "cannot be used with"),
+    ];
+    for (arguments, reason) in cases {
+        folder.mms(arguments).exits(2).complains(reason).prints_nothing();
+    }
+}
