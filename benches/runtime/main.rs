@@ -15,7 +15,7 @@ use block::{Block, Body};
 use mms::scene::Scene;
 use mms_runtime::integrator::Leapfrog;
 use mms_runtime::shape::{Cpdi, Cpgimp, Linear, QuadraticBspline, Shape, Ugimp};
-use mms_runtime::{FormulationName, Division, ManufacturedField, Real, Setup, Solver, Transfer};
+use mms_runtime::{Division, FormulationName, ManufacturedField, Real, Setup, Solver, Transfer};
 use roof::{Count, Roof};
 use serde_json::json;
 
