@@ -11,7 +11,7 @@ reference = states[0].points - states[0].point_data["displacement"]
 for state in states:
     data = state.point_data
     assert state.cells[0].type == "vertex" and len(state.cells[0].data) == len(state.points)
-    assert (data["particle"] == numpy.arange(len(state.points))).all()
+    assert (data["particle"].ravel() == numpy.arange(len(state.points))).all()
     assert abs(state.points - data["displacement"] - reference).max() < 1e-14
     assert data["deformation_gradient"].shape == (len(state.points), 9)
     assert data["cauchy_stress"].shape == (len(state.points), 9)
