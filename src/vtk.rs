@@ -28,18 +28,24 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Into a folder, which is made if it is not there; files begin with `name`.
+    /// Into a folder, which is made if it is not there; files begin with `name`. A run that goes on has `written`
+    /// some before.
     ///
     /// # Errors
     /// A folder that cannot be made or written to.
-    pub fn new(folder: &Path, name: &str, frames: usize) -> anyhow::Result<Self> {
+    pub fn new(
+        folder: &Path,
+        name: &str,
+        frames: usize,
+        written: Vec<(f64, String)>,
+    ) -> anyhow::Result<Self> {
         let wrong = || format!("`--vtk {}`: cannot write there", folder.display());
         std::fs::create_dir_all(folder).with_context(wrong)?;
         let writer = Self {
             folder: folder.to_owned(),
             name: name.to_owned(),
             frames: frames.max(1),
-            written: Vec::new(),
+            written,
         };
         // Said before any work is done.
         writer.write_list().with_context(wrong)?;
@@ -49,11 +55,6 @@ impl Writer {
     /// The states so far: times and files.
     pub fn written(&self) -> &[(f64, String)] {
         &self.written
-    }
-
-    /// Goes on after these.
-    pub fn resume(&mut self, written: Vec<(f64, String)>) {
-        self.written = written;
     }
 
     /// Whether the state after a step is one of those that are equally far apart.
@@ -181,7 +182,7 @@ mod tests {
     #[test]
     fn states_are_equally_far_apart_and_include_the_last() {
         let folder = tempfile::tempdir().unwrap();
-        let writer = Writer::new(folder.path(), "run", 4).unwrap();
+        let writer = Writer::new(folder.path(), "run", 4, Vec::new()).unwrap();
         let wanted = |steps| -> Vec<usize> {
             (0..=steps).filter(|&step| writer.wants(step, steps)).collect()
         };

@@ -143,14 +143,11 @@ impl Run {
             );
         }
         let before = resumed.as_ref().map(|found| found.head.clone());
-        let vtk = self.vtk.as_deref().map(|folder| {
-            Writer::new(folder, input.name.trim_start_matches('.'), self.frames as usize)
-        });
-        let mut vtk = vtk.transpose()?;
-        if let (Some(vtk), Some(head)) = (&mut vtk, &before) {
-            vtk.resume(head.states.clone());
-        }
-        let step = before.map_or(0, |head| head.step);
+        let (step, states) = before.map_or_else(Default::default, |head| (head.step, head.states));
+        let name = input.name.trim_start_matches('.');
+        let vtk = self.vtk.as_deref();
+        let vtk = vtk.map(|folder| Writer::new(folder, name, self.frames as usize, states));
+        let vtk = vtk.transpose()?;
         let dimension = input.compiled.field.dimension;
         let history =
             self.history.as_deref().map(|path| History::new(path, dimension, step)).transpose()?;
