@@ -13,6 +13,7 @@ mod history;
 pub mod interpreted;
 mod page;
 pub mod report;
+mod rows;
 pub mod scene;
 pub mod schema;
 mod store;

@@ -112,6 +112,21 @@ fn sector(face: Face, condition: Condition) -> Wave<2> {
     Wave::on(Body::Annulus { inner: 0.5, outer: 1.0, theta }).with_faces(&[(face, condition)])
 }
 
+/// By about what a run takes: a square of 10^6 particles takes more than 10^7 bytes, and less than 10^9.
+#[test]
+fn what_memory_cannot_hold_is_refused_before_it_is_taken() {
+    let square = Wave::on_box([1.0, 1.0]);
+    let within = |memory| Setup { memory: Some(memory), end_time: Some(1e-6), ..Setup::default() };
+    match refused(&square, within(10_000_000), &500.into()) {
+        Refusal::TooLittleMemory { needed, available: 10 } => {
+            assert!((100..1000).contains(&needed), "{needed} MB");
+        }
+        other => panic!("{other:?}"),
+    }
+    let few = run_level(&square, &with(within(10_000_000)), &8.into(), &mut ());
+    assert!(few.unwrap().errors.is_ok());
+}
+
 /// Particles on a lattice of boxes do not lie along a circle; only boxes have rollers.
 #[test]
 fn conditions_that_an_annulus_cannot_meet_are_refused_by_name() {

@@ -15,6 +15,7 @@ use crate::extremes::subject::Subject;
 use crate::extremes::theory::{Elasticity, courant};
 use crate::extremes::verdict::{Declared, Seen, judge};
 use crate::report::extremes::{Judged, Report, Stability};
+use crate::rows::Named as _;
 use crate::scene::usual_cells;
 use crate::tradeoff::setting::Setting;
 

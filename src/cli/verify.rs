@@ -13,6 +13,7 @@ use mms_codegen::suggest::did_you_mean;
 use super::{Outcome, print, print_json, this_command};
 use crate::gallery::FIELDS;
 use crate::report::{pretty, provenance, write_files};
+use crate::rows::Named as _;
 use crate::store::{Store, digest, program};
 use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};

@@ -1,10 +1,11 @@
 //! The rows: what is extreme, what is expected of it, and why.
 
-use anyhow::{Context as _, ensure};
+use anyhow::ensure;
 use mms_codegen::accuracy::regime;
 use serde::Deserialize;
 
 use super::verdict::Diagnosis;
+use crate::rows::{Named, read};
 
 /// The rows, in their order.
 const ROWS: &str = include_str!("rows.toml");
@@ -48,15 +49,12 @@ pub struct Row {
     pub theory: String,
 }
 
-impl Row {
-    /// What stands before the slash.
-    pub fn group(&self) -> &str {
-        self.name.split('/').next().unwrap_or_default()
+impl Named for Row {
+    fn name(&self) -> &str {
+        &self.name
     }
 
-    /// Refuses what means nothing.
     fn validate(&self) -> anyhow::Result<()> {
-        ensure!(self.name.split('/').count() == 2, "the name has to be group/mode");
         if let Some(name) = &self.regime {
             ensure!(regime::find(name).is_some(), "no regime `{name}`");
         }
@@ -73,17 +71,7 @@ impl Row {
 /// # Errors
 /// A row that means nothing; a test reads them all.
 pub fn rows() -> anyhow::Result<Vec<Row>> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Rows {
-        row: Vec<Row>,
-    }
-    let Rows { row: rows } = toml::from_str(ROWS)?;
-    for (at, row) in rows.iter().enumerate() {
-        row.validate().with_context(|| format!("row `{}`", row.name))?;
-        ensure!(rows[..at].iter().all(|other| other.name != row.name), "`{}` twice", row.name);
-    }
-    Ok(rows)
+    read(ROWS)
 }
 
 #[cfg(test)]

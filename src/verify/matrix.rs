@@ -9,6 +9,7 @@ use serde::Deserialize;
 use crate::cli::input::Variant;
 use crate::cli::method::MethodOptions;
 use crate::gallery::{self, Entry};
+use crate::rows::{Named, read};
 
 /// The rows, in their order.
 pub const MATRIX: &str = include_str!("matrix.toml");
@@ -136,11 +137,6 @@ pub fn arguments(line: &str) -> Vec<&str> {
 }
 
 impl Row {
-    /// What stands before the slash.
-    pub fn group(&self) -> &str {
-        self.name.split('/').next().unwrap_or_default()
-    }
-
     /// Its study, understood.
     ///
     /// # Errors
@@ -180,11 +176,15 @@ impl Row {
         ensure!(study.cells.len() == 1, "cells have to be written as `--cells {}`", all.join(","));
         Ok((line, study))
     }
+}
 
-    /// Refuses what means nothing.
+impl Named for Row {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
     fn validate(&self) -> anyhow::Result<()> {
         let (study, _) = self.study()?;
-        ensure!(self.name.split('/').count() == 2, "the name has to be group/mode");
         ensure!(self.halvings == 0 || study.cells.len() == 1, "halvings take one grid");
         let levels = self.levels(false);
         ensure!(levels >= 2 && self.quick <= levels && self.quick != 1, "too few levels");
@@ -212,19 +212,4 @@ impl Row {
 /// A row that means nothing; a test reads them all.
 pub fn rows() -> anyhow::Result<Vec<Row>> {
     read(MATRIX)
-}
-
-/// The rows of a text.
-fn read(text: &str) -> anyhow::Result<Vec<Row>> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Matrix {
-        row: Vec<Row>,
-    }
-    let Matrix { row: rows } = toml::from_str(text)?;
-    for (at, row) in rows.iter().enumerate() {
-        row.validate().with_context(|| format!("row `{}`", row.name))?;
-        ensure!(rows[..at].iter().all(|other| other.name != row.name), "`{}` twice", row.name);
-    }
-    Ok(rows)
 }

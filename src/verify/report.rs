@@ -10,6 +10,7 @@ use super::work::Outcome;
 use crate::report::duration;
 use crate::report::method::division;
 use crate::report::provenance::Provenance;
+use crate::rows::Named as _;
 
 /// Rows, with what came of them.
 pub struct Report<'a> {

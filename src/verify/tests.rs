@@ -9,6 +9,7 @@ use super::report::fixed;
 use super::verdict::{Verdict, judge};
 use super::work::{Outcome, Size};
 use crate::gallery;
+use crate::rows::Named as _;
 
 fn studies() -> Vec<(Row, Study)> {
     let rows = rows().unwrap_or_else(|error| panic!("{error:#}"));

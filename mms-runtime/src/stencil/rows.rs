@@ -30,6 +30,7 @@ pub trait RowSum<T: Real, M: Machine<T>> {
     );
 
     /// The plane is done.
+    #[inline(always)]
     fn end(&mut self, _: M, _: Self::Plane, _: Pair<M::Four>) {}
 }
 
@@ -127,34 +128,6 @@ impl<T: Real, M: Machine<T>, const D: usize> RowSum<T, M> for Spread<'_, T, M::F
     }
 }
 
-/// [`Stencil::spread_both`](super::Stencil::spread_both).
-pub struct SpreadBoth<'a, T, F, const D: usize> {
-    pub first: SpreadValue<'a, T, F>,
-    pub second: Spread<'a, T, F, D>,
-}
-
-impl<T: Real, M: Machine<T>, const D: usize> RowSum<T, M> for SpreadBoth<'_, T, M::Four, D> {
-    type Plane = (M::Four, OfPlane<M::Four>);
-
-    #[inline(always)]
-    fn plane(&self, machine: M, pair: Pair<M::Four>) -> Self::Plane {
-        (self.first.plane(machine, pair), self.second.plane(machine, pair))
-    }
-
-    #[inline(always)]
-    fn row<const W: usize>(
-        &mut self,
-        machine: M,
-        (value, of_plane): &mut Self::Plane,
-        pair: Pair<M::Four>,
-        pairs: &[Pair<M::Four>; W],
-        first: usize,
-    ) {
-        self.first.row(machine, value, pair, pairs, first);
-        self.second.row(machine, of_plane, pair, pairs, first);
-    }
-}
-
 /// [`Stencil::collect_value`](super::Stencil::collect_value).
 pub struct CollectValue<'a, T, F> {
     pub value: F,
@@ -240,14 +213,15 @@ impl<T: Real, M: Machine<T>, const D: usize> RowSum<T, M> for Collect<'_, T, M::
     }
 }
 
+/// Two sums in one pass over the rows: [`Stencil::spread_both`](super::Stencil::spread_both) and
 /// [`Stencil::collect_both`](super::Stencil::collect_both).
-pub struct CollectBoth<'a, T, F, const D: usize> {
-    pub first: CollectValue<'a, T, F>,
-    pub second: Collect<'a, T, F, D>,
+pub struct Both<A, B> {
+    pub first: A,
+    pub second: B,
 }
 
-impl<T: Real, M: Machine<T>, const D: usize> RowSum<T, M> for CollectBoth<'_, T, M::Four, D> {
-    type Plane = (M::Four, OfPlane<M::Four>);
+impl<T: Real, M: Machine<T>, A: RowSum<T, M>, B: RowSum<T, M>> RowSum<T, M> for Both<A, B> {
+    type Plane = (A::Plane, B::Plane);
 
     #[inline(always)]
     fn plane(&self, machine: M, pair: Pair<M::Four>) -> Self::Plane {
@@ -258,18 +232,18 @@ impl<T: Real, M: Machine<T>, const D: usize> RowSum<T, M> for CollectBoth<'_, T,
     fn row<const W: usize>(
         &mut self,
         machine: M,
-        (value, of_plane): &mut Self::Plane,
+        (first_plane, second_plane): &mut Self::Plane,
         pair: Pair<M::Four>,
         pairs: &[Pair<M::Four>; W],
         first: usize,
     ) {
-        self.first.row(machine, value, pair, pairs, first);
-        self.second.row(machine, of_plane, pair, pairs, first);
+        self.first.row(machine, first_plane, pair, pairs, first);
+        self.second.row(machine, second_plane, pair, pairs, first);
     }
 
     #[inline(always)]
-    fn end(&mut self, machine: M, (value, of_plane): Self::Plane, pair: Pair<M::Four>) {
-        self.first.end(machine, value, pair);
-        self.second.end(machine, of_plane, pair);
+    fn end(&mut self, machine: M, (first, second): Self::Plane, pair: Pair<M::Four>) {
+        self.first.end(machine, first, pair);
+        self.second.end(machine, second, pair);
     }
 }

@@ -6,7 +6,7 @@
 use mms_math::machine::Machine;
 
 use super::Stencil;
-use super::rows::{Collect, CollectBoth, CollectValue, RowSum, Spread, SpreadBoth, SpreadValue};
+use super::rows::{Both, Collect, CollectValue, RowSum, Spread, SpreadValue};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
@@ -219,7 +219,7 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
     ) {
         let first = SpreadValue { value: first_value, nodes: first_nodes };
         let second = Spread { value, slopes, nodes };
-        self.sum(machine, &mut SpreadBoth { first, second });
+        self.sum(machine, &mut Both { first, second });
     }
 
     #[inline(always)]
@@ -246,7 +246,7 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
         let nothing = machine.splat(T::zero());
         let first = CollectValue { value: nothing, nodes: first_nodes };
         let second = Collect { value: nothing, slopes: [nothing; D], nodes };
-        let mut sum = CollectBoth { first, second };
+        let mut sum = Both { first, second };
         self.sum(machine, &mut sum);
         ([sum.first.value, sum.second.value], sum.second.slopes)
     }

@@ -18,8 +18,6 @@ use crate::{Failure, ManufacturedField, Real, Refusal};
 pub(super) struct Saved<'a, T: Real, const D: usize> {
     pub state: State<'a, T, D>,
     pub course: SavedCourse<'a>,
-    /// Wall-clock seconds.
-    pub elapsed: f64,
 }
 
 /// What was measured so far and does not follow from the state.
@@ -30,6 +28,29 @@ pub(super) struct SavedCourse<'a> {
     size: f64,
     tally: Option<Cow<'a, Tally>>,
     snapshots: Cow<'a, Snapshots>,
+    /// Wall-clock seconds.
+    pub elapsed: f64,
+}
+
+/// Wall-clock time of a run, that before a checkpoint included.
+#[derive(Clone, Copy)]
+pub(super) struct Stopwatch {
+    start: Instant,
+    /// Seconds.
+    pub before: f64,
+}
+
+impl Default for Stopwatch {
+    fn default() -> Self {
+        Self { start: Instant::now(), before: 0.0 }
+    }
+}
+
+impl Stopwatch {
+    /// Seconds so far.
+    pub fn seconds(&self) -> f64 {
+        self.before + self.start.elapsed().as_secs_f64()
+    }
 }
 
 /// A checkpoint's bytes that were read at once.
@@ -94,14 +115,12 @@ pub(super) struct Course<'a, T, const D: usize> {
     snapshots: Snapshots,
     steps: usize,
     records: bool,
-    start: Instant,
-    before: f64,
+    stopwatch: Stopwatch,
     observer: &'a mut dyn Observer,
 }
 
 impl<'a, T: Real, const D: usize> Course<'a, T, D> {
-    /// Of a run from its first state, or from one that was `saved` along with what was measured and the seconds
-    /// that it had taken.
+    /// Of a run from its first state, or from one that was `saved` along with what was measured.
     ///
     /// # Errors
     /// An error that is not finite; an observer that cannot go on.
@@ -109,13 +128,13 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
         watch: Watch,
         present: &Present<'_, T, D, F>,
         steps: usize,
-        saved: Option<(SavedCourse<'_>, f64)>,
+        saved: Option<SavedCourse<'_>>,
+        stopwatch: Stopwatch,
         observer: &'a mut dyn Observer,
     ) -> Result<Self, Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
     {
-        let start = Instant::now();
         let count = present.particles.len();
         observer.begin(count, steps);
         let mut watcher = Watcher::new(watch, count);
@@ -131,15 +150,13 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
             snapshots: Snapshots::default(),
             steps,
             records,
-            start,
-            before: 0.0,
+            stopwatch,
             observer,
         };
         let mut tally = None;
         match saved {
             None => course.show(present)?,
-            Some((saved, elapsed)) => {
-                course.before = elapsed;
+            Some(saved) => {
                 course.largest = saved.largest;
                 course.watcher.resume(saved.size);
                 course.snapshots = saved.snapshots.into_owned();
@@ -218,9 +235,9 @@ impl<'a, T: Real, const D: usize> Course<'a, T, D> {
             size: self.watcher.size(),
             tally: self.account.as_ref().map(|account| Cow::Borrowed(account.tally())),
             snapshots: Cow::Borrowed(&self.snapshots),
+            elapsed: self.stopwatch.seconds(),
         };
-        let elapsed = self.before + self.start.elapsed().as_secs_f64();
-        let saved = Saved { state: state(), course, elapsed };
+        let saved = Saved { state: state(), course };
         self.observer.keep(&saved).map_err(|reason| present.stopped(reason))
     }
 

@@ -1,8 +1,6 @@
 //! One run of a method on a field, and what is said of it.
 
-use std::time::Instant;
-
-use super::course::{Course, Saved, SavedCourse};
+use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
 use crate::integrator::{Integrator, IntegratorVisitor};
 use crate::particle::Particles;
@@ -139,17 +137,16 @@ impl<T: Real, const D: usize> ShapeVisitor for WithShape<'_, T, D> {
 
     fn visit<S: Shape>(self) -> Self::Output {
         let Self { field, method, cells, watch, observer } = self;
-        let start = Instant::now();
+        let mut stopwatch = Stopwatch::default();
         let mut solver =
             Solver::<T, D, _, S>::new(field, method.formulation, &method.setup, cells)?;
         let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
-        let mut before = 0.0;
         let saved = match saved {
             None => None,
-            Some(Saved { state, course, elapsed }) => {
+            Some(Saved { state, course }) => {
                 solver.restore(state)?;
-                before = elapsed;
-                Some((course, elapsed))
+                stopwatch.before = course.elapsed;
+                Some(course)
             }
         };
         let lattice = &solver.grid().lattice;
@@ -165,12 +162,12 @@ impl<T: Real, const D: usize> ShapeVisitor for WithShape<'_, T, D> {
         let (details, seconds, snapshots) = Default::default();
         let mut run = Run { level, details, seconds, snapshots };
         let fastest_wave = method.setup.fastest_wave;
-        let scene = WithIntegrator { solver, fastest_wave, watch, saved, observer };
+        let scene = WithIntegrator { solver, fastest_wave, watch, saved, stopwatch, observer };
         let result = match method.setup.threads {
             1 => method.integrator.visit(scene),
             threads => pool(threads)?.install(|| method.integrator.visit(scene)),
         };
-        run.level.seconds = before + start.elapsed().as_secs_f64();
+        run.level.seconds = stopwatch.seconds();
         run.level.errors = match result {
             Ok((details, seconds, snapshots)) => {
                 let errors = details.largest.displacement;
@@ -194,7 +191,8 @@ struct WithIntegrator<'a, T: Real, const D: usize, S: Shape> {
     solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S>,
     fastest_wave: Option<f64>,
     watch: Watch,
-    saved: Option<(SavedCourse<'a>, f64)>,
+    saved: Option<SavedCourse<'a>>,
+    stopwatch: Stopwatch,
     observer: &'a mut dyn Observer,
 }
 
@@ -202,11 +200,12 @@ impl<T: Real, const D: usize, S: Shape> IntegratorVisitor for WithIntegrator<'_,
     type Output = Result<(Details, Seconds, Snapshots), Failure>;
 
     fn visit<I: Integrator>(self) -> Self::Output {
-        let Self { mut solver, fastest_wave, watch, saved, observer } = self;
+        let Self { mut solver, fastest_wave, watch, saved, stopwatch, observer } = self;
         let (steps, behind) = (solver.steps(), I::LAG > 0.0);
         fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
         solver.check()?;
-        let mut course = Course::begin(watch, &solver.present(), steps, saved, observer)?;
+        let mut course =
+            Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
         while solver.present().step < steps {
             course.before_step(&solver.present(), behind);
             solver.step::<I>()?;

@@ -35,28 +35,13 @@ impl Dialect for Fortran {
     }
 
     fn function(&self, function: Function) -> String {
-        match function {
-            Function::Ln => "log".into(),
-            Function::Cbrt => "cubic_root".into(),
-            Function::Powf => "power".into(),
-            Function::Ln1p
-            | Function::ExpM1
-            | Function::Ln1pRest
-            | Function::SinPi
-            | Function::CosPi
-            | Function::Sqrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2 => function.name().into(),
-        }
+        let name = match function {
+            Function::Ln => "log",
+            Function::Cbrt => "cubic_root",
+            Function::Powf => "power",
+            _ => function.name(),
+        };
+        name.into()
     }
 
     fn statement(&self, name: &str, value: &str, _wide: bool) -> String {

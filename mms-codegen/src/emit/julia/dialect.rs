@@ -1,6 +1,6 @@
 //! How Julia writes numbers and functions.
 
-use crate::emit::port::body::{Dialect, Owner};
+use crate::emit::port::body::{Dialect, Owner, in_c_library};
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
 use crate::program::interpret::parts;
@@ -35,28 +35,14 @@ impl Dialect for Julia {
     }
 
     fn function(&self, function: Function) -> String {
-        match function {
-            Function::Ln => "log".into(),
-            Function::Ln1p => "log1p".into(),
-            Function::ExpM1 => "expm1".into(),
-            Function::SinPi => "sinpi".into(),
-            Function::CosPi => "cospi".into(),
-            Function::Atan2 => "atan".into(),
-            Function::Powf => "^".into(),
-            Function::Ln1pRest
-            | Function::Sqrt
-            | Function::Cbrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan => function.name().into(),
-        }
+        let name = match function {
+            Function::SinPi => "sinpi",
+            Function::CosPi => "cospi",
+            Function::Atan2 => "atan",
+            Function::Powf => "^",
+            _ => in_c_library(function).unwrap_or(function.name()),
+        };
+        name.into()
     }
 
     fn call(&self, function: Function, arguments: &[String]) -> String {

@@ -1,6 +1,6 @@
 //! How Octave and MATLAB write numbers and functions.
 
-use crate::emit::port::body::{Arithmetic, Dialect, Owner};
+use crate::emit::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::emit::port::number::{decimal, nearest};
 use crate::expr::{Function, Rational};
 use crate::program::interpret::parts;
@@ -34,28 +34,12 @@ impl Dialect for Octave {
     }
 
     fn function(&self, function: Function) -> String {
-        match function {
-            Function::Ln => "log".into(),
-            Function::Ln1p => "log1p".into(),
-            Function::ExpM1 => "expm1".into(),
-            Function::Cbrt => "cubic_root".into(),
-            Function::Powf => "power".into(),
-            Function::Ln1pRest
-            | Function::SinPi
-            | Function::CosPi
-            | Function::Sqrt
-            | Function::Exp
-            | Function::Sin
-            | Function::Cos
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2 => function.name().into(),
-        }
+        let name = match function {
+            Function::Cbrt => "cubic_root",
+            Function::Powf => "power",
+            _ => in_c_library(function).unwrap_or(function.name()),
+        };
+        name.into()
     }
 
     fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {

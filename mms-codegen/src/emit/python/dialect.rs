@@ -36,19 +36,10 @@ fn in_sympy(function: Function, arguments: &[String]) -> String {
         Function::CosPi => format!("sp.cos(PI*{argument})"),
         Function::Cbrt => format!("sp.sign({argument})*sp.Abs({argument})**sp.Rational(1, 3)"),
         Function::Powf => format!("{argument}**{}", arguments[1]),
-        Function::Ln => format!("sp.log({argument})"),
-        Function::Sqrt
-        | Function::Exp
-        | Function::Sin
-        | Function::Cos
-        | Function::Tan
-        | Function::Sinh
-        | Function::Cosh
-        | Function::Tanh
-        | Function::Asin
-        | Function::Acos
-        | Function::Atan
-        | Function::Atan2 => format!("sp.{}({})", function.name(), arguments.join(", ")),
+        _ => {
+            let name = in_c_library(function).unwrap_or(function.name());
+            format!("sp.{name}({})", arguments.join(", "))
+        }
     }
 }
 
