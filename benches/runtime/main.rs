@@ -1,9 +1,11 @@
-//! What a particle costs in a step: `cargo bench --bench runtime`, with `-- --json` for a program.
+//! What a particle costs in a step: `cargo bench --bench runtime`, with `-- --json` for a program, and with words
+//! for the cases whose names hold one of them: `cargo bench --bench runtime -- 3d_ugimp 2d`.
 //!
 //! An elastic block with 2 particles per cell and axis is let go from a deformed state, without output; a
 //! row of its own adds the field's forcing and walls. The thread is pinned, cases take turns, round by round, and the
-//! least time counts, for nothing makes a machine faster than it is. The floor is what the multiply-adds
-//! alone take at the rate that was measured in the same run; see [`roof`].
+//! least time counts, for nothing makes a machine faster than it is: of one thread the time that it had the processor,
+//! of more the time that passed. The floor is what the multiply-adds alone take at the rate that was measured in the
+//! same run; see [`roof`].
 
 mod block;
 mod roof;
@@ -12,6 +14,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use block::{Block, Body};
+use cpu_time::ThreadTime;
 use mms::scene::Scene;
 use mms_runtime::integrator::Leapfrog;
 use mms_runtime::shape::{Cpdi, Cpgimp, Linear, QuadraticBspline, Shape, Ugimp};
@@ -45,29 +48,35 @@ where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
 {
-    let start = Instant::now();
+    let (passed, used) = (Instant::now(), ThreadTime::now());
     for _ in 0..steps {
         if let Err(failure) = solver.step::<Leapfrog>() {
             panic!("the block broke: {failure}");
         }
     }
+    let alone = rayon::current_num_threads() == 1;
+    let elapsed = if alone { used.elapsed() } else { passed.elapsed() };
     let particles = black_box(solver.particles().len());
-    1e9 * start.elapsed().as_secs_f64() / (steps * particles) as f64
+    1e9 * elapsed.as_secs_f64() / (steps * particles) as f64
 }
 
-/// A row of one shape function and transfer.
+/// A row of one shape function and transfer, if its name holds one of the `words`, or there are none.
 fn row<T, const D: usize, S>(
+    words: &[String],
     case: &'static str,
     body: &Body,
     transfer: Transfer,
     threads: usize,
     count: Option<Count>,
-) -> Row
+) -> Option<Row>
 where
     T: Real,
     S: Shape,
     Scene<T>: block::Of<T, D>,
 {
+    if !words.is_empty() && !words.iter().any(|word| case.contains(word.as_str())) {
+        return None;
+    }
     // It lives as long as the program.
     let block: &'static Block<T, D> = Box::leak(Box::new(Block::new(body)));
     let along = (PARTICLES as f64).powf(1.0 / D as f64) / 2.0;
@@ -77,14 +86,12 @@ where
         Solver::<T, D, Block<T, D>, S>::new(block, FormulationName::Updated, &setup, &cells);
     let mut solver = solver.unwrap_or_else(|refusal| panic!("{case}: {refusal}"));
     let bytes = solver.particles().bytes_per_particle();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(threads).start_handler(roof::pin).build();
     let pool = pool.unwrap_or_else(|error| panic!("{threads} threads: {error}"));
     pool.install(|| turn(&mut solver, 2));
-    let turn = move || match threads {
-        1 => turn(&mut solver, 4),
-        _ => pool.install(|| turn(&mut solver, 4)),
-    };
-    Row {
+    let turn = move || pool.install(|| turn(&mut solver, 4));
+    Some(Row {
         case,
         precision: if size_of::<T>() == 4 { "f32" } else { "f64" },
         threads,
@@ -92,60 +99,55 @@ where
         count,
         turn: Box::new(turn),
         nanoseconds: f64::INFINITY,
-    }
+    })
 }
 
 /// Both precisions of a case.
 fn pair<const D: usize, S: Shape>(
+    words: &[String],
     case: &'static str,
     body: &Body,
     transfer: Transfer,
     count: Option<Count>,
-) -> [Row; 2]
+) -> impl Iterator<Item = Row>
 where
     Scene<f32>: block::Of<f32, D>,
     Scene<f64>: block::Of<f64, D>,
 {
-    [
-        row::<f64, D, S>(case, body, transfer, 1, count),
-        row::<f32, D, S>(case, body, transfer, 1, count),
-    ]
+    let double = row::<f64, D, S>(words, case, body, transfer, 1, count);
+    let single = row::<f32, D, S>(words, case, body, transfer, 1, count);
+    double.into_iter().chain(single)
 }
 
-fn rows() -> Vec<Row> {
+fn rows(words: &[String]) -> Vec<Row> {
     let (flip, apic) = (Transfer::FLIP, Transfer::Apic);
     let (plane, space) = (Body::free("axis_aligned_2d"), Body::free("axis_aligned_3d"));
     let forced = Body { forced: true, ..space };
+    let flips = |axes: usize, width: usize| Some(Count::flip(axes, width));
+    let apics = |axes: usize| Some(Count::apic(axes, 3));
     let mut rows = Vec::new();
-    rows.extend(pair::<3, QuadraticBspline>(
-        "3d_quadratic_apic",
-        &space,
-        apic,
-        Some(Count::apic(3, 3)),
-    ));
-    rows.extend(pair::<3, Linear>("3d_linear_flip", &space, flip, Some(Count::flip(3, 2))));
-    rows.extend(pair::<3, Ugimp>("3d_ugimp_flip", &space, flip, Some(Count::flip(3, 3))));
-    rows.extend(pair::<2, QuadraticBspline>(
-        "2d_quadratic_apic",
-        &plane,
-        apic,
-        Some(Count::apic(2, 3)),
-    ));
-    rows.extend(pair::<2, Linear>("2d_linear_flip", &plane, flip, Some(Count::flip(2, 2))));
-    rows.extend(pair::<2, Ugimp>("2d_ugimp_flip", &plane, flip, Some(Count::flip(2, 3))));
-    rows.extend(pair::<3, Cpgimp>("3d_cpgimp_flip", &space, flip, None));
-    rows.extend(pair::<3, Cpdi>("3d_cpdi_flip", &space, flip, None));
-    rows.extend(pair::<3, Ugimp>("3d_ugimp_flip_forced", &forced, flip, None));
-    rows.push(row::<f64, 3, QuadraticBspline>("3d_quadratic_apic", &space, apic, 2, None));
-    rows.push(row::<f64, 3, Ugimp>("3d_ugimp_flip", &space, flip, 2, None));
+    let (quadratic, linear, ugimp) = ("3d_quadratic_apic", "3d_linear_flip", "3d_ugimp_flip");
+    rows.extend(pair::<3, QuadraticBspline>(words, quadratic, &space, apic, apics(3)));
+    rows.extend(pair::<3, Linear>(words, linear, &space, flip, flips(3, 2)));
+    rows.extend(pair::<3, Ugimp>(words, ugimp, &space, flip, flips(3, 3)));
+    rows.extend(pair::<2, QuadraticBspline>(words, "2d_quadratic_apic", &plane, apic, apics(2)));
+    rows.extend(pair::<2, Linear>(words, "2d_linear_flip", &plane, flip, flips(2, 2)));
+    rows.extend(pair::<2, Ugimp>(words, "2d_ugimp_flip", &plane, flip, flips(2, 3)));
+    rows.extend(pair::<3, Cpgimp>(words, "3d_cpgimp_flip", &space, flip, None));
+    rows.extend(pair::<3, Cpdi>(words, "3d_cpdi_flip", &space, flip, None));
+    rows.extend(pair::<3, Ugimp>(words, "3d_ugimp_flip_forced", &forced, flip, None));
+    rows.extend(row::<f64, 3, QuadraticBspline>(words, quadratic, &space, apic, 2, None));
+    rows.extend(row::<f64, 3, Ugimp>(words, ugimp, &space, flip, 2, None));
     rows
 }
 
 fn main() {
-    let json = std::env::args().any(|argument| argument == "--json");
-    roof::pin();
+    let (options, words): (Vec<_>, Vec<_>) =
+        std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let json = options.iter().any(|option| option == "--json");
+    roof::pin(0);
     let mut roofs = [Roof::of::<f64>("f64"), Roof::of::<f32>("f32")];
-    let mut rows = rows();
+    let mut rows = rows(&words);
     for _ in 0..ROUNDS {
         roofs.iter_mut().for_each(Roof::round);
         for row in &mut rows {

@@ -11,8 +11,8 @@ use mms::gallery::{self, Entry};
 use mms::scene::Scene;
 use mms_codegen::twin::Twin;
 use mms_codegen::{Options, Selection};
-use mms_runtime::study::{TOLERANCE, judge, orders};
-use rows::{GROUPS, Row, STANDARD};
+use mms_runtime::study::{TOLERANCE, Watch, differences, judge, orders};
+use rows::{GROUPS, IN_TIME, InTime, Row, STANDARD};
 
 /// What stands before the tables.
 const INTRODUCTION: &str = "\
@@ -24,6 +24,20 @@ particles. An order is that between two neighbouring levels, coarse to fine. The
 `mms study` against order 2; where a row says why it cannot be, `fail` is what theory expects. Made by
 `cargo run --release --example orders > docs/orders.md`.
 ";
+
+/// What stands before the orders in time.
+const IN_TIME_TEXT: &str = "\
+One grid, finer and finer time steps. The error of the grid stays, so that each run is compared with the next
+finer one, as `mms study FIELD --refine time` does.";
+
+/// The Courant number of the first level in time; each further level has half of it.
+const COARSEST: f64 = 0.4;
+
+/// At the ends of so many equal parts of the time window, runs are compared.
+const PARTS: usize = 16;
+
+/// Levels in time.
+const LEVELS_IN_TIME: usize = 5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("{INTRODUCTION}");
@@ -39,13 +53,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         println!();
     }
+    println!("## In time\n\n{IN_TIME_TEXT}\n");
+    println!(
+        "| field | method | cells | steps | difference in l2, finest | orders in l2 | theory |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for row in IN_TIME {
+        eprintln!("{} {}", row.field, row.method);
+        println!("{}", line_in_time(row)?);
+    }
     Ok(())
 }
 
 /// A row of a table.
 fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     let entry = gallery::find(row.field).ok_or("no such field")?;
-    let scene = scene(entry, row)?;
+    let scene = scene(entry, row.twin)?;
     let mut levels = Vec::new();
     for &cells in row.levels {
         levels.push(scene.run_level(&row.method()?, &cells.into(), &mut ())?);
@@ -53,10 +76,7 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     let judgement = judge(&levels, 2.0, TOLERANCE.max(row.tolerance));
     let finest = levels.last().and_then(|level| level.errors.as_ref().ok());
     let observed = |norm: fn(&mms_runtime::study::Orders) -> Option<f64>| {
-        let pairs = levels.windows(2).map(|pair| norm(&orders(&pair[0], &pair[1])));
-        let words: Vec<_> =
-            pairs.map(|order| order.map_or("-".into(), |order| format!("{order:.2}"))).collect();
-        words.join(", ")
+        words(levels.windows(2).map(|pair| norm(&orders(&pair[0], &pair[1]))))
     };
     let numbers: Vec<String> = row.levels.iter().map(usize::to_string).collect();
     Ok(format!(
@@ -73,14 +93,49 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     ))
 }
 
+/// A row of the table in time.
+fn line_in_time(row: &InTime) -> Result<String, Box<dyn Error>> {
+    let entry = gallery::find(row.field).ok_or("no such field")?;
+    let scene = scene(entry, "")?;
+    let mut method = rows::method(row.method)?;
+    let mut runs = Vec::new();
+    for level in 0..LEVELS_IN_TIME {
+        method.setup.courant = COARSEST / f64::from(1u32 << level);
+        method.setup.parts = PARTS << level;
+        runs.push(scene.run(&method, &row.cells.into(), Watch::Parts, &mut ())?);
+    }
+    let series = differences(&runs.iter().collect::<Vec<_>>());
+    let points = series.points();
+    let finest = points.last().and_then(|point| point.errors.as_ref());
+    let orders = points.windows(2).map(|pair| pair[1].orders_from(&pair[0]).l2);
+    let steps: Vec<_> = runs.iter().map(|run| run.level.steps.to_string()).collect();
+    Ok(format!(
+        "| {} | {} | {} | {} | {} | {} | {} |",
+        row.field,
+        row.method,
+        row.cells,
+        steps.join(", "),
+        finest.map_or("stopped".into(), |errors| format!("{:.1e}", errors.l2)),
+        words(orders),
+        row.order
+    ))
+}
+
+/// Orders, as far as there are such.
+fn words(orders: impl Iterator<Item = Option<f64>>) -> String {
+    let words: Vec<_> =
+        orders.map(|order| order.map_or("-".into(), |order| format!("{order:.2}"))).collect();
+    words.join(", ")
+}
+
 /// The compiled field, or its rigid twin, interpreted.
-fn scene(entry: &'static Entry, row: &Row) -> Result<Scene<f64>, Box<dyn Error>> {
-    if row.twin.is_empty() {
+fn scene(entry: &'static Entry, twin: &str) -> Result<Scene<f64>, Box<dyn Error>> {
+    if twin.is_empty() {
         let compiled = entry.compile()?;
         let parameters = compiled.parameters(&Default::default());
         return (entry.double)(&parameters).ok_or_else(|| "build again".into());
     }
-    let twin = if row.twin == STANDARD { Twin::Standard } else { Twin::Given(row.twin.into()) };
+    let twin = if twin == STANDARD { Twin::Standard } else { Twin::Given(twin.into()) };
     let options =
         Options { selection: Selection { twin, ..Selection::default() }, ..Options::default() };
     let compiled = entry.compile_with(&options)?;

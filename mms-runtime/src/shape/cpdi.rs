@@ -43,6 +43,7 @@ impl Shape for Cpdi {
         *half_edges
     }
 
+    #[inline(always)]
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
         corners: &mut Corners<T, D>,
