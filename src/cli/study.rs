@@ -2,9 +2,13 @@
 
 use std::path::PathBuf;
 
-use anyhow::bail;
+use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
-use mms_runtime::study::{Fit, Refinement, Series, TOLERANCE, Watch, differences, fit};
+use mms_codegen::certify::sample::domain;
+use mms_codegen::period::period;
+use mms_runtime::study::{
+    Fit, Phase, Phases, Refinement, Series, TOLERANCE, Watch, differences, fit,
+};
 use mms_runtime::{Division, Method, Run, Verdict};
 
 use super::input::{Input, Variant};
@@ -12,7 +16,7 @@ use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, output_folder, print, print_json, this_command};
 use crate::report::provenance::Provenance;
-use crate::report::{Refused, Study as Report};
+use crate::report::{Phases as InPhase, Refused, Study as Report};
 use crate::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
@@ -44,6 +48,11 @@ pub struct Study {
     /// time step. Takes three grids or more.
     #[arg(long)]
     fit: bool,
+    /// Run through whole periods of the field instead of its time window, and hold amplitude and phase of the
+    /// computed motion to the exact one over the Nth of them, as in 1,10,100. Takes a field that repeats itself
+    /// in time.
+    #[arg(long, value_name = "N,..", value_delimiter = ',', conflicts_with = "end_time", value_parser = clap::value_parser!(u32).range(1..))]
+    periods: Vec<u32>,
     #[command(flatten)]
     method: MethodOptions,
     /// The order to judge against. By default that of the field's [[study]] entry for the method,
@@ -72,7 +81,7 @@ fn halved(method: &Method, times: u32) -> Method {
     let factor = 2f64.powi(times as i32);
     method.setup.courant /= factor;
     method.setup.time_step = method.setup.time_step.map(|step| step / factor);
-    method.setup.parts = PARTS << times;
+    method.setup.parts *= PARTS << times;
     method
 }
 
@@ -82,6 +91,9 @@ fn quartered(method: &Method) -> Method {
     method.setup.courant /= 4.0;
     method
 }
+
+/// A run, and its phase in the periods that are wanted; or why it was not started.
+type Solved = Result<(Run, Vec<Option<Phase>>), Refused>;
 
 /// A study on its own, with the defaults of its options.
 #[derive(Parser)]
@@ -132,11 +144,21 @@ impl Study {
 
     /// The study of a field; nothing, if no level could be started.
     fn report(&self, input: &Input, provenance: Provenance) -> anyhow::Result<Option<Report>> {
-        let method = self.method.method_for(input, &self.set)?;
+        let mut method = self.method.method_for(input, &self.set)?;
+        let period = self.through_periods(input, &mut method)?;
         let (levels, fit) = match self.method.precision {
             Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
             Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
         };
+        let (levels, phases): (Vec<_>, Vec<_>) = levels
+            .into_iter()
+            .map(|level| match level {
+                Ok((run, phases)) => (Ok(run), phases),
+                Err(refused) => (Err(refused), Vec::new()),
+            })
+            .unzip();
+        let phases =
+            period.map(|period| InPhase { period, measured: self.wanted(), levels: phases });
         let started: Vec<_> = levels.iter().flatten().collect();
         if started.is_empty() {
             return Ok(None);
@@ -160,6 +182,7 @@ impl Study {
             uncertainty: series.uncertainty(),
             error_constant: series.error_constant(expected_order),
             fit,
+            phases,
             differences,
             method,
             levels,
@@ -167,6 +190,27 @@ impl Study {
             tolerance,
             provenance,
         }))
+    }
+
+    /// The periods in which amplitude and phase are measured, in order.
+    fn wanted(&self) -> Vec<usize> {
+        let mut wanted: Vec<_> = self.periods.iter().map(|&period| period as usize).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted
+    }
+
+    /// Lets a method run to the end of the last period that is wanted, in as many steps in each; returns how long
+    /// they take.
+    fn through_periods(&self, input: &Input, method: &mut Method) -> anyhow::Result<Option<f64>> {
+        let Some(&last) = self.wanted().last() else { return Ok(None) };
+        let set = input.settings(&self.set)?;
+        let period = period(&input.compiled, &set)
+            .with_context(|| format!("`--periods`: `{}` has no period", input.name))?;
+        let (_, [start, _]) = domain(&input.compiled, &input.compiled.parameters::<f64>(&set));
+        method.setup.end_time = Some(start + last as f64 * period);
+        method.setup.parts = last;
+        Ok(Some(period))
     }
 
     fn validate(&self) -> anyhow::Result<()> {
@@ -191,28 +235,27 @@ impl Study {
     }
 
     /// The levels, and the fit of space and time if it is asked for.
-    fn solve<T: Solvable>(
-        &self,
-        scene: &Scene<T>,
-        method: &Method,
-    ) -> (Vec<Result<Run, Refused>>, Option<Fit>) {
-        let progress = Progress::new();
+    fn solve<T: Solvable>(&self, scene: &Scene<T>, method: &Method) -> (Vec<Solved>, Option<Fit>) {
+        let (progress, wanted) = (Progress::new(), self.wanted());
         let run = |method: &Method, cells: Division, watch: Watch| {
-            let run = scene.run(method, &cells, watch, &mut progress.of(cells));
+            let mut progress_of_run = progress.of(cells);
+            let mut phases = Phases::new(&wanted, &mut progress_of_run);
+            let run = scene.run(method, &cells, watch, &mut phases);
+            let phases = phases.found();
             match run.as_ref().map(|run| &run.level.errors) {
                 Ok(Ok(_)) => {}
                 Ok(Err(failure)) => progress.say(&format!("{cells} cells: {failure}")),
                 Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
             }
-            run.map_err(|reason| Refused { cells, reason })
+            run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })
         };
         let levels = self.levels(scene, method, &run);
-        let mut all: Vec<_> = levels.iter().flatten().map(|run| run.level.clone()).collect();
+        let mut all: Vec<_> = levels.iter().flatten().map(|(run, _)| run.level.clone()).collect();
         if self.fit {
-            for cells in levels.iter().flatten().map(|run| run.level.cells) {
+            for cells in levels.iter().flatten().map(|(run, _)| run.level.cells) {
                 let halved =
                     [1, 2].map(|times| run(&halved(method, times), cells, Watch::Displacement));
-                all.extend(halved.into_iter().flatten().map(|run| run.level));
+                all.extend(halved.into_iter().flatten().map(|(run, _)| run.level));
             }
         }
         progress.finish();
@@ -233,8 +276,8 @@ impl Study {
         &self,
         scene: &Scene<T>,
         method: &Method,
-        run: &dyn Fn(&Method, Division, Watch) -> Result<Run, Refused>,
-    ) -> Vec<Result<Run, Refused>> {
+        run: &dyn Fn(&Method, Division, Watch) -> Solved,
+    ) -> Vec<Solved> {
         match self.refine {
             Refinement::Time => {
                 let cells = self.cells.first().copied();
@@ -252,7 +295,7 @@ impl Study {
                 let (mut method, mut levels) = (quartered(method), Vec::new());
                 for cells in self.grids(scene).into_iter().rev() {
                     let level = run(&method, cells, Watch::Everything);
-                    if let (None, Ok(run)) = (method.setup.time_step, &level) {
+                    if let (None, Ok((run, _))) = (method.setup.time_step, &level) {
                         method.setup.time_step = Some(run.level.time_step);
                     }
                     levels.push(level);

@@ -10,6 +10,7 @@ mod frame;
 pub mod gallery;
 mod mark;
 mod motion;
+mod phase;
 mod picture;
 mod plot;
 mod run;

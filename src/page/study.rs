@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::mark::{Column, count, list, numbers, order, plain, seconds, small, table, words};
+use super::phase::Phases;
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
@@ -25,6 +26,7 @@ pub struct Study {
     order_uncertainty: Option<f64>,
     error_constant: Option<f64>,
     fit: Option<Fit>,
+    phase: Option<Phases>,
     verdict: String,
 }
 
@@ -140,6 +142,7 @@ impl Section for Study {
             (self.levels())
             @if let Some(differences) = &self.differences { (steps(differences)) }
             @else { (self.others()) }
+            @if let Some(phases) = &self.phase { (self.in_phase(phases)) }
             details {
                 summary { "The method" }
                 (list(&self.method))
@@ -220,6 +223,17 @@ impl Study {
             };
         }
         text
+    }
+
+    fn in_phase(&self, phases: &Phases) -> Markup {
+        let levels = self.levels.iter();
+        match self.refinement.as_str() {
+            "time" => {
+                phases.html("time step", &levels.map(|it| small(it.time_step)).collect::<Vec<_>>())
+            }
+            _ => phases
+                .html("cells", &levels.map(|it| html! { (plain(&it.cells)) }).collect::<Vec<_>>()),
+        }
     }
 
     fn levels(&self) -> Markup {

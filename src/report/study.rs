@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use mms_runtime::study::{Deviations, Fit, Judgement, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Method, Refusal, Run};
 use serde::Serialize;
@@ -11,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 use super::provenance::Provenance;
 use super::run::quantities;
-use super::{duration, method, picture, pretty, write_files};
+use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
 
 /// A finished study.
 pub struct Study {
@@ -41,6 +40,8 @@ pub struct Study {
     pub error_constant: Option<f64>,
     /// Space and time in one formula, where that was asked for, and found.
     pub fit: Option<Fit>,
+    /// Amplitude and phase, where that was asked for.
+    pub phases: Option<Phases>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -143,6 +144,12 @@ impl Study {
         self.levels.iter().zip(before)
     }
 
+    /// What is refined, on each level that was started.
+    fn lengths(&self) -> Vec<Option<f64>> {
+        let length = |run: &Run| self.refinement.length(&run.level);
+        self.levels.iter().map(|level| level.as_ref().ok().map(length)).collect()
+    }
+
     fn rows(&self) -> Vec<Row> {
         let row = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
             Ok(run) => Row::of(run, before, self.refinement),
@@ -218,6 +225,7 @@ impl Study {
                 "time_order": fit.time_order,
                 "residual": fit.residual,
             })),
+            "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
             "verdict": self.judgement.verdict.to_string(),
         }))
     }
@@ -237,6 +245,10 @@ impl Study {
         parts.push(self.conclusion());
         if self.differences.is_none() {
             parts.push(self.quantities_table().to_string());
+        }
+        if let Some(phases) = &self.phases {
+            parts.push(phases.table(&self.lengths(), self.refinement).to_string());
+            parts.push("a phase lag is in radians, and negative where the run is ahead".into());
         }
         parts.join("\n\n")
     }
@@ -363,18 +375,4 @@ impl Study {
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }
-}
-
-/// A table without lines.
-fn plain<const N: usize>(header: [&str; N]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(header);
-    table
-}
-
-fn to_the_right(mut table: Table) -> Table {
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
 }

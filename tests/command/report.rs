@@ -12,7 +12,8 @@ use super::mms::{Folder, Run};
 static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let folder = Folder::new();
     folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
-    let time = "--formulation total --shape linear --refine time --cells 32 --levels 3";
+    let time =
+        "--formulation total --shape linear --refine time --cells 32 --levels 3 --periods 1,2";
     folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
     folder.mms("verify --row time/usl --store store --output all/matrix").exits(0);
     folder
@@ -151,6 +152,12 @@ fn the_numbers_of_a_study_in_time_are_those_of_its_document() {
     let mut tables = tables(&page, "bar_1d: linear leapfrog, in time");
     let steps = tables.remove("Differences of displacements to the next level").expect("steps");
     assert_rows(&steps, array(&study["differences"]), &with_norms(&["time_step"], &[]));
+    let keys = ["", "amplitude_error", "order_amplitude", "phase_lag", "order_phase"];
+    for measured in array(&study["phase"]["measured"]) {
+        let caption = format!("Amplitude and phase in period {}", measured["number"]);
+        let table = tables.remove(&caption).expect("a period");
+        assert_rows(&table, array(&measured["levels"]), &keys);
+    }
     tables.remove("Errors of the displacement, the largest over time").expect("levels");
     assert!(tables.is_empty(), "{:?}", tables.keys());
 }
