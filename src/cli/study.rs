@@ -59,6 +59,10 @@ pub struct Study {
     /// else 2.
     #[arg(long, value_name = "P")]
     expected_order: Option<f64>,
+    /// The error constant C of l2 = C h^P, or C dt^P in time, on the finest level, to hold the verdict to as well,
+    /// within 1 %: a defect may leave the order and change the constant. Without it the order alone is judged.
+    #[arg(long, value_name = "C")]
+    expected_constant: Option<f64>,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -169,6 +173,10 @@ impl Study {
             Series::new(started.iter().map(|run| self.refine.displacement(run)))
         });
         let mut judgement = series.judge(expected_order, tolerance);
+        let error_constant = series.error_constant(expected_order);
+        if let Some(expected) = self.expected_constant {
+            judgement = judgement.with_constant(error_constant, expected);
+        }
         let stopped = started.iter().any(|run| run.level.errors.is_err());
         if stopped || started.len() < levels.len() {
             judgement.verdict = Verdict::Fail;
@@ -180,7 +188,8 @@ impl Study {
             refinement: self.refine,
             judgement,
             uncertainty: series.uncertainty(),
-            error_constant: series.error_constant(expected_order),
+            error_constant,
+            expected_error_constant: self.expected_constant,
             fit,
             phases,
             differences,
@@ -230,6 +239,10 @@ impl Study {
         }
         if self.expected_order.is_some_and(|order| !order.is_finite()) {
             bail!("`--expected-order`: expected a finite number");
+        }
+        if self.expected_constant.is_some_and(|constant| !(constant > 0.0 && constant.is_finite()))
+        {
+            bail!("`--expected-constant`: expected a positive number");
         }
         Ok(())
     }

@@ -6,7 +6,9 @@ use maud::{Markup, html};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::mark::{Column, count, list, numbers, order, plain, seconds, small, table, words};
+use super::mark::{
+    Column, count, list, number, numbers, order, plain, seconds, small, table, words,
+};
 use super::phase::Phases;
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
@@ -25,6 +27,7 @@ pub struct Study {
     observed_order: Option<f64>,
     order_uncertainty: Option<f64>,
     error_constant: Option<f64>,
+    expected_error_constant: Option<f64>,
     fit: Option<Fit>,
     phase: Option<Phases>,
     verdict: String,
@@ -132,7 +135,11 @@ impl Section for Study {
                     " The order of the limit is within " (order(Some(away))) " of it, by Richardson's extrapolation."
                 }
                 @if let Some(constant) = self.error_constant {
-                    " On the finest level l2 = " (small(Some(constant))) " " i { (self.length()) } sup { (self.expected_order) } "."
+                    " On the finest level l2 = " (small(Some(constant))) " " i { (self.length()) } sup { (self.expected_order) }
+                    @match self.expected_error_constant {
+                        Some(expected) => { "; expected is " (number(Some(expected), |it| format!("{it:e}"))) ", within 1 %." }
+                        None => { "; no constant is expected, so that the order alone is judged." }
+                    }
                 }
                 @if let Some(fit) = &self.fit { (fit.html()) }
             }

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_runtime::study::{Deviations, Fit, Judgement, Orders, Point, Refinement, Series};
+use mms_runtime::study::{
+    CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Refinement, Series, is_near,
+};
 use mms_runtime::{Division, Errors, Method, Refusal, Run};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -38,6 +40,8 @@ pub struct Study {
     pub uncertainty: Option<f64>,
     /// C of l2 = C h^p, or C dt^p in time, with the expected order.
     pub error_constant: Option<f64>,
+    /// What it should be, where that is known.
+    pub expected_error_constant: Option<f64>,
     /// Space and time in one formula, where that was asked for, and found.
     pub fit: Option<Fit>,
     /// Amplitude and phase, where that was asked for.
@@ -218,6 +222,7 @@ impl Study {
             "observed_order": self.judgement.observed_order,
             "order_uncertainty": self.uncertainty,
             "error_constant": self.error_constant,
+            "expected_error_constant": self.expected_error_constant,
             "fit": self.fit.map(|fit| json!({
                 "space_constant": fit.space_constant,
                 "space_order": fit.space_order,
@@ -336,12 +341,7 @@ impl Study {
                 "the order of the limit is within {away:.2} of it, by Richardson's extrapolation"
             )
         }));
-        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
-        lines.extend(
-            self.error_constant.map(|constant| {
-                format!("l2 = {constant:.3e} {length}^{order} on the finest level")
-            }),
-        );
+        lines.push(self.constant());
         lines.extend(self.fit.map(|fit| {
             format!(
                 "l2 = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",
@@ -356,6 +356,26 @@ impl Study {
             lines.push("~ an error that may be nothing but round-off, and is not judged".into());
         }
         lines.join("\n")
+    }
+
+    /// The error constant, and what it was held to: a defect may leave the order and change it.
+    fn constant(&self) -> String {
+        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
+        let found = match self.error_constant {
+            Some(found) => {
+                format!("l2 = {found:.3e} {length}^{} on the finest level", self.expected_order)
+            }
+            None => "no error constant".into(),
+        };
+        let held = match self.expected_error_constant {
+            Some(expected) => {
+                let is_met = self.error_constant.is_some_and(|found| is_near(found, expected));
+                let not = if is_met { "" } else { "not " };
+                format!("{not}the expected {expected:e} within {:.0} %", 100.0 * CONSTANT_TOLERANCE)
+            }
+            None => "the order alone is judged, since no constant is expected".into(),
+        };
+        format!("{found}: {held}")
     }
 
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.

@@ -30,6 +30,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "observed_order",
             "order_uncertainty",
             "error_constant",
+            "expected_error_constant",
             "fit",
             "phase",
             "verdict",
@@ -341,6 +342,31 @@ fn the_expected_order_may_be_given() {
     assert_eq!(document("--cells 8,16,32 --expected-order 3", 1)["verdict"], "fail");
 }
 
+/// A gate on the order alone passes what changes the constant, as another number of particles does here.
+#[test]
+fn the_error_constant_is_held_to_the_expected_one() {
+    let found = document("--cells 16,32,64", 0);
+    assert!(found["expected_error_constant"].is_null());
+    let constant = found["error_constant"].as_f64().expect("a constant");
+    let expected = format!("--cells 16,32,64 --expected-constant {constant:.3e}");
+    let held = document(&expected, 0);
+    assert_eq!((&held["verdict"], &held["error_constant"]), (&"pass".into(), &constant.into()));
+    let changed = document(&format!("{expected} --particles-per-cell 3"), 1);
+    let order = changed["observed_order"].as_f64().expect("an order");
+    assert!((order - 2.0).abs() < 0.05, "{changed:#}");
+    assert_eq!(changed["verdict"], "fail");
+    let folder = Folder::new();
+    let run = |arguments: &str| folder.mms(&format!("study bar_1d --cells 16,32 {arguments}"));
+    run("").exits(0).prints("the order alone is judged, since no constant is expected");
+    run("--expected-constant 0.7").exits(1).prints("not the expected 7e-1 within 1 %");
+    folder.write(
+        "scene.toml",
+        &format!("field = \"bar_1d\"\ncells = [16, 32, 64]\nexpected_constant = {constant:.3e}\n"),
+    );
+    folder.mms("study --study scene.toml").exits(0).prints("the expected").prints("within 1 %");
+    folder.mms("study --study scene.toml --courant 0.2").exits(1).prints("fail: observed order");
+}
+
 #[test]
 fn bad_settings_exit_2_and_name_the_option() {
     let cases = [
@@ -353,6 +379,7 @@ fn bad_settings_exit_2_and_name_the_option() {
         ("--cells 8,", "--cells"),
         ("--cells 8,x", "--cells"),
         ("--expected-order nan", "--expected-order"),
+        ("--expected-constant 0", "--expected-constant"),
         ("--refine mass", "known are: both, space, time"),
         ("--refine time --cells 8,16", "a study in time has one grid"),
         ("--levels 3", "given by `--cells`"),

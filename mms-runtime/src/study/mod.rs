@@ -25,7 +25,7 @@ pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
 pub use series::{Point, Series};
 pub use snapshots::Snapshots;
-pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
+pub use verdict::{CONSTANT_TOLERANCE, Judgement, TOLERANCE, Verdict, is_near, judge};
 
 use crate::{Division, Failure, ManufacturedField, Method, Refusal};
 
