@@ -13,16 +13,20 @@ use mms_runtime::{Division, Method, Run, Verdict};
 
 use super::input::{Input, Variant};
 use super::method::{MethodOptions, Precision};
+use super::methods::Methods;
 use super::progress::Progress;
 use super::{Outcome, output_folder, print, print_json, this_command};
 use crate::report::provenance::Provenance;
-use crate::report::{Phases as InPhase, Refused, Study as Report};
+use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
 use crate::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///
 /// A study in time runs on one grid, 128 cells in one dimension, 32 in two and 8 in three by default. Its
 /// orders are those of the differences between a level and the next, from which the error of space is gone.
+///
+/// Several methods, as of `--shape linear,cpgimp`, are studied one after the other and set beside each other: every
+/// combination of what is listed. Exit code 0: all pass.
 ///
 /// Writes convergence.svg, .csv and .json.
 #[derive(Args)]
@@ -54,7 +58,7 @@ pub struct Study {
     #[arg(long, value_name = "N,..", value_delimiter = ',', conflicts_with = "end_time", value_parser = clap::value_parser!(u32).range(1..))]
     periods: Vec<u32>,
     #[command(flatten)]
-    method: MethodOptions,
+    methods: Methods,
     /// The order to judge against. By default that of the field's [[study]] entry for the method,
     /// else 2.
     #[arg(long, value_name = "P")]
@@ -117,10 +121,12 @@ impl Study {
         let input = Input::find(&self.field, &self.variant)?;
         let folder = output_folder(self.output.as_deref(), &input.name)?;
         let provenance = this_command("study", input.provenance(&self.set))?;
-        let Some(report) = self.report(&input, provenance)? else {
+        let studies = self.reports(&input, &provenance)?;
+        if !studies.iter().any(Report::is_started) {
             anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
             return Ok(Outcome::RunFailed);
-        };
+        }
+        let report = Comparison { studies, provenance };
         if self.json {
             print_json(&report.document())?;
         } else {
@@ -130,10 +136,7 @@ impl Study {
         if !self.json {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
-        Ok(match report.judgement.verdict {
-            Verdict::Pass => Outcome::AsExpected,
-            Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
-        })
+        Ok(if report.is_passed() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 
     /// The study of a command line, `study` first, as any machine makes it; nothing, if no level could be started.
@@ -143,14 +146,39 @@ impl Study {
         let input = Input::find(&study.field, &study.variant)?;
         let command: Vec<_> = [&["mms".to_owned()], words].concat();
         let provenance = Provenance::new("study", &command, input.provenance(&study.set));
-        study.report(&input, Provenance { machine: None, ..provenance })
+        let studies = study.reports(&input, &Provenance { machine: None, ..provenance })?;
+        Ok(studies.into_iter().next().filter(Report::is_started))
     }
 
-    /// The study of a field; nothing, if no level could be started.
-    fn report(&self, input: &Input, provenance: Provenance) -> anyhow::Result<Option<Report>> {
-        let mut method = self.method.method_for(input, &self.set)?;
+    /// The study of a field with each of the methods.
+    fn reports(&self, input: &Input, provenance: &Provenance) -> anyhow::Result<Vec<Report>> {
+        // What cannot be is said before anything runs.
+        let methods: Vec<Method> = self
+            .methods
+            .each()
+            .iter()
+            .map(|options| options.method_for(input, &self.set))
+            .collect::<anyhow::Result<_>>()?;
+        let mut reports = Vec::new();
+        for (options, method) in self.methods.each().iter().zip(methods) {
+            if self.methods.each().len() > 1 {
+                anstream::eprintln!("{}", method::line(&method, options.precision.name()));
+            }
+            reports.push(self.report(input, options, method, provenance.clone())?);
+        }
+        Ok(reports)
+    }
+
+    /// The study of a field with one method.
+    fn report(
+        &self,
+        input: &Input,
+        options: &MethodOptions,
+        mut method: Method,
+        provenance: Provenance,
+    ) -> anyhow::Result<Report> {
         let period = self.through_periods(input, &mut method)?;
-        let (levels, fit) = match self.method.precision {
+        let (levels, fit) = match options.precision {
             Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
             Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
         };
@@ -164,10 +192,7 @@ impl Study {
         let phases =
             period.map(|period| InPhase { period, measured: self.wanted(), levels: phases });
         let started: Vec<_> = levels.iter().flatten().collect();
-        if started.is_empty() {
-            return Ok(None);
-        }
-        let (expected_order, tolerance) = self.expectation(input);
+        let (expected_order, tolerance) = self.expectation(input, options);
         let differences = (self.refine == Refinement::Time).then(|| differences(&started));
         let series = differences.clone().unwrap_or_else(|| {
             Series::new(started.iter().map(|run| self.refine.displacement(run)))
@@ -181,10 +206,10 @@ impl Study {
         if stopped || started.len() < levels.len() {
             judgement.verdict = Verdict::Fail;
         }
-        Ok(Some(Report {
+        Ok(Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
-            precision: self.method.precision.name(),
+            precision: options.precision.name(),
             refinement: self.refine,
             judgement,
             uncertainty: series.uncertainty(),
@@ -198,7 +223,7 @@ impl Study {
             expected_order,
             tolerance,
             provenance,
-        }))
+        })
     }
 
     /// The periods in which amplitude and phase are measured, in order.
@@ -243,6 +268,9 @@ impl Study {
         if self.expected_constant.is_some_and(|constant| !(constant > 0.0 && constant.is_finite()))
         {
             bail!("`--expected-constant`: expected a positive number");
+        }
+        if self.expected_constant.is_some() && self.methods.each().len() > 1 {
+            bail!("`--expected-constant`: each method has a constant of its own; give one method");
         }
         Ok(())
     }
@@ -330,12 +358,11 @@ impl Study {
     }
 
     /// The order to judge against, and how far from it is still as expected.
-    fn expectation(&self, input: &Input) -> (f64, f64) {
+    fn expectation(&self, input: &Input, method: &MethodOptions) -> (f64, f64) {
         let entry = input.compiled.field.studies.iter().find(|entry| {
-            entry.shape == self.method.shape.name()
-                && entry.integrator == self.method.integrator.name()
-                && entry.formulation.as_deref().unwrap_or("updated")
-                    == self.method.formulation.name()
+            entry.shape == method.shape.name()
+                && entry.integrator == method.integrator.name()
+                && entry.formulation.as_deref().unwrap_or("updated") == method.formulation.name()
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
         (order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))

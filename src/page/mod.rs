@@ -4,6 +4,7 @@
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
 mod accuracy;
+mod comparison;
 mod field;
 mod folder;
 mod frame;
@@ -84,7 +85,7 @@ impl Kind {
 
 /// The kinds of documents, in their order on a page.
 const KINDS: &[Kind] = &[
-    Kind::of::<study::Study>("study", "Convergence studies"),
+    Kind { name: "study", heading: "Convergence studies", read: study::read },
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<run::Run>("run", "Single runs"),

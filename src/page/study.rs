@@ -6,6 +6,7 @@ use maud::{Markup, html};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
+use super::comparison::Comparison;
 use super::mark::{
     Column, count, list, number, numbers, order, plain, seconds, small, table, words,
 };
@@ -158,7 +159,43 @@ impl Section for Study {
     }
 }
 
+/// Reads a study, or that of several methods.
+pub fn read(document: &Value) -> serde_json::Result<Box<dyn Section>> {
+    Ok(match document.get("studies") {
+        Some(_) => Box::new(Comparison::deserialize(document)?),
+        None => Box::new(Study::deserialize(document)?),
+    })
+}
+
 impl Study {
+    /// h or dt, and l2 of what is judged.
+    pub fn l2(&self) -> Vec<(Option<f64>, Option<f64>)> {
+        self.norms().into_iter().map(|(at, norms)| (at, norms.l2)).collect()
+    }
+
+    /// What tells the levels of what is judged from each other.
+    pub fn names_of_levels(&self) -> Vec<String> {
+        match &self.differences {
+            Some(steps) => steps.iter().map(|it| format!("dt {}", short(it.time_step))).collect(),
+            None => self.levels.iter().map(|it| format!("{} cells", plain(&it.cells))).collect(),
+        }
+    }
+
+    /// The order that is expected.
+    pub fn expected_order(&self) -> f64 {
+        self.expected_order
+    }
+
+    /// The order on the finest pair.
+    pub fn observed_order(&self) -> Option<f64> {
+        self.observed_order
+    }
+
+    /// C of l2 = C h^p.
+    pub fn error_constant(&self) -> Option<f64> {
+        self.error_constant
+    }
+
     fn length(&self) -> &'static str {
         if self.refinement == "time" { "dt" } else { "h" }
     }

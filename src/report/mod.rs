@@ -1,6 +1,7 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
+mod comparison;
 pub(crate) mod extremes;
 pub(crate) mod front;
 pub(crate) mod method;
@@ -11,6 +12,7 @@ pub mod run;
 mod study;
 pub(crate) mod tradeoff;
 
+pub use comparison::Comparison;
 pub use phase::Phases;
 pub use study::{Refused, Study};
 

@@ -6,7 +6,7 @@ use comfy_table::Table;
 use mms_runtime::study::{
     CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Refinement, Series, is_near,
 };
-use mms_runtime::{Division, Errors, Method, Refusal, Run};
+use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -136,6 +136,11 @@ fn norms(errors: Option<Errors>, observed: Orders) -> Value {
 }
 
 impl Study {
+    /// Whether a level was started.
+    pub fn is_started(&self) -> bool {
+        self.started().next().is_some()
+    }
+
     /// The levels that were started.
     pub(super) fn started(&self) -> impl Iterator<Item = &Run> {
         self.levels.iter().flatten()
@@ -193,8 +198,46 @@ impl Study {
         )
     }
 
+    /// What is judged: the errors of the levels that were started, or in time how far each is from the next.
+    pub(super) fn points(&self) -> Vec<Point> {
+        match &self.differences {
+            Some(differences) => differences.points().to_vec(),
+            None => self.started().map(|run| self.refinement.displacement(run)).collect(),
+        }
+    }
+
+    /// The levels that are judged, by their cells or time steps; in time the last is no such level.
+    pub(super) fn names_of_levels(&self) -> Vec<String> {
+        let name = |level: &Result<Run, Refused>| match (level, self.refinement) {
+            (Ok(run), Refinement::Time) => format!("dt {:.2e}", run.level.time_step),
+            (Ok(Run { level: Level { cells, .. }, .. }) | Err(Refused { cells, .. }), _) => {
+                format!("{cells} cells")
+            }
+        };
+        let judged = self.levels.len() - usize::from(self.refinement == Refinement::Time);
+        self.levels[..judged].iter().map(name).collect()
+    }
+
+    /// l2 of each of these, or why there is none.
+    pub(super) fn errors_of_levels(&self) -> Vec<String> {
+        let mut points = self.points().into_iter();
+        let judged = self.levels.iter().take(self.names_of_levels().len());
+        judged
+            .map(|level| match level.as_ref().ok().and_then(|_| points.next()) {
+                Some(Point { errors: Some(errors), .. }) => format!("{:.2e}", errors.l2),
+                Some(_) => "stopped".into(),
+                None => "not started".into(),
+            })
+            .collect()
+    }
+
     /// The JSON document.
     pub fn document(&self) -> Value {
+        self.provenance.sign(self.content())
+    }
+
+    /// The document, but for where it is from.
+    pub(super) fn content(&self) -> Value {
         let quantities = self.quantities().into_iter().map(|(_, key, levels)| {
             let levels = levels.into_iter().map(|(errors, observed)| norms(errors, observed));
             (key.to_owned(), levels.collect())
@@ -210,7 +253,7 @@ impl Study {
         };
         let differences =
             self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
-        self.provenance.sign(json!({
+        json!({
             "field": self.field,
             "method": method::document(&self.method, self.precision),
             "refinement": self.refinement.name(),
@@ -232,7 +275,7 @@ impl Study {
             })),
             "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
             "verdict": self.judgement.verdict.to_string(),
-        }))
+        })
     }
 
     /// The tables for a terminal, with the verdict.
@@ -251,11 +294,14 @@ impl Study {
         if self.differences.is_none() {
             parts.push(self.quantities_table().to_string());
         }
-        if let Some(phases) = &self.phases {
-            parts.push(phases.table(&self.lengths(), self.refinement).to_string());
-            parts.push("a phase lag is in radians, and negative where the run is ahead".into());
-        }
+        parts.extend(self.phase_table());
         parts.join("\n\n")
+    }
+
+    /// Amplitude and phase, where they were asked for.
+    pub(super) fn phase_table(&self) -> Option<String> {
+        let table = self.phases.as_ref()?.table(&self.lengths(), self.refinement);
+        Some(format!("{table}\n\na phase lag is in radians, and negative where the run is ahead"))
     }
 
     fn levels_table(&self) -> Table {
@@ -327,15 +373,19 @@ impl Study {
         to_the_right(table)
     }
 
-    /// The verdict, and what it rests on.
-    fn conclusion(&self) -> String {
+    /// The verdict, and the order that it rests on.
+    pub(super) fn verdict(&self) -> String {
         let observed = match self.judgement.observed_order {
             Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
             None => "no observed order".into(),
         };
         let (order, tolerance) = (self.expected_order, self.tolerance);
-        let verdict = self.judgement.verdict;
-        let mut lines = vec![format!("{verdict}: {observed}, expected {order} within {tolerance}")];
+        format!("{}: {observed}, expected {order} within {tolerance}", self.judgement.verdict)
+    }
+
+    /// The verdict, and all that it rests on.
+    fn conclusion(&self) -> String {
+        let mut lines = vec![self.verdict()];
         lines.extend(self.uncertainty.map(|away| {
             format!(
                 "the order of the limit is within {away:.2} of it, by Richardson's extrapolation"
@@ -388,7 +438,8 @@ impl Study {
         write_files(folder, "convergence", files)
     }
 
-    fn csv(&self) -> anyhow::Result<String> {
+    /// A row for each level.
+    pub(super) fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         for row in self.rows() {
             writer.serialize(row)?;

@@ -15,6 +15,8 @@ static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let time =
         "--formulation total --shape linear --refine time --cells 32 --levels 3 --periods 1,2";
     folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
+    let methods = "--formulation total --shape linear,quadratic_bspline --cells 8,16,32";
+    folder.mms(&format!("study bar_1d {methods} --output all/methods")).exits(0);
     folder.mms("verify --row time/usl --store store --output all/matrix").exits(0);
     folder
         .mms("run axis_aligned_2d --cells 4 --output all/run --vtk all/states --frames 3")
@@ -163,6 +165,24 @@ fn the_numbers_of_a_study_in_time_are_those_of_its_document() {
 }
 
 #[test]
+fn the_numbers_of_several_methods_are_those_of_their_document() {
+    let (page, document) = (parse(&PAGE), document("methods/convergence"));
+    let table = tables(&page, "bar_1d: 2 methods").remove("l2 of each method").expect("methods");
+    let studies = array(&document["studies"]);
+    assert_rows(
+        &table,
+        studies,
+        &["name", "", "", "", "observed_order", "error_constant", "verdict"],
+    );
+    assert_eq!(table.columns[1..4], ["8 cells", "16 cells", "32 cells"]);
+    for (cells, study) in table.rows.iter().zip(studies) {
+        for (cell, level) in cells[1..].iter().zip(array(&study["levels"])) {
+            assert_shows(cell, &level["l2"], "l2");
+        }
+    }
+}
+
+#[test]
 fn the_numbers_of_the_matrix_are_those_of_its_document() {
     let (page, matrix) = (parse(&PAGE), document("matrix/verification"));
     let mut tables = tables(&page, "The full matrix");
@@ -266,7 +286,7 @@ fn the_summary_has_every_result_and_its_verdict() {
         .skip(1)
         .map(|row| row.children().filter(Node::is_element).map(text).collect())
         .collect();
-    assert_eq!(rows.len(), 6, "{rows:?}");
+    assert_eq!(rows.len(), 7, "{rows:?}");
     assert!(rows.iter().any(|row| row[0].starts_with("bar_1d") && row[2].ends_with("pass")));
     assert!(rows.iter().any(|row| row[1] == "Verification matrix" && row[2].contains("1 of 1")));
     let head = named(page.root(), "header").next().expect("a header");
