@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod comparison;
+mod extremes;
 mod field;
 mod folder;
 mod frame;
@@ -17,6 +18,7 @@ mod plot;
 mod run;
 mod states;
 mod study;
+mod tradeoff;
 mod verify;
 
 use maud::{Markup, html};
@@ -87,6 +89,8 @@ impl Kind {
 const KINDS: &[Kind] = &[
     Kind { name: "study", heading: "Convergence studies", read: study::read },
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
+    Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
+    Kind::of::<extremes::Extremes>("extremes", "At the limits"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<run::Run>("run", "Single runs"),
 ];
