@@ -16,6 +16,7 @@ pub mod expr;
 pub mod mechanics;
 pub mod operations;
 pub mod pass;
+pub mod period;
 pub mod program;
 pub mod quantity;
 pub mod selection;

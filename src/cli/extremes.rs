@@ -1,5 +1,7 @@
 //! `mms extremes`: the solver at its limits.
 
+use std::path::PathBuf;
+
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::suggest::did_you_mean;
@@ -8,13 +10,14 @@ use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
 use crate::extremes::rows::{Row, rows};
 use crate::extremes::stable;
 use crate::extremes::subject::Subject;
 use crate::extremes::theory::{Elasticity, courant};
 use crate::extremes::verdict::{Declared, Seen, judge};
 use crate::report::extremes::{Judged, Report, Stability};
+use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
 use crate::scene::usual_cells;
 use crate::tradeoff::setting::Setting;
@@ -40,6 +43,9 @@ pub struct Extremes {
     row: Vec<String>,
     #[command(flatten)]
     method: MethodOptions,
+    /// Write extremes.json there, which is what `--json` prints.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -94,11 +100,21 @@ impl Extremes {
             declared: declared_error,
             rows: judged,
             stability,
+            provenance: this_command("extremes", declared.input.provenance(&[]))?,
+        };
+        let written = match &self.output {
+            Some(folder) => {
+                write_files(folder, "extremes", [("json", pretty(&report.document())?)])?
+            }
+            None => Vec::new(),
         };
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
+            for path in written {
+                print(&format!("\nwrote {path}"))?;
+            }
         }
         let expected = report.unexpected().is_empty();
         Ok(if expected { Outcome::AsExpected } else { Outcome::Refuted })

@@ -46,7 +46,7 @@ pub struct MethodOptions {
     pub formulation: FormulationName,
     /// How particles take the grid's velocity: flip, pic, apic, or xpic2 to xpic5.
     #[arg(long, default_value_t = Transfer::FLIP)]
-    transfer: Transfer,
+    pub transfer: Transfer,
     /// The part of flip, from 0 to 1; the rest is pic.
     #[arg(long, value_name = "PART")]
     flip_fraction: Option<f64>,

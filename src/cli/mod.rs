@@ -9,6 +9,7 @@ mod follow;
 pub(crate) mod input;
 mod list;
 pub(crate) mod method;
+mod methods;
 mod new;
 pub(crate) mod progress;
 mod report;

@@ -7,7 +7,7 @@ use clap::Args;
 use mms_codegen::selection::Form;
 
 use super::input::{Input, Motion, Variant};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
 use crate::scene::usual_cells;
@@ -99,7 +99,7 @@ impl Tradeoff {
         trials.finish();
         let command =
             |setting: &Setting, cells: usize| command(&self.arguments(field, setting, cells));
-        let report = self.report(&input, plan, found, &command);
+        let report = self.report(&input, plan, found, &command)?;
         let written = report.write(&folder)?;
         if self.json {
             print_json(&report.document())?;
@@ -120,9 +120,10 @@ impl Tradeoff {
         plan: Plan,
         found: Found,
         command: &'a dyn Fn(&Setting, usize) -> String,
-    ) -> Report<'a> {
+    ) -> anyhow::Result<Report<'a>> {
         let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
-        Report { field, title, plan, found, command }
+        let provenance = this_command("tradeoff", input.provenance(&self.set))?;
+        Ok(Report { field, title, plan, found, command, provenance })
     }
 
     fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {
@@ -144,7 +145,7 @@ impl Tradeoff {
                 let command = |setting: &Setting, cells: usize| {
                     command(&self.arguments(field, setting, cells))
                 };
-                page.add(&self.report(&input, plan, found, &command));
+                page.add(&self.report(&input, plan, found, &command)?);
             }
         }
         trials.finish();

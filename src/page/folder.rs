@@ -36,7 +36,7 @@ impl Page {
             ));
         }
         if entries.is_empty() {
-            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `run`, `verify` and `accuracy` write theirs with `--output`"));
+            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `run`, `verify`, `tradeoff`, `extremes` and `accuracy` write theirs with `--output`"));
             bail!("{}", set_aside.join("\n"));
         }
         let name = folder.canonicalize().ok();

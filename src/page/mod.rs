@@ -4,17 +4,21 @@
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
 mod accuracy;
+mod comparison;
+mod extremes;
 mod field;
 mod folder;
 mod frame;
 pub mod gallery;
 mod mark;
 mod motion;
+mod phase;
 mod picture;
 mod plot;
 mod run;
 mod states;
 mod study;
+mod tradeoff;
 mod verify;
 
 use maud::{Markup, html};
@@ -83,8 +87,10 @@ impl Kind {
 
 /// The kinds of documents, in their order on a page.
 const KINDS: &[Kind] = &[
-    Kind::of::<study::Study>("study", "Convergence studies"),
+    Kind { name: "study", heading: "Convergence studies", read: study::read },
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
+    Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
+    Kind::of::<extremes::Extremes>("extremes", "At the limits"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<run::Run>("run", "Single runs"),
 ];

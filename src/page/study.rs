@@ -6,7 +6,11 @@ use maud::{Markup, html};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::mark::{Column, count, list, numbers, order, plain, seconds, small, table, words};
+use super::comparison::Comparison;
+use super::mark::{
+    Column, count, list, number, numbers, order, plain, seconds, small, table, words,
+};
+use super::phase::Phases;
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
@@ -24,7 +28,9 @@ pub struct Study {
     observed_order: Option<f64>,
     order_uncertainty: Option<f64>,
     error_constant: Option<f64>,
+    expected_error_constant: Option<f64>,
     fit: Option<Fit>,
+    phase: Option<Phases>,
     verdict: String,
 }
 
@@ -130,7 +136,11 @@ impl Section for Study {
                     " The order of the limit is within " (order(Some(away))) " of it, by Richardson's extrapolation."
                 }
                 @if let Some(constant) = self.error_constant {
-                    " On the finest level l2 = " (small(Some(constant))) " " i { (self.length()) } sup { (self.expected_order) } "."
+                    " On the finest level l2 = " (small(Some(constant))) " " i { (self.length()) } sup { (self.expected_order) }
+                    @match self.expected_error_constant {
+                        Some(expected) => { "; expected is " (number(Some(expected), |it| format!("{it:e}"))) ", within 1 %." }
+                        None => { "; no constant is expected, so that the order alone is judged." }
+                    }
                 }
                 @if let Some(fit) = &self.fit { (fit.html()) }
             }
@@ -140,6 +150,7 @@ impl Section for Study {
             (self.levels())
             @if let Some(differences) = &self.differences { (steps(differences)) }
             @else { (self.others()) }
+            @if let Some(phases) = &self.phase { (self.in_phase(phases)) }
             details {
                 summary { "The method" }
                 (list(&self.method))
@@ -148,7 +159,43 @@ impl Section for Study {
     }
 }
 
+/// Reads a study, or that of several methods.
+pub fn read(document: &Value) -> serde_json::Result<Box<dyn Section>> {
+    Ok(match document.get("studies") {
+        Some(_) => Box::new(Comparison::deserialize(document)?),
+        None => Box::new(Study::deserialize(document)?),
+    })
+}
+
 impl Study {
+    /// h or dt, and l2 of what is judged.
+    pub fn l2(&self) -> Vec<(Option<f64>, Option<f64>)> {
+        self.norms().into_iter().map(|(at, norms)| (at, norms.l2)).collect()
+    }
+
+    /// What tells the levels of what is judged from each other.
+    pub fn names_of_levels(&self) -> Vec<String> {
+        match &self.differences {
+            Some(steps) => steps.iter().map(|it| format!("dt {}", short(it.time_step))).collect(),
+            None => self.levels.iter().map(|it| format!("{} cells", plain(&it.cells))).collect(),
+        }
+    }
+
+    /// The order that is expected.
+    pub fn expected_order(&self) -> f64 {
+        self.expected_order
+    }
+
+    /// The order on the finest pair.
+    pub fn observed_order(&self) -> Option<f64> {
+        self.observed_order
+    }
+
+    /// C of l2 = C h^p.
+    pub fn error_constant(&self) -> Option<f64> {
+        self.error_constant
+    }
+
     fn length(&self) -> &'static str {
         if self.refinement == "time" { "dt" } else { "h" }
     }
@@ -220,6 +267,17 @@ impl Study {
             };
         }
         text
+    }
+
+    fn in_phase(&self, phases: &Phases) -> Markup {
+        let levels = self.levels.iter();
+        match self.refinement.as_str() {
+            "time" => {
+                phases.html("time step", &levels.map(|it| small(it.time_step)).collect::<Vec<_>>())
+            }
+            _ => phases
+                .html("cells", &levels.map(|it| html! { (plain(&it.cells)) }).collect::<Vec<_>>()),
+        }
     }
 
     fn levels(&self) -> Markup {

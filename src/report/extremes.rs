@@ -6,6 +6,7 @@ use mms_runtime::Method;
 use serde_json::{Value, json};
 
 use super::method;
+use super::provenance::Provenance;
 use crate::extremes::rows::Row;
 use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
 
@@ -27,6 +28,8 @@ pub struct Report {
     pub rows: Vec<Judged>,
     /// The largest stable Courant numbers.
     pub stability: Vec<Stability>,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
 /// A row, with what came of it.
@@ -156,7 +159,7 @@ impl Report {
                 "expected": it.is_expected(),
             })
         });
-        json!({
+        self.provenance.sign(json!({
             "field": self.field,
             "method": method::document(&self.method, self.precision),
             "quick": self.quick,
@@ -164,7 +167,7 @@ impl Report {
             "rows": self.rows.iter().map(|row| row.document(self.declared)).collect::<Vec<_>>(),
             "stability": stability.collect::<Vec<_>>(),
             "unexpected": self.unexpected(),
-        })
+        }))
     }
 
     /// The text for a terminal.

@@ -1,15 +1,19 @@
 //! What the command says of runs and studies: tables, JSON documents, CSV files and pictures.
 
 pub mod accuracy;
+mod comparison;
 pub(crate) mod extremes;
 pub(crate) mod front;
 pub(crate) mod method;
+mod phase;
 pub(crate) mod picture;
 pub mod provenance;
 pub mod run;
 mod study;
 pub(crate) mod tradeoff;
 
+pub use comparison::Comparison;
+pub use phase::Phases;
 pub use study::{Refused, Study};
 
 use std::fs::File;
@@ -17,6 +21,8 @@ use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
 use serde_json::Value;
 
 /// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
@@ -65,6 +71,20 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
+}
+
+/// A table without lines.
+fn plain<const N: usize>(header: [&str; N]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header(header);
+    table
+}
+
+fn to_the_right(mut table: Table) -> Table {
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
 }
 
 /// Seconds for a person.

@@ -4,57 +4,104 @@ use anyhow::anyhow;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use mms_runtime::study::{Point, Refinement};
+use mms_runtime::Errors;
+use mms_runtime::study::Refinement;
 
 use super::{Study, method};
 
 const SIZE: (u32, u32) = (760, 520);
 /// Colours that are told apart without seeing colour well (Okabe & Ito 2008).
-const NORMS: [(&str, RGBColor); 3] =
-    [("l1", RGBColor(0, 114, 178)), ("l2", RGBColor(213, 94, 0)), ("linf", RGBColor(0, 158, 115))];
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
 /// In other fonts `l1` and `linf` look like `I1` and `Iinf`.
 const LABELS: (&str, u32) = ("monospace", 14);
 const TEXT: (&str, u32) = ("sans-serif", 15);
 const SLOPE: RGBColor = RGBColor(90, 90, 90);
 
-/// The picture as SVG text.
+/// A name, and points of a length and an error.
+type Line = (String, Vec<(f64, f64)>);
+
+/// Lines over h or dt.
+struct Picture {
+    caption: String,
+    refinement: Refinement,
+    /// Whether errors are differences to the next level.
+    is_of_differences: bool,
+    lines: Vec<Line>,
+    /// h or dt of all levels.
+    lengths: Vec<f64>,
+    /// The slope that is expected.
+    order: f64,
+}
+
+/// The picture of a study as SVG text: a line for each norm.
 pub fn draw(study: &Study) -> anyhow::Result<String> {
-    let mut svg = String::new();
-    draw_into(study, &mut svg).map_err(|error| anyhow!("cannot draw the picture: {error}"))?;
-    Ok(svg)
+    let caption = format!("{}: {}", study.field, method::line(&study.method, study.precision));
+    let line = |name: &str, norm: fn(&Errors) -> f64| (name.to_owned(), points(study, norm));
+    let lines = vec![
+        line("l1", |errors| errors.l1),
+        line("l2", |errors| errors.l2),
+        line("linf", |errors| errors.linf),
+    ];
+    Picture::of(&[study], caption, lines).svg()
+}
+
+/// The picture of several methods: a line for l2 of each.
+pub fn draw_all(studies: &[Study], names: &[String]) -> anyhow::Result<String> {
+    let lines = names.iter().zip(studies);
+    let lines = lines.map(|(name, study)| (name.clone(), points(study, |errors| errors.l2)));
+    let caption = format!("{}: l2 of {} methods", studies[0].field, studies.len());
+    Picture::of(&studies.iter().collect::<Vec<_>>(), caption, lines.collect()).svg()
 }
 
 /// The points (h, error) of one norm that a logarithmic axis can show.
-fn points(study: &Study, norm: usize) -> Vec<(f64, f64)> {
-    let own: Vec<Point>;
-    let points = match &study.differences {
-        Some(differences) => differences.points(),
-        None => {
-            own = study.started().map(|run| study.refinement.displacement(run)).collect();
-            &own
-        }
-    };
-    let shown = points.iter().filter_map(|point| {
-        let errors = point.errors?;
-        let error = [errors.l1, errors.l2, errors.linf][norm];
+fn points(study: &Study, norm: fn(&Errors) -> f64) -> Vec<(f64, f64)> {
+    let points = study.points().into_iter().filter_map(|point| {
+        let error = norm(&point.errors?);
         (error > 0.0).then_some((point.length, error))
     });
-    shown.collect()
+    points.collect()
 }
 
-fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+impl Picture {
+    fn of(studies: &[&Study], caption: String, lines: Vec<Line>) -> Self {
+        let runs = studies.iter().flat_map(|study| study.started());
+        let refinement = studies[0].refinement;
+        Self {
+            caption,
+            refinement,
+            is_of_differences: studies[0].differences.is_some(),
+            lines,
+            lengths: runs.map(|run| refinement.length(&run.level)).collect(),
+            order: studies[0].expected_order,
+        }
+    }
+
+    fn svg(&self) -> anyhow::Result<String> {
+        let mut svg = String::new();
+        draw_into(self, &mut svg).map_err(|error| anyhow!("cannot draw the picture: {error}"))?;
+        Ok(svg)
+    }
+}
+
+fn draw_into(picture: &Picture, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
-    let all: Vec<_> = (0..NORMS.len()).flat_map(|norm| points(study, norm)).collect();
-    let slope = slope(&all, study.expected_order);
-    let lengths = || study.started().map(|run| study.refinement.length(&run.level));
+    let all: Vec<_> = picture.lines.iter().flat_map(|(_, points)| points.clone()).collect();
+    let slope = slope(&all, picture.order);
+    let lengths = || picture.lengths.iter().copied();
     let sizes = span(lengths(), 1.25);
     let errors = span(all.iter().chain(&slope).map(|(_, error)| *error), 2.0);
     let sizes_shown = apart(lengths(), sizes);
     let (errors_shown, errors_between) = ticks(errors);
-    let caption = format!("{}: {}", study.field, method::line(&study.method, study.precision));
     let mut chart = ChartBuilder::on(&root)
-        .caption(caption, ("sans-serif", 18))
+        .caption(&picture.caption, ("sans-serif", 18))
         .margin(16)
         .x_label_area_size(48)
         .y_label_area_size(72)
@@ -69,28 +116,28 @@ fn draw_into(study: &Study, svg: &mut String) -> Result<(), Box<dyn std::error::
         .configure_mesh()
         .label_style(TEXT)
         .axis_desc_style(TEXT)
-        .x_desc(if study.refinement == Refinement::Time { "time step dt" } else { "cell size h" })
-        .y_desc(match study.differences {
-            Some(_) => "largest difference of displacements to the next level",
-            None => "largest displacement error over time",
+        .x_desc(if picture.refinement == Refinement::Time { "time step dt" } else { "cell size h" })
+        .y_desc(match picture.is_of_differences {
+            true => "largest difference of displacements to the next level",
+            false => "largest displacement error over time",
         })
         .x_label_formatter(&|h| format!("{h:.2e}"))
         .y_label_formatter(&|error| format!("{error:.0e}"))
         .bold_line_style(RGBColor(210, 210, 210))
         .light_line_style(RGBColor(240, 240, 240))
         .draw()?;
-    for (norm, (name, colour)) in NORMS.iter().enumerate() {
+    for ((name, points), colour) in picture.lines.iter().zip(COLOURS.iter().cycle()) {
         chart
             .draw_series(
-                LineSeries::new(points(study, norm), colour.stroke_width(2)).point_size(4),
+                LineSeries::new(points.iter().copied(), colour.stroke_width(2)).point_size(4),
             )?
-            .label(*name)
+            .label(name)
             .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
     }
     if !slope.is_empty() {
         chart
             .draw_series(DashedLineSeries::new(slope, 6, 4, SLOPE.stroke_width(2)))?
-            .label(format!("slope {}", study.expected_order))
+            .label(format!("slope {}", picture.order))
             .legend(|(x, y)| {
                 let ends = [(x, y), (x + 18, y)];
                 DashedPathElement::new(ends, 6, 4, SLOPE.stroke_width(2))

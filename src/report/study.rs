@@ -2,16 +2,17 @@
 
 use std::path::Path;
 
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
-use mms_runtime::study::{Deviations, Fit, Judgement, Orders, Point, Refinement, Series};
-use mms_runtime::{Division, Errors, Method, Refusal, Run};
+use comfy_table::Table;
+use mms_runtime::study::{
+    CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Refinement, Series, is_near,
+};
+use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::provenance::Provenance;
 use super::run::quantities;
-use super::{duration, method, picture, pretty, write_files};
+use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
 
 /// A finished study.
 pub struct Study {
@@ -39,8 +40,12 @@ pub struct Study {
     pub uncertainty: Option<f64>,
     /// C of l2 = C h^p, or C dt^p in time, with the expected order.
     pub error_constant: Option<f64>,
+    /// What it should be, where that is known.
+    pub expected_error_constant: Option<f64>,
     /// Space and time in one formula, where that was asked for, and found.
     pub fit: Option<Fit>,
+    /// Amplitude and phase, where that was asked for.
+    pub phases: Option<Phases>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -131,6 +136,11 @@ fn norms(errors: Option<Errors>, observed: Orders) -> Value {
 }
 
 impl Study {
+    /// Whether a level was started.
+    pub fn is_started(&self) -> bool {
+        self.started().next().is_some()
+    }
+
     /// The levels that were started.
     pub(super) fn started(&self) -> impl Iterator<Item = &Run> {
         self.levels.iter().flatten()
@@ -141,6 +151,12 @@ impl Study {
         let before =
             std::iter::once(None).chain(self.levels.iter().map(|level| level.as_ref().ok()));
         self.levels.iter().zip(before)
+    }
+
+    /// What is refined, on each level that was started.
+    fn lengths(&self) -> Vec<Option<f64>> {
+        let length = |run: &Run| self.refinement.length(&run.level);
+        self.levels.iter().map(|level| level.as_ref().ok().map(length)).collect()
     }
 
     fn rows(&self) -> Vec<Row> {
@@ -182,8 +198,46 @@ impl Study {
         )
     }
 
+    /// What is judged: the errors of the levels that were started, or in time how far each is from the next.
+    pub(super) fn points(&self) -> Vec<Point> {
+        match &self.differences {
+            Some(differences) => differences.points().to_vec(),
+            None => self.started().map(|run| self.refinement.displacement(run)).collect(),
+        }
+    }
+
+    /// The levels that are judged, by their cells or time steps; in time the last is no such level.
+    pub(super) fn names_of_levels(&self) -> Vec<String> {
+        let name = |level: &Result<Run, Refused>| match (level, self.refinement) {
+            (Ok(run), Refinement::Time) => format!("dt {:.2e}", run.level.time_step),
+            (Ok(Run { level: Level { cells, .. }, .. }) | Err(Refused { cells, .. }), _) => {
+                format!("{cells} cells")
+            }
+        };
+        let judged = self.levels.len() - usize::from(self.refinement == Refinement::Time);
+        self.levels[..judged].iter().map(name).collect()
+    }
+
+    /// l2 of each of these, or why there is none.
+    pub(super) fn errors_of_levels(&self) -> Vec<String> {
+        let mut points = self.points().into_iter();
+        let judged = self.levels.iter().take(self.names_of_levels().len());
+        judged
+            .map(|level| match level.as_ref().ok().and_then(|_| points.next()) {
+                Some(Point { errors: Some(errors), .. }) => format!("{:.2e}", errors.l2),
+                Some(_) => "stopped".into(),
+                None => "not started".into(),
+            })
+            .collect()
+    }
+
     /// The JSON document.
     pub fn document(&self) -> Value {
+        self.provenance.sign(self.content())
+    }
+
+    /// The document, but for where it is from.
+    pub(super) fn content(&self) -> Value {
         let quantities = self.quantities().into_iter().map(|(_, key, levels)| {
             let levels = levels.into_iter().map(|(errors, observed)| norms(errors, observed));
             (key.to_owned(), levels.collect())
@@ -199,7 +253,7 @@ impl Study {
         };
         let differences =
             self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
-        self.provenance.sign(json!({
+        json!({
             "field": self.field,
             "method": method::document(&self.method, self.precision),
             "refinement": self.refinement.name(),
@@ -211,6 +265,7 @@ impl Study {
             "observed_order": self.judgement.observed_order,
             "order_uncertainty": self.uncertainty,
             "error_constant": self.error_constant,
+            "expected_error_constant": self.expected_error_constant,
             "fit": self.fit.map(|fit| json!({
                 "space_constant": fit.space_constant,
                 "space_order": fit.space_order,
@@ -218,8 +273,9 @@ impl Study {
                 "time_order": fit.time_order,
                 "residual": fit.residual,
             })),
+            "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
             "verdict": self.judgement.verdict.to_string(),
-        }))
+        })
     }
 
     /// The tables for a terminal, with the verdict.
@@ -238,7 +294,14 @@ impl Study {
         if self.differences.is_none() {
             parts.push(self.quantities_table().to_string());
         }
+        parts.extend(self.phase_table());
         parts.join("\n\n")
+    }
+
+    /// Amplitude and phase, where they were asked for.
+    pub(super) fn phase_table(&self) -> Option<String> {
+        let table = self.phases.as_ref()?.table(&self.lengths(), self.refinement);
+        Some(format!("{table}\n\na phase lag is in radians, and negative where the run is ahead"))
     }
 
     fn levels_table(&self) -> Table {
@@ -310,26 +373,25 @@ impl Study {
         to_the_right(table)
     }
 
-    /// The verdict, and what it rests on.
-    fn conclusion(&self) -> String {
+    /// The verdict, and the order that it rests on.
+    pub(super) fn verdict(&self) -> String {
         let observed = match self.judgement.observed_order {
             Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
             None => "no observed order".into(),
         };
         let (order, tolerance) = (self.expected_order, self.tolerance);
-        let verdict = self.judgement.verdict;
-        let mut lines = vec![format!("{verdict}: {observed}, expected {order} within {tolerance}")];
+        format!("{}: {observed}, expected {order} within {tolerance}", self.judgement.verdict)
+    }
+
+    /// The verdict, and all that it rests on.
+    fn conclusion(&self) -> String {
+        let mut lines = vec![self.verdict()];
         lines.extend(self.uncertainty.map(|away| {
             format!(
                 "the order of the limit is within {away:.2} of it, by Richardson's extrapolation"
             )
         }));
-        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
-        lines.extend(
-            self.error_constant.map(|constant| {
-                format!("l2 = {constant:.3e} {length}^{order} on the finest level")
-            }),
-        );
+        lines.push(self.constant());
         lines.extend(self.fit.map(|fit| {
             format!(
                 "l2 = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",
@@ -346,6 +408,26 @@ impl Study {
         lines.join("\n")
     }
 
+    /// The error constant, and what it was held to: a defect may leave the order and change it.
+    fn constant(&self) -> String {
+        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
+        let found = match self.error_constant {
+            Some(found) => {
+                format!("l2 = {found:.3e} {length}^{} on the finest level", self.expected_order)
+            }
+            None => "no error constant".into(),
+        };
+        let held = match self.expected_error_constant {
+            Some(expected) => {
+                let is_met = self.error_constant.is_some_and(|found| is_near(found, expected));
+                let not = if is_met { "" } else { "not " };
+                format!("{not}the expected {expected:e} within {:.0} %", 100.0 * CONSTANT_TOLERANCE)
+            }
+            None => "the order alone is judged, since no constant is expected".into(),
+        };
+        format!("{found}: {held}")
+    }
+
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
         let files = [
@@ -356,25 +438,12 @@ impl Study {
         write_files(folder, "convergence", files)
     }
 
-    fn csv(&self) -> anyhow::Result<String> {
+    /// A row for each level.
+    pub(super) fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         for row in self.rows() {
             writer.serialize(row)?;
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }
-}
-
-/// A table without lines.
-fn plain<const N: usize>(header: [&str; N]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(header);
-    table
-}
-
-fn to_the_right(mut table: Table) -> Table {
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
 }

@@ -2,17 +2,13 @@
 
 use std::fmt;
 
-use mms_runtime::study::observed_order;
+use mms_runtime::study::{is_near, observed_order};
 
 use super::matrix::{Expected, Row, Word};
 use super::work::Outcome;
 
 /// An observed order below this is none: the theory knows orders from 1 on.
 const LEAST_ORDER: f64 = 0.5;
-
-/// How much an error constant may differ from the one that is written: runs are the same on every machine but
-/// for rounding, and what levels lose by not being asymptotic is the same as well.
-const CONSTANT_TOLERANCE: f64 = 0.01;
 
 /// Errors of rounding, relative to the natural size of a quantity: 20,000 eps, for some thousand steps.
 const ROUNDING: f64 = 5e-12;
@@ -145,8 +141,7 @@ fn see(
         return (Verdict::Fail, seen);
     }
     let written = row.constant.unwrap_or(f64::NAN);
-    let near = |constant: f64| (constant / written - 1.0).abs() <= CONSTANT_TOLERANCE;
-    if !constant.is_some_and(near) {
+    if !constant.is_some_and(|constant| is_near(constant, written)) {
         let found = constant.map_or("none".into(), |constant| format!("{constant:.4e}"));
         return (Verdict::Fail, format!("error constant {found}, not {written:.4e}"));
     }

@@ -18,7 +18,7 @@ fn row<'a>(document: &'a Value, name: &str) -> &'a Value {
 fn every_row_of_the_bar_is_as_theory_expects() {
     let document = document("", 0);
     let own = ["field", "method", "quick", "declared_l2", "rows", "stability", "unexpected"];
-    assert_eq!(keys(&document), own);
+    assert_eq!(keys(&document), [&own[..], &["provenance"]].concat());
     assert_eq!(document["unexpected"], Value::Array(Vec::new()));
     for row in document["rows"].as_array().expect("rows") {
         let own = [
@@ -76,6 +76,15 @@ fn the_largest_stable_courant_number_is_that_of_theory() {
         assert_close(found["measured"].as_f64().expect("a number"), limit, 0.05);
         assert_eq!(found["verdict"], "as in the interior", "{method}");
     }
+}
+
+#[test]
+fn what_is_printed_is_written_too() {
+    let folder = Folder::new();
+    let run = folder.mms("extremes bar_1d --quick --row units/soft --json --output found").exits(0);
+    let written: Value = serde_json::from_str(&folder.read("found/extremes.json")).expect("JSON");
+    assert_eq!(written, run.json());
+    assert_eq!(written["provenance"]["kind"], "extremes");
 }
 
 #[test]

@@ -12,12 +12,19 @@ use super::mms::{Folder, Run};
 static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let folder = Folder::new();
     folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
-    let time = "--formulation total --shape linear --refine time --cells 32 --levels 3";
+    let time =
+        "--formulation total --shape linear --refine time --cells 32 --levels 3 --periods 1,2";
     folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
+    let methods = "--formulation total --shape linear,quadratic_bspline --cells 8,16,32";
+    folder.mms(&format!("study bar_1d {methods} --output all/methods")).exits(0);
     folder.mms("verify --row time/usl --store store --output all/matrix").exits(0);
     folder
         .mms("run axis_aligned_2d --cells 4 --output all/run --vtk all/states --frames 3")
         .exits(0);
+    let tradeoff = "tradeoff bar_1d --target-linf 1e-3 --cost particle-steps --most-work 1e5";
+    folder.mms(&format!("{tradeoff} --store costs --output all/tradeoff")).exits(0);
+    let extremes = "extremes bar_1d --quick --row units --row courant --row stability";
+    folder.mms(&format!("{extremes} --output all/extremes")).exits(0);
     let accuracy =
         "accuracy bar_1d --quantity J,P --regime declared,displacement_1e-8 --points 40 --json";
     folder.write("all/accuracy/printed.json", &folder.mms(accuracy).exits(0).stdout);
@@ -151,8 +158,32 @@ fn the_numbers_of_a_study_in_time_are_those_of_its_document() {
     let mut tables = tables(&page, "bar_1d: linear leapfrog, in time");
     let steps = tables.remove("Differences of displacements to the next level").expect("steps");
     assert_rows(&steps, array(&study["differences"]), &with_norms(&["time_step"], &[]));
+    let keys = ["", "amplitude_error", "order_amplitude", "phase_lag", "order_phase"];
+    for measured in array(&study["phase"]["measured"]) {
+        let caption = format!("Amplitude and phase in period {}", measured["number"]);
+        let table = tables.remove(&caption).expect("a period");
+        assert_rows(&table, array(&measured["levels"]), &keys);
+    }
     tables.remove("Errors of the displacement, the largest over time").expect("levels");
     assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_several_methods_are_those_of_their_document() {
+    let (page, document) = (parse(&PAGE), document("methods/convergence"));
+    let table = tables(&page, "bar_1d: 2 methods").remove("l2 of each method").expect("methods");
+    let studies = array(&document["studies"]);
+    assert_rows(
+        &table,
+        studies,
+        &["name", "", "", "", "observed_order", "error_constant", "verdict"],
+    );
+    assert_eq!(table.columns[1..4], ["8 cells", "16 cells", "32 cells"]);
+    for (cells, study) in table.rows.iter().zip(studies) {
+        for (cell, level) in cells[1..].iter().zip(array(&study["levels"])) {
+            assert_shows(cell, &level["l2"], "l2");
+        }
+    }
 }
 
 #[test]
@@ -178,6 +209,70 @@ fn the_numbers_of_the_matrix_are_those_of_its_document() {
         assert!(cells[0].0.contains(row["theory"].as_str().expect("a text")));
         assert_shows(&cells[5], &levels[levels.len() - 2]["order_l2"], "before");
     }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_a_tradeoff_are_those_of_its_document() {
+    let (page, found) = (parse(&PAGE), document("tradeoff/tradeoff"));
+    let mut tables = tables(&page, "bar_1d: error against cost");
+    let (mut front, others): (Vec<Value>, Vec<Value>) =
+        array(&found["runs"]).iter().cloned().partition(|run| run["front"] == true);
+    let cost = |run: &Value| run["particle_steps"].as_f64().expect("a cost");
+    front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+    let keys = [
+        "",
+        "cells",
+        "particles_per_cell",
+        "courant",
+        "precision",
+        "form",
+        "linf",
+        "particle_steps",
+        "seconds",
+        "memory",
+        "",
+    ];
+    for (caption, runs) in
+        [("The Pareto front", &front), ("Runs that others beat, and runs that stopped", &others)]
+    {
+        let table = tables.remove(caption).expect("runs");
+        assert_rows(&table, runs, &keys);
+        for (cells, run) in table.rows.iter().zip(runs) {
+            for word in ["formulation", "shape", "integrator", "transfer"] {
+                assert!(cells[0].0.contains(run[word].as_str().expect("a word")), "{cells:?}");
+            }
+            let remark = match &run["failure"] {
+                Value::String(failure) => failure,
+                _ if run["command"] == found["choice"]["command"] => "chosen",
+                _ => "",
+            };
+            assert_eq!(cells[10].0, remark);
+        }
+    }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+    assert!(PAGE.contains(found["choice"]["command"].as_str().expect("a command")));
+}
+
+#[test]
+fn the_numbers_of_extremes_are_those_of_their_document() {
+    let (page, found) = (parse(&PAGE), document("extremes/extremes"));
+    let mut tables = tables(&page, "bar_1d: at the limits");
+    let rows = array(&found["rows"]);
+    let table =
+        tables.remove("Extremes, errors relative to the largest displacement").expect("rows");
+    assert_rows(&table, rows, &["", "l2", "bound", "diagnosis", "", "verdict"]);
+    for (cells, row) in table.rows.iter().zip(rows) {
+        for key in ["name", "theory", "setting"] {
+            assert!(cells[0].0.contains(row[key].as_str().expect("a text")), "{cells:?}");
+        }
+        for diagnosis in array(&row["allowed_diagnoses"]) {
+            assert!(cells[4].0.contains(diagnosis.as_str().expect("a word")), "{cells:?}");
+        }
+    }
+    let limits = tables.remove("The largest stable Courant number").expect("limits");
+    let keys = ["method", "theory", "measured", "verdict"];
+    assert_rows(&limits, array(&found["stability"]), &keys);
     assert!(tables.is_empty(), "{:?}", tables.keys());
 }
 
@@ -259,7 +354,7 @@ fn the_summary_has_every_result_and_its_verdict() {
         .skip(1)
         .map(|row| row.children().filter(Node::is_element).map(text).collect())
         .collect();
-    assert_eq!(rows.len(), 6, "{rows:?}");
+    assert_eq!(rows.len(), 9, "{rows:?}");
     assert!(rows.iter().any(|row| row[0].starts_with("bar_1d") && row[2].ends_with("pass")));
     assert!(rows.iter().any(|row| row[1] == "Verification matrix" && row[2].contains("1 of 1")));
     let head = named(page.root(), "header").next().expect("a header");

@@ -2,11 +2,15 @@
 
 use serde_json::Value;
 
-use super::mms::{BAR, Folder, keys};
+use super::mms::{BAR, Folder, assert_close, keys};
 
 /// The document of a study of the gallery's bar that ends with this exit code.
 fn document(arguments: &str, code: i32) -> Value {
     Folder::new().mms(&format!("study bar_1d --json {arguments}")).exits(code).json()
+}
+
+fn array(value: &Value) -> &[Value] {
+    value.as_array().expect("an array")
 }
 
 #[test]
@@ -26,7 +30,9 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "observed_order",
             "order_uncertainty",
             "error_constant",
+            "expected_error_constant",
             "fit",
+            "phase",
             "verdict",
             "provenance",
         ]
@@ -170,6 +176,71 @@ fn space_and_time_are_told_apart() {
     folder.mms("study bar_1d --refine time --fit").exits(2).complains("leave `--refine` at both");
 }
 
+/// A standing wave of the linear bar, which nothing drives: b is of the order of its amplitude squared.
+const WAVE: &str = "study axis_aligned_1d --set amplitude=1e-6 --set nu=0 --formulation total --shape linear --json";
+
+/// Leapfrog keeps a wave's amplitude, and makes it faster: sin(w dt/2) = w_h dt/2, w_h being the frequency of the
+/// grid, puts it ahead by 2 pi (n - 1/2) (w_h dt)^2/24 in the middle of period n. To a few percent, for apic adds an
+/// error of time of its own.
+#[test]
+fn leapfrog_keeps_the_amplitude_and_its_phase_is_of_second_order() {
+    let options = "--transfer apic --refine time --levels 4 --cells 16 --periods 1,10";
+    let document = Folder::new().mms(&format!("{WAVE} {options}")).json();
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{document:#}"));
+    let phase = &document["phase"];
+    let [first, tenth] = [0, 1].map(|which: usize| array(&phase["measured"][which]["levels"]));
+    assert_eq!([&phase["measured"][0]["number"], &phase["measured"][1]["number"]], [1, 10]);
+    let ahead = |level: usize| {
+        let dt = number(&document["levels"][level]["time_step"]);
+        let angle = std::f64::consts::TAU * dt / number(&phase["period"]);
+        9.5 * std::f64::consts::TAU * angle.powi(2) / 24.0
+    };
+    let lag = |level: usize| number(&tenth[level]["phase_lag"]);
+    for level in 0..3 {
+        assert_close(lag(level + 1) - lag(level), ahead(level) - ahead(level + 1), 0.05);
+    }
+    assert!((number(&tenth[3]["order_phase"]) - 2.0).abs() < 0.02, "{document:#}");
+    assert!(tenth[1]["order_phase"].is_null());
+    for (first, tenth) in first.iter().zip(tenth) {
+        let gained = number(&tenth["amplitude_error"]) - number(&first["amplitude_error"]);
+        assert!(gained.abs() < 2e-4, "{document:#}");
+    }
+}
+
+/// The frequency of a grid is off by O(h^2), and the lag grows with it: as 9.5 to 99.5, in the middle of periods.
+#[test]
+fn a_wave_loses_its_phase_in_proportion_to_time() {
+    let document = Folder::new().mms(&format!("{WAVE} --cells 8,16,32 --periods 10,1,100")).json();
+    let number = |value: &Value| value.as_f64().unwrap_or_else(|| panic!("{document:#}"));
+    let measured = array(&document["phase"]["measured"]);
+    let lag = |which: usize| number(&measured[which]["levels"][2]["phase_lag"]);
+    assert_close(lag(2) / lag(1), 99.5 / 9.5, 0.03);
+    for (which, period) in [1, 10, 100].into_iter().enumerate() {
+        assert_eq!(measured[which]["number"], period);
+        let order = number(&measured[which]["levels"][2]["order_phase"]);
+        assert!((order - 2.0).abs() < 0.05, "{document:#}");
+    }
+    let periods = number(&document["method"]["end_time"]) / number(&document["phase"]["period"]);
+    assert_close(periods, 100.125, 1e-12);
+}
+
+#[test]
+fn periods_are_of_fields_that_repeat_themselves() {
+    let run = |arguments: &str| Folder::new().mms(&format!("study {arguments} --cells 4,8"));
+    run("uniform_stretch --periods 1").exits(2).complains("`uniform_stretch` has no period: u");
+    run("self_weight_column --periods 1").exits(2).complains("u does not depend on t");
+    run("bar_1d --rigid --periods 1").exits(2).complains("has no period");
+    run("bar_1d --periods 0").exits(2).complains("--periods");
+    run("bar_1d --periods 1 --time 0.1").exits(2).complains("cannot be used with");
+    run("bar_1d --periods 1,2").prints("in period").prints("a phase lag is in radians");
+    // A run that stops has the periods before.
+    let stopped = run("bar_1d --periods 1,1000 --courant 0.6 --json").exits(1).json();
+    assert!(stopped["levels"][0]["failure"].is_string(), "{stopped:#}");
+    let measured = array(&stopped["phase"]["measured"]);
+    assert!(measured[0]["levels"][0]["phase_lag"].is_f64(), "{stopped:#}");
+    assert!(measured[1]["levels"][0]["phase_lag"].is_null(), "{stopped:#}");
+}
+
 /// All levels have a quarter of the time step of the finest.
 #[test]
 fn a_study_in_space_has_one_time_step() {
@@ -271,6 +342,31 @@ fn the_expected_order_may_be_given() {
     assert_eq!(document("--cells 8,16,32 --expected-order 3", 1)["verdict"], "fail");
 }
 
+/// A gate on the order alone passes what changes the constant, as another number of particles does here.
+#[test]
+fn the_error_constant_is_held_to_the_expected_one() {
+    let found = document("--cells 16,32,64", 0);
+    assert!(found["expected_error_constant"].is_null());
+    let constant = found["error_constant"].as_f64().expect("a constant");
+    let expected = format!("--cells 16,32,64 --expected-constant {constant:.3e}");
+    let held = document(&expected, 0);
+    assert_eq!((&held["verdict"], &held["error_constant"]), (&"pass".into(), &constant.into()));
+    let changed = document(&format!("{expected} --particles-per-cell 3"), 1);
+    let order = changed["observed_order"].as_f64().expect("an order");
+    assert!((order - 2.0).abs() < 0.05, "{changed:#}");
+    assert_eq!(changed["verdict"], "fail");
+    let folder = Folder::new();
+    let run = |arguments: &str| folder.mms(&format!("study bar_1d --cells 16,32 {arguments}"));
+    run("").exits(0).prints("the order alone is judged, since no constant is expected");
+    run("--expected-constant 0.7").exits(1).prints("not the expected 7e-1 within 1 %");
+    folder.write(
+        "scene.toml",
+        &format!("field = \"bar_1d\"\ncells = [16, 32, 64]\nexpected_constant = {constant:.3e}\n"),
+    );
+    folder.mms("study --study scene.toml").exits(0).prints("the expected").prints("within 1 %");
+    folder.mms("study --study scene.toml --courant 0.2").exits(1).prints("fail: observed order");
+}
+
 #[test]
 fn bad_settings_exit_2_and_name_the_option() {
     let cases = [
@@ -283,6 +379,7 @@ fn bad_settings_exit_2_and_name_the_option() {
         ("--cells 8,", "--cells"),
         ("--cells 8,x", "--cells"),
         ("--expected-order nan", "--expected-order"),
+        ("--expected-constant 0", "--expected-constant"),
         ("--refine mass", "known are: both, space, time"),
         ("--refine time --cells 8,16", "a study in time has one grid"),
         ("--levels 3", "given by `--cells`"),

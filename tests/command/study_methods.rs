@@ -3,7 +3,7 @@
 use mms_codegen::spec::PRECISIONS;
 use serde_json::{Value, json};
 
-use super::mms::{Folder, assert_close};
+use super::mms::{Folder, assert_close, keys};
 
 /// The document of a study of the gallery's bar that ends with this exit code.
 fn document(arguments: &str, code: i32) -> Value {
@@ -143,5 +143,81 @@ fn a_file_outside_the_gallery_gives_the_same_study() {
                 assert_close(*found, expected, 1e4 * eps);
             }
         }
+    }
+}
+
+/// Each study of several is the one of its method alone.
+#[test]
+fn several_methods_are_studied_one_after_the_other() {
+    let folder = Folder::new();
+    let cells = "--cells 8,16";
+    let several = format!("study bar_1d --shape cpgimp,linear --integrator leapfrog,usl {cells}");
+    let run = folder.mms(&format!("{several} --json --output several")).exits(1);
+    let document = run.json();
+    assert_eq!(keys(&document), ["field", "refinement", "studies", "passed", "provenance"]);
+    assert_eq!(document["provenance"]["kind"], "study");
+    let studies = document["studies"].as_array().expect("studies");
+    let names = ["cpgimp leapfrog", "cpgimp usl", "linear leapfrog", "linear usl"];
+    assert_eq!(studies.iter().map(|study| &study["name"]).collect::<Vec<_>>(), names);
+    let without_times = |mut study: Value| {
+        study["levels"].as_array_mut().expect("levels").iter_mut().for_each(|level| {
+            level["seconds"].take();
+        });
+        for key in ["name", "provenance"] {
+            study.as_object_mut().expect("an object").remove(key);
+        }
+        study
+    };
+    let passed = studies.iter().filter(|study| study["verdict"] == "pass").count();
+    assert_eq!(document["passed"], passed);
+    for (study, name) in studies.iter().zip(names) {
+        let (shape, integrator) = name.split_once(' ').expect("two words");
+        let alone =
+            format!("study bar_1d --shape {shape} --integrator {integrator} {cells} --json");
+        assert_eq!(
+            without_times(study.clone()),
+            without_times(folder.mms(&alone).json()),
+            "{name}"
+        );
+    }
+    let table = folder.mms(&several).exits(1);
+    table.prints("8 cells").prints(&format!("{passed} of 4 methods pass"));
+    let [svg, csv] = ["svg", "csv"].map(|it| folder.read(&format!("several/convergence.{it}")));
+    for name in names {
+        assert!(svg.contains(name), "{name}");
+        table.prints(&format!("{name}: "));
+    }
+    assert!(csv.starts_with("method,cells,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 4 * 2);
+    assert_eq!(csv.lines().filter(|line| line.starts_with("linear usl,")).count(), 2);
+}
+
+#[test]
+fn several_methods_stand_in_a_study_file_too() {
+    let folder = Folder::new();
+    let scene = "field = \"bar_1d\"\ncells = [8, 16]\nformulation = \"total\"\n\
+                 shape = [\"linear\", \"quadratic_bspline\"]\nrefine = \"space\"\n";
+    folder.write("scene.toml", scene);
+    folder
+        .mms("study --study scene.toml")
+        .prints("quadratic_bspline: ")
+        .prints("of 2 methods pass");
+    let time = "study bar_1d --refine time --cells 16 --levels 3 --integrator leapfrog,musl --json";
+    let document = folder.mms(&format!("{time} --formulation total --shape linear")).json();
+    for study in document["studies"].as_array().expect("studies") {
+        assert_eq!(study["differences"].as_array().map(Vec::len), Some(2), "{document:#}");
+    }
+}
+
+#[test]
+fn lists_of_methods_that_make_no_sense_exit_2() {
+    for (arguments, message) in [
+        ("--shape linear,linear", "`--shape`: a word is given twice"),
+        ("--shape linear,cpgmp", "known are: linear, ugimp, cpgimp"),
+        ("--formulation updated,total --shape cpgimp", "total"),
+        ("--precision f32,f64 --expected-constant 1", "each method has a constant of its own"),
+    ] {
+        let run = Folder::new().mms(&format!("study bar_1d --cells 4,8 {arguments}")).exits(2);
+        run.complains(message).prints_nothing();
     }
 }

@@ -51,6 +51,7 @@ fn the_front_is_one_and_holds_the_choice() {
         "gain",
         "exponent",
         "dominated",
+        "provenance",
     ];
     assert_eq!(keys(&found), own);
     let runs = found["runs"].as_array().expect("runs");

@@ -7,6 +7,7 @@ mod errors;
 mod fit;
 mod observer;
 mod order;
+mod phase;
 mod refinement;
 mod run;
 mod series;
@@ -19,11 +20,12 @@ pub use errors::Errors;
 pub use fit::{Fit, fit};
 pub use observer::{Checkpoint, Frame, Observer, Record};
 pub use order::{Orders, observed_order, orders};
+pub use phase::{Phase, Phases};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
 pub use series::{Point, Series};
 pub use snapshots::Snapshots;
-pub use verdict::{Judgement, TOLERANCE, Verdict, judge};
+pub use verdict::{CONSTANT_TOLERANCE, Judgement, TOLERANCE, Verdict, is_near, judge};
 
 use crate::{Division, Failure, ManufacturedField, Method, Refusal};
 

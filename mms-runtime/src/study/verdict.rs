@@ -7,12 +7,16 @@ use super::{Level, Series};
 /// How far an observed order may be from the expected one.
 pub const TOLERANCE: f64 = 0.15;
 
+/// How far an error constant may be from the expected one, relative to it: runs are the same on every machine but for
+/// rounding, and what levels lose by not being asymptotic is the same as well.
+pub const CONSTANT_TOLERANCE: f64 = 0.01;
+
 /// The outcome of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The finest levels show the expected order.
     Pass,
-    /// They show a lower one, or a run stopped.
+    /// They show a lower one or another error constant, or a run stopped.
     Fail,
     /// They show no settled order, or a higher one.
     NotAsymptotic,
@@ -35,6 +39,23 @@ pub struct Judgement {
     pub observed_order: Option<f64>,
     /// The outcome.
     pub verdict: Verdict,
+}
+
+impl Judgement {
+    /// Holds the error constant of a study to the one that is expected too: a defect may leave the order and change
+    /// the constant. What is not [near](is_near) it is a `fail`.
+    #[must_use]
+    pub fn with_constant(self, found: Option<f64>, expected: f64) -> Self {
+        match found {
+            Some(found) if is_near(found, expected) => self,
+            _ => Self { verdict: Verdict::Fail, ..self },
+        }
+    }
+}
+
+/// Whether an error constant is the expected one, to within [`CONSTANT_TOLERANCE`].
+pub fn is_near(constant: f64, expected: f64) -> bool {
+    (constant / expected - 1.0).abs() <= CONSTANT_TOLERANCE
 }
 
 /// Judges the levels of a study in space, in any sequence, against the expected order: see
@@ -91,6 +112,20 @@ mod tests {
         levels[2].errors = Ok(Errors { l1: 1.0, l2: 1.0, linf: 2.0 });
         let judgement = judge(&levels, 2.0, TOLERANCE);
         assert_eq!(judgement, Judgement { observed_order: Some(2.0), verdict: Verdict::Fail });
+    }
+
+    /// The order alone lets a defect pass that changes the constant.
+    #[test]
+    fn another_constant_fails_what_has_the_order() {
+        let judged = judge(&levels(&[16.0, 4.0, 1.0]), 2.0, TOLERANCE);
+        let with = |found, expected| judged.with_constant(found, expected).verdict;
+        assert_eq!(with(Some(0.5411), 0.541), Verdict::Pass);
+        for found in [Some(0.6), Some(0.5), Some(f64::NAN), None] {
+            assert_eq!(with(found, 0.541), Verdict::Fail, "{found:?}");
+        }
+        // A constant that is right redeems no order.
+        let low = judge(&levels(&[4.0, 2.0, 1.0]), 2.0, TOLERANCE);
+        assert_eq!(low.with_constant(Some(0.541), 0.541), low);
     }
 
     #[test]

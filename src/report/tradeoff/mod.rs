@@ -11,6 +11,7 @@ use comfy_table::{CellAlignment, Table};
 use serde_json::{Value, json};
 
 use super::front::front;
+use super::provenance::Provenance;
 use super::{bytes, duration, write_whole};
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
@@ -27,6 +28,8 @@ pub struct Report<'a> {
     pub found: Found,
     /// The command that runs a setting on a grid.
     pub command: &'a dyn Fn(&Setting, usize) -> String,
+    /// Where it is from.
+    pub provenance: Provenance,
 }
 
 /// Errors within this factor of the choice's say what more accuracy costs there.
@@ -156,7 +159,7 @@ impl Report<'_> {
                 "particle_steps": it.work,
             })
         };
-        json!({
+        self.provenance.sign(json!({
             "field": self.field,
             "cost": self.plan.cost.name(),
             "target_linf": target,
@@ -168,7 +171,7 @@ impl Report<'_> {
             "gain": self.gain(),
             "exponent": self.exponent(),
             "dominated": self.dominated(),
-        })
+        }))
     }
 
     fn run(&self, trial: &Trial, on_front: bool) -> Value {

@@ -1,0 +1,75 @@
+//! Several methods at once: the options of one, some of which take a list.
+
+use clap::error::ErrorKind;
+use clap::{ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
+
+use super::method::MethodOptions;
+
+/// Every combination of what the options in [`LISTS`] are given, one method at least.
+#[derive(Clone, Debug)]
+pub struct Methods(Vec<MethodOptions>);
+
+/// The options that take a list.
+const LISTS: [&str; 5] = ["formulation", "shape", "integrator", "transfer", "precision"];
+
+impl Methods {
+    /// The methods, those of the first word of each list first.
+    pub fn each(&self) -> &[MethodOptions] {
+        &self.0
+    }
+}
+
+impl Args for Methods {
+    fn augment_args(command: Command) -> Command {
+        LISTS.into_iter().fold(MethodOptions::augment_args(command), |command, name| {
+            command.mut_arg(name, |arg| {
+                let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+                arg.help(help + "; a list, as in A,B, compares methods")
+                    .value_delimiter(',')
+                    .action(ArgAction::Append)
+            })
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Methods {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        // Of a list, this takes the first.
+        let mut all = vec![MethodOptions::from_arg_matches(matches)?];
+        all = vary(all, matches, "formulation", |it, word| it.formulation = word)?;
+        all = vary(all, matches, "shape", |it, word| it.shape = word)?;
+        all = vary(all, matches, "integrator", |it, word| it.integrator = word)?;
+        all = vary(all, matches, "transfer", |it, word| it.transfer = word)?;
+        all = vary(all, matches, "precision", |it, word| it.precision = word)?;
+        Ok(Self(all))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// Each method with each word of a list.
+fn vary<T: Copy + PartialEq + Send + Sync + 'static>(
+    methods: Vec<MethodOptions>,
+    matches: &ArgMatches,
+    name: &str,
+    set: fn(&mut MethodOptions, T),
+) -> Result<Vec<MethodOptions>, Error> {
+    let words: Vec<T> = matches.get_many(name).into_iter().flatten().copied().collect();
+    if (1..words.len()).any(|at| words[..at].contains(&words[at])) {
+        let message = format!("`--{name}`: a word is given twice\n");
+        return Err(Error::raw(ErrorKind::ValueValidation, message));
+    }
+    let with = |method: &MethodOptions, word: T| {
+        let mut method = method.clone();
+        set(&mut method, word);
+        method
+    };
+    Ok(methods.iter().flat_map(|method| words.iter().map(|&word| with(method, word))).collect())
+}

@@ -1,0 +1,118 @@
+//! Several methods beside each other.
+
+use maud::{Markup, html};
+use serde::Deserialize;
+
+use super::mark::{Column, numbers, order, small, table, verdict, words};
+use super::plot::{Curve, Line, Plot};
+use super::study::Study;
+use super::{Section, Verdicts};
+
+/// What `mms study` writes of more than one method.
+#[derive(Deserialize)]
+pub struct Comparison {
+    field: String,
+    refinement: String,
+    studies: Vec<Named>,
+}
+
+#[derive(Deserialize)]
+struct Named {
+    name: String,
+    #[serde(flatten)]
+    study: Study,
+}
+
+/// How many colours with their marks there are; then they come once more, hollow.
+const STYLES: usize = 3;
+
+impl Section for Comparison {
+    fn title(&self) -> String {
+        let refined = match self.refinement.as_str() {
+            "both" => "",
+            "space" => ", in space",
+            _ => ", in time",
+        };
+        format!("{}: {} methods{refined}", self.field, self.studies.len())
+    }
+
+    fn verdicts(&self) -> Verdicts {
+        let each = || self.studies.iter().map(|it| it.study.verdicts());
+        let (all, expected) =
+            (each().map(|it| it.all).sum(), each().map(|it| it.expected).sum::<usize>());
+        Verdicts { expected, all, word: format!("{expected} of {all} pass") }
+    }
+
+    fn body(&self, id: &str) -> Markup {
+        html! {
+            @if let Some(svg) = self.plot().svg(&format!("{id}-plot")) {
+                figure {
+                    (svg)
+                    figcaption { "A line for each method. Both axes are logarithmic; the triangle has the expected slope." }
+                }
+            }
+            (self.table())
+            @for (at, it) in self.studies.iter().enumerate() {
+                details {
+                    summary { (it.name) ": " (it.study.verdicts().word) }
+                    (it.study.body(&format!("{id}-{}", at + 1)))
+                }
+            }
+        }
+    }
+}
+
+impl Comparison {
+    fn plot(&self) -> Plot {
+        let curves: Vec<Curve> = self
+            .studies
+            .iter()
+            .enumerate()
+            .map(|(at, it)| Curve {
+                name: it.name.clone(),
+                points: it.study.l2().into_iter().filter_map(|(at, l2)| Some([at?, l2?])).collect(),
+                style: at % STYLES,
+                is_hollow: at / STYLES % 2 == 1,
+                line: Line::Solid,
+            })
+            .collect();
+        let described = curves.iter().map(|curve| {
+            let last = curve.points.last().map_or("no error".into(), |[_, l2]| format!("{l2:.2e}"));
+            format!("{}: {last} on the finest level", curve.name)
+        });
+        let in_time = self.refinement == "time";
+        Plot {
+            title: format!("Convergence of {}", self.title()),
+            description: format!("{}.", described.collect::<Vec<_>>().join("; ")),
+            axes: match in_time {
+                true => ["time step dt", "difference to the next level, l2"],
+                false => ["cell size h", "largest l2 error of u over time"],
+            },
+            slope: self.studies.first().map(|it| it.study.expected_order()),
+            curves,
+            floor: Vec::new(),
+            marks_points: true,
+        }
+    }
+
+    fn table(&self) -> Markup {
+        let levels = self.studies.first().map(|it| it.study.names_of_levels()).unwrap_or_default();
+        let ends = [numbers("order"), numbers("constant"), words("verdict")];
+        let columns: Vec<Column> = std::iter::once(words("method"))
+            .chain(levels.into_iter().map(|name| Column::Number(name.into())))
+            .chain(ends)
+            .collect();
+        let rows = self.studies.iter().map(|it| {
+            let mut cells = vec![html! { (it.name) }];
+            cells.extend(it.study.l2().into_iter().map(|(_, l2)| small(l2)));
+            let verdicts = it.study.verdicts();
+            cells.extend([
+                order(it.study.observed_order()),
+                small(it.study.error_constant()),
+                verdict(&verdicts.word, verdicts.are_expected()),
+            ]);
+            cells
+        });
+        table("l2 of each method", &columns, rows)
+    }
+}

@@ -1,0 +1,183 @@
+//! The solver at its limits.
+
+use maud::{Markup, html};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+use super::mark::{list, number, numbers, small, table, verdict, words};
+use super::plot::{Curve, Line, Plot};
+use super::{Section, Verdicts};
+
+/// What `mms extremes` writes.
+#[derive(Deserialize)]
+pub struct Extremes {
+    field: String,
+    method: Map<String, Value>,
+    declared_l2: f64,
+    rows: Vec<Row>,
+    stability: Vec<Stability>,
+}
+
+#[derive(Deserialize)]
+struct Row {
+    name: String,
+    setting: String,
+    theory: String,
+    allowed_diagnoses: Vec<String>,
+    l2: Option<f64>,
+    bound: Option<f64>,
+    diagnosis: Option<String>,
+    reason: Option<String>,
+    verdict: String,
+    expected: bool,
+}
+
+#[derive(Deserialize)]
+struct Stability {
+    method: String,
+    theory: Option<f64>,
+    measured: f64,
+    verdict: String,
+    expected: bool,
+}
+
+impl Section for Extremes {
+    fn title(&self) -> String {
+        format!("{}: at the limits", self.field)
+    }
+
+    fn verdicts(&self) -> Verdicts {
+        let each = || {
+            let limits = self.stability.iter().map(|it| it.expected);
+            self.rows.iter().map(|it| it.expected).chain(limits)
+        };
+        let (all, expected) = (each().count(), each().filter(|it| *it).count());
+        Verdicts { expected, all, word: format!("{expected} of {all} as theory expects") }
+    }
+
+    fn body(&self, id: &str) -> Markup {
+        html! {
+            p {
+                "As declared, l2 is " (small(Some(self.declared_l2))) " of the largest displacement. At each extreme a run meets "
+                "a bound that follows from that, or stops and says what is wrong."
+            }
+            @for row in self.rows.iter().filter(|row| !row.expected) {
+                p.alert { strong { (row.name) } ": " (row.verdict) ": " (row.reason.as_deref().unwrap_or(&row.theory)) }
+            }
+            @if !self.rows.is_empty() { (self.rows()) }
+            @if let Some(svg) = self.errors().svg(&format!("{id}-errors")) {
+                figure { (svg) figcaption { "A mark for each run that ended; below the dashed line it is within its bound." } }
+            }
+            @if !self.stability.is_empty() { (self.stability()) }
+            @if let Some(svg) = self.limits().svg(&format!("{id}-limits")) {
+                figure { (svg) figcaption { "A mark for each method; below the dashed line the faces are less stable than the interior." } }
+            }
+            details {
+                summary { "The method" }
+                (list(&self.method))
+            }
+        }
+    }
+}
+
+impl Extremes {
+    fn rows(&self) -> Markup {
+        let columns = [
+            words("extreme"),
+            numbers("l2"),
+            numbers("bound"),
+            words("diagnosis"),
+            words("may stop with"),
+            words("verdict"),
+        ];
+        let rows = self.rows.iter().map(|row| {
+            vec![
+                html! {
+                    div.mode {
+                        (row.name)
+                        p { (row.theory) }
+                        p { (row.setting) }
+                        @if let Some(reason) = &row.reason { p { (reason) } }
+                    }
+                },
+                small(row.l2),
+                small(row.bound),
+                html! { (row.diagnosis.as_deref().unwrap_or_default()) },
+                html! { (row.allowed_diagnoses.join(", ")) },
+                verdict(&row.verdict, row.expected),
+            ]
+        });
+        table("Extremes, errors relative to the largest displacement", &columns, rows)
+    }
+
+    fn stability(&self) -> Markup {
+        let columns = [words("method"), numbers("theory"), numbers("measured"), words("verdict")];
+        let courant = |value| number(value, |value| format!("{value:.3}"));
+        let rows = self.stability.iter().map(|it| {
+            vec![
+                html! { (it.method) },
+                courant(it.theory),
+                courant(Some(it.measured)),
+                verdict(&it.verdict, it.expected),
+            ]
+        });
+        table("The largest stable Courant number", &columns, rows)
+    }
+
+    /// Errors over their bounds.
+    fn errors(&self) -> Plot {
+        let points = self.rows.iter().filter_map(|row| Some((&row.name, [row.bound?, row.l2?])));
+        compared(
+            &format!("Errors of {} at its extremes", self.field),
+            ["bound of l2", "l2"],
+            "run",
+            points.map(|(name, point)| (name.as_str(), point)).collect(),
+        )
+    }
+
+    /// Measured limits over those of theory.
+    fn limits(&self) -> Plot {
+        let points = self.stability.iter();
+        compared(
+            &format!("Largest stable Courant numbers on {}", self.field),
+            ["theory", "measured"],
+            "method",
+            points.filter_map(|it| Some((it.method.as_str(), [it.theory?, it.measured]))).collect(),
+        )
+    }
+}
+
+/// A number over the one that it is held to, and a line where both are the same.
+fn compared(
+    title: &str,
+    axes: [&'static str; 2],
+    name: &str,
+    points: Vec<(&str, [f64; 2])>,
+) -> Plot {
+    let described = points
+        .iter()
+        .map(|(name, [held_to, value])| format!("{name}: {value:.3e}, {} {held_to:.3e}", axes[0]));
+    let description = format!("{}.", described.collect::<Vec<_>>().join("; "));
+    let of_bounds = || points.iter().map(|(_, [held_to, _])| *held_to);
+    let ends = [of_bounds().fold(f64::INFINITY, f64::min), of_bounds().fold(0.0, f64::max)];
+    let curve = |name: &str, line, points| Curve {
+        name: name.to_owned(),
+        points,
+        style: 0,
+        is_hollow: false,
+        line,
+    };
+    let line = if points.is_empty() { Vec::new() } else { ends.map(|end| [end, end]).to_vec() };
+    Plot {
+        title: title.to_owned(),
+        description,
+        axes,
+        curves: vec![
+            curve(name, Line::None, points.iter().map(|(_, point)| *point).collect()),
+            curve("equal", Line::Dashed, line),
+        ],
+        slope: None,
+        floor: Vec::new(),
+        marks_points: false,
+    }
+}

@@ -1,0 +1,256 @@
+//! Error against cost, and what to choose.
+
+use maud::{Markup, html};
+use serde::Deserialize;
+
+use super::mark::{count, number, numbers, seconds, small, table, words};
+use super::plot::{Curve, Line, Plot};
+use super::{Section, Verdicts};
+use crate::report::{bytes, duration};
+
+/// What `mms tradeoff` writes.
+#[derive(Deserialize)]
+pub struct Tradeoff {
+    field: String,
+    cost: Cost,
+    target_linf: Option<f64>,
+    budget_seconds: Option<f64>,
+    runs: Vec<Run>,
+    choice: Option<Run>,
+    predicted: Option<Prediction>,
+    gain: Option<f64>,
+    exponent: Option<f64>,
+    dominated: Vec<String>,
+}
+
+/// What is to be small.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Cost {
+    Seconds,
+    ParticleSteps,
+    Memory,
+}
+
+#[derive(Deserialize)]
+struct Run {
+    command: String,
+    formulation: String,
+    shape: String,
+    integrator: String,
+    transfer: String,
+    particles_per_cell: usize,
+    courant: f64,
+    precision: String,
+    form: String,
+    cells: usize,
+    linf: Option<f64>,
+    particle_steps: Option<f64>,
+    seconds: Option<f64>,
+    memory: Option<f64>,
+    front: bool,
+    failure: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Prediction {
+    setting: String,
+    cells: f64,
+    linf: f64,
+}
+
+impl Cost {
+    fn of(self, run: &Run) -> Option<f64> {
+        match self {
+            Cost::Seconds => run.seconds,
+            Cost::ParticleSteps => run.particle_steps,
+            Cost::Memory => run.memory,
+        }
+    }
+
+    fn show(self, value: f64) -> String {
+        match self {
+            Cost::Seconds => duration(value),
+            Cost::ParticleSteps => format!("{value:.2e} particle-steps"),
+            Cost::Memory => bytes(value),
+        }
+    }
+
+    fn axis(self) -> &'static str {
+        match self {
+            Cost::Seconds => "seconds",
+            Cost::ParticleSteps => "particle-steps",
+            Cost::Memory => "bytes of memory",
+        }
+    }
+}
+
+impl Run {
+    fn method(&self) -> String {
+        format!("{} {} {} {}", self.formulation, self.shape, self.integrator, self.transfer)
+    }
+}
+
+impl Section for Tradeoff {
+    fn title(&self) -> String {
+        format!("{}: error against cost", self.field)
+    }
+
+    fn verdicts(&self) -> Verdicts {
+        let word = if self.choice.is_some() { "reached" } else { "not reached" };
+        Verdicts::one(word, self.choice.is_some())
+    }
+
+    fn body(&self, id: &str) -> Markup {
+        let (mut front, others): (Vec<_>, Vec<_>) = self.runs.iter().partition(|run| run.front);
+        let cost = |run: &Run| self.cost.of(run).unwrap_or(f64::INFINITY);
+        front.sort_by(|a, b| cost(a).total_cmp(&cost(b)));
+        html! {
+            (self.advice())
+            @if let Some(svg) = self.plot().svg(&format!("{id}-plot")) {
+                figure {
+                    (svg)
+                    figcaption {
+                        "Down and left is better; both axes are logarithmic. No run is both cheaper and closer than one of the "
+                        "Pareto front. On the dashed line is what was asked for."
+                    }
+                }
+            }
+            (self.table("The Pareto front", &front))
+            // On paper only if it is open.
+            details.bulk {
+                summary { "The " (others.len()) " other runs" }
+                (self.table("Runs that others beat, and runs that stopped", &others))
+            }
+        }
+    }
+}
+
+impl Tradeoff {
+    /// What was asked for.
+    fn goal(&self) -> Option<String> {
+        let target = self.target_linf.map(|target| format!("for a largest error of {target:.2e}"));
+        target.or_else(|| self.budget_seconds.map(|it| format!("within {}", duration(it))))
+    }
+
+    /// What to choose, and what more would cost.
+    fn advice(&self) -> Markup {
+        html! {
+            p {
+                @if let Some(goal) = self.goal() { "Wanted is the best method " (goal) ". " }
+                @match &self.choice {
+                    Some(choice) => {
+                        "Choose " strong { (choice.method()) } ", " (choice.precision) ", "
+                        (choice.particles_per_cell) @if choice.particles_per_cell == 1 { " particle" } @else { " particles" }
+                        " per cell and direction, Courant "
+                        (choice.courant) ", on " (choice.cells) " cells: " (small(choice.linf)) " in "
+                        (number(self.cost.of(choice), |cost| self.cost.show(cost))) "."
+                    }
+                    None => { "No run that was made reaches it." }
+                }
+                @if let Some(next) = &self.predicted {
+                    " What comes next is predicted to be " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
+                    " cells, with " (small(Some(next.linf))) "."
+                }
+                @if let Some(gain) = self.gain {
+                    " The method of " code { "mms run" } " without options has "
+                    (number(Some(gain), |it| format!("{it:.1}")))
+                    @if self.target_linf.is_some() { " times the cost." } @else { " times the error." }
+                }
+                @if let Some(exponent) = self.exponent {
+                    " Half the error costs " (number(Some(2f64.powf(exponent)), |it| format!("{it:.1}"))) " times as much there."
+                }
+            }
+            @if let Some(choice) = &self.choice { p { code { (choice.command) } } }
+            @if !self.dominated.is_empty() {
+                p { "Dominated in every run, whatever else was chosen: " (self.dominated.join(", ")) "." }
+            }
+        }
+    }
+
+    fn point(&self, run: &Run) -> Option<[f64; 2]> {
+        Some([self.cost.of(run)?, run.linf?])
+    }
+
+    fn plot(&self) -> Plot {
+        let points = |on_front: bool| -> Vec<[f64; 2]> {
+            let runs = self.runs.iter().filter(|run| run.front == on_front);
+            runs.filter_map(|run| self.point(run)).collect()
+        };
+        let by_cost = |mut points: Vec<[f64; 2]>| {
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            points
+        };
+        let curve = |name: &str, style: usize, is_hollow: bool, line: Line, points| Curve {
+            name: name.to_owned(),
+            points,
+            style,
+            is_hollow,
+            line,
+        };
+        let chosen = self.choice.iter().filter_map(|run| self.point(run)).collect();
+        let all = [points(true), points(false)].concat();
+        let ends = |axis: usize| {
+            let values = all.iter().map(|point| point[axis]).filter(|value| *value > 0.0);
+            values.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], value| {
+                [least.min(value), most.max(value)]
+            })
+        };
+        let goal = match (self.target_linf, self.budget_seconds) {
+            (Some(target), _) => ends(0).map(|cost| [cost, target]).to_vec(),
+            (None, Some(budget)) => ends(1).map(|error| [budget, error]).to_vec(),
+            (None, None) => Vec::new(),
+        };
+        let front = by_cost(points(true));
+        let described =
+            front.iter().map(|[cost, error]| format!("{error:.2e} in {}", self.cost.show(*cost)));
+        Plot {
+            title: format!("Error against cost of {}", self.field),
+            description: format!("The Pareto front: {}.", described.collect::<Vec<_>>().join("; ")),
+            axes: [self.cost.axis(), "largest error of u"],
+            curves: vec![
+                curve("other runs", 1, true, Line::None, points(false)),
+                curve("Pareto front", 0, false, Line::Solid, front),
+                curve("choice", 2, false, Line::None, chosen),
+                curve("goal", 2, false, Line::Dashed, goal),
+            ],
+            slope: None,
+            floor: Vec::new(),
+            marks_points: false,
+        }
+    }
+
+    fn table(&self, caption: &str, runs: &[&Run]) -> Markup {
+        let columns = [
+            words("method"),
+            numbers("cells"),
+            numbers("particles per cell"),
+            numbers("Courant"),
+            words("precision"),
+            words("form"),
+            numbers("linf"),
+            numbers("particle-steps"),
+            numbers("time"),
+            numbers("memory"),
+            words("remark"),
+        ];
+        let chosen = self.choice.as_ref().map(|choice| choice.command.as_str());
+        let rows = runs.iter().map(|run| {
+            let is_chosen = chosen == Some(run.command.as_str());
+            vec![
+                html! { (run.method()) },
+                count(Some(run.cells)),
+                count(Some(run.particles_per_cell)),
+                number(Some(run.courant), |it| it.to_string()),
+                html! { (run.precision) },
+                html! { (run.form) },
+                small(run.linf),
+                small(run.particle_steps),
+                seconds(run.seconds),
+                number(run.memory, bytes),
+                html! { (if is_chosen { "chosen" } else { run.failure.as_deref().unwrap_or_default() }) },
+            ]
+        });
+        table(caption, &columns, rows)
+    }
+}
