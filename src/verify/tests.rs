@@ -140,6 +140,8 @@ fn row(order: Expected) -> Row {
             Expected::Word(_) => None,
         },
         theory: "known".into(),
+        catches: Vec::new(),
+        witness: Some("a sequence".into()),
     }
 }
 

@@ -6,6 +6,7 @@ use super::kinematics::{Motion, Route, Strain, half_angles};
 use super::material::Law;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
+use crate::defect::{Defect, on};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
@@ -201,8 +202,18 @@ fn balance_quantities(
     let mut body_force = Vec::new();
     let mut body_force_density = Vec::new();
     for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
-        let specific = graph.div(*divergence, density);
-        body_force.push(graph.sub(*acceleration, specific));
+        let present = on(Defect::ForcePresentDensity);
+        let per = if present { graph.mul(density, per_volume) } else { density };
+        let specific = graph.div(*divergence, per);
+        body_force.push(match () {
+            () if on(Defect::ForceSign) => graph.add(*acceleration, specific),
+            () if on(Defect::InertiaDropped) => graph.scale(specific, -1),
+            () if on(Defect::ForcePerVolume) => {
+                let whole = graph.sub(*acceleration, specific);
+                graph.mul(whole, density)
+            }
+            () => graph.sub(*acceleration, specific),
+        });
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }

@@ -16,6 +16,7 @@ use super::invariant::{FIBRE, FIRST, SECOND, VOLUME};
 use super::kinematics::{Fibre, Motion, Strain, total};
 use super::material::{Gradient, at, chained_gradient, explicit_gradient, gradient};
 use super::tensor::{Tensor, dot};
+use crate::defect::{Defect, on};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::expand::expand;
@@ -142,19 +143,34 @@ impl Finite {
         let one = graph.number(1);
         let pressure: Vec<Expr> = (0..dimension)
             .map(|axis| {
-                let product = graph.mul(gamma, log_volume[axis]);
-                graph.sub(gamma_slope[axis], product)
+                let mut product = graph.mul(gamma, log_volume[axis]);
+                if on(Defect::VolumeGradient) {
+                    product = graph.mul(product, strain.jacobian);
+                }
+                let slope = gamma_slope[axis];
+                if on(Defect::PressureGradient) {
+                    graph.scale(product, -1)
+                } else {
+                    graph.sub(slope, product)
+                }
             })
             .collect();
         (0..dimension)
             .map(|row| {
                 let mut pairs = vec![(alpha, laplacian[row]), (beta, cubic_divergence[row])];
-                for axis in 0..dimension {
-                    pairs.push((strain.deformation.at(row, axis), alpha_slope[axis]));
-                    pairs.push((cubic.at(row, axis), beta_slope[axis]));
-                    pairs.push((strain.inverse.at(axis, row), pressure[axis]));
+                if on(Defect::SecondInvariant) {
+                    pairs.pop();
                 }
-                pairs.push((graded[row], one));
+                for axis in 0..dimension {
+                    let swapped = on(Defect::DivergenceIndex);
+                    let (i, j) = if swapped { (axis, row) } else { (row, axis) };
+                    pairs.push((strain.deformation.at(i, j), alpha_slope[axis]));
+                    pairs.push((cubic.at(i, j), beta_slope[axis]));
+                    pairs.push((strain.inverse.at(j, i), pressure[axis]));
+                }
+                if !on(Defect::GradedModuli) {
+                    pairs.push((graded[row], one));
+                }
                 pairs.extend(fibres.iter().flat_map(|fibres| fibres[row]));
                 dot(graph, pairs)
             })
@@ -205,6 +221,7 @@ impl Finite {
         let rows = fibre.present.iter().zip(turned).enumerate();
         let parts = rows.map(|(row, (present, turned))| {
             let stretched = motion.second_gradient[row].contract(graph, &squared);
+            let pull = if on(Defect::FibrePull) { graph.number(0) } else { pull };
             [(*present, pull), (delta, graph.add(stretched, turned))]
         });
         Some(parts.collect())
