@@ -5,17 +5,15 @@ use std::collections::BTreeMap;
 use crate::certify::certificate::contradictions;
 use crate::certify::declared;
 use crate::culprit::culprit;
-#[cfg(feature = "defects")]
-use crate::defect::{Defect, on};
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
 use crate::mechanics::boundary::{Datum, data};
 use crate::mechanics::face;
 use crate::mechanics::kinematics::Route;
-use crate::mechanics::model::Body;
 #[cfg(feature = "defects")]
-use crate::mechanics::model::energy_with;
+use crate::mechanics::misread;
+use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
 use crate::pass::half_turns::half_turns;
 use crate::pass::relations::Relations;
@@ -212,7 +210,13 @@ fn phases(
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
     #[cfg(feature = "defects")]
-    let (model, derived) = misread_moduli(&mut graph, &field, &material, model, derived);
+    let (model, derived) = match misread::moduli(&mut graph, &field, &material, &model) {
+        None => (model, derived),
+        Some(wrong) => {
+            let of_wrong = derive(&mut graph, &wrong, &Relations::default(), Route::Gradient);
+            (wrong, Derivation { responses: derived.responses, ..of_wrong.ok()? })
+        }
+    };
     // The force of a twin needs the motion of the field.
     let needed = |quantity| model.rigid.is_some() || selection.wants(quantity);
     let derivation = simplify(&mut graph, &model, &derived, options.form, needed);
@@ -245,33 +249,6 @@ fn phases(
         form: options.form,
         program,
     })
-}
-
-/// What a defect derives: the motion and its b for other moduli, beside the stress that the solver uses.
-#[cfg(feature = "defects")]
-fn misread_moduli(
-    graph: &mut Graph,
-    field: &FieldSpec,
-    material: &MaterialSpec,
-    mut model: Model,
-    right: Derivation,
-) -> (Model, Derivation) {
-    let names = field.material.arguments.iter().map(|(name, _)| name.value.as_str());
-    let names: Vec<_> = names.collect();
-    let place = |name: &str| names.iter().position(|other| *other == name);
-    let mut arguments = model.arguments.clone();
-    match (place("lambda"), place("mu")) {
-        (Some(lambda), _) if on(Defect::LambdaDropped) => arguments[lambda] = graph.number(0),
-        (Some(lambda), Some(mu)) if on(Defect::ModuliSwapped) => arguments.swap(lambda, mu),
-        _ => return (model, right),
-    }
-    if let Some(energy) = energy_with(graph, field, material, &arguments) {
-        model.energy = energy;
-    }
-    let Ok(wrong) = derive(graph, &model, &Relations::default(), Route::Gradient) else {
-        return (model, right);
-    };
-    (model, Derivation { responses: right.responses, ..wrong })
 }
 
 /// A rotation of a material that a rotation strains.

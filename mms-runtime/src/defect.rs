@@ -7,8 +7,8 @@ mms_math::defects! {
     ForceLate, "force_late", "b at t - dt in place of t";
     ForceAhead, "force_ahead", "b at t + dt/2 in place of t: a leapfrog that thinks of its velocities";
     ForceAtPresent, "force_at_present", "b at the present position in place of the reference position";
-    ForceSingle, "force_single", "b passes through single precision on its way";
     StartAtRest, "start_at_rest", "v(0) = 0 in place of the field's";
+    StartSingle, "start_single", "v(0) passes through single precision on its way";
     StartUndeformed, "start_undeformed", "F(0) = I in place of the field's";
     MassOfPresentVolume, "mass_of_present_volume", "m = rho0 J V0: the reference density with the present volume";
     MassCutOff, "mass_cut_off", "nodes with less than a hundredth of a particle's mass are taken as empty";
@@ -29,7 +29,6 @@ mms_math::defects! {
     XpicOrder, "xpic_order", "XPIC stops one map early";
     XpicSign, "xpic_sign", "XPIC adds what the grid does not hold";
     HalfWidthKept, "half_width_kept", "the half widths of cpgimp stay what they were";
-    HalfWidthOfF, "half_width_of_f", "the half widths of cpgimp follow F_aa in place of the stretch U_aa";
     HalfWidthsSwapped, "half_widths_swapped", "the half widths of a box stand in the reverse order of its axes";
     ShortSupport, "short_support", "GIMP leaves out the last of its nodes";
     CornersKept, "corners_kept", "the corners of cpdi stay where they were about the particle";
@@ -39,7 +38,7 @@ mms_math::defects! {
     SquareCells, "square_cells", "gradients of weights take h of the first axis along all of them";
     RingVolumes, "ring_volumes", "all particles of an annulus have the volume of those on the middle circle";
     NoGhosts, "no_ghosts", "what reaches past a wall is lost: there are no ghost nodes";
-    GhostsUnreflected, "ghosts_unreflected", "what ghost nodes receive is not reflected when it is added to the nodes inside";
+    WallReleased, "wall_released", "nodes on a wall are not held";
     MirrorSign, "mirror_sign", "ghost nodes move with their images in place of opposite to them";
     MirrorVelocityAlone, "mirror_velocity_alone", "ghost nodes get the mirrored velocity, and not the acceleration";
     StickyRoller, "sticky_roller", "a roller holds the tangential components as well";

@@ -1,7 +1,6 @@
 //! The few tensor operations that the vectors and matrices of `nalgebra` do not offer for plain
 //! `const D`.
 
-use crate::defect::{Defect, on};
 use crate::{Matrix, Real, Vector};
 
 /// F = I + H.
@@ -54,7 +53,7 @@ pub fn stretch_along_axes<T: Real, const D: usize>(
     displacement_gradient: &Matrix<T, D>,
 ) -> Option<Vector<T, D>> {
     let f = deformation_gradient(displacement_gradient);
-    if on(Defect::HalfWidthOfF) || f == Matrix::from_diagonal(&f.diagonal()) {
+    if f == Matrix::from_diagonal(&f.diagonal()) {
         return Some(f.diagonal());
     }
     let c = f.tr_mul(&f);

@@ -46,7 +46,7 @@ pub struct Verify {
     /// has to be built with `--features defects`.
     #[arg(long, value_name = "NAME", num_args = 0.., require_equals = true, value_delimiter = ',', conflicts_with = "list")]
     defects: Option<Vec<String>>,
-    /// Show every defect to every row; takes half an hour or so.
+    /// Show every defect to every row of the quick matrix; takes an hour or so.
     #[arg(long, requires = "defects")]
     #[cfg_attr(
         not(feature = "defects"),

@@ -4,6 +4,7 @@
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
 mod accuracy;
+mod defects;
 mod field;
 mod folder;
 mod frame;
@@ -85,6 +86,7 @@ impl Kind {
 const KINDS: &[Kind] = &[
     Kind::of::<study::Study>("study", "Convergence studies"),
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
+    Kind::of::<defects::Defects>("defects", "Deliberate mistakes"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<run::Run>("run", "Single runs"),
 ];

@@ -18,6 +18,8 @@
 pub mod defects;
 pub mod matrix;
 pub mod plan;
+#[cfg(any(test, feature = "defects"))]
+pub mod pseudo;
 pub mod report;
 pub mod verdict;
 pub mod work;

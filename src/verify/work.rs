@@ -249,16 +249,20 @@ impl Bench for Fields {
     }
 }
 
+/// What has to be watched for the errors of a quantity.
+pub fn watch_of(quantity: &Quantity) -> Watch {
+    match quantity {
+        Quantity::Displacement => Watch::Displacement,
+        _ => Watch::Everything,
+    }
+}
+
 fn solve<T: Solvable>(
     job: &Job,
     scene: &Scene<T>,
     mut step: &mut (dyn FnMut(usize, usize) + Send),
 ) -> Outcome {
-    let watch = match job.quantity {
-        Quantity::Displacement => Watch::Displacement,
-        _ => Watch::Everything,
-    };
-    match scene.run(&job.method, &job.study.cells[0], watch, &mut step) {
+    match scene.run(&job.method, &job.study.cells[0], watch_of(&job.quantity), &mut step) {
         Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
         Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
     }

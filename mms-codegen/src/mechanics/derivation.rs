@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::kinematics::{Motion, Route, Strain, half_angles};
 use super::material::Law;
+use super::misread;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
-use crate::defect::{Defect, on};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
@@ -202,18 +202,10 @@ fn balance_quantities(
     let mut body_force = Vec::new();
     let mut body_force_density = Vec::new();
     for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
-        let present = on(Defect::ForcePresentDensity);
-        let per = if present { graph.mul(density, per_volume) } else { density };
-        let specific = graph.div(*divergence, per);
-        body_force.push(match () {
-            () if on(Defect::ForceSign) => graph.add(*acceleration, specific),
-            () if on(Defect::InertiaDropped) => graph.scale(specific, -1),
-            () if on(Defect::ForcePerVolume) => {
-                let whole = graph.sub(*acceleration, specific);
-                graph.mul(whole, density)
-            }
-            () => graph.sub(*acceleration, specific),
-        });
+        let specific = graph.div(*divergence, density);
+        let force = graph.sub(*acceleration, specific);
+        let balance = [*acceleration, *divergence];
+        body_force.push(misread::body_force(graph, force, balance, [density, per_volume]));
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }

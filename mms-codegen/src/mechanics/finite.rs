@@ -138,29 +138,23 @@ impl Finite {
         let graded = self.graded_divergence(graph, strain);
         let values = at(graph, strain, &roots);
         let (alpha, beta, gamma) = (values[0], values[1], values[2]);
+        let beta = if on(Defect::SecondInvariant) { graph.number(0) } else { beta };
         let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
         let fibres = self.fibre_divergence(graph, motion);
         let one = graph.number(1);
         let pressure: Vec<Expr> = (0..dimension)
             .map(|axis| {
-                let mut product = graph.mul(gamma, log_volume[axis]);
-                if on(Defect::VolumeGradient) {
-                    product = graph.mul(product, strain.jacobian);
-                }
-                let slope = gamma_slope[axis];
-                if on(Defect::PressureGradient) {
-                    graph.scale(product, -1)
-                } else {
-                    graph.sub(slope, product)
-                }
+                let constant = on(Defect::PressureGradient);
+                let slope = if constant { graph.number(0) } else { gamma_slope[axis] };
+                let volume = on(Defect::VolumeGradient);
+                let gamma = if volume { graph.mul(gamma, strain.jacobian) } else { gamma };
+                let product = graph.mul(gamma, log_volume[axis]);
+                graph.sub(slope, product)
             })
             .collect();
         (0..dimension)
             .map(|row| {
                 let mut pairs = vec![(alpha, laplacian[row]), (beta, cubic_divergence[row])];
-                if on(Defect::SecondInvariant) {
-                    pairs.pop();
-                }
                 for axis in 0..dimension {
                     let swapped = on(Defect::DivergenceIndex);
                     let (i, j) = if swapped { (axis, row) } else { (row, axis) };

@@ -65,8 +65,7 @@ impl Wall {
     pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
         for &(ghost, inside) in &self.images {
             let image = std::mem::replace(&mut extensive[ghost], Nodal::zero());
-            let kept = on(Defect::GhostsUnreflected);
-            extensive[inside] += if kept { image } else { self.reflect(image) };
+            extensive[inside] += self.reflect(image);
         }
     }
 
@@ -75,6 +74,9 @@ impl Wall {
         for &(ghost, inside) in &self.images {
             let image = self.reflect(intensive[inside]);
             intensive[ghost] = if on(Defect::MirrorSign) { intensive[inside] } else { image };
+        }
+        if on(Defect::WallReleased) {
+            return;
         }
         for &node in &self.on_wall {
             // Half of (q + reflected q) would do too, but leaves round-off.

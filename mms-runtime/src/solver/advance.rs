@@ -3,6 +3,7 @@
 use mms_math::dispatch::Work;
 use mms_math::machine::{Fused, Machine, Plain};
 
+use super::misread;
 use super::scene::{BLOCK, Scene};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, columns, four, matrix, vector};
@@ -95,22 +96,17 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
             let before = four(machine, v, T::zero());
             let kicked = machine.times_plus(machine.splat(kick), acceleration, before);
             let next = match scene.transfer {
-                Transfer::Flip { .. } if on(Defect::FlipIsPic) => mapped,
                 Transfer::Flip { fraction: 1.0 } => kicked,
                 Transfer::Flip { fraction } => {
-                    let fraction = if on(Defect::FlipFraction) { 1.0 - fraction } else { fraction };
                     let others = machine.times(machine.splat(T::of(1.0 - fraction)), mapped);
                     machine.times_plus(machine.splat(T::of(fraction)), kicked, others)
                 }
                 Transfer::Pic | Transfer::Apic => mapped,
+                Transfer::Xpic { .. } if on(Defect::XpicSign) => {
+                    machine.plus(kicked, four(machine, &particles.residual[k], T::zero()))
+                }
                 Transfer::Xpic { .. } => {
-                    let residual = four(machine, &particles.residual[k], T::zero());
-                    let wrong = on(Defect::XpicSign);
-                    if wrong {
-                        machine.plus(kicked, residual)
-                    } else {
-                        machine.minus(kicked, residual)
-                    }
+                    machine.minus(kicked, four(machine, &particles.residual[k], T::zero()))
                 }
             };
             *v = vector(machine, next);
@@ -121,28 +117,20 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
                     1 => gradient,
                     _ => stencil.collect_slopes(machine, scene.lattice, nodal),
                 };
-                particles.affine[k] = matrix(machine, affine);
-                if on(Defect::AffineTransposed) {
-                    particles.affine[k].transpose_mut();
-                }
-                if on(Defect::AffineFactor) && S::DEGREE == 2 {
-                    particles.affine[k] *= T::ratio(3, 4);
-                }
+                particles.affine[k] = misread::affine(matrix(machine, affine), S::DEGREE);
             }
         }
         if let Some(time_step) = steps.position {
             let d = &mut particles.displacement[k];
             let before = four(machine, d, T::zero());
-            let own = on(Defect::OwnVelocity);
-            let mapped =
-                if own { four(machine, &particles.velocity[k], T::zero()) } else { mapped };
+            let mapped = misread::carrier(machine, mapped, &particles.velocity[k]);
             let next = machine.times_plus(machine.splat(time_step), mapped, before);
             *d = vector(machine, next);
             *rest = machine.times_plus(next, zero, *rest);
         }
         if let Some(time_step) = steps.deformation {
             let h = &mut particles.displacement_gradient[k];
-            let gradient = misread_gradient(machine, gradient);
+            let gradient = misread::velocity_gradient(machine, gradient);
             let moves = scene.moves && !on(Defect::ReferenceGradient);
             let next = deformed(machine, h, gradient, time_step, moves);
             for a in 0..D {
@@ -185,23 +173,6 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
         }
         collected
     }
-}
-
-/// The columns of a velocity gradient, or what a defect takes for them.
-#[inline(always)]
-fn misread_gradient<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    gradient: [M::Four; D],
-) -> [M::Four; D] {
-    let transposed = || matrix::<T, M, D>(machine, gradient).transpose();
-    if on(Defect::TransposedGradient) {
-        return columns(machine, &transposed());
-    }
-    if on(Defect::LostSpin) {
-        let symmetric = (matrix::<T, M, D>(machine, gradient) + transposed()) * T::ratio(1, 2);
-        return columns(machine, &symmetric);
-    }
-    gradient
 }
 
 /// The columns of H + dt G F, or of H + dt G if nothing `moves`, G being the gradient whose columns are given.

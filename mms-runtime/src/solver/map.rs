@@ -6,6 +6,7 @@ use mms_math::dispatch::{Work, narrow};
 use mms_math::machine::{Fused, Machine, Plain};
 
 use super::clock::{Seconds, timed};
+use super::misread;
 use super::scene::{BLOCK, Room, Scene};
 use super::slabs::Slab;
 use crate::defect::{Defect, on};
@@ -227,11 +228,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> One<'_, T, D, St> {
         let mass = machine.splat(particles.mass[p]);
         let body_force = four(machine, &particles.body_force[p], T::zero());
         let volume = machine.splat(-particles.reference_volume[p]);
-        let mut slopes = scaled(machine, stress, volume);
-        if on(Defect::StressIndex) {
-            slopes.rotate_left(1);
-        }
-        (machine.times(body_force, mass), slopes)
+        (machine.times(body_force, mass), misread::stress(scaled(machine, stress, volume)))
     }
 
     /// The momentum of a linear velocity.

@@ -173,10 +173,6 @@ where
         timed(&mut seconds.forcing, || {
             each_pair(&points, body_force, &|reference, body_force| {
                 field.body_force(time, reference, body_force);
-                if on(Defect::ForceSingle) {
-                    let single = |b: T| T::of(f64::from(b.to_f64() as f32));
-                    body_force.iter_mut().for_each(|b| *b = b.map(single));
-                }
             });
         });
     }
@@ -249,7 +245,7 @@ where
         });
         let Transfer::Xpic { order } = self.transfer else { return Ok(()) };
         self.find_residual(Source::Velocity)?;
-        for _ in 1..order - u32::from(on(Defect::XpicOrder)) {
+        for _ in 1..order {
             self.map_residual()?;
             self.find_residual(Source::Residual)?;
         }

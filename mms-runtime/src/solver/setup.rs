@@ -103,7 +103,7 @@ where
             particles,
             grid,
             boundary,
-            transfer: setup.transfer,
+            transfer: setup.transfer.taken(),
             slabs,
             weights: Vec::new(),
             keeps_weights: false,
@@ -311,6 +311,10 @@ fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field.velocity(start, reference, &mut particles.velocity);
     if on(Defect::StartAtRest) {
         particles.velocity.fill(Vector::zeros());
+    }
+    if on(Defect::StartSingle) {
+        let single = |v: T| T::of(f64::from(v.to_f64() as f32));
+        particles.velocity.iter_mut().for_each(|v| *v = v.map(single));
     }
     finite_vectors("velocity", start, reference, &particles.velocity)?;
     field.displacement_gradient(start, reference, &mut particles.displacement_gradient);

@@ -10,11 +10,11 @@ use super::super::{Outcome, print, print_json, this_command};
 use super::{Verify, input};
 use crate::report::{pretty, write_files};
 use crate::store::{Store, program};
-use crate::verify::defects::pseudo::Looks;
 use crate::verify::defects::report::{Report, Trial};
 use crate::verify::defects::{Defect, Shown, Stage, validate};
 use crate::verify::matrix::Row;
 use crate::verify::plan::Job;
+use crate::verify::pseudo::Looks;
 use crate::verify::work::{self, Watcher};
 
 /// The folder in a store where results of defects are kept: none of them is trusted without.

@@ -3,9 +3,9 @@
 //! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the
 //! whole process, some rows are run, and at least one of their verdicts must not be the expected one. Which rows
 //! catch what is data: the key `catches` of a row. Beside it, each run is looked at as people look at runs
-//! ([`pseudo`]).
+//! ([`pseudo`](super::pseudo)).
 
-pub mod pseudo;
+mod eyes;
 pub mod report;
 
 use std::num::NonZero;
@@ -17,11 +17,12 @@ use mms_runtime::defect as solver;
 
 use super::matrix::Row;
 use super::plan::Plan;
+use super::pseudo::Looks;
 use super::verdict::{Judgement, judge};
 use super::work::{Fields, Outcome, Watcher, outcomes};
 use crate::cli::input::Input;
 use crate::store::Store;
-use pseudo::{Looks, Watched};
+use eyes::{Eyes, Watched};
 
 /// A deliberate mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,20 +148,26 @@ impl Stage<'_> {
         rows: &[&'a Row],
     ) -> anyhow::Result<Vec<Shown<'a>>> {
         let mut plan = Plan::new(rows, true, &self.program)?;
-        for job in &mut plan.jobs {
+        let coarsest: Vec<usize> =
+            plan.levels.iter().filter_map(|levels| levels.first().copied()).collect();
+        for (at, job) in plan.jobs.iter_mut().enumerate() {
             job.key.defect = Some(defect.map_or("none", Defect::name));
+            if coarsest.contains(&at) {
+                job.key.run += eyes::WEIGHED;
+            }
         }
         let fields = Fields::new(match defect {
             Some(Defect::Compiler(_)) => Input::interpreted,
             _ => Input::find,
         });
-        let bench = pseudo::Eyes { fields };
+        let bench = Eyes { fields };
         let _made = Made::new(defect);
         let all = outcomes(&plan.jobs, &self.store, self.threads, &bench, self.watcher)?;
         let shown = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<&Watched> = levels.iter().map(|&at| &all[at]).collect();
             let outcomes: Vec<Outcome> = levels.iter().map(|level| level.outcome.clone()).collect();
-            Shown { row, judgement: judge(row, &outcomes), looks: Looks::of(&levels) }
+            let seen: Vec<_> = levels.iter().map(|level| level.seen.as_ref()).collect();
+            Shown { row, judgement: judge(row, &outcomes), looks: Looks::of(&seen) }
         });
         Ok(shown.collect())
     }

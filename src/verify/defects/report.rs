@@ -4,12 +4,12 @@ use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use serde_json::{Value, json};
 
-use super::pseudo::{Check, Looks};
 use super::{Defect, Shown};
 use crate::report::provenance::Provenance;
 use crate::verify::matrix::Row;
+use crate::verify::pseudo::{Check, Looks};
 
-/// A row that catches no defect that more than so many other rows miss does not earn its place by that.
+/// A row that catches what at most so many rows catch earns its place by that.
 const FEW: usize = 6;
 
 /// A defect, and the rows that it was shown to.

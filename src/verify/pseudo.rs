@@ -6,17 +6,8 @@
 
 use std::collections::HashMap;
 
-use mms_runtime::Division;
-use mms_runtime::study::{Frame, Observer, Watch};
+use mms_runtime::study::Frame;
 use serde::{Deserialize, Serialize};
-
-use super::super::plan::Job;
-use super::super::work::{Bench, Fields, Outcome, outcome};
-use crate::cli::method::Precision;
-use crate::scene::{Scene, Solvable};
-
-/// How often a run is looked at, the end included.
-const LOOKS: usize = 4;
 
 /// A check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +18,7 @@ pub enum Check {
     Bounded,
     /// A motion that is its own mirror image stays it, to a millionth.
     Symmetric,
-    /// The energy is that which b has put in, to a twentieth.
+    /// The energy is that which b has put in, to a twentieth, on the coarsest grid.
     Energy,
     /// Half the cell size changes the size of the motion by less than a twentieth.
     Settles,
@@ -50,8 +41,8 @@ impl Check {
     }
 
     /// Whether it objects to the levels of a row, coarse to fine; nothing, if it cannot tell.
-    fn objects(self, levels: &[&Watched]) -> Option<bool> {
-        let seen: Vec<&Seen> = levels.iter().filter_map(|level| level.seen.as_ref()).collect();
+    fn objects(self, levels: &[Option<&Seen>]) -> Option<bool> {
+        let seen: Vec<&Seen> = levels.iter().copied().flatten().collect();
         let all_ended = seen.len() == levels.len();
         let above = |value: f64, most: f64| value.is_nan() || value > most;
         if self == Check::Bounded {
@@ -66,7 +57,7 @@ impl Check {
                 let worst = seen.iter().filter_map(|seen| seen.asymmetry).reduce(f64::max)?;
                 Some(above(worst, 1e-6))
             }
-            Check::Energy => finest.energy.map(|energy| above(energy, 0.05)),
+            Check::Energy => seen[0].energy.map(|energy| above(energy, 0.05)),
             Check::Settles => {
                 let [.., coarse, fine] = seen[..] else { return None };
                 Some(above((fine.motion / coarse.motion - 1.0).abs(), 0.05))
@@ -80,8 +71,8 @@ impl Check {
 pub struct Looks(pub [Option<bool>; Check::ALL.len()]);
 
 impl Looks {
-    /// Of the levels of a row, coarse to fine.
-    pub fn of(levels: &[&Watched]) -> Self {
+    /// Of the levels of a row, coarse to fine; of those that did not end there is nothing to see.
+    pub fn of(levels: &[Option<&Seen>]) -> Self {
         Looks(Check::ALL.map(|check| check.objects(levels)))
     }
 
@@ -98,22 +89,6 @@ impl Looks {
             (one, another) => one.or(another),
         };
         Looks(std::array::from_fn(either))
-    }
-}
-
-/// A run, and what is to be seen of it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Watched {
-    /// What the row judges.
-    pub outcome: Outcome,
-    /// What people look at; of a run that did not end, nothing.
-    pub seen: Option<Seen>,
-}
-
-impl AsRef<Outcome> for Watched {
-    fn as_ref(&self) -> &Outcome {
-        &self.outcome
     }
 }
 
@@ -135,77 +110,9 @@ pub struct Seen {
     energy: Option<f64>,
 }
 
-/// Makes runs and looks at them.
-pub struct Eyes {
-    /// Where fields are.
-    pub fields: Fields,
-}
-
-impl Bench for Eyes {
-    type Result = Watched;
-
-    fn run(
-        &self,
-        job: &Job,
-        step: &mut (dyn FnMut(usize, usize) + Send),
-    ) -> anyhow::Result<Watched> {
-        let input = self.fields.input(job)?;
-        let set = &job.study.set;
-        Ok(match job.study.method.precision {
-            Precision::F32 => look(job, &input.scene(set, |entry| entry.single)?, step),
-            Precision::F64 => look(job, &input.scene(set, |entry| entry.double)?, step),
-        })
-    }
-}
-
-fn look<T: Solvable>(
-    job: &Job,
-    scene: &Scene<T>,
-    step: &mut (dyn FnMut(usize, usize) + Send),
-) -> Watched {
-    let mut album = Album { step, frames: Vec::new() };
-    let cells: &Division = &job.study.cells[0];
-    let run = match scene.run(&job.method, cells, Watch::Everything, &mut album) {
-        Ok(run) => run,
-        Err(refusal) => {
-            let outcome = Outcome::Refused { reason: refusal.to_string() };
-            return Watched { outcome, seen: None };
-        }
-    };
-    let outcome = outcome(&run.level, run.details.as_ref(), &job.quantity);
-    let balance = run.details.and_then(|details| details.diagnostics.balance);
-    let energy = balance.and_then(|balance| {
-        let energy = balance.kinetic_energy + balance.strain_energy?;
-        let put_in = balance.body_work.abs().max(energy);
-        Some(balance.energy_residual?.abs() / put_in)
-    });
-    let seen = outcome.norms().map(|_| Seen { energy, ..Seen::of(&album.frames) });
-    Watched { outcome, seen }
-}
-
-/// Some states of a run.
-struct Album<'a> {
-    step: &'a mut (dyn FnMut(usize, usize) + Send),
-    frames: Vec<Frame>,
-}
-
-impl Observer for Album<'_> {
-    fn step(&mut self, step: usize, steps: usize) {
-        (self.step)(step, steps);
-    }
-
-    fn wants(&self, step: usize, steps: usize) -> bool {
-        step == steps || step > 0 && step % steps.div_ceil(LOOKS) == 0
-    }
-
-    fn see(&mut self, frame: &Frame) -> Result<(), String> {
-        self.frames.push(frame.clone());
-        Ok(())
-    }
-}
-
 impl Seen {
-    fn of(frames: &[Frame]) -> Self {
+    /// Of some states of a run, and of what is left of its energy.
+    pub fn of(frames: &[Frame], energy: Option<f64>) -> Self {
         let all = |of: fn(&Frame) -> Vec<f64>| frames.iter().flat_map(of);
         let mean_square = |of: fn(&Frame) -> Vec<f64>| {
             let (sum, count) = all(of).fold((0.0, 0), |(sum, n), x| (sum + x * x, n + 1));
@@ -217,14 +124,15 @@ impl Seen {
             boxes.iter().fold(0.0, |most, [least, greatest]| f64::max(most, greatest - least))
         });
         let exact = mean_square(field);
+        let size = all(field).fold(0.0, |most, u| f64::max(most, u.abs()));
         let error = mean_square(|frame| frame.displacement_error.clone());
         Seen {
             largest: all(displacement).fold(0.0, |most, x| f64::max(most, x.abs())),
             extent,
             motion: mean_square(displacement),
             misfit: if exact > 0.0 { error / exact } else { 0.0 },
-            asymmetry: frames.iter().filter_map(asymmetry).reduce(f64::max),
-            energy: None,
+            asymmetry: frames.iter().filter_map(|it| asymmetry(it, size)).reduce(f64::max),
+            energy,
         }
     }
 }
@@ -252,15 +160,14 @@ fn bounds(frame: &Frame) -> Vec<[f64; 2]> {
     (0..frame.dimension).map(both).collect()
 }
 
-/// How far displacements are from their images in the middle planes of the body, over the field's largest; nothing,
-/// if neither the field nor the particles are their own images.
-fn asymmetry(frame: &Frame) -> Option<f64> {
+/// How far displacements are from their images in the middle planes of the body, over the size of the field's;
+/// nothing, if the field or the particles are not their own images.
+fn asymmetry(frame: &Frame, size: f64) -> Option<f64> {
     let (dimension, bounds) = (frame.dimension, bounds(frame));
     let (reference, exact) = (reference(frame), field(frame));
-    let largest = exact.iter().fold(0.0, |most, u| f64::max(most, u.abs()));
     let length =
         bounds.iter().fold(0.0, |most, [least, greatest]| f64::max(most, greatest - least));
-    if largest == 0.0 || length == 0.0 {
+    if size == 0.0 || length == 0.0 {
         return None;
     }
     let place = |point: &[f64]| -> Vec<i64> {
@@ -283,7 +190,7 @@ fn asymmetry(frame: &Frame) -> Option<f64> {
                 of_run = f64::max(of_run, apart(&frame.displacement));
             }
         }
-        (of_field < 1e-9 * largest).then_some(of_run / largest)
+        (of_field < 1e-9 * size).then_some(of_run / size)
     };
     (0..dimension).filter_map(of_axis).reduce(f64::max)
 }
@@ -311,23 +218,19 @@ mod tests {
         }
     }
 
-    fn watched(seen: Option<Seen>) -> Watched {
-        Watched { outcome: Outcome::Refused { reason: String::new() }, seen }
-    }
-
     #[test]
     fn a_motion_that_is_its_image_is_held_to_it() {
         let symmetric = [-0.2, -0.1, 0.1, 0.2];
-        assert!(asymmetry(&frame(symmetric, 0.0)).unwrap() < 1e-12);
-        let off = asymmetry(&frame(symmetric, 0.01)).unwrap();
+        assert!(asymmetry(&frame(symmetric, 0.0), 0.2).unwrap() < 1e-12);
+        let off = asymmetry(&frame(symmetric, 0.01), 0.2).unwrap();
         assert!((off - 0.1).abs() < 1e-12, "2 x 0.01 over 0.2: {off}");
-        assert_eq!(asymmetry(&frame([0.1; 4], 0.01)), None, "a translation has no image");
-        assert_eq!(asymmetry(&frame([0.0; 4], 0.01)), None, "rest has no size");
+        assert_eq!(asymmetry(&frame([0.1; 4], 0.01), 0.1), None, "a translation has no image");
+        assert_eq!(asymmetry(&frame([0.0; 4], 0.01), 0.0), None, "rest has no size");
     }
 
     #[test]
     fn numbers_of_a_run_are_those_on_paper() {
-        let seen = Seen::of(&[frame([-0.2, -0.1, 0.1, 0.2], 0.1)]);
+        let seen = Seen::of(&[frame([-0.2, -0.1, 0.1, 0.2], 0.1)], None);
         assert!((seen.largest - 0.2).abs() < 1e-12 && (seen.extent - 0.75).abs() < 1e-12);
         assert!((seen.motion - f64::sqrt((0.04 + 0.04 + 0.04) / 4.0)).abs() < 1e-12);
         assert!((seen.misfit - f64::sqrt(0.02 / 0.1)).abs() < 1e-12);
@@ -343,11 +246,7 @@ mod tests {
             asymmetry: Some(1e-9),
             energy: Some(0.01),
         };
-        let levels = |last: Option<Seen>| [watched(Some(fine.clone())), watched(last)];
-        let looks = |last: Option<Seen>| {
-            let levels = levels(last);
-            Looks::of(&[&levels[0], &levels[1]]).0
-        };
+        let looks = |last: Option<Seen>| Looks::of(&[Some(&fine), last.as_ref()]).0;
         let none = Some(false);
         assert_eq!(looks(Some(fine.clone())), [none; 5]);
         let objected = |at: usize, seen: Seen| {
@@ -358,14 +257,17 @@ mod tests {
         objected(0, Seen { misfit: 0.2, ..fine.clone() });
         objected(1, Seen { largest: f64::NAN, ..fine.clone() });
         objected(2, Seen { asymmetry: Some(1e-3), ..fine.clone() });
-        objected(3, Seen { energy: Some(0.1), ..fine.clone() });
         objected(4, Seen { motion: 0.06, ..fine.clone() });
+        let weighed = Seen { energy: Some(0.1), ..fine.clone() };
+        assert_eq!(Looks::of(&[Some(&weighed), Some(&fine)]).0[3], Some(true));
         assert_eq!(looks(None), [None, Some(true), None, None, None]);
-        let nothing = [watched(None), watched(None)];
-        let stopped = Looks::of(&[&nothing[0], &nothing[1]]);
+        let stopped = Looks::of(&[None, None]);
         assert_eq!(stopped.0, [None, Some(true), None, None, None]);
         // What objects without the defect says nothing of it.
         let unfair = Looks([Some(true); 5]).beside(stopped);
         assert_eq!(unfair, Looks([None; 5]));
+        assert_eq!(unfair.or(stopped), stopped);
+        assert_eq!(Looks([Some(false); 5]).or(stopped).0[1], Some(true));
+        assert_eq!(Check::ALL.map(Check::name)[1], "bounded");
     }
 }
