@@ -123,7 +123,7 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
         if let Some(time_step) = steps.position {
             let d = &mut particles.displacement[k];
             let before = four(machine, d, T::zero());
-            let mapped = misread::carrier(machine, mapped, &particles.velocity[k]);
+            let mapped = misread::carrier(machine, mapped, particles.velocity, k);
             let next = machine.times_plus(machine.splat(time_step), mapped, before);
             *d = vector(machine, next);
             *rest = machine.times_plus(next, zero, *rest);

@@ -22,14 +22,15 @@ pub(super) fn velocity_gradient<T: Real, M: Machine<T>, const D: usize>(
     gradient
 }
 
-/// The velocity that moves a particle: that of the nodes.
+/// The velocity that moves the particle `k`: that of the nodes.
 #[inline(always)]
 pub(super) fn carrier<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     mapped: M::Four,
-    own: &Vector<T, D>,
+    own: &[Vector<T, D>],
+    k: usize,
 ) -> M::Four {
-    if on(Defect::OwnVelocity) { four(machine, own, T::zero()) } else { mapped }
+    if on(Defect::OwnVelocity) { four(machine, &own[k], T::zero()) } else { mapped }
 }
 
 /// The linear velocity of APIC, of splines of this degree.
