@@ -10,7 +10,7 @@ use super::super::{Outcome, print, print_json, this_command};
 use super::{Verify, input};
 use crate::report::{pretty, write_files};
 use crate::store::{Store, program};
-use crate::verify::defects::report::{Report, Trial};
+use crate::verify::defects::report::{Report, Showing};
 use crate::verify::defects::{Defect, Shown, Stage, validate};
 use crate::verify::matrix::Row;
 use crate::verify::plan::Job;
@@ -55,20 +55,21 @@ impl Verify {
             bail!("`{}` is not as theory expects without any defect: {reason}", odd.row.name);
         }
 
-        let mut trials = Vec::new();
+        let mut showings = Vec::new();
         for &defect in &defects {
             let shown = stage.show(Some(defect), &chosen(&defect))?;
             let looks = shown.iter().fold(Looks::default(), |looks, it| {
                 let without = right.iter().find(|other| other.row.name == it.row.name);
                 looks.or(it.looks.beside(without.map_or(Looks::default(), |it| it.looks)))
             });
-            let trial = Trial { defect, rows: shown, looks };
-            progress.shown(&trial);
-            trials.push(trial);
+            let showing = Showing { defect, rows: shown, looks };
+            progress.shown(&showing);
+            showings.push(showing);
         }
         progress.bar.finish_and_clear();
         let provenance = this_command("defects", input())?;
-        let report = Report { rows, trials, whole: self.all_rows && names.is_empty(), provenance };
+        let report =
+            Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
         if let Some(folder) = &self.output {
             for path in write_files(folder, "defects", [("json", pretty(&report.document())?)])? {
                 anstream::eprintln!("{path}");
@@ -111,11 +112,11 @@ impl Progress {
         Self { bar }
     }
 
-    fn shown(&self, trial: &Trial<'_>) {
+    fn shown(&self, showing: &Showing<'_>) {
         self.bar.inc(1);
         let by = |shown: &Shown<'_>| shown.row.name.clone();
-        let by = trial.caught().map(by).next().unwrap_or_else(|| "nothing".into());
-        let name = trial.defect.name();
+        let by = showing.caught().map(by).next().unwrap_or_else(|| "nothing".into());
+        let name = showing.defect.name();
         if self.bar.is_hidden() {
             let (at, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
             let left = self.bar.eta().as_secs();

@@ -13,7 +13,7 @@ use crate::verify::pseudo::{Check, Looks};
 const FEW: usize = 6;
 
 /// A defect, and the rows that it was shown to.
-pub struct Trial<'a> {
+pub struct Showing<'a> {
     /// The defect.
     pub defect: Defect,
     /// The rows, with it.
@@ -22,7 +22,7 @@ pub struct Trial<'a> {
     pub looks: Looks,
 }
 
-impl<'a> Trial<'a> {
+impl<'a> Showing<'a> {
     /// The rows whose verdict is not the expected one.
     pub fn caught(&self) -> impl Iterator<Item = &Shown<'a>> {
         self.rows.iter().filter(|shown| !shown.judgement.as_expected())
@@ -40,7 +40,7 @@ pub struct Report<'a> {
     /// The rows that were shown defects.
     pub rows: Vec<&'a Row>,
     /// The defects.
-    pub trials: Vec<Trial<'a>>,
+    pub showings: Vec<Showing<'a>>,
     /// Whether every defect was shown to every row.
     pub whole: bool,
     /// Where it is from.
@@ -48,21 +48,25 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn uncaught(&self) -> impl Iterator<Item = &Trial<'a>> {
-        self.trials.iter().filter(|trial| trial.caught().next().is_none())
+    fn uncaught(&self) -> impl Iterator<Item = &Showing<'a>> {
+        self.showings.iter().filter(|showing| showing.caught().next().is_none())
     }
 
     /// Pairs of a row and a defect that it claims to catch, and does not.
     fn missed(&self) -> impl Iterator<Item = (&'a Row, Defect)> {
-        self.trials.iter().flat_map(|trial| trial.missed().map(|shown| (shown.row, trial.defect)))
+        self.showings
+            .iter()
+            .flat_map(|showing| showing.missed().map(|shown| (shown.row, showing.defect)))
     }
 
     /// Rows that catch no defect that few others catch, and are no witness of anything; known of the whole table.
     fn idle(&self) -> Vec<&'a Row> {
-        let catches = |row: &Row, trial: &&Trial| trial.caught().any(|it| it.row.name == row.name);
-        let rare: Vec<_> = self.trials.iter().filter(|it| it.caught().count() <= FEW).collect();
-        let idle =
-            |row: &&&Row| row.witness.is_none() && !rare.iter().any(|trial| catches(row, trial));
+        let catches =
+            |row: &Row, showing: &&Showing| showing.caught().any(|it| it.row.name == row.name);
+        let rare: Vec<_> = self.showings.iter().filter(|it| it.caught().count() <= FEW).collect();
+        let idle = |row: &&&Row| {
+            row.witness.is_none() && !rare.iter().any(|showing| catches(row, showing))
+        };
         if self.whole { self.rows.iter().filter(idle).copied().collect() } else { Vec::new() }
     }
 
@@ -77,8 +81,8 @@ impl<'a> Report<'a> {
             let pairs = Check::ALL.into_iter().zip(looks.0);
             pairs.map(|(check, objects)| (check.name().to_owned(), json!(objects))).collect()
         };
-        let defects = self.trials.iter().map(|trial| {
-            let rows = trial.rows.iter().map(|shown| {
+        let defects = self.showings.iter().map(|showing| {
+            let rows = showing.rows.iter().map(|shown| {
                 json!({
                     "name": shown.row.name,
                     "caught": !shown.judgement.as_expected(),
@@ -87,11 +91,11 @@ impl<'a> Report<'a> {
                 })
             });
             json!({
-                "name": trial.defect.name(),
-                "place": trial.defect.place(),
-                "what": trial.defect.what(),
+                "name": showing.defect.name(),
+                "place": showing.defect.place(),
+                "what": showing.defect.what(),
                 "rows": rows.collect::<Vec<_>>(),
-                "pseudo": looks(trial.looks),
+                "pseudo": looks(showing.looks),
             })
         });
         let missed = self.missed().map(|(row, defect)| json!([row.name, defect.name()]));
@@ -99,7 +103,7 @@ impl<'a> Report<'a> {
             "rows": self.rows.iter().map(|row| &row.name).collect::<Vec<_>>(),
             "every_row": self.whole,
             "defects": defects.collect::<Vec<_>>(),
-            "uncaught": self.uncaught().map(|trial| trial.defect.name()).collect::<Vec<_>>(),
+            "uncaught": self.uncaught().map(|showing| showing.defect.name()).collect::<Vec<_>>(),
             "missed": missed.collect::<Vec<_>>(),
             "idle": self.idle().iter().map(|row| &row.name).collect::<Vec<_>>(),
         }))
@@ -110,14 +114,16 @@ impl<'a> Report<'a> {
         let mut table = Table::new();
         let checks = Check::ALL.map(Check::name);
         table.load_style(NOTHING).set_header(["defect", "caught by"].into_iter().chain(checks));
-        for trial in &self.trials {
-            let by = self.caught_by(trial);
-            let cells = [trial.defect.name().to_owned(), by].into_iter().chain(words(trial.looks));
+        for showing in &self.showings {
+            let by = self.caught_by(showing);
+            let cells =
+                [showing.defect.name().to_owned(), by].into_iter().chain(words(showing.looks));
             table.add_row(cells);
         }
         let mut text = format!("{table}\n");
-        for trial in self.uncaught() {
-            text += &format!("\n{} is not caught: {}", trial.defect.name(), trial.defect.what());
+        for showing in self.uncaught() {
+            text +=
+                &format!("\n{} is not caught: {}", showing.defect.name(), showing.defect.what());
         }
         for (row, defect) in self.missed() {
             text += &format!("\n{} does not catch {}, as it says", row.name, defect.name());
@@ -131,17 +137,18 @@ impl<'a> Report<'a> {
 
     /// How many were caught by what.
     fn summary(&self) -> String {
-        let all = self.trials.len();
+        let all = self.showings.len();
         let caught = all - self.uncaught().count();
         let objects = |at: usize| {
-            let said = |trial: &&Trial| trial.looks.0[at] == Some(true);
-            self.trials.iter().filter(said).count()
+            let said = |showing: &&Showing| showing.looks.0[at] == Some(true);
+            self.showings.iter().filter(said).count()
         };
         let by_check = Check::ALL.iter().enumerate();
         let by_check: Vec<_> =
             by_check.map(|(at, check)| format!("{} {}", check.name(), objects(at))).collect();
-        let blind = |trial: &&Trial| trial.looks.0[1..].iter().all(|look| *look != Some(true));
-        let blind = self.trials.iter().filter(blind).count();
+        let blind =
+            |showing: &&Showing| showing.looks.0[1..].iter().all(|look| *look != Some(true));
+        let blind = self.showings.iter().filter(blind).count();
         format!(
             "the matrix catches {caught} of {all} defects; by looking at the same runs: {}; {blind} look right in \
              all but the picture of the exact solution",
@@ -149,8 +156,8 @@ impl<'a> Report<'a> {
         )
     }
 
-    fn caught_by(&self, trial: &Trial<'_>) -> String {
-        let caught: Vec<_> = trial.caught().map(|shown| shown.row.name.as_str()).collect();
+    fn caught_by(&self, showing: &Showing<'_>) -> String {
+        let caught: Vec<_> = showing.caught().map(|shown| shown.row.name.as_str()).collect();
         match caught.len() {
             0 => "NOTHING".to_owned(),
             n if n > FEW => format!("{} and {} more", caught[..2].join(", "), n - 2),
@@ -165,10 +172,10 @@ impl<'a> Report<'a> {
             page += &format!(
                 "\n## In the {place}\n\n| defect | what is wrong | caught by | picture | bounded | symmetric | energy | settles |\n|---|---|---|---|---|---|---|---|\n"
             );
-            for trial in self.trials.iter().filter(|trial| trial.defect.place() == place) {
-                let (name, what) = (trial.defect.name(), trial.defect.what());
-                let looks = words(trial.looks).join(" | ");
-                page += &format!("| `{name}` | {what} | {} | {looks} |\n", self.caught_by(trial));
+            for showing in self.showings.iter().filter(|showing| showing.defect.place() == place) {
+                let (name, what) = (showing.defect.name(), showing.defect.what());
+                let looks = words(showing.looks).join(" | ");
+                page += &format!("| `{name}` | {what} | {} | {looks} |\n", self.caught_by(showing));
             }
         }
         let witnesses = self.rows.iter().filter_map(|row| Some((row, row.witness.as_ref()?)));
