@@ -48,10 +48,6 @@ pub struct Verify {
     defects: Option<Vec<String>>,
     /// Show every defect to every row of the quick matrix; takes an hour or so.
     #[arg(long, requires = "defects")]
-    #[cfg_attr(
-        not(feature = "defects"),
-        expect(dead_code, reason = "there are no defects to show")
-    )]
     all_rows: bool,
     /// Where results are kept.
     #[arg(long, value_name = "DIR", default_value = "target/mms/verify")]
