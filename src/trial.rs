@@ -75,6 +75,7 @@ impl Trials {
             field: input.compiled.provenance(),
             run: format!("trial {}", command(arguments)),
             quantity: Quantity::Displacement.name(),
+            defect: None,
         };
         // Two processes that search the same wait for each other's runs.
         let _claim = self.store.claim(&key, true)?;

@@ -11,6 +11,8 @@ use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
 use crate::mechanics::boundary::{Datum, data};
 use crate::mechanics::face;
 use crate::mechanics::kinematics::Route;
+#[cfg(feature = "defects")]
+use crate::mechanics::misread;
 use crate::mechanics::model::Body;
 use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
 use crate::pass::half_turns::half_turns;
@@ -207,6 +209,14 @@ fn phases(
     let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
         .ok()?;
+    #[cfg(feature = "defects")]
+    let (model, derived) = match misread::moduli(&mut graph, &field, &material, &model) {
+        None => (model, derived),
+        Some(wrong) => {
+            let of_wrong = derive(&mut graph, &wrong, &Relations::default(), Route::Gradient);
+            (wrong, Derivation { responses: derived.responses, ..of_wrong.ok()? })
+        }
+    };
     // The force of a twin needs the motion of the field.
     let needed = |quantity| model.rigid.is_some() || selection.wants(quantity);
     let derivation = simplify(&mut graph, &model, &derived, options.form, needed);

@@ -10,6 +10,10 @@ pub mod accuracy;
 pub mod certify;
 pub mod compile;
 pub mod culprit;
+#[cfg(feature = "defects")]
+pub mod defect;
+#[cfg(not(feature = "defects"))]
+mod defect;
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;

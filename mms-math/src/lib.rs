@@ -13,6 +13,7 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
+mod defect;
 #[cfg(feature = "std")]
 pub mod dispatch;
 mod double;

@@ -15,6 +15,7 @@ pub mod traction;
 pub mod wall;
 
 use crate::body::{Fill, Filling, Piece, faces};
+use crate::defect::{Defect, on};
 use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::{
@@ -142,7 +143,9 @@ impl<T: Real, const D: usize> Boundary<T, D> {
     {
         self.prescribed
             .impose(acceleration, |reference, out| field.acceleration(time, reference, out));
-        self.mirror(acceleration);
+        if !on(Defect::MirrorVelocityAlone) {
+            self.mirror(acceleration);
+        }
     }
 
     /// Imposes what is left of a velocity that the boundary takes no part in.

@@ -9,6 +9,7 @@
 use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
+use crate::defect::{Defect, on};
 use crate::nodal::four;
 use crate::shape::{MAX_NODES, Shape};
 use crate::stencil::Tensor;
@@ -37,7 +38,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<(), Cause> {
         let mut half_width = *initial;
-        if FOLLOWS {
+        if FOLLOWS && !on(Defect::HalfWidthKept) {
             let stretch = stretch_along_axes(displacement_gradient).ok_or(Cause::FlatDomain)?;
             half_width.component_mul_assign(&stretch);
         }
@@ -50,7 +51,10 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             return place_wide(machine, stencil, lattice, position, &half_width);
         }
         let cells = lattice.in_frame(machine, position);
-        let (first, weights) = around_nearest(machine, cells, in_cells);
+        let (first, mut weights) = around_nearest(machine, cells, in_cells);
+        if on(Defect::ShortSupport) {
+            weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
+        }
         let fits = stencil.set(machine, lattice, first, weights);
         if fits { Ok(()) } else { Err(Cause::lost(position)) }
     }
@@ -90,7 +94,8 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
 fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
     let diagonal = half_edges.diagonal();
     if *half_edges == Matrix::from_diagonal(&diagonal) {
-        return diagonal;
+        let wrong = on(Defect::HalfWidthsSwapped);
+        return if wrong { Vector::from_fn(|a, _| diagonal[D - 1 - a]) } else { diagonal };
     }
     let volume = determinant(half_edges).abs();
     Vector::repeat(ComplexField::powf(volume, T::ratio(1, D as i32)))

@@ -17,6 +17,10 @@
 //! H = du/dX, F = I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any
 //! consistent system works.
 
+#[cfg(feature = "defects")]
+pub mod defect;
+#[cfg(not(feature = "defects"))]
+mod defect;
 mod extension;
 pub mod spline;
 

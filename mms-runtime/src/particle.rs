@@ -1,5 +1,7 @@
 //! The particles: structure of arrays, entry `p` of every array belongs to particle `p`.
 
+use std::borrow::Cow;
+
 use crate::body::Filling;
 use crate::{Matrix, Real, Transfer, Vector};
 
@@ -185,6 +187,18 @@ impl<T, const D: usize> Columns<'_, T, D> {
             residual: residuals,
         };
         [first, others]
+    }
+}
+
+/// Where material and b are evaluated: X; x, where a defect takes that for it.
+pub(crate) fn material_points<'a, T: Real, const D: usize>(
+    reference: &'a [Vector<T, D>],
+    displacement: &[Vector<T, D>],
+    at_present: bool,
+) -> Cow<'a, [Vector<T, D>]> {
+    match at_present {
+        true => reference.iter().zip(displacement).map(|(x, d)| x + d).collect(),
+        false => Cow::Borrowed(reference),
     }
 }
 

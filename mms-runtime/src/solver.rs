@@ -7,6 +7,7 @@
 mod advance;
 mod clock;
 mod map;
+mod misread;
 mod need;
 mod operations;
 mod present;

@@ -6,6 +6,7 @@
 
 use mms_math::machine::{Machine, Plain};
 
+use crate::defect::{Defect, on};
 use crate::shape::{MAX_NODES, PointStencil, Shape};
 use crate::stencil::Tensor;
 use crate::{Cause, Lattice, Matrix, Real, Vector};
@@ -64,6 +65,7 @@ pub fn place<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: us
     let cell = machine.least(machine.greatest(machine.floor(cells), first), last_cell);
     let reach = machine.splat(T::of(P as f64 - 1.0));
     let regular = P == 1
+        || on(Defect::SplineEnds)
         || machine.all_at_most(machine.plus(first, reach), cell)
             && machine.all_at_most(cell, machine.minus(last_cell, reach));
     let fits = if regular {
@@ -138,6 +140,8 @@ fn cubics<T: Real, M: Machine<T>>(
     let outer = machine.times(machine.times(machine.splat(T::ratio(1, 3)), s), half_square);
     let falling = machine.minus(machine.times(half, r), machine.splat(T::one()));
     let two_thirds = machine.splat(T::ratio(2, 3));
+    let rounded = on(Defect::SplineConstant);
+    let two_thirds = if rounded { machine.splat(T::of(0.667)) } else { two_thirds };
     let inner = machine.times_plus(machine.times(r, r), falling, two_thirds);
     let slope =
         machine.minus(machine.times(machine.splat(T::ratio(3, 2)), r), machine.splat(T::of(2.0)));

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::UnknownName;
+use crate::defect::{Defect, on};
 
 /// The highest order of XPIC that has a name.
 pub const MOST_XPIC: u32 = 5;
@@ -46,6 +47,20 @@ pub enum Transfer {
 impl Transfer {
     /// FLIP that loses nothing, the default.
     pub const FLIP: Self = Transfer::Flip { fraction: 1.0 };
+
+    /// What a solver takes it for: itself, but for a defect.
+    pub(crate) fn taken(self) -> Self {
+        match self {
+            Transfer::Flip { .. } if on(Defect::FlipIsPic) => Transfer::Pic,
+            Transfer::Flip { fraction } if on(Defect::FlipFraction) => {
+                Transfer::Flip { fraction: 1.0 - fraction }
+            }
+            Transfer::Xpic { order } if on(Defect::XpicOrder) => {
+                Transfer::Xpic { order: order - 1 }
+            }
+            right => right,
+        }
+    }
 
     /// The names that users write.
     pub const NAMES: &'static [&'static str] =

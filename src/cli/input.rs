@@ -132,17 +132,32 @@ impl Input {
         let compiled = text
             .compile_as(compile_with, options)
             .map_err(|failure| anyhow!("{}\n{failure}", text.what_failed(options)))?;
+        Ok(Self::new(field, &text, compiled, options))
+    }
+
+    /// A field whose quantities come from the interpreter, whatever was compiled of it; and whether or not it is
+    /// what it claims to be.
+    #[cfg(feature = "defects")]
+    pub fn interpreted(field: &str, variant: &Variant) -> anyhow::Result<Input> {
+        let (text, options) = (Text::find(field)?, variant.options(Selection::default()));
+        let compiled = text
+            .compile(&options)
+            .map_err(|failure| anyhow!("{}\n{failure}", text.what_failed(&options)))?;
+        Ok(Input { entry: None, ..Self::new(field, &text, compiled, &options) })
+    }
+
+    fn new(field: &str, text: &Text, compiled: Compiled, options: &Options) -> Input {
         let as_it_is = options.selection.twin == Twin::Nothing
             && options.form == Form::Stable
             && options.variation == Variation::Nothing;
         let entry = text.entry().filter(|_| as_it_is);
-        Ok(Input {
+        Input {
             name: compiled.field.name.clone(),
             compiled: Arc::new(compiled),
             entry,
             given: field.to_owned(),
             twin: options.selection.twin.clone(),
-        })
+        }
     }
 
     /// What a result of the field, with some settings, is of.

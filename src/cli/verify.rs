@@ -1,5 +1,8 @@
 //! `mms verify`: the verification matrix.
 
+#[cfg(feature = "defects")]
+mod seeded;
+
 use std::io::IsTerminal as _;
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -10,6 +13,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_codegen::suggest::did_you_mean;
 
+use super::input::Input;
 use super::{Outcome, print, print_json, this_command};
 use crate::gallery::FIELDS;
 use crate::report::{pretty, provenance, write_files};
@@ -19,7 +23,7 @@ use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};
 use crate::verify::report::{Judged, Report};
 use crate::verify::verdict::judge;
-use crate::verify::work::{self, Watcher, outcomes};
+use crate::verify::work::{self, Fields, Watcher, outcomes};
 
 /// Run the verification matrix: every mode of the solver, one at a time, by the field that isolates it, each
 /// verdict held to theory.
@@ -37,10 +41,18 @@ pub struct Verify {
     /// List the rows and what theory expects of them, and run nothing.
     #[arg(long)]
     list: bool,
+    /// Show the rows deliberate mistakes of solver and compiler, one after the other, all or those named: each must
+    /// make a verdict fail. A defect is shown to the quick levels of the rows that say they catch it. The program
+    /// has to be built with `--features defects`.
+    #[arg(long, value_name = "NAME", num_args = 0.., require_equals = true, value_delimiter = ',', conflicts_with = "list")]
+    defects: Option<Vec<String>>,
+    /// Show every defect to every row of the quick matrix; takes an hour or so.
+    #[arg(long, requires = "defects")]
+    all_rows: bool,
     /// Where results are kept.
     #[arg(long, value_name = "DIR", default_value = "target/mms/verify")]
     store: PathBuf,
-    /// Write verification.json there, which is what `--json` prints.
+    /// Write verification.json there, or defects.json, which is what `--json` prints.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     /// How many runs go side by side; by default as many as there are processors.
@@ -49,7 +61,7 @@ pub struct Verify {
     /// Print one JSON document.
     #[arg(long, conflicts_with = "page")]
     json: bool,
-    /// Print the page docs/verification.md.
+    /// Print the page docs/verification.md, or docs/defects.md.
     #[arg(long, conflicts_with = "list")]
     page: bool,
 }
@@ -62,13 +74,17 @@ impl Verify {
             self.print_list(&rows)?;
             return Ok(Outcome::AsExpected);
         }
+        let threads = self.threads.or(std::thread::available_parallelism().ok());
+        let threads = threads.unwrap_or(NonZero::<usize>::MIN);
+        if let Some(names) = &self.defects {
+            return self.show_defects(names, &all, &rows, threads);
+        }
         let plan = Plan::new(&rows, self.quick, &program()?)?;
         let (store, set_aside) = Store::open(&self.store)?;
         let progress = Progress::new(&plan.jobs);
         set_aside.iter().for_each(|what| progress.set_aside(what));
-        let threads = self.threads.or(std::thread::available_parallelism().ok());
-        let threads = threads.unwrap_or(NonZero::<usize>::MIN);
-        let outcomes = outcomes(&plan.jobs, &store, threads, &progress)?;
+        let fields = Fields::new(Input::find);
+        let outcomes = outcomes(&plan.jobs, &store, threads, &fields, &progress)?;
         progress.finish();
         let judged = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<_> = levels.iter().map(|&at| outcomes[at].clone()).collect();
@@ -98,6 +114,19 @@ impl Verify {
             None => Outcome::AsExpected,
             Some(_) => Outcome::Refuted,
         })
+    }
+
+    #[cfg(not(feature = "defects"))]
+    fn show_defects(
+        &self,
+        _: &[String],
+        _: &[Row],
+        _: &[&Row],
+        _: NonZero<usize>,
+    ) -> anyhow::Result<Outcome> {
+        bail!(
+            "this program has no defects in it; `cargo run --release --features defects -- verify --defects` builds and runs one that has"
+        )
     }
 
     /// The rows that were asked for.

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod comparison;
+mod defects;
 mod extremes;
 mod field;
 mod folder;
@@ -91,6 +92,7 @@ const KINDS: &[Kind] = &[
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
     Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
     Kind::of::<extremes::Extremes>("extremes", "At the limits"),
+    Kind::of::<defects::Defects>("defects", "Deliberate mistakes"),
     Kind::of::<accuracy::Accuracy>("accuracy", "Accuracy of formulas"),
     Kind::of::<run::Run>("run", "Single runs"),
 ];

@@ -44,6 +44,11 @@ pub struct Row {
     pub constant: Option<f64>,
     /// Why, and who says so.
     pub theory: String,
+    /// The deliberate mistakes that `--defects` shows this row.
+    #[serde(default)]
+    pub catches: Vec<String>,
+    /// What no other row looks at.
+    pub witness: Option<String>,
 }
 
 /// Of what an error is measured.
@@ -202,6 +207,9 @@ impl Named for Row {
             (Expected::Word(_), None) => {}
         }
         ensure!(!self.theory.is_empty(), "no theory");
+        let earns_its_place = !self.catches.is_empty() || self.witness.is_some();
+        ensure!(earns_its_place, "it catches no defect, and is the witness of nothing");
+        ensure!(self.catches.is_empty() || self.quick > 0, "defects are shown to `--quick` alone");
         Ok(())
     }
 }

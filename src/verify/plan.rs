@@ -21,6 +21,9 @@ pub struct Key {
     pub run: String,
     /// Of what errors are measured.
     pub quantity: &'static str,
+    /// The deliberate mistake that the program made meanwhile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub defect: Option<&'static str>,
 }
 
 /// A run: a level of a row, or of several.
@@ -116,6 +119,7 @@ fn job(
         field: digest([entry.text, entry.material.unwrap_or_default()]),
         run: format!("{method:?}, {cells} cells, {precision}, {set:?}, {variant:?}"),
         quantity: quantity.name(),
+        defect: None,
     };
     let command = format!("mms run {arguments}");
     Ok(Job { key, command, entry, study, method, quantity, work })

@@ -1,5 +1,7 @@
 //! That the matrix leaves no mode out, and that its verdicts are those of sequences with a known answer.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use mms_codegen::spec::Claim;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 
@@ -140,6 +142,8 @@ fn row(order: Expected) -> Row {
             Expected::Word(_) => None,
         },
         theory: "known".into(),
+        catches: Vec::new(),
+        witness: Some("a sequence".into()),
     }
 }
 
@@ -257,5 +261,23 @@ fn the_page_has_these_rows() {
             _ => "| pass |",
         };
         assert!(line.contains(verdict), "{}: {line}", row.name);
+    }
+}
+
+/// What catches a defect is observed by the command; what rows say that they catch is held here.
+#[test]
+fn the_page_of_defects_has_those_that_rows_say_they_catch() {
+    let page = include_str!("../../docs/defects.md");
+    let name = |line: &'static str| line.strip_prefix("| `")?.split('`').next();
+    let lines: BTreeMap<&str, &str> =
+        page.lines().filter_map(|line| Some((name(line)?, line))).collect();
+    let write = "write it anew: cargo run --release --features defects -- verify --defects --page > docs/defects.md";
+    let rows = rows().unwrap();
+    let caught: BTreeSet<&str> =
+        rows.iter().flat_map(|row| row.catches.iter().map(String::as_str)).collect();
+    assert!(caught.len() >= 25 && caught.iter().copied().eq(lines.keys().copied()), "{write}");
+    for row in &rows {
+        let shown = row.catches.iter().all(|name| lines[name.as_str()].contains(&row.name));
+        assert!(shown, "{}: {write}", row.name);
     }
 }

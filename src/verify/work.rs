@@ -7,11 +7,12 @@ use std::sync::{Arc, Mutex};
 
 use mms_runtime::study::{Details, Watch};
 use mms_runtime::{Errors, Level};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::matrix::{Quantity, Row};
 use super::plan::Job;
-use crate::cli::input::Input;
+use crate::cli::input::{Input, Variant};
 use crate::cli::method::Precision;
 use crate::scene::{Scene, Solvable};
 use crate::store::{Entry, Store};
@@ -106,6 +107,28 @@ impl Outcome {
     }
 }
 
+impl AsRef<Outcome> for Outcome {
+    fn as_ref(&self) -> &Outcome {
+        self
+    }
+}
+
+/// What makes runs.
+pub trait Bench: Sync {
+    /// What comes of one, and is stored.
+    type Result: AsRef<Outcome> + Clone + Serialize + DeserializeOwned + Send;
+
+    /// Makes a run, and calls `step` after each of its steps.
+    ///
+    /// # Errors
+    /// A field of the gallery does not compile.
+    fn run(
+        &self,
+        job: &Job,
+        step: &mut (dyn FnMut(usize, usize) + Send),
+    ) -> anyhow::Result<Self::Result>;
+}
+
 /// What is said while runs go on. All of it may come from several threads.
 pub trait Watcher: Sync {
     /// A run was taken from the store.
@@ -118,19 +141,20 @@ pub trait Watcher: Sync {
     fn set_aside(&self, what: &str);
 }
 
-/// The outcomes of runs, in their order.
+/// What comes of runs, in their order.
 ///
 /// # Errors
 /// The store cannot be read or written, a field of the gallery does not compile.
-pub fn outcomes(
+pub fn outcomes<B: Bench>(
     jobs: &[Job],
     store: &Store,
     threads: NonZero<usize>,
+    bench: &B,
     watcher: &dyn Watcher,
-) -> anyhow::Result<Vec<Outcome>> {
-    let work = Work { store, watcher, inputs: Mutex::default() };
+) -> anyhow::Result<Vec<B::Result>> {
+    let work = Work { store, bench, watcher };
     // First what nobody has begun; then what another process had begun, and may have ended without.
-    let mut outcomes: Vec<Option<Outcome>> = vec![None; jobs.len()];
+    let mut outcomes: Vec<Option<B::Result>> = vec![None; jobs.len()];
     for wait in [false, true] {
         let left: Vec<usize> = (0..jobs.len()).filter(|&at| outcomes[at].is_none()).collect();
         let next = AtomicUsize::new(0);
@@ -158,16 +182,15 @@ pub fn outcomes(
     Ok(outcomes.into_iter().flatten().collect())
 }
 
-struct Work<'a> {
+struct Work<'a, B> {
     store: &'a Store,
+    bench: &'a B,
     watcher: &'a dyn Watcher,
-    /// Fields with everything derived, by name and variant.
-    inputs: Mutex<BTreeMap<String, Arc<Input>>>,
 }
 
-impl Work<'_> {
+impl<B: Bench> Work<'_, B> {
     /// The outcome of a run; nothing, if another process has claimed it and there is to be no waiting.
-    fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
+    fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<B::Result>> {
         if let Some(outcome) = self.stored(job)? {
             return Ok(Some(outcome));
         }
@@ -176,13 +199,14 @@ impl Work<'_> {
         if let Some(outcome) = self.stored(job)? {
             return Ok(Some(outcome));
         }
-        let outcome = self.run(job)?;
+        let mut step = |step: usize, steps: usize| self.watcher.step(job, step, steps);
+        let outcome = self.bench.run(job, &mut step)?;
         self.store.save(&job.key, &outcome)?;
-        self.watcher.done(job, &outcome);
+        self.watcher.done(job, outcome.as_ref());
         Ok(Some(outcome))
     }
 
-    fn stored(&self, job: &Job) -> anyhow::Result<Option<Outcome>> {
+    fn stored(&self, job: &Job) -> anyhow::Result<Option<B::Result>> {
         Ok(match self.store.load(&job.key)? {
             Entry::Stored(outcome) => {
                 self.watcher.found(job);
@@ -195,36 +219,73 @@ impl Work<'_> {
             }
         })
     }
+}
 
-    fn run(&self, job: &Job) -> anyhow::Result<Outcome> {
+/// How a field is found.
+type Find = fn(&str, &Variant) -> anyhow::Result<Input>;
+
+/// Fields with everything derived.
+pub struct Fields {
+    find: Find,
+    /// By name and variant.
+    inputs: Mutex<BTreeMap<String, Arc<Input>>>,
+}
+
+/// Measures what the row of a run looks at.
+impl Bench for Fields {
+    type Result = Outcome;
+
+    fn run(
+        &self,
+        job: &Job,
+        step: &mut (dyn FnMut(usize, usize) + Send),
+    ) -> anyhow::Result<Outcome> {
         let input = self.input(job)?;
+        let set = &job.study.set;
         Ok(match job.study.method.precision {
-            Precision::F32 => self.solve(job, &input.scene(&job.study.set, |entry| entry.single)?),
-            Precision::F64 => self.solve(job, &input.scene(&job.study.set, |entry| entry.double)?),
+            Precision::F32 => solve(job, &input.scene(set, |entry| entry.single)?, step),
+            Precision::F64 => solve(job, &input.scene(set, |entry| entry.double)?, step),
         })
     }
+}
 
-    fn solve<T: Solvable>(&self, job: &Job, scene: &Scene<T>) -> Outcome {
-        let mut step = |step: usize, steps: usize| self.watcher.step(job, step, steps);
-        let watch = match job.quantity {
-            Quantity::Displacement => Watch::Displacement,
-            _ => Watch::Everything,
-        };
-        match scene.run(&job.method, &job.study.cells[0], watch, &mut step) {
-            Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
-            Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
-        }
+/// What has to be watched for the errors of a quantity.
+pub fn watch_of(quantity: &Quantity) -> Watch {
+    match quantity {
+        Quantity::Displacement => Watch::Displacement,
+        _ => Watch::Everything,
+    }
+}
+
+fn solve<T: Solvable>(
+    job: &Job,
+    scene: &Scene<T>,
+    mut step: &mut (dyn FnMut(usize, usize) + Send),
+) -> Outcome {
+    match scene.run(&job.method, &job.study.cells[0], watch_of(&job.quantity), &mut step) {
+        Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+        Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
+    }
+}
+
+impl Fields {
+    /// None yet.
+    pub fn new(find: Find) -> Self {
+        Fields { find, inputs: Mutex::default() }
     }
 
     /// The field of a run, derived once for all of its runs.
-    fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
+    ///
+    /// # Errors
+    /// It does not compile.
+    pub fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
         let name = format!("{} {:?}", job.entry.name, job.study.variant);
         // Whoever else needs a field has to wait for it anyway.
         let mut inputs = self.inputs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(input) = inputs.get(&name) {
             return Ok(input.clone());
         }
-        let input = Arc::new(Input::find(job.entry.name, &job.study.variant)?);
+        let input = Arc::new((self.find)(job.entry.name, &job.study.variant)?);
         inputs.insert(name, input.clone());
         Ok(input)
     }

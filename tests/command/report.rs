@@ -28,9 +28,29 @@ static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let accuracy =
         "accuracy bar_1d --quantity J,P --regime declared,displacement_1e-8 --points 40 --json";
     folder.write("all/accuracy/printed.json", &folder.mms(accuracy).exits(0).stdout);
+    folder.write("all/defects.json", &defects("true"));
     folder.mms("report all").exits(0);
     folder
 });
+
+/// What `mms verify --defects` writes, in a program that has some, of two that one row catches.
+fn defects(caught: &str) -> String {
+    let defect = |name: &str, objects: &str| {
+        format!(
+            r#"{{"name": "{name}", "place": "solver", "what": "a <sign>",
+            "rows": [{{"name": "time/usl", "caught": {caught}, "verdict": "fail", "reason": null}},
+                     {{"name": "time/usf", "caught": false, "verdict": "pass", "reason": null}}],
+            "pseudo": {{"picture": {objects}, "bounded": false, "symmetric": null, "energy": false, "settles": false}}}}"#
+        )
+    };
+    let defects = [defect("first", "true"), defect("second", "null")].join(", ");
+    format!(
+        r#"{{"rows": ["time/usl", "time/usf"], "every_row": false, "defects": [{defects}],
+        "uncaught": [], "missed": [], "idle": [], "provenance": {{"kind": "defects", "version": "0.1.0",
+        "command": "mms verify --defects", "input": {{"field": null, "rigid": null, "set": [], "hash": "0"}},
+        "machine": null}}}}"#
+    )
+}
 
 /// The page of [`RESULTS`].
 static PAGE: LazyLock<String> = LazyLock::new(|| RESULTS.read("all/report.html"));
@@ -277,6 +297,36 @@ fn the_numbers_of_extremes_are_those_of_their_document() {
 }
 
 #[test]
+fn deliberate_mistakes_stand_beside_what_caught_them() {
+    let page = parse(&PAGE);
+    let mut tables = tables(&page, "2 deliberate mistakes");
+    let table = tables.remove("Deliberate mistakes and what caught them").expect("the table");
+    let checks = ["picture", "bounded", "symmetric", "energy", "settles"];
+    assert_eq!(table.columns[..3], ["defect", "in the", "caught by"]);
+    assert_eq!(table.columns[3..], checks);
+    let shown: Vec<Vec<&str>> =
+        table.rows.iter().map(|row| row.iter().map(|cell| cell.0.trim()).collect()).collect();
+    let row = |name, objects| {
+        [
+            name,
+            "solver",
+            "\u{2713} time/usl",
+            objects,
+            "content",
+            "cannot tell",
+            "content",
+            "content",
+        ]
+    };
+    assert_eq!(shown, [row("firsta <sign>", "objects"), row("seconda <sign>", "cannot tell")]);
+    let folder = Folder::new();
+    folder.write("bad/defects.json", &defects("false"));
+    let run = folder.mms("report bad").exits(1);
+    run.prints("verdicts are not as expected");
+    assert!(folder.read("bad/report.html").contains("0 of 2 caught"));
+}
+
+#[test]
 fn the_numbers_of_a_run_are_those_of_its_document() {
     let (page, run) = (parse(&PAGE), document("run/run"));
     let mut tables = tables(&page, "axis_aligned_2d: cpgimp leapfrog, 4 cells");
@@ -354,7 +404,7 @@ fn the_summary_has_every_result_and_its_verdict() {
         .skip(1)
         .map(|row| row.children().filter(Node::is_element).map(text).collect())
         .collect();
-    assert_eq!(rows.len(), 9, "{rows:?}");
+    assert_eq!(rows.len(), 10, "{rows:?}");
     assert!(rows.iter().any(|row| row[0].starts_with("bar_1d") && row[2].ends_with("pass")));
     assert!(rows.iter().any(|row| row[1] == "Verification matrix" && row[2].contains("1 of 1")));
     let head = named(page.root(), "header").next().expect("a header");

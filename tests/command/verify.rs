@@ -124,6 +124,62 @@ fn without_a_terminal_there_is_a_line_per_run_and_results_come_from_the_store_th
     assert_eq!(second.stdout, first.stdout);
 }
 
+/// What people use has no deliberate mistakes in it; whoever wants them is told how to build them.
+#[cfg(not(feature = "defects"))]
+#[test]
+fn defects_take_a_build_of_their_own() {
+    let folder = Folder::new();
+    for arguments in ["verify --defects", "verify --defects=force_sign --all-rows --quick"] {
+        let run = folder.mms(arguments).exits(2);
+        run.complains("`cargo run --release --features defects -- verify --defects`");
+        assert_eq!(run.stdout, "");
+    }
+    assert!(!folder.path("target").exists(), "nothing is run or stored");
+    let program = fs::read(env!("CARGO_BIN_EXE_mms")).expect("the program");
+    let (program, what) = (String::from_utf8_lossy(&program), "from before dt a_i was added");
+    assert!(!program.contains(what), "what a defect is stands in the program");
+    let list = include_str!("../../mms-runtime/src/defect.rs");
+    assert!(list.contains(what), "no defect is that any more");
+    folder.mms("verify --all-rows").exits(2).complains("--defects");
+}
+
+/// `.ci/run` builds a program that has some.
+#[cfg(feature = "defects")]
+#[test]
+fn a_defect_is_caught_and_nothing_of_it_is_trusted() {
+    let folder = Folder::new();
+    let shown =
+        "verify --defects=force_late,flip_fraction --row time/force_level --row transfer/flip_part";
+    let run = folder.mms(&format!("{shown} --store store --json --output out")).exits(0);
+    run.complains("2 of 2 defects");
+    let document = run.json();
+    assert_eq!(
+        keys(&document),
+        ["rows", "every_row", "defects", "uncaught", "missed", "idle", "provenance"]
+    );
+    let late = &document["defects"][0];
+    assert_eq!(keys(late), ["name", "place", "what", "rows", "pseudo"]);
+    assert_eq!(late["rows"][0]["name"], "time/force_level");
+    assert_eq!(late["rows"][0]["caught"], true);
+    // A run that is half as good as it should be looks as plausible.
+    assert_eq!(late["pseudo"]["bounded"], false);
+    assert_eq!(folder.read("out/defects.json").trim_end(), run.stdout.trim_end());
+    folder.mms("report out").exits(0).prints("all 2 verdicts are as expected");
+
+    assert!(results(&folder.path("store")).is_empty());
+    let kept = results(&folder.path("store/defects"));
+    assert!(!kept.is_empty());
+    let again = folder.mms(&format!("{shown} --store store --json")).exits(0).json();
+    assert_eq!(timeless(&again), timeless(&document));
+    assert_eq!(results(&folder.path("store/defects")), kept);
+    folder.mms("verify --quick --row time/force_level --store store").exits(0);
+
+    let unseen = "verify --defects=flip_fraction --row statics/column --store store";
+    folder.mms(unseen).exits(1).prints("flip_fraction is not caught");
+    folder.mms("verify --defects=force_lat").exits(2).complains("did you mean `force_late`?");
+    folder.mms("verify --defects --row particles/jitter").exits(2).complains("none of these rows");
+}
+
 #[test]
 fn rows_are_listed_and_found_by_name_or_group() {
     let folder = Folder::new();

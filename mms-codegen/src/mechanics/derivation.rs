@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::kinematics::{Motion, Route, Strain, half_angles};
 use super::material::Law;
+use super::misread;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
@@ -202,7 +203,9 @@ fn balance_quantities(
     let mut body_force_density = Vec::new();
     for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
         let specific = graph.div(*divergence, density);
-        body_force.push(graph.sub(*acceleration, specific));
+        let force = graph.sub(*acceleration, specific);
+        let balance = [*acceleration, *divergence];
+        body_force.push(misread::body_force(graph, force, balance, [density, per_volume]));
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }

@@ -16,6 +16,7 @@ use super::invariant::{FIBRE, FIRST, SECOND, VOLUME};
 use super::kinematics::{Fibre, Motion, Strain, total};
 use super::material::{Gradient, at, chained_gradient, explicit_gradient, gradient};
 use super::tensor::{Tensor, dot};
+use crate::defect::{Defect, on};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::expand::expand;
@@ -137,24 +138,33 @@ impl Finite {
         let graded = self.graded_divergence(graph, strain);
         let values = at(graph, strain, &roots);
         let (alpha, beta, gamma) = (values[0], values[1], values[2]);
+        let beta = if on(Defect::SecondInvariant) { graph.number(0) } else { beta };
         let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
         let fibres = self.fibre_divergence(graph, motion);
         let one = graph.number(1);
         let pressure: Vec<Expr> = (0..dimension)
             .map(|axis| {
+                let constant = on(Defect::PressureGradient);
+                let slope = if constant { graph.number(0) } else { gamma_slope[axis] };
+                let volume = on(Defect::VolumeGradient);
+                let gamma = if volume { graph.mul(gamma, strain.jacobian) } else { gamma };
                 let product = graph.mul(gamma, log_volume[axis]);
-                graph.sub(gamma_slope[axis], product)
+                graph.sub(slope, product)
             })
             .collect();
         (0..dimension)
             .map(|row| {
                 let mut pairs = vec![(alpha, laplacian[row]), (beta, cubic_divergence[row])];
                 for axis in 0..dimension {
-                    pairs.push((strain.deformation.at(row, axis), alpha_slope[axis]));
-                    pairs.push((cubic.at(row, axis), beta_slope[axis]));
-                    pairs.push((strain.inverse.at(axis, row), pressure[axis]));
+                    let swapped = on(Defect::DivergenceIndex);
+                    let (i, j) = if swapped { (axis, row) } else { (row, axis) };
+                    pairs.push((strain.deformation.at(i, j), alpha_slope[axis]));
+                    pairs.push((cubic.at(i, j), beta_slope[axis]));
+                    pairs.push((strain.inverse.at(j, i), pressure[axis]));
                 }
-                pairs.push((graded[row], one));
+                if !on(Defect::GradedModuli) {
+                    pairs.push((graded[row], one));
+                }
                 pairs.extend(fibres.iter().flat_map(|fibres| fibres[row]));
                 dot(graph, pairs)
             })
@@ -205,6 +215,7 @@ impl Finite {
         let rows = fibre.present.iter().zip(turned).enumerate();
         let parts = rows.map(|(row, (present, turned))| {
             let stretched = motion.second_gradient[row].contract(graph, &squared);
+            let pull = if on(Defect::FibrePull) { graph.number(0) } else { pull };
             [(*present, pull), (delta, graph.add(stretched, turned))]
         });
         Some(parts.collect())

@@ -13,6 +13,7 @@ mod finite;
 pub mod invariant;
 pub mod kinematics;
 pub mod material;
+pub(crate) mod misread;
 pub mod model;
 pub mod rigid;
 mod small_strain;

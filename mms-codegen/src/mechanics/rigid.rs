@@ -13,6 +13,7 @@
 use super::derivation::{Derivation, Response};
 use super::kinematics::total;
 use super::tensor::{Tensor, dot};
+use crate::defect::{Defect, on};
 use crate::expr::{Expr, Function, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::quantity::Quantity;
@@ -142,7 +143,7 @@ impl<'a> Twin<'a> {
         let position = sum(graph, [&reference, displacement]);
         let twice: Vec<Expr> = inner.quantities[&Quantity::Velocity]
             .iter()
-            .map(|velocity| graph.scale(*velocity, 2))
+            .map(|velocity| graph.scale(*velocity, if on(Defect::Coriolis) { 1 } else { 2 }))
             .collect();
         let swung = excess.apply(graph, &reference);
         let carried = first.apply(graph, &position);

@@ -12,6 +12,7 @@ use super::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
 use super::kinematics::{Motion, Strain};
 use super::material::{Gradient, at, gradient};
 use super::tensor::{Tensor, dot};
+use crate::defect::{Defect, on};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
@@ -58,7 +59,8 @@ impl SmallStrain {
         (0..dimension)
             .map(|row| {
                 let terms = [laplacian[row], dilatation[row]].map(|term| (term, half.clone()));
-                let curvature = graph.sum(terms);
+                let shown = if on(Defect::SmallDilatation) { 1 } else { 2 };
+                let curvature = graph.sum(terms.into_iter().take(shown));
                 let turned = (0..dimension).map(|axis| (strain.at(row, axis), shear_slope[axis]));
                 let turned = dot(graph, turned);
                 let sheared = graph.mul(shear, curvature);

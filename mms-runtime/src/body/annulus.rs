@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Filling, Piece};
+use crate::defect::{Defect, on};
 use crate::{Face, Matrix, Real, Vector};
 
 /// inner < R < outer, and angles between theta.
@@ -95,7 +96,9 @@ impl Sector {
             half_edges.set_column(0, &(radial * (step / 2.0)));
             half_edges.set_column(1, &(around * (radius * turn / 2.0)));
             filling.position.push(radial * radius);
-            filling.volume.push(radius * turn * step);
+            let middle = (self.inner + self.outer) / 2.0;
+            let arm = if on(Defect::RingVolumes) { middle } else { radius };
+            filling.volume.push(arm * turn * step);
             filling.half_edges.push(half_edges);
             let mut piece = |face: Face, position: Vector<f64, D>, area: Vector<f64, D>| {
                 filling.pieces.push(Piece { face, particle: k, position, area });

@@ -3,6 +3,7 @@
 //! Weights reach past both ends of the period. What nodes outside it receive goes to those inside, and
 //! nodes outside move like them.
 
+use crate::defect::{Defect, on};
 use crate::nodal::Nodal;
 use crate::{Lattice, Real};
 
@@ -16,7 +17,7 @@ impl Period {
     pub fn new<T: Real, const D: usize>(lattice: &Lattice<T, D>, axis: usize) -> Option<Self> {
         lattice.period[axis]?;
         let [from, to] = lattice.axes[axis].body.map(|knot| knot.ceil() as usize);
-        let length = to - from;
+        let length = to - from + usize::from(on(Defect::PeriodOfNodes));
         let pairs = (0..lattice.len()).filter_map(|node| {
             let k = lattice.coordinates(node)[axis];
             let inside = (k + length - from % length) % length + from;

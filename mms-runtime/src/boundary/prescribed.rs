@@ -8,6 +8,7 @@
 //! the field may be wild beyond its body.
 
 use super::surface::Surface;
+use crate::defect::{Defect, on};
 use crate::nodal::Nodal;
 use crate::tensor::{components, inverse_deformation_gradient, is_finite};
 use crate::{Cause, Failure, Grid, Lattice, ManufacturedField, Matrix, Real, Vector};
@@ -122,7 +123,7 @@ impl<T: Real, const D: usize> Prescribed<T, D> {
         }
         self.value.resize(self.nodes.len(), Vector::zeros());
         self.displacement_gradient.resize(self.nodes.len(), Matrix::zeros());
-        if self.moves {
+        if self.moves && !on(Defect::UninvertedWall) {
             self.invert_motion(field, time, grid)?;
         }
         self.keep_held_nodes(field, time, grid);

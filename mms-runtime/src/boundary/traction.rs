@@ -9,6 +9,7 @@
 use mms_math::machine::Plain;
 
 use crate::body::Piece;
+use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window, four};
 use crate::shape::Shape;
 use crate::stencil::Stencil as _;
@@ -102,9 +103,10 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let exact = &displacement_gradient[k];
             let Place { position, carrier } = place(particle, &reference[k]);
             let present_area = cofactor(&carrier.unwrap_or(*exact))
-                .map(|cofactor| cofactor * area[k])
+                .map(|cofactor| if on(Defect::TractionArea) { area[k] } else { cofactor * area[k] })
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
-            let traction = kirchhoff_stress[k] * present_area / jacobian(exact);
+            let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { jacobian(exact) };
+            let traction = kirchhoff_stress[k] * present_area / ratio;
             let stencil = S::point(lattice, &position).map_err(fail)?;
             let traction = four(machine, &traction, T::zero());
             stencil.spread_value(machine, traction, Window { start: 0, nodes: &mut *force });

@@ -4,6 +4,7 @@
 //! antisymmetrically, so nodes inside receive what their images (ghost nodes) got, and ghost nodes move
 //! opposite to the nodes inside, in velocity and acceleration alike.
 
+use crate::defect::{Defect, on};
 use crate::nodal::{LAST, Nodal};
 use crate::{Condition, Face, Lattice, Real, Refusal};
 
@@ -42,10 +43,10 @@ impl Wall {
             on_wall: Vec::new(),
             images: Vec::new(),
             axis,
-            fixed: condition == Condition::Fixed,
+            fixed: condition == Condition::Fixed || on(Defect::StickyRoller),
         };
         // Splines of a higher degree end at the wall, and nothing reaches past it.
-        let reaches_past = lattice.degree == 1;
+        let reaches_past = lattice.degree == 1 && !on(Defect::NoGhosts);
         for node in 0..lattice.len() {
             let k = lattice.coordinates(node)[axis];
             let behind = reaches_past && if upper { k > plane } else { k < plane };
@@ -71,7 +72,11 @@ impl Wall {
     /// q_ghost = reflected q_inside, and 0 on the wall, for velocity and acceleration.
     pub fn mirror<T: Real>(&self, intensive: &mut [Nodal<T>]) {
         for &(ghost, inside) in &self.images {
-            intensive[ghost] = self.reflect(intensive[inside]);
+            let image = self.reflect(intensive[inside]);
+            intensive[ghost] = if on(Defect::MirrorSign) { intensive[inside] } else { image };
+        }
+        if on(Defect::WallReleased) {
+            return;
         }
         for &node in &self.on_wall {
             // Half of (q + reflected q) would do too, but leaves round-off.

@@ -6,6 +6,7 @@
 //! f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
 
 use super::Formulation;
+use crate::defect::{Defect, on};
 use crate::tensor::inverse_deformation_gradient;
 use crate::{Matrix, Real};
 
@@ -22,6 +23,9 @@ impl Formulation for Total {
         for (p, (h, stress)) in displacement_gradient.iter().zip(stress).enumerate() {
             let inverse = inverse_deformation_gradient(h).ok_or(p)?;
             *stress *= inverse.transpose();
+            if on(Defect::TransposedStress) {
+                stress.transpose_mut();
+            }
         }
         Ok(())
     }

@@ -5,6 +5,8 @@
 //! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
 
 use super::Formulation;
+use crate::defect::{Defect, on};
+use crate::tensor::jacobian;
 use crate::{Matrix, Real};
 
 /// Particles move through the grid.
@@ -14,9 +16,13 @@ impl Formulation for Updated {
     const MOVES: bool = true;
 
     fn stress<T: Real, const D: usize>(
-        _: &[Matrix<T, D>],
-        _: &mut [Matrix<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
     ) -> Result<(), usize> {
+        if on(Defect::KirchhoffForCauchy) {
+            let particles = displacement_gradient.iter().zip(stress);
+            particles.for_each(|(h, stress)| *stress *= jacobian(h));
+        }
         Ok(())
     }
 }

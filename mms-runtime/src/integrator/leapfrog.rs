@@ -6,6 +6,7 @@
 //! and USL is of second order in time.
 
 use super::{Integrator, Operations, Sum, Update};
+use crate::defect::{Defect, on};
 use crate::{Failure, Real};
 
 /// USL whose first kick is half a step, from the exact initial velocity to v at dt/2.
@@ -18,7 +19,9 @@ impl Integrator for Leapfrog {
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
         let half = T::ratio(1, 2) * dt;
-        let (t_velocity, kick) = if solver.step_number() == 0 { (t, half) } else { (t - half, dt) };
+        let first = if on(Defect::FullFirstKick) { dt } else { half };
+        let (t_velocity, kick) =
+            if solver.step_number() == 0 { (t, first) } else { (t - half, dt) };
         // m_i = sum w m,  v_i = sum w m v / m_i at t^(n-1/2),  a_i = (- sum V0 tau grad w + sum w m b) / m_i
         solver.map(&[Sum::Mass, Sum::Velocity(t_velocity), Sum::Acceleration(t)])?;
         // v_i += dt a_i, at t^(n+1/2)

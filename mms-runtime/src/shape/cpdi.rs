@@ -10,6 +10,7 @@
 use mms_math::machine::Machine;
 
 use super::Shape;
+use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::spline;
 use crate::stencil::{Stencil, Tensor};
@@ -53,7 +54,10 @@ impl Shape for Cpdi {
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<(), Cause> {
         let present = deformation_gradient(displacement_gradient) * half_edges;
+        let present = if on(Defect::CornersKept) { *half_edges } else { present };
         let inverse = present.try_inverse().filter(matrix_is_finite).ok_or(Cause::FlatDomain)?;
+        let transposed = on(Defect::CornersTransposed);
+        let inverse = if transposed { inverse.transpose() } else { inverse };
         let share = T::ratio(1, 1 << D);
         for c in 0..1 << D {
             let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };

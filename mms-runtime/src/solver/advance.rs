@@ -3,7 +3,9 @@
 use mms_math::dispatch::Work;
 use mms_math::machine::{Fused, Machine, Plain};
 
+use super::misread;
 use super::scene::{BLOCK, Scene};
+use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, columns, four, matrix, vector};
 use crate::particle::Columns;
 use crate::shape::Shape;
@@ -100,6 +102,9 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
                     machine.times_plus(machine.splat(T::of(fraction)), kicked, others)
                 }
                 Transfer::Pic | Transfer::Apic => mapped,
+                Transfer::Xpic { .. } if on(Defect::XpicSign) => {
+                    machine.plus(kicked, four(machine, &particles.residual[k], T::zero()))
+                }
                 Transfer::Xpic { .. } => {
                     machine.minus(kicked, four(machine, &particles.residual[k], T::zero()))
                 }
@@ -112,19 +117,22 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
                     1 => gradient,
                     _ => stencil.collect_slopes(machine, scene.lattice, nodal),
                 };
-                particles.affine[k] = matrix(machine, affine);
+                particles.affine[k] = misread::affine(matrix(machine, affine), S::DEGREE);
             }
         }
         if let Some(time_step) = steps.position {
             let d = &mut particles.displacement[k];
             let before = four(machine, d, T::zero());
+            let mapped = misread::carrier(machine, mapped, particles.velocity, k);
             let next = machine.times_plus(machine.splat(time_step), mapped, before);
             *d = vector(machine, next);
             *rest = machine.times_plus(next, zero, *rest);
         }
         if let Some(time_step) = steps.deformation {
             let h = &mut particles.displacement_gradient[k];
-            let next = deformed(machine, h, gradient, time_step, scene.moves);
+            let gradient = misread::velocity_gradient(machine, gradient);
+            let moves = scene.moves && !on(Defect::ReferenceGradient);
+            let next = deformed(machine, h, gradient, time_step, moves);
             for a in 0..D {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }

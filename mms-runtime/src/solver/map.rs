@@ -6,11 +6,13 @@ use mms_math::dispatch::{Work, narrow};
 use mms_math::machine::{Fused, Machine, Plain};
 
 use super::clock::{Seconds, timed};
+use super::misread;
 use super::scene::{BLOCK, Room, Scene};
 use super::slabs::Slab;
+use crate::defect::{Defect, on};
 use crate::formulation::Configuration;
 use crate::nodal::{Window, columns, four};
-use crate::particle::Particles;
+use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
 use crate::stencil::Stencil;
 use crate::tensor::matrix_is_finite;
@@ -91,7 +93,9 @@ where
     fn find_stress(&self, part: Range<usize>, stress: &mut [Matrix<T, D>]) -> Result<(), Stop> {
         let gradients = &self.particles.displacement_gradient[part.clone()];
         let reference = &self.particles.reference_position[part.clone()];
-        self.field.kirchhoff_stress(reference, gradients, stress);
+        let displacement = &self.particles.displacement[part.clone()];
+        let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
+        self.field.kirchhoff_stress(&points, gradients, stress);
         let singular = |k| (part.start + k, Cause::Inverted { jacobian: 0.0 });
         (self.formulation.stress)(gradients, stress).map_err(singular)?;
         for (p, stress) in part.clone().zip(&*stress) {
@@ -224,7 +228,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> One<'_, T, D, St> {
         let mass = machine.splat(particles.mass[p]);
         let body_force = four(machine, &particles.body_force[p], T::zero());
         let volume = machine.splat(-particles.reference_volume[p]);
-        (machine.times(body_force, mass), scaled(machine, stress, volume))
+        (machine.times(body_force, mass), misread::stress(scaled(machine, stress, volume)))
     }
 
     /// The momentum of a linear velocity.

@@ -12,10 +12,11 @@ use super::map::{Carried, Map, Stop};
 use super::scene::{BLOCK, Scene};
 use super::threads::{each_pair, each_part};
 use crate::boundary::traction::Place;
+use crate::defect::{Defect, on};
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
-use crate::particle::Particles;
+use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
@@ -76,9 +77,12 @@ where
     }
 
     fn kick(&mut self, time_step: T, time: T) {
+        let time = if on(Defect::LateWall) { time - time_step } else { time };
         let Self { grid, field, boundary, seconds, .. } = self;
         timed(&mut seconds.grid, || {
-            grid.kick(time_step);
+            if !on(Defect::StaleNodalVelocity) {
+                grid.kick(time_step);
+            }
             boundary.velocity(*field, time, &mut grid.velocity);
         });
     }
@@ -159,10 +163,15 @@ where
 
     /// b of every particle.
     fn force_particles(&mut self, time: T) {
+        let time = if on(Defect::ForceLate) { time - self.time_step() } else { time };
+        let half = T::ratio(1, 2);
+        let time = if on(Defect::ForceAhead) { time + half * self.time_step() } else { time };
         let Self { particles, field, seconds, .. } = self;
-        let reference = &particles.reference_position;
+        let Particles { reference_position, displacement, body_force, .. } = particles;
+        let at_present = on(Defect::ForceAtPresent);
+        let points = material_points(reference_position, displacement, at_present);
         timed(&mut seconds.forcing, || {
-            each_pair(reference, &mut particles.body_force, &|reference, body_force| {
+            each_pair(&points, body_force, &|reference, body_force| {
                 field.body_force(time, reference, body_force);
             });
         });
@@ -293,6 +302,7 @@ where
             let p = slabs.place_of(id);
             let h = particles.displacement_gradient[p];
             let apart = reference - particles.reference_position[p];
+            let apart = if on(Defect::TractionAtParticle) { Vector::zeros() } else { apart };
             let position = particles.position(p) + deformation_gradient(&h) * apart;
             Place { position, carrier: Some(h) }
         };

@@ -6,16 +6,17 @@ use super::need::Need;
 use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
+use crate::defect::{Defect, on};
 use crate::failure::positive;
 use crate::lattice::Axis;
 use crate::method::{Division, Setup};
 use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::{MAX_NODES, Shape};
-use crate::tensor::{components, is_finite, matrix_is_finite};
+use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
 use crate::{
-    Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Real, Refusal,
-    Vector,
+    Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Matrix, Real,
+    Refusal, Vector,
 };
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
@@ -86,6 +87,9 @@ where
         // A domain that overlaps a node by the round-off of its position gives it that, squared.
         let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
         grid.mass_floor = smallest * round_off * round_off;
+        if on(Defect::MassCutOff) {
+            grid.mass_floor = smallest * T::ratio(1, 100);
+        }
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Vec<_> = domains.collect();
         let kept: &mut [S::Stencil<T, D>] = &mut [];
@@ -99,7 +103,7 @@ where
             particles,
             grid,
             boundary,
-            transfer: setup.transfer,
+            transfer: setup.transfer.taken(),
             slabs,
             weights: Vec::new(),
             keeps_weights: false,
@@ -305,8 +309,22 @@ fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field.displacement(start, reference, &mut particles.displacement);
     finite_vectors("displacement", start, reference, &particles.displacement)?;
     field.velocity(start, reference, &mut particles.velocity);
+    if on(Defect::StartAtRest) {
+        particles.velocity.fill(Vector::zeros());
+    }
+    if on(Defect::StartSingle) {
+        let single = |v: T| T::of(f64::from(v.to_f64() as f32));
+        particles.velocity.iter_mut().for_each(|v| *v = v.map(single));
+    }
     finite_vectors("velocity", start, reference, &particles.velocity)?;
     field.displacement_gradient(start, reference, &mut particles.displacement_gradient);
+    if on(Defect::MassOfPresentVolume) {
+        let gradients = particles.displacement_gradient.iter();
+        particles.mass.iter_mut().zip(gradients).for_each(|(mass, h)| *mass *= jacobian(h));
+    }
+    if on(Defect::StartUndeformed) {
+        particles.displacement_gradient.fill(Matrix::zeros());
+    }
     let mut gradients = particles.displacement_gradient.iter();
     let odd = gradients.position(|h| !matrix_is_finite(h));
     refuse_at("displacement gradient", start, reference, odd)

@@ -7,6 +7,7 @@ use mms_math::machine::Machine;
 
 use super::Stencil;
 use super::rows::{Both, Collect, CollectValue, RowSum, Spread, SpreadValue};
+use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
@@ -59,6 +60,9 @@ impl<T: Real, const D: usize, const N: usize> Tensor<T, D, N> {
         [weight, slope]: [[M::Four; W]; 2],
     ) -> bool {
         let per_length = machine.four(&lattice.frame.per_length);
+        let square = on(Defect::SquareCells);
+        let first_axis = lattice.frame.per_length[0];
+        let per_length = if square { machine.splat(first_axis) } else { per_length };
         for k in 0..N.min(W) {
             self.weight[k] = machine.numbers(weight[k]);
             self.slope[k] = machine.numbers(machine.times(slope[k], per_length));

@@ -1,0 +1,142 @@
+//! `mms verify --defects`, in a program that has them.
+
+use std::io::IsTerminal as _;
+use std::num::NonZero;
+
+use anyhow::bail;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::super::{Outcome, print, print_json, this_command};
+use super::{Verify, input};
+use crate::report::{pretty, write_files};
+use crate::store::{Store, program};
+use crate::verify::defects::report::{Report, Showing};
+use crate::verify::defects::{Defect, Shown, Stage, validate};
+use crate::verify::matrix::Row;
+use crate::verify::plan::Job;
+use crate::verify::pseudo::Looks;
+use crate::verify::work::{self, Watcher};
+
+/// The folder in a store where results of defects are kept: none of them is trusted without.
+const FOLDER: &str = "defects";
+
+impl Verify {
+    /// Shows defects to rows of the quick matrix.
+    pub(super) fn show_defects(
+        &self,
+        names: &[String],
+        all: &[Row],
+        rows: &[&Row],
+        threads: NonZero<usize>,
+    ) -> anyhow::Result<Outcome> {
+        validate(all)?;
+        let rows: Vec<&Row> = rows.iter().copied().filter(|row| row.quick > 0).collect();
+        if rows.is_empty() {
+            bail!("`--defects` shows defects to the quick matrix, which has none of these rows");
+        }
+        let defects = Defect::named(names)?;
+        let (store, set_aside) = Store::open(&self.store.join(FOLDER))?;
+        let progress = Progress::new(defects.len());
+        set_aside.iter().for_each(|what| progress.set_aside(what));
+        let stage = Stage { program: program()?, store, threads, watcher: &progress };
+
+        // Without a defect every row has to be as expected, or it would catch them all.
+        let chosen = |defect: &Defect| match self.all_rows {
+            true => rows.clone(),
+            false => claimants(*defect, &rows),
+        };
+        let needed = |row: &&&Row| {
+            defects.iter().any(|defect| chosen(defect).iter().any(|it| it.name == row.name))
+        };
+        let needed: Vec<&Row> = rows.iter().filter(needed).copied().collect();
+        let right = stage.show(None, &needed)?;
+        if let Some(odd) = right.iter().find(|shown| !shown.judgement.as_expected()) {
+            let reason = odd.judgement.reason.as_deref().unwrap_or_default();
+            bail!("`{}` is not as theory expects without any defect: {reason}", odd.row.name);
+        }
+
+        let mut showings = Vec::new();
+        for &defect in &defects {
+            let shown = stage.show(Some(defect), &chosen(&defect))?;
+            let looks = shown.iter().fold(Looks::default(), |looks, it| {
+                let without = right.iter().find(|other| other.row.name == it.row.name);
+                looks.or(it.looks.beside(without.map_or(Looks::default(), |it| it.looks)))
+            });
+            let showing = Showing { defect, rows: shown, looks };
+            progress.shown(&showing);
+            showings.push(showing);
+        }
+        progress.bar.finish_and_clear();
+        let provenance = this_command("defects", input())?;
+        let report =
+            Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
+        if let Some(folder) = &self.output {
+            for path in write_files(folder, "defects", [("json", pretty(&report.document())?)])? {
+                anstream::eprintln!("{path}");
+            }
+        }
+        if self.json {
+            print_json(&report.document())?;
+        } else if self.page {
+            print(&report.page())?;
+        } else {
+            print(&report.table())?;
+        }
+        Ok(if report.as_expected() { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+}
+
+/// The rows that say that they catch a defect; all, if none does.
+fn claimants<'a>(defect: Defect, rows: &[&'a Row]) -> Vec<&'a Row> {
+    let claims = |row: &&&Row| row.catches.iter().any(|name| name == defect.name());
+    let claimants: Vec<_> = rows.iter().filter(claims).copied().collect();
+    if claimants.is_empty() { rows.to_vec() } else { claimants }
+}
+
+/// A bar on a terminal, a line per defect elsewhere.
+struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    fn new(count: usize) -> Self {
+        let bar = match std::io::stderr().is_terminal() {
+            true => ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(5)),
+            false => ProgressBar::hidden(),
+        };
+        let style = "{pos} of {len} defects {bar:40} {eta:>4} left, {msg}";
+        if let Ok(style) = ProgressStyle::with_template(style) {
+            bar.set_style(style);
+        }
+        bar.set_length(count as u64);
+        Self { bar }
+    }
+
+    fn shown(&self, showing: &Showing<'_>) {
+        self.bar.inc(1);
+        let by = |shown: &Shown<'_>| shown.row.name.clone();
+        let by = showing.caught().map(by).next().unwrap_or_else(|| "nothing".into());
+        let name = showing.defect.name();
+        if self.bar.is_hidden() {
+            let (at, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
+            let left = self.bar.eta().as_secs();
+            anstream::eprintln!(
+                "{at} of {all} defects, about {left} s left: {name}: caught by {by}"
+            );
+        }
+    }
+}
+
+impl Watcher for Progress {
+    fn found(&self, _: &Job) {}
+
+    fn step(&self, _: &Job, _: usize, _: usize) {}
+
+    fn done(&self, job: &Job, _: &work::Outcome) {
+        self.bar.set_message(job.command.clone());
+    }
+
+    fn set_aside(&self, what: &str) {
+        self.bar.suspend(|| anstream::eprintln!("warning: {what}"));
+    }
+}

@@ -1,0 +1,91 @@
+//! Deliberate mistakes, and what caught them.
+
+use std::collections::BTreeMap;
+
+use maud::{Markup, html};
+use serde::Deserialize;
+
+use super::mark::{table, verdict, words};
+use super::{Section, Verdicts};
+
+/// What `mms verify --defects` writes.
+#[derive(Deserialize)]
+pub struct Defects {
+    defects: Vec<Defect>,
+    missed: Vec<[String; 2]>,
+    idle: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Defect {
+    name: String,
+    place: String,
+    what: String,
+    rows: Vec<Row>,
+    /// By check, whether it objects.
+    pseudo: BTreeMap<String, Option<bool>>,
+}
+
+#[derive(Deserialize)]
+struct Row {
+    name: String,
+    caught: bool,
+}
+
+/// The checks of the document, in the order of the columns.
+const CHECKS: [&str; 5] = ["picture", "bounded", "symmetric", "energy", "settles"];
+
+impl Defect {
+    fn caught_by(&self) -> Vec<&str> {
+        self.rows.iter().filter(|row| row.caught).map(|row| row.name.as_str()).collect()
+    }
+
+    fn says(&self, check: &str) -> &'static str {
+        match self.pseudo.get(check).copied().flatten() {
+            Some(true) => "objects",
+            Some(false) => "content",
+            None => "cannot tell",
+        }
+    }
+}
+
+impl Section for Defects {
+    fn title(&self) -> String {
+        format!("{} deliberate mistakes", self.defects.len())
+    }
+
+    fn verdicts(&self) -> Verdicts {
+        let all = self.defects.len();
+        let expected = self.defects.iter().filter(|it| !it.caught_by().is_empty()).count();
+        Verdicts { expected, all, word: format!("{expected} of {all} caught") }
+    }
+
+    fn body(&self, _: &str) -> Markup {
+        let mut columns = vec![words("defect"), words("in the"), words("caught by")];
+        columns.extend(CHECKS.map(words));
+        let rows = self.defects.iter().map(|defect| {
+            let by = defect.caught_by();
+            let shown = if by.is_empty() { "nothing".to_owned() } else { by.join(", ") };
+            let mut cells = vec![
+                html! { div.mode { (defect.name) p { (defect.what) } } },
+                html! { (defect.place) },
+                verdict(&shown, !by.is_empty()),
+            ];
+            cells.extend(CHECKS.map(|check| html! { (defect.says(check)) }));
+            cells
+        });
+        html! {
+            p {
+                "Each mistake was made on purpose, and rows of the quick matrix were run with it: a verdict had to fail. "
+                "The columns on the right are what looking at the very same runs would have said."
+            }
+            @for [row, defect] in &self.missed {
+                p.alert { strong { (row) } " does not catch " (defect) ", as it says." }
+            }
+            @for row in &self.idle {
+                p.alert { strong { (row) } " catches nothing that few others do." }
+            }
+            (table("Deliberate mistakes and what caught them", &columns, rows))
+        }
+    }
+}
