@@ -55,9 +55,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("## In time\n\n{IN_TIME_TEXT}\n");
     println!(
-        "| field | method | cells | steps | difference in l2, finest | orders in l2 | theory |"
+        "| field | method | cells | steps | difference in l2, finest | orders in l2 | formal order | |"
     );
-    println!("|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|");
     for row in IN_TIME {
         eprintln!("{} {}", row.field, row.method);
         println!("{}", line_in_time(row)?);
@@ -102,7 +102,7 @@ fn line_in_time(row: &InTime) -> Result<String, Box<dyn Error>> {
     for level in 0..LEVELS_IN_TIME {
         method.setup.courant = COARSEST / f64::from(1u32 << level);
         method.setup.parts = PARTS << level;
-        runs.push(scene.run(&method, &row.cells.into(), Watch::Parts, &mut ())?);
+        runs.push(scene.run(&method, &row.cells.into(), Watch::Parts(PARTS), &mut ())?);
     }
     let series = differences(&runs.iter().collect::<Vec<_>>());
     let points = series.points();
@@ -110,14 +110,15 @@ fn line_in_time(row: &InTime) -> Result<String, Box<dyn Error>> {
     let orders = points.windows(2).map(|pair| pair[1].orders_from(&pair[0]).l2);
     let steps: Vec<_> = runs.iter().map(|run| run.level.steps.to_string()).collect();
     Ok(format!(
-        "| {} | {} | {} | {} | {} | {} | {} |",
+        "| {} | {} | {} | {} | {} | {} | {} | {} |",
         row.field,
         row.method,
         row.cells,
         steps.join(", "),
         finest.map_or("stopped".into(), |errors| format!("{:.1e}", errors.l2)),
         words(orders),
-        row.order
+        row.order,
+        row.reason
     ))
 }
 

@@ -10,14 +10,20 @@ pub struct InTime {
     pub method: &'static str,
     /// The grid.
     pub cells: usize,
-    /// The order that theory gives.
+    /// The formal order.
     pub order: f64,
+    /// Why it is not seen.
+    pub reason: &'static str,
 }
 
 /// A row in time.
 const fn time(field: &'static str, method: &'static str, cells: usize, order: f64) -> InTime {
-    InTime { field, method, cells, order }
+    InTime { field, method, cells, order, reason: "" }
 }
+
+/// Of an error that does not shrink with dt.
+const MAPS: &str =
+    "what the map to the grid and back loses in a step, of O(h^2), adds up with their number";
 
 /// The orders in time of integrators and transfers.
 pub const IN_TIME: &[InTime] = &[
@@ -26,9 +32,13 @@ pub const IN_TIME: &[InTime] = &[
     time("bar_1d", "total linear usf", 64, 1.0),
     time("bar_1d", "total linear musl", 64, 1.0),
     time("bar_1d", "updated cpgimp usl", 64, 1.0),
-    time("axis_aligned_2d", "total quadratic_bspline leapfrog", 16, 2.0),
-    time("axis_aligned_2d", "total quadratic_bspline usl", 16, 1.0),
-    time("axis_aligned_3d", "total linear leapfrog", 8, 2.0),
+    time("axis_aligned_2d", "total linear leapfrog", 64, 2.0),
+    time("axis_aligned_2d", "total linear leapfrog apic", 64, 2.0),
+    time("axis_aligned_2d", "total linear usl", 64, 1.0),
+    time("axis_aligned_3d", "total linear leapfrog apic", 16, 2.0),
+    InTime { reason: MAPS, ..time("axis_aligned_3d", "total linear leapfrog", 16, 2.0) },
+    InTime { reason: MAPS, ..time("bar_1d", "total quadratic_bspline leapfrog", 64, 2.0) },
+    InTime { reason: MAPS, ..time("bar_1d", "total quadratic_bspline leapfrog xpic2", 64, 2.0) },
 ];
 
 /// A row of a table.
@@ -223,7 +233,13 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
             ),
             space("travelling_wave_2d", "updated cpgimp leapfrog", PLANE, ""),
             space_within(0.2, "cyclic_shear_3d", "total linear leapfrog", SPACE, ""),
-            space("sheared_block_2d", "updated cpdi leapfrog particles=3", PLANE, ""),
+            space(
+                "sheared_block_2d",
+                "updated cpdi leapfrog particles=3",
+                PLANE,
+                "the maximum shrinks slower, here and in the total formulation",
+            ),
+            space("sheared_block_2d", "total linear leapfrog", PLANE, "likewise"),
             space("plane_strain_mooney_rivlin", "total linear leapfrog", PLANE, ""),
         ],
     ),
