@@ -194,7 +194,12 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 RINGS,
                 "",
             ),
-            space("generalized_vortex_third", "total quadratic_bspline leapfrog", RINGS, ""),
+            space(
+                "generalized_vortex_third",
+                "total quadratic_bspline leapfrog",
+                RINGS,
+                "the maximum, where the faces cut cells",
+            ),
             space("generalized_vortex_third", "updated cpdi leapfrog", RINGS, ""),
             space(
                 "generalized_vortex_third",
@@ -209,7 +214,12 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 RING,
                 "few particles in the cells that the faces cut",
             ),
-            space("expanding_ring", "total quadratic_bspline leapfrog particles=4", RING, ""),
+            space(
+                "expanding_ring",
+                "total quadratic_bspline leapfrog particles=4",
+                RING,
+                "the maximum, on the finest grid",
+            ),
             space(
                 "expanding_ring",
                 "updated cpgimp leapfrog",
