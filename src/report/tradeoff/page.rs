@@ -12,11 +12,11 @@ By what factor the choice of `mms tradeoff` beats the default (updated cpgimp le
 direction, Courant 0.4), for a largest displacement error over time and particles of 1e-3, 1e-4 and 1e-5. Made by
 
 ```console
-$ cargo run --release -- tradeoff --page --most-work 1e7 > docs/tradeoff.md
+$ cargo run --release -- tradeoff --page > docs/tradeoff.md
 ```
 
 Both take one thread. What the default takes follows from its power law, through the run of it that is nearest. A time
-is particle-steps times what one takes in the longest runs with the method. Runs of more than 1e7 particle-steps are not
+is particle-steps times what one takes in the longest runs with the method. Runs of more than 1e8 particle-steps are not
 made.
 ";
 
