@@ -247,7 +247,7 @@ pub const GROUPS: &[(&str, &str, &[Row])] = &[
                 "sheared_block_2d",
                 "updated cpdi leapfrog particles=3",
                 PLANE,
-                "the maximum shrinks slower, here and in the total formulation",
+                "not explained: the maximum shrinks slower, here and in the total formulation",
             ),
             space("sheared_block_2d", "total linear leapfrog", PLANE, "likewise"),
             space("plane_strain_mooney_rivlin", "total linear leapfrog", PLANE, ""),

@@ -12,6 +12,7 @@ use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_codegen::suggest::did_you_mean;
+use serde_json::Value;
 
 use super::input::Input;
 use super::{Outcome, print, print_json, this_command};
@@ -96,24 +97,31 @@ impl Verify {
             rows: judged.collect::<anyhow::Result<_>>()?,
             provenance: this_command("verify", input())?,
         };
-        if let Some(folder) = &self.output {
-            for path in
-                write_files(folder, "verification", [("json", pretty(&report.document())?)])?
-            {
-                anstream::eprintln!("{path}");
-            }
-        }
-        if self.json {
-            print_json(&report.document())?;
-        } else if self.page {
-            print(&report.page())?;
-        } else {
-            print(&report.table())?;
-        }
+        self.tell("verification", &report.document(), || report.table(), || report.page())?;
         Ok(match report.unexpected().next() {
             None => Outcome::AsExpected,
             Some(_) => Outcome::Refuted,
         })
+    }
+
+    /// Writes the document to the folder for it, and prints the result as it is wanted.
+    fn tell(
+        &self,
+        name: &str,
+        document: &Value,
+        table: impl FnOnce() -> String,
+        page: impl FnOnce() -> String,
+    ) -> anyhow::Result<()> {
+        if let Some(folder) = &self.output {
+            for path in write_files(folder, name, [("json", pretty(document)?)])? {
+                anstream::eprintln!("{path}");
+            }
+        }
+        match (self.json, self.page) {
+            (true, _) => print_json(document),
+            (false, true) => print(&page()),
+            (false, false) => print(&table()),
+        }
     }
 
     #[cfg(not(feature = "defects"))]

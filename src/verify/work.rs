@@ -113,6 +113,9 @@ impl AsRef<Outcome> for Outcome {
     }
 }
 
+/// Hears of every step of a run, and of how many there are.
+pub type Step<'a> = dyn FnMut(usize, usize) + Send + 'a;
+
 /// What makes runs.
 pub trait Bench: Sync {
     /// What comes of one, and is stored.
@@ -122,11 +125,7 @@ pub trait Bench: Sync {
     ///
     /// # Errors
     /// A field of the gallery does not compile.
-    fn run(
-        &self,
-        job: &Job,
-        step: &mut (dyn FnMut(usize, usize) + Send),
-    ) -> anyhow::Result<Self::Result>;
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Self::Result>;
 }
 
 /// What is said while runs go on. All of it may come from several threads.
@@ -235,17 +234,8 @@ pub struct Fields {
 impl Bench for Fields {
     type Result = Outcome;
 
-    fn run(
-        &self,
-        job: &Job,
-        step: &mut (dyn FnMut(usize, usize) + Send),
-    ) -> anyhow::Result<Outcome> {
-        let input = self.input(job)?;
-        let set = &job.study.set;
-        Ok(match job.study.method.precision {
-            Precision::F32 => solve(job, &input.scene(set, |entry| entry.single)?, step),
-            Precision::F64 => solve(job, &input.scene(set, |entry| entry.double)?, step),
-        })
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Outcome> {
+        self.with_scene(job, step, solve::<f32>, solve::<f64>)
     }
 }
 
@@ -257,11 +247,7 @@ pub fn watch_of(quantity: &Quantity) -> Watch {
     }
 }
 
-fn solve<T: Solvable>(
-    job: &Job,
-    scene: &Scene<T>,
-    mut step: &mut (dyn FnMut(usize, usize) + Send),
-) -> Outcome {
+fn solve<T: Solvable>(job: &Job, scene: &Scene<T>, mut step: &mut Step<'_>) -> Outcome {
     match scene.run(&job.method, &job.study.cells[0], watch_of(&job.quantity), &mut step) {
         Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
         Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
@@ -269,6 +255,25 @@ fn solve<T: Solvable>(
 }
 
 impl Fields {
+    /// What `single` or `double` makes of the scene of a run, whichever its precision is.
+    ///
+    /// # Errors
+    /// The field does not compile.
+    pub fn with_scene<R>(
+        &self,
+        job: &Job,
+        step: &mut Step<'_>,
+        single: fn(&Job, &Scene<f32>, &mut Step<'_>) -> R,
+        double: fn(&Job, &Scene<f64>, &mut Step<'_>) -> R,
+    ) -> anyhow::Result<R> {
+        let input = self.input(job)?;
+        let set = &job.study.set;
+        Ok(match job.study.method.precision {
+            Precision::F32 => single(job, &input.scene(set, |entry| entry.single)?, step),
+            Precision::F64 => double(job, &input.scene(set, |entry| entry.double)?, step),
+        })
+    }
+
     /// None yet.
     pub fn new(find: Find) -> Self {
         Fields { find, inputs: Mutex::default() }

@@ -6,9 +6,8 @@ use std::num::NonZero;
 use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::super::{Outcome, print, print_json, this_command};
+use super::super::{Outcome, this_command};
 use super::{Verify, input};
-use crate::report::{pretty, write_files};
 use crate::store::{Store, program};
 use crate::verify::defects::report::{Report, Showing};
 use crate::verify::defects::{Defect, Shown, Stage, validate};
@@ -70,18 +69,7 @@ impl Verify {
         let provenance = this_command("defects", input())?;
         let report =
             Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
-        if let Some(folder) = &self.output {
-            for path in write_files(folder, "defects", [("json", pretty(&report.document())?)])? {
-                anstream::eprintln!("{path}");
-            }
-        }
-        if self.json {
-            print_json(&report.document())?;
-        } else if self.page {
-            print(&report.page())?;
-        } else {
-            print(&report.table())?;
-        }
+        self.tell("defects", &report.document(), || report.table(), || report.page())?;
         Ok(if report.as_expected() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 }

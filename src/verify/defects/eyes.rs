@@ -3,11 +3,10 @@
 use mms_runtime::study::{Frame, Observer, Watch};
 use serde::{Deserialize, Serialize};
 
-use crate::cli::method::Precision;
 use crate::scene::{Scene, Solvable};
 use crate::verify::plan::Job;
 use crate::verify::pseudo::Seen;
-use crate::verify::work::{Bench, Fields, Outcome, outcome, watch_of};
+use crate::verify::work::{Bench, Fields, Outcome, Step, outcome, watch_of};
 
 /// What the key of a run ends with whose energy is measured. Where fields are interpreted it takes as long as all the
 /// rest; so it is the coarsest run of each row.
@@ -41,25 +40,12 @@ pub struct Eyes {
 impl Bench for Eyes {
     type Result = Watched;
 
-    fn run(
-        &self,
-        job: &Job,
-        step: &mut (dyn FnMut(usize, usize) + Send),
-    ) -> anyhow::Result<Watched> {
-        let input = self.fields.input(job)?;
-        let set = &job.study.set;
-        Ok(match job.study.method.precision {
-            Precision::F32 => look(job, &input.scene(set, |entry| entry.single)?, step),
-            Precision::F64 => look(job, &input.scene(set, |entry| entry.double)?, step),
-        })
+    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Watched> {
+        self.fields.with_scene(job, step, look::<f32>, look::<f64>)
     }
 }
 
-fn look<T: Solvable>(
-    job: &Job,
-    scene: &Scene<T>,
-    step: &mut (dyn FnMut(usize, usize) + Send),
-) -> Watched {
+fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watched {
     let mut album = Album { step, frames: Vec::new() };
     let weighed = job.key.run.ends_with(WEIGHED);
     let watch = if weighed { Watch::Everything } else { watch_of(&job.quantity) };
