@@ -50,8 +50,8 @@ pub trait Machine<T>: Copy {
     /// The first numbers of all four, then the second ones, and so on.
     fn transposed(self, rows: [Self::Four; 4]) -> [Self::Four; 4];
 
-    /// Has this value brought near, for it is soon needed; nothing if there is none.
-    fn fetch<V>(self, value: Option<&V>);
+    /// Has this value brought near, for it is soon needed.
+    fn fetch<V>(self, value: &V);
 }
 
 /// One number after the other: every processor can do that.
@@ -157,7 +157,7 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
-                fn fetch<V>(self, _: Option<&V>) {}
+                fn fetch<V>(self, _: &V) {}
             }
         )*
     };
@@ -269,11 +269,9 @@ macro_rules! registers {
                 }
 
                 #[inline(always)]
-                fn fetch<V>(self, value: Option<&V>) {
+                fn fetch<V>(self, value: &V) {
                     use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-                    if let Some(value) = value {
-                        unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
-                    }
+                    unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
                 }
             }
         )*

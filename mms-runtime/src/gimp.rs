@@ -10,19 +10,28 @@ use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
 use crate::defect::{Defect, on};
-use crate::nodal::four;
-use crate::shape::{MAX_NODES, Shape};
-use crate::stencil::Tensor;
+use crate::lanes::{components, vectors};
+use crate::shape::Shape;
+use crate::spline;
+use crate::stencil::{BUNCH, Tensor};
 use crate::tensor::{determinant, stretch_along_axes};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
+
+/// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours.
+const NEAREST: usize = 3;
+
+/// Nodes along an axis that wider ones reach, of less than two cells.
+const MOST: usize = 4;
 
 /// GIMP with half widths that stay, or that follow the stretch along the axes.
 pub struct Gimp<const FOLLOWS: bool>;
 
 impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     const FOLLOWS: bool = FOLLOWS;
+    const ORIGIN: f64 = -0.5;
     type Domain<T: Real, const D: usize> = Vector<T, D>;
-    type Stencil<T: Real, const D: usize> = Tensor<T, D, MAX_NODES>;
+    type Stencil<T: Real, const D: usize> = Tensor<T, D, NEAREST, MOST>;
+    type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
 
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
         half_widths(half_edges)
@@ -31,32 +40,49 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     #[inline(always)]
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
-        stencil: &mut Tensor<T, D, MAX_NODES>,
+        stencil: &mut Tensor<T, D, NEAREST, MOST>,
         lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-        initial: &Vector<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Result<(), Cause> {
+        position: &[M::Four; D],
+        initial: &[Vector<T, D>; BUNCH],
+        displacement_gradient: &[Matrix<T, D>; BUNCH],
+    ) -> Result<(), (usize, Cause)> {
         let mut half_width = *initial;
         if FOLLOWS && !on(Defect::HalfWidthKept) {
-            let stretch = stretch_along_axes(displacement_gradient).ok_or(Cause::FlatDomain)?;
-            half_width.component_mul_assign(&stretch);
+            for p in 0..BUNCH {
+                let stretch =
+                    stretch_along_axes(&displacement_gradient[p]).ok_or((p, Cause::FlatDomain))?;
+                half_width[p].component_mul_assign(&stretch);
+            }
         }
-        let half = T::ratio(1, 2);
-        let per_length = machine.four(&lattice.frame.per_length);
-        let in_cells = machine.times(four(machine, &half_width, half), per_length);
-        let usual = machine.all_at_most(in_cells, machine.splat(half))
-            && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells);
+        let half = machine.splat(T::ratio(1, 2));
+        let mut in_cells = components(machine, &half_width);
+        let mut usual = true;
+        for a in 0..D {
+            in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
+            usual &= machine.all_at_most(in_cells[a], half)
+                && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells[a]);
+        }
         if !usual {
             return place_wide(machine, stencil, lattice, position, &half_width);
         }
-        let cells = lattice.in_frame(machine, position);
-        let (first, mut weights) = around_nearest(machine, cells, in_cells);
-        if on(Defect::ShortSupport) {
-            weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
+        stencil.begin::<NEAREST>(lattice, true);
+        let mut fits = true;
+        for a in 0..D {
+            let cells = lattice.cells_along(machine, a, position[a]);
+            let (first, mut weights) = around_nearest(machine, cells, in_cells[a]);
+            if on(Defect::ShortSupport) {
+                weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
+            }
+            fits &= stencil.set(machine, lattice, a, first, weights);
         }
-        let fits = stencil.set(machine, lattice, first, weights);
-        if fits { Ok(()) } else { Err(Cause::lost(position)) }
+        if fits { Ok(()) } else { Err(lost(machine, lattice, position, &half_width)) }
+    }
+
+    fn point<T: Real, const D: usize>(
+        lattice: &Lattice<T, D>,
+        position: &Vector<T, D>,
+    ) -> Result<Self::Point<T, D>, Cause> {
+        spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
 
@@ -64,29 +90,60 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
 #[cold]
 fn place_wide<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, MAX_NODES>,
+    stencil: &mut Tensor<T, D, NEAREST, MOST>,
     lattice: &Lattice<T, D>,
-    position: &Vector<T, D>,
-    half_width: &Vector<T, D>,
-) -> Result<(), Cause> {
-    let cells = lattice.in_cells(position);
-    let mut first = [T::zero(); 4];
-    let [mut weights, mut slopes] = [[[T::zero(); 4]; MAX_NODES]; 2];
+    position: &[M::Four; D],
+    half_width: &[Vector<T, D>; BUNCH],
+) -> Result<(), (usize, Cause)> {
+    stencil.begin::<MOST>(lattice, true);
+    let mut fits = true;
     for a in 0..D {
-        let (l, h) = (half_width[a], lattice.cell_size[a]);
-        if !(l > T::zero() && l < h) {
-            return Err(Cause::HalfWidth { half_width: l.to_f64(), cell_size: h.to_f64() });
+        let cells = machine.numbers(lattice.cells_along(machine, a, position[a]));
+        let h = lattice.cell_size[a];
+        // A particle with fewer nodes may be near the last one.
+        let last = T::of((lattice.count[a] - 1) as f64);
+        let last_first = T::of(lattice.count[a] as f64 - MOST as f64);
+        let mut first = [T::zero(); BUNCH];
+        let [mut weights, mut slopes] = [[[T::zero(); BUNCH]; MOST]; 2];
+        for p in 0..BUNCH {
+            let l = half_width[p][a];
+            if !(l > T::zero() && l < h) {
+                let (half_width, cell_size) = (l.to_f64(), h.to_f64());
+                return Err((p, Cause::HalfWidth { half_width, cell_size }));
+            }
+            let l = l * lattice.per_length[a];
+            first[p] = (cells[p] - l).floor().min(last_first);
+            fits &= cells[p] + l <= last;
+            for k in 0..MOST {
+                let offset = cells[p] - (first[p] + T::of(k as f64));
+                [weights[k][p], slopes[k][p]] = average_of_hat(offset, l);
+            }
         }
-        let l = l * lattice.per_length[a];
-        first[a] = (cells[a] - l).floor();
-        for k in 0..MAX_NODES {
-            let offset = cells[a] - (first[a] + T::of(k as f64));
-            [weights[k][a], slopes[k][a]] = average_of_hat(offset, l);
-        }
+        let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
+        fits &= stencil.set(machine, lattice, a, machine.four(&first), all);
     }
-    let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
-    let fits = stencil.set(machine, lattice, machine.four(&first), all);
-    if fits { Ok(()) } else { Err(Cause::lost(position)) }
+    if fits { Ok(()) } else { Err(lost(machine, lattice, position, half_width)) }
+}
+
+/// The first of four particles whose box is not between nodes.
+#[cold]
+fn lost<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    lattice: &Lattice<T, D>,
+    position: &[M::Four; D],
+    half_width: &[Vector<T, D>; BUNCH],
+) -> (usize, Cause) {
+    let points = vectors(machine, *position);
+    let cells = points.map(|point| lattice.in_cells(&point));
+    let between = |p: usize| {
+        (0..D).all(|a| {
+            let reach = half_width[p][a] * lattice.per_length[a];
+            let last = T::of((lattice.count[a] - 1) as f64);
+            T::zero() <= cells[p][a] - reach && cells[p][a] + reach <= last
+        })
+    };
+    let number = (0..BUNCH).find(|&p| !between(p)).unwrap_or(0);
+    (number, Cause::lost(&points[number]))
 }
 
 /// The half widths of the box that stands for a domain: its own if its edges run along the axes, else those
@@ -101,7 +158,7 @@ fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, 
     Vector::repeat(ComplexField::powf(volume, T::ratio(1, D as i32)))
 }
 
-/// Averages of hat functions, and of their slopes, over [position - l, position + l] along every axis, with l
+/// Averages of hat functions, and of their slopes, over [position - l, position + l] along an axis, with l
 /// of at most half a cell: they reach no further than from the nearest node to its neighbours. No branch, and
 /// one division. With them comes the first node.
 #[inline(always)]
@@ -109,7 +166,7 @@ fn around_nearest<T: Real, M: Machine<T>>(
     machine: M,
     position: M::Four,
     half_width: M::Four,
-) -> (M::Four, [[M::Four; 3]; 2]) {
+) -> (M::Four, [[M::Four; NEAREST]; 2]) {
     let [zero, half, one] = [0, 1, 2].map(|halves| machine.splat(T::ratio(halves, 2)));
     let nearest = machine.floor(machine.plus(position, half));
     let offset = machine.minus(position, nearest);

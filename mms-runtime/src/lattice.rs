@@ -4,10 +4,9 @@
 //! and p more. Node `j` is at the mean of the p inner knots of its spline (Greville 1967), so that
 //! sum_i w_i x_i = x. For degree 1 these are the knots themselves.
 
-use mms_math::machine::Machine;
+use mms_math::machine::{Machine, Plain};
 
 use crate::failure::at_most;
-use crate::nodal::four;
 use crate::{Real, Refusal, Vector};
 
 /// More nodes than this are refused.
@@ -40,6 +39,8 @@ pub struct Lattice<T, const D: usize> {
     pub per_length: Vector<T, D>,
     /// Nodes along each axis.
     pub count: [usize; D],
+    /// The same as numbers.
+    pub nodes: [T; D],
     /// Distance in the arrays between neighbours along each axis.
     pub stride: [usize; D],
     /// The degree of the shape functions that the nodes are for.
@@ -52,45 +53,7 @@ pub struct Lattice<T, const D: usize> {
     pub period: [Option<T>; D],
     /// The coordinates of the nodes along each axis.
     pub coordinate: [Vec<T>; D],
-    /// The same four axes at a time.
-    pub frame: Frame<T>,
 }
-
-/// What finds a position's cell along four axes at a time. Along those that there are not, everything is in the
-/// middle of a cell, far from the ends.
-#[derive(Clone, Copy, Debug)]
-pub struct Frame<T> {
-    /// [`Lattice::lower`].
-    pub lower: [T; 4],
-    /// [`Lattice::per_length`].
-    pub per_length: [T; 4],
-    /// [`Lattice::count`], and how many more there would be room for.
-    pub nodes: [T; 4],
-    /// [`Lattice::ends`].
-    pub ends: [[T; 4]; 2],
-}
-
-impl<T: Real> Frame<T> {
-    fn new(axes: &[Axis], degree: usize) -> Self {
-        let all = |of: fn(&Axis) -> f64, beyond: f64| {
-            std::array::from_fn(|a| T::of(axes.get(a).map_or(beyond, of)))
-        };
-        let nodes = |a: usize| axes.get(a).map_or(BEYOND.cells, |axis| axis.cells) + degree;
-        Self {
-            lower: all(|axis| axis.lower, BEYOND.lower),
-            per_length: all(|axis| 1.0 / axis.cell_size, BEYOND.cell_size),
-            nodes: std::array::from_fn(|a| T::of(nodes(a) as f64)),
-            ends: [
-                all(|axis| axis.ends[0] as f64, BEYOND.ends[0] as f64),
-                all(|axis| axis.ends[1] as f64, BEYOND.ends[1] as f64),
-            ],
-        }
-    }
-}
-
-/// An axis that there is not, where every coordinate is 0.
-const BEYOND: Axis =
-    Axis { lower: -16.5, cell_size: 1.0, cells: 32, ends: [0, 32], body: [0.0, 32.0] };
 
 impl<T: Real, const D: usize> Lattice<T, D> {
     /// The nodes of shape functions of `degree` on these cells.
@@ -102,7 +65,6 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             // Hat functions go on beyond a face, for its images.
             axis.ends = [0, axis.cells as i64];
         }
-        let frame = Frame::new(&axes, degree);
         let nodes: f64 = axes.iter().map(|axis| (axis.cells + degree) as f64).product();
         at_most("grid nodes", nodes, NODE_LIMIT)?;
         let count: [usize; D] = std::array::from_fn(|a| axes[a].cells + degree);
@@ -121,11 +83,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             period: std::array::from_fn(|a| {
                 periodic[a].then(|| T::of(axes[a].body[1] - axes[a].body[0]))
             }),
+            nodes: count.map(|count| T::of(count as f64)),
             count,
             degree,
             axes,
             coordinate,
-            frame,
         })
     }
 
@@ -151,30 +113,27 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     }
 
     /// A position in cells from the first knot, within the period where there is one.
-    #[inline(always)]
     pub fn in_cells(&self, position: &Vector<T, D>) -> Vector<T, D> {
-        let mut cells = *position;
-        for a in 0..D {
-            cells[a] = (position[a] - self.lower[a]) * self.per_length[a];
-            if let Some(period) = self.period[a] {
-                let start = T::of(self.axes[a].body[0]);
-                let periods = ((cells[a] - start) / period).floor();
-                cells[a] -= periods * period;
-            }
-        }
-        cells
+        let machine = T::PlainMachine::from(Plain);
+        let along = |a: usize| self.cells_along(machine, a, machine.splat(position[a]));
+        Vector::from_fn(|a, _| machine.numbers(along(a))[0])
     }
 
-    /// As [`in_cells`](Lattice::in_cells), four axes at a time.
+    /// As [`in_cells`](Lattice::in_cells), of four particles along one axis.
     #[inline(always)]
-    pub fn in_frame<M: Machine<T>>(&self, machine: M, position: &Vector<T, D>) -> M::Four {
-        if self.period.iter().any(Option::is_some) {
-            let middle = T::of(-BEYOND.lower);
-            return four(machine, &self.in_cells(position), middle);
-        }
-        let from_lower =
-            machine.minus(four(machine, position, T::zero()), machine.four(&self.frame.lower));
-        machine.times(from_lower, machine.four(&self.frame.per_length))
+    pub fn cells_along<M: Machine<T>>(
+        &self,
+        machine: M,
+        axis: usize,
+        position: M::Four,
+    ) -> M::Four {
+        let from_lower = machine.minus(position, machine.splat(self.lower[axis]));
+        let cells = machine.times(from_lower, machine.splat(self.per_length[axis]));
+        let Some(period) = self.period[axis] else { return cells };
+        let period = machine.splat(period);
+        let start = machine.splat(T::of(self.axes[axis].body[0]));
+        let periods = machine.floor(machine.over(machine.minus(cells, start), period));
+        machine.minus(cells, machine.times(periods, period))
     }
 
     /// The node on the lower (`false`) or upper face of the body along an axis, where there is one: the

@@ -32,6 +32,7 @@ pub mod formulation;
 pub mod gimp;
 pub mod grid;
 pub mod integrator;
+pub mod lanes;
 pub mod lattice;
 pub mod material;
 pub mod method;

@@ -6,6 +6,7 @@
 
 mod advance;
 mod clock;
+mod fours;
 mod map;
 mod misread;
 mod need;

@@ -7,8 +7,9 @@
 use mms_math::machine::{Machine, Plain};
 
 use crate::defect::{Defect, on};
-use crate::shape::{MAX_NODES, PointStencil, Shape};
-use crate::stencil::Tensor;
+use crate::lanes::{components, vectors};
+use crate::shape::Shape;
+use crate::stencil::{BUNCH, Tensor};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// How far beyond the ends a particle may come, in cells: it has no business there.
@@ -20,111 +21,144 @@ pub struct Spline<const P: usize, const N: usize>;
 impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     const DEGREE: usize = P;
     type Domain<T: Real, const D: usize> = ();
-    type Stencil<T: Real, const D: usize> = Tensor<T, D, N>;
+    type Stencil<T: Real, const D: usize> = Tensor<T, D, N, N>;
+    type Point<T: Real, const D: usize> = Tensor<T, D, N, N>;
 
     fn domain<T: Real, const D: usize>(_: &Matrix<T, D>) {}
 
     #[inline(always)]
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
-        stencil: &mut Tensor<T, D, N>,
+        stencil: &mut Tensor<T, D, N, N>,
         lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-        (): &(),
-        _: &Matrix<T, D>,
-    ) -> Result<(), Cause> {
+        position: &[M::Four; D],
+        _: &[(); BUNCH],
+        _: &[Matrix<T, D>; BUNCH],
+    ) -> Result<(), (usize, Cause)> {
         place::<T, M, D, P, N>(machine, stencil, lattice, position)
     }
 
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<PointStencil<T, D>, Cause> {
-        point::<T, D, P>(lattice, position)
+    ) -> Result<Tensor<T, D, N, N>, Cause> {
+        point::<T, D, P, N>(lattice, position)
     }
 }
 
-/// The products of splines of degree P along the axes, at a point.
+/// The products of splines of degree P along the axes, at the points where four particles are.
 ///
 /// # Errors
-/// The point is off the grid, or beyond the ends of the knots.
+/// A point is off the grid, or beyond the ends of the knots; with its number.
 #[inline(always)]
-pub fn place<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: usize>(
+pub fn place<T, M, const D: usize, const P: usize, const N: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, N>,
+    stencil: &mut Tensor<T, D, N, N>,
     lattice: &Lattice<T, D>,
-    position: &Vector<T, D>,
-) -> Result<(), Cause> {
-    const { assert!(P < N) };
-    let cells = lattice.in_frame(machine, position);
-    let [first, last] = lattice.frame.ends.map(|ends| machine.four(&ends));
-    let slack = machine.splat(T::of(SLACK));
-    let within = machine.all_at_most(machine.minus(first, slack), cells)
-        && machine.all_at_most(cells, machine.plus(last, slack));
-    let last_cell = machine.minus(last, machine.splat(T::one()));
-    let cell = machine.least(machine.greatest(machine.floor(cells), first), last_cell);
-    let reach = machine.splat(T::of(P as f64 - 1.0));
-    let regular = P == 1
-        || on(Defect::SplineEnds)
-        || machine.all_at_most(machine.plus(first, reach), cell)
-            && machine.all_at_most(cell, machine.minus(last_cell, reach));
-    let fits = if regular {
-        set_regular::<T, M, D, P, N>(machine, stencil, lattice, cell, machine.minus(cells, cell))
-    } else {
-        set_near_ends::<T, M, D, P, N>(machine, stencil, lattice, cells, cell)
-    };
-    if within && fits { Ok(()) } else { Err(Cause::lost(position)) }
+    position: &[M::Four; D],
+) -> Result<(), (usize, Cause)>
+where
+    T: Real,
+    M: Machine<T>,
+{
+    const { assert!(N == P + 1) };
+    let (mut fits, mut even) = (true, true);
+    let [mut cells, mut cell] = [[machine.splat(T::zero()); D]; 2];
+    for a in 0..D {
+        let [first, last] = lattice.ends[a].map(|end| machine.splat(end));
+        let slack = machine.splat(T::of(SLACK));
+        cells[a] = lattice.cells_along(machine, a, position[a]);
+        fits &= machine.all_at_most(machine.minus(first, slack), cells[a])
+            && machine.all_at_most(cells[a], machine.plus(last, slack));
+        let last_cell = machine.minus(last, machine.splat(T::one()));
+        cell[a] = machine.least(machine.greatest(machine.floor(cells[a]), first), last_cell);
+        let reach = machine.splat(T::of(P as f64 - 1.0));
+        even &= P == 1
+            || on(Defect::SplineEnds)
+            || machine.all_at_most(machine.plus(first, reach), cell[a])
+                && machine.all_at_most(cell[a], machine.minus(last_cell, reach));
+    }
+    stencil.begin::<N>(lattice, even);
+    for a in 0..D {
+        let weights = if even {
+            regular::<T, M, P, N>(machine, machine.minus(cells[a], cell[a]))
+        } else {
+            near_any_ends::<T, M, P, N>(machine, cells[a], cell[a], lattice.ends[a])
+        };
+        fits &= stencil.set(machine, lattice, a, cell[a], weights);
+    }
+    if fits { Ok(()) } else { Err(lost::<T, M, D>(machine, lattice, position)) }
 }
 
-/// As [`place`], of any degree.
+/// The first of four points that is lost.
+#[cold]
+fn lost<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    lattice: &Lattice<T, D>,
+    position: &[M::Four; D],
+) -> (usize, Cause) {
+    let points = vectors(machine, *position);
+    let between_ends = |point: &Vector<T, D>| {
+        let (cells, slack) = (lattice.in_cells(point), T::of(SLACK));
+        let within = |a: usize| {
+            let [first, last] = lattice.ends[a];
+            first - slack <= cells[a] && cells[a] <= last + slack
+        };
+        (0..D).all(within)
+    };
+    let number = points.iter().position(|point| !between_ends(point)).unwrap_or(0);
+    (number, Cause::lost(&points[number]))
+}
+
+/// As [`place`], at one point, four times.
 ///
 /// # Errors
 /// Likewise.
-pub fn point<T: Real, const D: usize, const P: usize>(
+pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     lattice: &Lattice<T, D>,
     position: &Vector<T, D>,
-) -> Result<PointStencil<T, D>, Cause> {
-    let mut stencil = PointStencil::new();
+) -> Result<Tensor<T, D, N, N>, Cause> {
+    let mut stencil = Tensor::new();
     let machine = T::PlainMachine::from(Plain);
-    place::<T, _, D, P, MAX_NODES>(machine, &mut stencil, lattice, position)?;
+    let position = components(machine, &[*position; BUNCH]);
+    place::<T, _, D, P, N>(machine, &mut stencil, lattice, &position)
+        .map_err(|(_, cause)| cause)?;
     Ok(stencil)
 }
 
-/// The P + 1 splines of degree P at `r` from the lower end of a `cell` whose knots are one cell apart, and
+/// The P + 1 splines of degree P at `r` from the lower end of a cell whose knots are one cell apart, and
 /// their derivatives.
 #[inline(always)]
-fn set_regular<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: usize>(
+fn regular<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, N>,
-    lattice: &Lattice<T, D>,
-    cell: M::Four,
     r: M::Four,
-) -> bool {
+) -> [[M::Four; N]; 2] {
     let zero = machine.splat(T::zero());
     let half = machine.splat(T::ratio(1, 2));
     let one = machine.splat(T::one());
     let s = machine.minus(one, r);
+    let mut all = [[zero; N]; 2];
+    let [weights, slopes] = &mut all;
     match P {
         1 => {
-            let slopes = [machine.minus(zero, one), one];
-            stencil.set(machine, lattice, cell, [[s, r], slopes])
+            weights.copy_from_slice(&[s, r]);
+            slopes.copy_from_slice(&[machine.minus(zero, one), one]);
         }
         2 => {
             let (rr, ss) = (machine.times(r, r), machine.times(s, s));
             let middle = machine.times_plus(r, s, half);
-            let weights = [machine.times(half, ss), middle, machine.times(half, rr)];
-            let slopes = [machine.minus(zero, s), machine.minus(s, r), r];
-            stencil.set(machine, lattice, cell, [weights, slopes])
+            weights.copy_from_slice(&[machine.times(half, ss), middle, machine.times(half, rr)]);
+            slopes.copy_from_slice(&[machine.minus(zero, s), machine.minus(s, r), r]);
         }
         _ => {
             let ([first, second], [rate, next_rate]) = cubics(machine, s, r);
             let ([fourth, third], [last_rate, third_rate]) = cubics(machine, r, s);
-            let weights = [first, second, third, fourth];
-            let rates =
-                [machine.minus(zero, rate), next_rate, machine.minus(zero, third_rate), last_rate];
-            stencil.set(machine, lattice, cell, [weights, rates])
+            weights.copy_from_slice(&[first, second, third, fourth]);
+            let (rate, third_rate) = (machine.minus(zero, rate), machine.minus(zero, third_rate));
+            slopes.copy_from_slice(&[rate, next_rate, third_rate, last_rate]);
         }
     }
+    all
 }
 
 /// The cubic spline s^3/6 of the node before a cell, 2/3 - r^2 (1 - r/2) of the next one, and s^2/2 and
@@ -148,25 +182,23 @@ fn cubics<T: Real, M: Machine<T>>(
     ([outer, inner], [half_square, machine.times(r, slope)])
 }
 
-/// The P + 1 splines of degree P in cells whose knots are not all one cell apart.
+/// As [`regular`], where knots may end.
 #[cold]
-fn set_near_ends<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: usize>(
+fn near_any_ends<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, N>,
-    lattice: &Lattice<T, D>,
     cells: M::Four,
     cell: M::Four,
-) -> bool {
-    let (cells, cell_numbers) = (machine.numbers(cells), machine.numbers(cell));
-    let [mut weights, mut slopes] = [[[T::zero(); 4]; N]; 2];
-    for a in 0..D {
-        let [along, rates] = near_ends::<T, P, N>(cells[a], cell_numbers[a], lattice.ends[a]);
+    ends: [T; 2],
+) -> [[M::Four; N]; 2] {
+    let (cells, cell) = (machine.numbers(cells), machine.numbers(cell));
+    let mut all = [[[T::zero(); BUNCH]; N]; 2];
+    for p in 0..BUNCH {
+        let [weights, slopes] = near_ends::<T, P, N>(cells[p], cell[p], ends);
         for k in 0..N {
-            (weights[k][a], slopes[k][a]) = (along[k], rates[k]);
+            (all[0][k][p], all[1][k][p]) = (weights[k], slopes[k]);
         }
     }
-    let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
-    stencil.set(machine, lattice, cell, all)
+    all.map(|all| all.map(|numbers| machine.four(&numbers)))
 }
 
 /// The splines in a `cell` whose knots are not all one cell apart, by the recurrence of Cox and de Boor, and

@@ -1,15 +1,21 @@
-//! The nodes of one particle, with their weights w_ip and weight gradients grad w_ip; the sums between it
-//! and its nodes.
+//! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between
+//! them and their nodes.
 //!
 //! There are two sums, each the transpose of the other: [`Stencil::spread`] adds
 //! w q + sum_a (grad w)_a Q_a to the nodes, and [`Stencil::collect`] returns sum_i w q_i and
 //! sum_i (grad w)_a q_i. Mass, momentum and forces, interpolated velocities and their gradients are all
 //! of that kind, and so is the linear velocity of APIC, with the moments w (x_i - x_p)_a in place of
-//! (grad w)_a. Where a pass needs a sum with slopes and one without, it has both at once, weights and rows of nodes
-//! being looked up once for them.
+//! (grad w)_a.
+//!
+//! A bunch is four particles that stand beside each other. What is said of particles has one of them in each lane of
+//! a register; what is said of nodes has in each lane one of the four numbers that a node carries. Most bunches
+//! share their nodes, for particles stand in the order of their cells: then a node is looked up once for all four.
 
-mod rows;
+mod collect;
+mod spread;
 mod tensor;
+
+use std::ops::Range;
 
 use mms_math::machine::Machine;
 
@@ -18,77 +24,99 @@ use crate::{Lattice, Real, Vector};
 
 pub use tensor::Tensor;
 
-/// The nodes that a particle touches.
-///
-/// The sums go over four numbers of a node at a time, by a `machine` of the processor.
+/// How many particles are in a bunch.
+pub const BUNCH: usize = 4;
+
+/// The four numbers of a node for each particle of a bunch, and of slopes along each axis.
+#[derive(Clone, Copy)]
+pub struct Carried<F, const D: usize> {
+    /// q.
+    pub value: [F; BUNCH],
+    /// Q_a.
+    pub slopes: [[F; D]; BUNCH],
+}
+
+/// The vector q that nodes have, as a bunch sees it: four numbers for each component.
+#[derive(Clone, Copy)]
+pub struct Collected<F, const D: usize> {
+    /// sum_i w q_i.
+    pub value: [F; D],
+    /// sum_i (grad w)_a q_i for every axis a.
+    pub gradient: [[F; D]; D],
+    /// (sum_i w q_i (x) (x_i - x_p)) (sum_i w (x_i - x_p) (x) (x_i - x_p))^-1 for every axis: the slopes of the
+    /// linear function that is nearest to q_i, as the weights measure it.
+    pub slopes: [[F; D]; D],
+}
+
+/// What is wanted of the nodes beside the value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// [`Collected::value`] alone.
+    Value,
+    /// The gradient too.
+    Gradient,
+    /// The gradient, and the slopes of the nearest linear function.
+    Slopes,
+}
+
+/// The nodes that a bunch touches.
 pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
-    /// Calls `visit(i, w_ip, grad w_ip)` for every node i; a node may come more than once, and its
-    /// weights then add up.
-    fn each(&self, visit: impl FnMut(usize, T, Vector<T, D>));
+    /// Calls `visit(i, w_ip, grad w_ip)` for every node i of one of the particles; a node may come more than
+    /// once, and its weights then add up.
+    fn each(&self, particle: usize, visit: impl FnMut(usize, T, Vector<T, D>));
 
-    /// The first node, and the one after the last.
-    fn span(&self) -> [usize; 2];
+    /// The first of the `members` that has nodes beyond these, if any has.
+    fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize>;
 
-    /// q_i += w q for every node i.
-    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: Window<'_, T>);
-
-    /// q_i += w q + sum_a (grad w)_a Q_a for every node i, with q the `value` and Q the `slopes`.
-    fn spread<M: Machine<T>>(
+    /// q_i += w q for every node i of the `members`.
+    fn spread_value<M: Machine<T>>(
         &self,
         machine: M,
-        value: M::Four,
-        slopes: [M::Four; D],
+        value: [M::Four; BUNCH],
+        members: Members,
         nodes: Window<'_, T>,
     );
 
-    /// [`spread_value`](Stencil::spread_value) of the first value to the first nodes, and
-    /// [`spread`](Stencil::spread) of the second.
-    #[inline(always)]
-    fn spread_both<M: Machine<T>>(
+    /// q_i += w q + sum_a (grad w)_a Q_a for every node i of the `members`.
+    fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        values: [M::Four; 2],
-        slopes: [M::Four; D],
-        [first, second]: [Window<'_, T>; 2],
-    ) {
-        self.spread_value(machine, values[0], first);
-        self.spread(machine, values[1], slopes, second);
-    }
-
-    /// sum_i w q_i.
-    fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four;
-
-    /// sum_i w q_i, and sum_i (grad w)_a q_i for every axis a.
-    fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]);
-
-    /// [`collect_value`](Stencil::collect_value) of the first nodes and [`collect`](Stencil::collect) of the
-    /// second: both values, and the slopes.
-    #[inline(always)]
-    fn collect_both<M: Machine<T>>(
-        &self,
-        machine: M,
-        [first, second]: [&[Nodal<T>]; 2],
-    ) -> ([M::Four; 2], [M::Four; D]) {
-        let (value, slopes) = self.collect(machine, second);
-        ([self.collect_value(machine, first), value], slopes)
-    }
+        carried: &Carried<M::Four, D>,
+        members: Members,
+        nodes: Window<'_, T>,
+    );
 
     /// As [`spread`](Stencil::spread), with the moments w (x_i - x_p)_a in place of (grad w)_a.
     fn spread_moments<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        value: M::Four,
-        slopes: [M::Four; D],
+        carried: &Carried<M::Four, D>,
+        members: Members,
         nodes: Window<'_, T>,
     );
 
-    /// The slopes of the linear function that is nearest to q_i, as the weights measure it:
-    /// (sum_i w q_i (x) (x_i - x_p)) (sum_i w (x_i - x_p) (x) (x_i - x_p))^-1, if there is such.
-    fn collect_slopes<M: Machine<T>>(
+    /// What the particles see of the nodes; what is not `wanted` is 0. For hat functions, the nearest linear
+    /// function is the one between the nodes.
+    fn collect<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
+        wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> [M::Four; D];
+    ) -> Collected<M::Four, D>;
+}
+
+/// Which particles of a bunch are meant, from one on and before another.
+pub type Members = [usize; 2];
+
+/// All of a bunch.
+pub const ALL: Members = [0, BUNCH];
+
+impl<F: Copy, const D: usize> Collected<F, D> {
+    /// The same number everywhere.
+    #[inline(always)]
+    pub fn all(number: F) -> Self {
+        Self { value: [number; D], gradient: [[number; D]; D], slopes: [[number; D]; D] }
+    }
 }

@@ -63,7 +63,7 @@ fn check_sums<T: Real, const D: usize>(
     let mut unity = -T::one();
     let (mut moment, mut gradient) = (Vector::<T, D>::zeros(), Vector::<T, D>::zeros());
     let mut gradient_moment = -Matrix::<T, D>::identity();
-    stencil.each(|i, w, grad_w| {
+    stencil.each(0, |i, w, grad_w| {
         let apart = (lattice.position(i) - position).component_div(&lattice.cell_size);
         let grad_w = grad_w.component_mul(&lattice.cell_size);
         unity += w;
@@ -305,7 +305,7 @@ impl ShapeVisitor for Periods {
             let position = Vector::<f64, 1>::new(-0.5 + (self.cells + periods * 6.0) * 0.25);
             let stencil = S::stencil(&lattice, &position, &domain, &Matrix::zeros()).unwrap();
             let (mut table, mut moment) = (BTreeMap::<usize, f64>::new(), 0.0);
-            stencil.each(|node, w, _| {
+            stencil.each(0, |node, w, _| {
                 *table.entry((node + 6 - 3) % 6).or_default() += w;
                 let apart = (lattice.position(node) - position)[0] / 0.25;
                 // To the nearest image, in cells.
@@ -454,7 +454,7 @@ fn domains_that_follow_leave_no_gaps() {
                 let particle = Particle::<1>::new([cells; 3], [0.25; 3], [0.3; 9], false);
                 let stencil = particle.stencil::<f64, S>(&lattice).unwrap();
                 let volume = 0.65 * lattice.cell_size[0];
-                stencil.each(|node, _, grad_w| sum[node] += volume * grad_w[0]);
+                stencil.each(0, |node, _, grad_w| sum[node] += volume * grad_w[0]);
             }
             let inside = 5..8; // clear of both ends of the row
             inside.map(|node| sum[node].abs()).fold(0.0, f64::max)

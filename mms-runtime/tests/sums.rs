@@ -1,5 +1,5 @@
-//! The sums between a particle and its nodes, which are factorised, against their definitions, node by node;
-//! with every machine of the processor.
+//! The sums between the particles of a bunch and their nodes, which are factorised and may be done together, against
+//! their definitions, particle by particle and node by node; with every machine of the processor.
 
 mod common;
 
@@ -8,7 +8,7 @@ use mms_runtime::math::dispatch::{Work, narrow};
 use mms_runtime::math::machine::{Fused, Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::Stencil;
+use mms_runtime::stencil::{ALL, BUNCH, Carried, Collected, Members, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
@@ -18,78 +18,99 @@ fn numbers<T: Real>(count: usize) -> Vec<Nodal<T>> {
     (0..count).map(|node| Nodal(std::array::from_fn(|k| number(4 * node + k)))).collect()
 }
 
-/// The four numbers of a vector, times another number.
+/// The sums of a bunch.
+#[derive(Clone, Copy)]
 struct Sums<'a, T, const D: usize, S> {
     stencil: &'a S,
     lattice: &'a Lattice<T, D>,
     nodes: &'a [Nodal<T>],
+    /// For each particle a value, and its slopes.
+    carried: &'a [Nodal<T>],
+    members: Members,
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
-    /// What every sum gives: of nodes, to nodes without and with slopes, and with moments; and the slopes.
-    fn by<M: Machine<T>>(&self, machine: M) -> Vec<Nodal<T>> {
-        let Self { stencil, lattice, nodes } = self;
-        let node = |four: M::Four| Nodal(machine.numbers(four));
-        let mut all = vec![node(stencil.collect_value(machine, nodes))];
-        let (value, slopes) = stencil.collect(machine, nodes);
-        all.push(node(value));
-        all.extend(slopes.map(node));
-        let (values, slopes) = stencil.collect_both(machine, [&nodes[1..], nodes]);
-        all.extend(values.map(node));
-        all.extend(slopes.map(node));
-        all.extend(stencil.collect_slopes(machine, lattice, nodes).map(node));
-        let [value, slopes @ ..] = [0, 1, 2, 3].map(|k| machine.four(&nodes[k].0));
-        let slopes: [M::Four; D] = std::array::from_fn(|a| slopes[a]);
-        let mut sums: [Vec<_>; 5] = std::array::from_fn(|_| nodes.to_vec());
-        let [a, b, c, d, e] = sums.each_mut().map(|nodes| Window { start: 0, nodes });
-        stencil.spread_value(machine, value, a);
-        stencil.spread(machine, value, slopes, b);
-        stencil.spread_moments(machine, lattice, value, slopes, c);
-        stencil.spread_both(machine, [slopes[0], value], slopes, [d, e]);
-        all.extend(sums.into_iter().flatten());
+    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, and with moments.
+    fn by<M: Machine<T>>(&self, machine: M) -> Vec<T> {
+        let Self { stencil, lattice, nodes, carried, members } = *self;
+        let mut all = Vec::new();
+        for wanted in [Wanted::Value, Wanted::Gradient] {
+            let Collected { value, gradient, .. } =
+                stencil.collect(machine, lattice, wanted, nodes);
+            let gradient = if wanted == Wanted::Value { &[] } else { &gradient[..] };
+            for components in [value].iter().chain(gradient) {
+                all.extend(components.iter().flat_map(|&four| machine.numbers(four)));
+            }
+        }
+        let of = |p: usize, k: usize| machine.four(&carried[4 * p + k].0);
+        let value = std::array::from_fn(|p| of(p, 0));
+        let slopes = std::array::from_fn(|p| std::array::from_fn(|a| of(p, 1 + a)));
+        let carried = Carried { value, slopes };
+        let mut sums: [Vec<_>; 3] = std::array::from_fn(|_| nodes.to_vec());
+        let [values, sloping, moments] = sums.each_mut().map(|nodes| Window { start: 0, nodes });
+        stencil.spread_value(machine, value, members, values);
+        stencil.spread(machine, &carried, members, sloping);
+        stencil.spread_moments(machine, lattice, &carried, members, moments);
+        all.extend(sums.iter().flatten().flat_map(|node| node.0));
         all
     }
 
-    /// The same by their definitions, but for the slopes, of which only those of linear functions are known.
-    fn by_definition(&self, position: &Vector<T, D>) -> Vec<Nodal<T>> {
-        let Self { stencil, lattice, nodes } = self;
-        let (mut shifted, mut collected) = (Nodal::zero(), vec![Nodal::zero(); 1 + D]);
-        let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
-        stencil.each(|i, w, gradient| {
-            let apart = lattice.position(i) - position;
-            collected[0] += nodes[i] * w;
-            shifted += nodes[i + 1] * w;
-            for sum in &mut sums[..3] {
-                sum[i] += nodes[0] * w;
-            }
-            sums[3][i] += nodes[1] * w;
-            for a in 0..D {
-                collected[1 + a] += nodes[i] * gradient[a];
-                sums[1][i] += nodes[1 + a] * gradient[a];
-                sums[2][i] += nodes[1 + a] * (w * apart[a]);
-            }
-        });
-        let [values, slopes, moments, others] = sums;
-        let mut all = vec![collected[0]];
-        all.extend(&collected);
-        all.push(shifted);
-        all.extend(&collected);
-        all.extend([values, slopes.clone(), moments, others, slopes].into_iter().flatten());
-        all
+    /// The same by their definitions.
+    fn by_definition(&self, positions: &[Vector<T, D>; BUNCH]) -> Vec<T> {
+        let Self { stencil, lattice, nodes, carried, members } = *self;
+        let mut collected = vec![[[T::zero(); BUNCH]; D]; 1 + D];
+        let mut sums: [Vec<_>; 3] = std::array::from_fn(|_| nodes.to_vec());
+        for p in 0..BUNCH {
+            stencil.each(p, |i, w, gradient| {
+                for c in 0..D {
+                    collected[0][c][p] += nodes[i].0[c] * w;
+                    for a in 0..D {
+                        collected[1 + a][c][p] += nodes[i].0[c] * gradient[a];
+                    }
+                }
+                if !(members[0]..members[1]).contains(&p) {
+                    return;
+                }
+                let carried = |k: usize| carried[4 * p + k];
+                let apart = lattice.position(i) - positions[p];
+                for sum in &mut sums {
+                    sum[i] += carried(0) * w;
+                }
+                for a in 0..D {
+                    sums[1][i] += carried(1 + a) * gradient[a];
+                    sums[2][i] += carried(1 + a) * (w * apart[a]);
+                }
+            });
+        }
+        let values = collected[0].iter().flatten();
+        let collected = values.chain(collected.iter().flatten().flatten());
+        collected.copied().chain(sums.iter().flatten().flat_map(|node| node.0)).collect()
+    }
+
+    /// The slopes of the linear functions that are nearest to the nodes.
+    fn slopes<M: Machine<T>>(&self, machine: M) -> Vec<T> {
+        let Self { stencil, lattice, nodes, .. } = *self;
+        let slopes = stencil.collect(machine, lattice, Wanted::Slopes, nodes).slopes;
+        slopes.iter().flatten().flat_map(|&four| machine.numbers(four)).collect()
     }
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Work for &Sums<'_, T, D, S> {
-    type Output = Vec<Nodal<T>>;
+    type Output = [Vec<T>; 2];
 
     fn fused(self, machine: Fused) -> Self::Output {
-        self.by(T::FusedMachine::from(machine))
+        let machine = T::FusedMachine::from(machine);
+        [self.by(machine), self.slopes(machine)]
     }
 
     fn plain(self, machine: Plain) -> Self::Output {
-        self.by(T::PlainMachine::from(machine))
+        let machine = T::PlainMachine::from(machine);
+        [self.by(machine), self.slopes(machine)]
     }
 }
+
+/// How far the particles of a bunch are apart along each axis, in cells: all share their nodes, or not.
+const APART: [[f64; BUNCH]; 3] = [[0.0; BUNCH], [0.0, 1e-3, 0.0, 1.0], [0.4, 0.0, 1.7, 0.0]];
 
 /// A particle, for every shape function.
 struct Check<T, const D: usize> {
@@ -103,45 +124,40 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
 
     fn visit<S: Shape>(self) {
         let lattice = lattice::<T, D, S>([self.ends; D]);
-        let position = self.particle.position(&lattice);
-        let stencil = self.particle.stencil::<T, S>(&lattice).unwrap();
         let name = std::any::type_name::<S>();
         // Domains may be narrow, and gradients then large differences of small numbers.
         let tolerance = T::default_epsilon() * T::of(2e4);
-        let close = |found: &Nodal<T>, expected: &Nodal<T>| {
-            for (a, b) in found.0.iter().zip(&expected.0) {
+        let close = |found: &[T], expected: &[T]| {
+            assert_eq!(found.len(), expected.len());
+            for (a, b) in found.iter().zip(expected) {
                 let difference = (*a - *b).abs();
                 assert!(difference <= tolerance * (T::one() + b.abs()), "{name}: {a}, not {b}");
             }
         };
 
-        let nodes = numbers(lattice.len());
-        let sums = Sums { stencil: &stencil, lattice: &lattice, nodes: &nodes };
-        let mut expected = sums.by_definition(&position);
-        for mut found in [sums.by(T::PlainMachine::from(Plain)), narrow(&sums)] {
-            found.drain(4 + 2 * D..4 + 3 * D);
-            assert_eq!(found.len(), expected.len());
-            found.iter().zip(&expected).for_each(|(found, expected)| close(found, expected));
-        }
+        for (apart, members) in APART.into_iter().zip([ALL, ALL, [1, 3]]) {
+            let (stencil, positions) = self.particle.bunch::<T, S>(&lattice, apart).unwrap();
+            let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(4 * BUNCH)[..]);
+            let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
+            let expected = sums.by_definition(&positions);
+            for [found, _] in [sums.plain(Plain), narrow(&sums)] {
+                close(&found, &expected);
+            }
 
-        // q_i = x_i, of which the slopes are 1. Of hat functions nobody asks for them: at a node they are
-        // quotients of numbers that vanish.
-        if S::DEGREE == 1 {
-            return;
-        }
-        let place = |node: usize| Nodal::new(&lattice.position(node), T::zero());
-        let places: Vec<_> = (0..lattice.len()).map(place).collect();
-        let sums = Sums { stencil: &stencil, lattice: &lattice, nodes: &places };
-        expected.truncate(0);
-        expected.extend((0..D).map(|a| {
-            Nodal::new(
-                &Vector::<T, D>::from_fn(|b, _| T::of(f64::from(u8::from(a == b)))),
-                T::zero(),
-            )
-        }));
-        for found in [sums.by(T::PlainMachine::from(Plain)), narrow(&sums)] {
-            let slopes = found[4 + 2 * D..4 + 3 * D].iter();
-            slopes.zip(&expected).for_each(|(found, expected)| close(found, expected));
+            // q_i = x_i, of which the slopes are 1. Of hat functions nobody asks for them: at a node they are
+            // quotients of numbers that vanish.
+            if S::DEGREE == 1 {
+                continue;
+            }
+            let place = |node: usize| Nodal::new(&lattice.position(node), T::zero());
+            let places: Vec<_> = (0..lattice.len()).map(place).collect();
+            let sums = Sums { nodes: &places, ..sums };
+            let diagonal = |k: usize| (k / BUNCH).is_multiple_of(D + 1);
+            let unit = |k: usize| if diagonal(k) { T::one() } else { T::zero() };
+            let expected: Vec<T> = (0..BUNCH * D * D).map(unit).collect();
+            for [_, found] in [sums.plain(Plain), narrow(&sums)] {
+                close(&found, &expected);
+            }
         }
     }
 }
@@ -155,7 +171,8 @@ proptest! {
 
     #[test]
     fn sums_are_those_of_their_definitions(
-        cells in prop::array::uniform3(3.1..8.9f64),
+        // Others of the bunch are up to 1.7 further.
+        cells in prop::array::uniform3(3.1..7.2f64),
         half in prop::array::uniform3(0.1..0.7f64),
         h in prop::array::uniform9(-0.1..0.1f64),
         ended in any::<bool>(),

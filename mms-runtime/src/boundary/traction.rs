@@ -12,7 +12,7 @@ use crate::body::Piece;
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window, four};
 use crate::shape::Shape;
-use crate::stencil::Stencil as _;
+use crate::stencil::{BUNCH, Stencil as _};
 use crate::tensor::{cofactor, components, jacobian};
 use crate::{
     Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
@@ -109,7 +109,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let traction = kirchhoff_stress[k] * present_area / ratio;
             let stencil = S::point(lattice, &position).map_err(fail)?;
             let traction = four(machine, &traction, T::zero());
-            stencil.spread_value(machine, traction, Window { start: 0, nodes: &mut *force });
+            let nodes = Window { start: 0, nodes: &mut *force };
+            stencil.spread_value(machine, [traction; BUNCH], [0, 1], nodes);
         }
         Ok(())
     }

@@ -7,13 +7,16 @@
 //!
 //! w = 2^-D sum_c N_i(x_c),   grad w = 2^-D sum_c N_i(x_c) R^-T s_c,   s_c the signs of xi at the corner.
 
+use std::ops::Range;
+
 use mms_math::machine::Machine;
 
 use super::Shape;
 use crate::defect::{Defect, on};
+use crate::lanes::columns;
 use crate::nodal::{Nodal, Window};
 use crate::spline;
-use crate::stencil::{Stencil, Tensor};
+use crate::stencil::{BUNCH, Carried, Collected, Members, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -23,15 +26,15 @@ pub struct Cpdi;
 /// The corners of a parallelepiped in three dimensions.
 const MOST_CORNERS: usize = 8;
 
-/// Every corner's hat functions, and what their gradient is along.
+/// Every corner's hat functions, and what their gradient is along: a number for each particle of a bunch.
 #[derive(Clone, Debug)]
 pub struct Corners<T, const D: usize> {
     /// The first 2^D mean something.
-    hats: [Tensor<T, D, 2>; MOST_CORNERS],
+    hats: [Tensor<T, D, 2, 2>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
-    direction: [Vector<T, D>; MOST_CORNERS],
+    direction: [[[T; BUNCH]; D]; MOST_CORNERS],
     /// R s_c, from the particle to the corner.
-    apart: [Vector<T, D>; MOST_CORNERS],
+    apart: [[[T; BUNCH]; D]; MOST_CORNERS],
 }
 
 impl Shape for Cpdi {
@@ -39,6 +42,7 @@ impl Shape for Cpdi {
     const NEAR: bool = false;
     type Domain<T: Real, const D: usize> = Matrix<T, D>;
     type Stencil<T: Real, const D: usize> = Corners<T, D>;
+    type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
 
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Matrix<T, D> {
         *half_edges
@@ -49,58 +53,101 @@ impl Shape for Cpdi {
         machine: M,
         corners: &mut Corners<T, D>,
         lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-        half_edges: &Matrix<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Result<(), Cause> {
-        let present = deformation_gradient(displacement_gradient) * half_edges;
-        let present = if on(Defect::CornersKept) { *half_edges } else { present };
-        let inverse = present.try_inverse().filter(matrix_is_finite).ok_or(Cause::FlatDomain)?;
-        let transposed = on(Defect::CornersTransposed);
-        let inverse = if transposed { inverse.transpose() } else { inverse };
-        let share = T::ratio(1, 1 << D);
+        position: &[M::Four; D],
+        half_edges: &[Matrix<T, D>; BUNCH],
+        displacement_gradient: &[Matrix<T, D>; BUNCH],
+    ) -> Result<(), (usize, Cause)> {
+        let [mut present, mut inverse] = [[Matrix::zeros(); BUNCH]; 2];
+        for p in 0..BUNCH {
+            present[p] = deformation_gradient(&displacement_gradient[p]) * half_edges[p];
+            present[p] = if on(Defect::CornersKept) { half_edges[p] } else { present[p] };
+            let found = present[p].try_inverse().filter(matrix_is_finite);
+            inverse[p] = found.ok_or((p, Cause::FlatDomain))?;
+            let transposed = on(Defect::CornersTransposed);
+            inverse[p] = if transposed { inverse[p].transpose() } else { inverse[p] };
+        }
+        let (present, inverse) = (columns(machine, &present), columns(machine, &inverse));
         for c in 0..1 << D {
-            let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
-            let signs = Vector::from_fn(|a, _| sign(a));
-            let apart = present * signs;
-            let corner = position + apart;
+            let sign = |a: usize| machine.splat(if c >> a & 1 == 0 { -T::one() } else { T::one() });
+            let share = machine.splat(T::ratio(1, 1 << D));
+            let mut corner = *position;
+            for i in 0..D {
+                let [mut apart, mut direction] = [machine.splat(T::zero()); 2];
+                for a in 0..D {
+                    apart = machine.times_plus(present[a][i], sign(a), apart);
+                    direction = machine.times_plus(inverse[i][a], sign(a), direction);
+                }
+                corner[i] = machine.plus(position[i], apart);
+                corners.apart[c][i] = machine.numbers(apart);
+                corners.direction[c][i] = machine.numbers(machine.times(direction, share));
+            }
             spline::place::<T, M, D, 1, 2>(machine, &mut corners.hats[c], lattice, &corner)?;
-            corners.direction[c] = inverse.tr_mul(&signs) * share;
-            corners.apart[c] = apart;
         }
         Ok(())
+    }
+
+    fn point<T: Real, const D: usize>(
+        lattice: &Lattice<T, D>,
+        position: &Vector<T, D>,
+    ) -> Result<Self::Point<T, D>, Cause> {
+        spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
 
 impl<T: Real, const D: usize> Default for Corners<T, D> {
     fn default() -> Self {
-        Self {
-            hats: [Tensor::new(); MOST_CORNERS],
-            direction: [Vector::zeros(); MOST_CORNERS],
-            apart: [Vector::zeros(); MOST_CORNERS],
+        let nothing = [[[T::zero(); BUNCH]; D]; MOST_CORNERS];
+        Self { hats: [Tensor::new(); MOST_CORNERS], direction: nothing, apart: nothing }
+    }
+}
+
+impl<T: Real, const D: usize> Corners<T, D> {
+    /// 2^-D (q + sum_a l_a Q_a) for each particle, with these l of a corner.
+    #[inline(always)]
+    fn of_corner<M: Machine<T>>(
+        machine: M,
+        along: &[[T; BUNCH]; D],
+        share: M::Four,
+        carried: &Carried<M::Four, D>,
+    ) -> [M::Four; BUNCH] {
+        let mut of_corner = carried.value;
+        for p in 0..BUNCH {
+            of_corner[p] = machine.times(share, of_corner[p]);
+            for a in 0..D {
+                let along = machine.splat(along[a][p]);
+                of_corner[p] = machine.times_plus(along, carried.slopes[p][a], of_corner[p]);
+            }
         }
+        of_corner
     }
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
-    #[inline(always)]
-    fn each(&self, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
+    fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let share = T::ratio(1, 1 << D);
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            hats.each(|node, w, _| visit(node, w * share, direction * w));
+            let direction = Vector::<T, D>::from_fn(|a, _| direction[a][particle]);
+            hats.each(particle, |node, w, _| visit(node, w * share, direction * w));
         }
     }
 
-    fn span(&self) -> [usize; 2] {
-        let spans = self.hats.iter().take(1 << D).map(Stencil::span);
-        spans.fold([usize::MAX, 0], |[first, after], [from, to]| [first.min(from), after.max(to)])
+    fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize> {
+        let hats = self.hats.iter().take(1 << D);
+        hats.filter_map(|hats| hats.beyond(members, nodes)).min()
     }
 
     #[inline(always)]
-    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, mut nodes: Window<'_, T>) {
-        let of_corner = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
+    fn spread_value<M: Machine<T>>(
+        &self,
+        machine: M,
+        value: [M::Four; BUNCH],
+        members: Members,
+        mut nodes: Window<'_, T>,
+    ) {
+        let share = machine.splat(T::ratio(1, 1 << D));
+        let of_corner = value.map(|value| machine.times(share, value));
         for hats in self.hats.iter().take(1 << D) {
-            hats.spread_value(machine, of_corner, nodes.reborrow());
+            hats.spread_value(machine, of_corner, members, nodes.reborrow());
         }
     }
 
@@ -108,38 +155,15 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        value: M::Four,
-        slopes: [M::Four; D],
+        carried: &Carried<M::Four, D>,
+        members: Members,
         mut nodes: Window<'_, T>,
     ) {
-        let share = machine.times(machine.splat(T::ratio(1, 1 << D)), value);
-        for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            let mut of_corner = share;
-            for a in 0..D {
-                of_corner = machine.times_plus(machine.splat(direction[a]), slopes[a], of_corner);
-            }
-            hats.spread_value(machine, of_corner, nodes.reborrow());
-        }
-    }
-
-    #[inline(always)]
-    fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four {
-        self.collect(machine, nodes).0
-    }
-
-    #[inline(always)]
-    fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]) {
-        let nothing = machine.splat(T::zero());
-        let (mut value, mut slopes) = (nothing, [nothing; D]);
         let share = machine.splat(T::ratio(1, 1 << D));
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            let of_corner = hats.collect_value(machine, nodes);
-            value = machine.times_plus(share, of_corner, value);
-            for a in 0..D {
-                slopes[a] = machine.times_plus(machine.splat(direction[a]), of_corner, slopes[a]);
-            }
+            let of_corner = Self::of_corner(machine, direction, share, carried);
+            hats.spread_value(machine, of_corner, members, nodes.reborrow());
         }
-        (value, slopes)
     }
 
     /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
@@ -149,32 +173,52 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        value: M::Four,
-        slopes: [M::Four; D],
+        carried: &Carried<M::Four, D>,
+        members: Members,
         mut nodes: Window<'_, T>,
     ) {
         let share = machine.splat(T::ratio(1, 1 << D));
-        let mut of_node = slopes;
-        for a in 0..D {
-            of_node[a] = machine.times(share, slopes[a]);
-        }
-        for (hats, edges) in self.hats.iter().zip(&self.apart).take(1 << D) {
-            let mut of_corner = machine.times(share, value);
+        let mut of_node = *carried;
+        for p in 0..BUNCH {
             for a in 0..D {
-                of_corner = machine.times_plus(machine.splat(edges[a]), of_node[a], of_corner);
+                of_node.slopes[p][a] = machine.times(share, carried.slopes[p][a]);
             }
-            hats.spread_moments(machine, lattice, of_corner, of_node, nodes.reborrow());
+        }
+        for (hats, apart) in self.hats.iter().zip(&self.apart).take(1 << D) {
+            let at_particle = Carried { value: carried.value, slopes: of_node.slopes };
+            of_node.value = Self::of_corner(machine, apart, share, &at_particle);
+            hats.spread_moments(machine, lattice, &of_node, members, nodes.reborrow());
         }
     }
 
-    /// The gradient: hat functions know no nearer linear function.
     #[inline(always)]
-    fn collect_slopes<M: Machine<T>>(
+    fn collect<M: Machine<T>>(
         &self,
         machine: M,
-        _: &Lattice<T, D>,
+        lattice: &Lattice<T, D>,
+        wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> [M::Four; D] {
-        self.collect(machine, nodes).1
+    ) -> Collected<M::Four, D> {
+        let mut collected = Collected::all(machine.splat(T::zero()));
+        let share = machine.splat(T::ratio(1, 1 << D));
+        for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
+            let of_corner = hats.collect(machine, lattice, Wanted::Value, nodes).value;
+            for c in 0..D {
+                let value = &mut collected.value[c];
+                *value = machine.times_plus(share, of_corner[c], *value);
+                if wanted == Wanted::Value {
+                    continue;
+                }
+                for a in 0..D {
+                    let gradient = &mut collected.gradient[a][c];
+                    let along = machine.four(&direction[a]);
+                    *gradient = machine.times_plus(along, of_corner[c], *gradient);
+                }
+            }
+        }
+        if wanted == Wanted::Slopes {
+            collected.slopes = collected.gradient;
+        }
+        collected
     }
 }

@@ -7,8 +7,8 @@
 use mms_math::machine::{Machine, Plain};
 
 use crate::extension::extension_list;
-use crate::spline;
-use crate::stencil::{Stencil, Tensor};
+use crate::lanes::components;
+use crate::stencil::{BUNCH, Stencil};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 extension_list! {
@@ -21,12 +21,6 @@ extension_list! {
     quadratic_bspline::QuadraticBspline,
     cubic_bspline::CubicBspline,
 }
-
-/// The most nodes along one axis that a particle may touch.
-pub const MAX_NODES: usize = 4;
-
-/// The weights of a point, of any degree up to 3.
-pub type PointStencil<T, const D: usize> = Tensor<T, D, MAX_NODES>;
 
 /// A shape function.
 ///
@@ -44,30 +38,36 @@ pub trait Shape: 'static {
     /// the cell after it, along every axis.
     const NEAR: bool = true;
 
+    /// Where positions with the same nodes begin, in cells from a node: particles stand in this order.
+    const ORIGIN: f64 = 0.0;
+
     /// What is kept of a particle's undeformed domain.
     type Domain<T: Real, const D: usize>: Copy + Send + Sync;
 
-    /// The nodes of a particle.
+    /// The nodes of a bunch of particles.
     type Stencil<T: Real, const D: usize>: Stencil<T, D>;
+
+    /// The nodes of a bunch of points.
+    type Point<T: Real, const D: usize>: Stencil<T, D>;
 
     /// What is kept of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns.
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Self::Domain<T, D>;
 
-    /// Writes the nodes and weights of a particle at `position` (a length), with displacement gradient H, to
-    /// `stencil`.
+    /// Writes the nodes and weights of four particles to `stencil`. They are at these positions (lengths), of which
+    /// the components along each axis are given, and have these domains and displacement gradients H.
     ///
     /// # Errors
-    /// The domain does not fit on the grid, or is too large for the stencil.
+    /// A domain does not fit on the grid, or is too large for the stencil; with the particle's number.
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
         stencil: &mut Self::Stencil<T, D>,
         lattice: &Lattice<T, D>,
-        position: &Vector<T, D>,
-        domain: &Self::Domain<T, D>,
-        displacement_gradient: &Matrix<T, D>,
-    ) -> Result<(), Cause>;
+        position: &[M::Four; D],
+        domain: &[Self::Domain<T, D>; BUNCH],
+        displacement_gradient: &[Matrix<T, D>; BUNCH],
+    ) -> Result<(), (usize, Cause)>;
 
-    /// The nodes and weights of a particle; see [`place`](Shape::place).
+    /// The nodes and weights of four particles that are alike; see [`place`](Shape::place).
     ///
     /// # Errors
     /// Likewise.
@@ -79,18 +79,19 @@ pub trait Shape: 'static {
     ) -> Result<Self::Stencil<T, D>, Cause> {
         let mut stencil = Self::Stencil::default();
         let machine = T::PlainMachine::from(Plain);
-        Self::place(machine, &mut stencil, lattice, position, domain, displacement_gradient)?;
+        let position = components(machine, &[*position; BUNCH]);
+        let (domain, h) = ([*domain; BUNCH], [*displacement_gradient; BUNCH]);
+        Self::place(machine, &mut stencil, lattice, &position, &domain, &h)
+            .map_err(|(_, cause)| cause)?;
         Ok(stencil)
     }
 
-    /// The nodes and weights of a point: of a piece of a face, say.
+    /// The nodes and weights of four points that are alike: of a piece of a face, say.
     ///
     /// # Errors
     /// The point is off the grid.
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<PointStencil<T, D>, Cause> {
-        spline::point::<T, D, 1>(lattice, position)
-    }
+    ) -> Result<Self::Point<T, D>, Cause>;
 }

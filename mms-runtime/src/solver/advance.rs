@@ -3,14 +3,15 @@
 use mms_math::dispatch::Work;
 use mms_math::machine::{Fused, Machine, Plain};
 
+use super::fours::FoursMut;
 use super::misread;
-use super::scene::{BLOCK, Scene};
+use super::scene::Scene;
 use crate::defect::{Defect, on};
-use crate::nodal::{Nodal, columns, four, matrix, vector};
+use crate::lanes::{columns, components, determinants, matrices, vectors};
+use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::shape::Shape;
-use crate::stencil::Stencil as _;
-use crate::tensor::jacobian;
+use crate::stencil::{BUNCH, Stencil as _, Wanted};
 use crate::{Cause, Matrix, Real, Transfer, Vector};
 
 /// What of the particles' state follows the nodes, and how far.
@@ -49,129 +50,150 @@ impl<T: Real, const D: usize, S: Shape> Work for Advance<'_, '_, T, D, S> {
     }
 }
 
-/// What the nodes say at a particle, as far as it is wanted.
-struct Collected<F, const D: usize> {
-    velocity: F,
-    /// The columns of sum v_i (x) grad w.
-    gradient: [F; D],
-    acceleration: F,
-}
-
 impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
     #[inline(always)]
-    fn update<M: Machine<T>>(mut self, machine: M) -> Result<Sound, (usize, Cause)> {
+    fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
+        let Columns { start, .. } = self.particles;
+        let count = self.particles.len();
+        let mut bunches = Bunches::new(self.particles);
+        let placed = self.scene.placed(start..start + count);
+        let nodes = Nodes {
+            scene: self.scene,
+            steps: self.steps,
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+        };
+        let mut room = S::Stencil::default();
+        // Zero times all new numbers: zero, if these are finite.
+        let mut rest = machine.splat(T::zero());
         let mut sound = true;
-        let mut room = Scene::<T, D, S>::room();
-        for first in (0..self.particles.len()).step_by(BLOCK) {
-            let block = first..self.particles.len().min(first + BLOCK);
-            let Columns { start, displacement: d, displacement_gradient: h, .. } = &self.particles;
-            let (d, h) = (&d[block.clone()], &h[block.clone()]);
-            let numbers = start + block.start..start + block.end;
-            let stencils = self.scene.weigh(machine, numbers, d, h, &mut room)?;
-            // Zero times all new numbers: zero, if these are finite.
-            let mut rest = machine.splat(T::zero());
-            for (k, stencil) in block.zip(stencils) {
-                sound &= self.update_particle(machine, k, stencil, &mut rest);
-            }
-            sound &= machine.all_at_most(rest, rest);
+        for k in 0..count.div_ceil(BUNCH) {
+            let state = (&*bunches.displacement.at(k), &*bunches.displacement_gradient.at(k));
+            let stencil = self.scene.weigh(machine, &placed, k, state, &mut room)?;
+            sound &= nodes.update(machine, &mut bunches, k, stencil, &mut rest);
         }
-        Ok(sound)
+        Ok(sound & machine.all_at_most(rest, rest))
     }
+}
 
-    /// Whether J > 0.
+/// The particles that are updated, bunch by bunch.
+struct Bunches<'a, T: Real, const D: usize> {
+    displacement: FoursMut<'a, Vector<T, D>>,
+    velocity: FoursMut<'a, Vector<T, D>>,
+    displacement_gradient: FoursMut<'a, Matrix<T, D>>,
+    affine: FoursMut<'a, Matrix<T, D>>,
+    residual: FoursMut<'a, Vector<T, D>>,
+}
+
+impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
     #[inline(always)]
-    fn update_particle<M: Machine<T>>(
-        &mut self,
+    fn new(particles: Columns<'a, T, D>) -> Self {
+        Self {
+            displacement: FoursMut::new(particles.displacement),
+            velocity: FoursMut::new(particles.velocity),
+            displacement_gradient: FoursMut::new(particles.displacement_gradient),
+            affine: FoursMut::new(particles.affine),
+            residual: FoursMut::new(particles.residual),
+        }
+    }
+}
+
+/// What particles are updated by.
+struct Nodes<'a, T: Real, const D: usize, S: Shape> {
+    scene: Scene<'a, T, D, S>,
+    steps: Steps<T>,
+    velocity: &'a [Nodal<T>],
+    acceleration: &'a [Nodal<T>],
+}
+
+impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
+    /// Whether all J > 0.
+    #[inline(always)]
+    fn update<M: Machine<T>>(
+        &self,
         machine: M,
+        particles: &mut Bunches<'_, T, D>,
         k: usize,
         stencil: &S::Stencil<T, D>,
         rest: &mut M::Four,
     ) -> Sound {
-        let Collected { velocity: mapped, gradient, acceleration } = self.collect(machine, stencil);
-        let Self { scene, particles, steps, velocity: nodal, .. } = self;
+        let Self { scene, steps, velocity: nodal, acceleration: nodal_acceleration } = self;
         let zero = machine.splat(T::zero());
+        let averaged = matches!(scene.transfer, Transfer::Pic | Transfer::Apic);
+        let wanted = match (steps.velocity, steps.deformation) {
+            (Some(_), _) if scene.transfer == Transfer::Apic => Wanted::Slopes,
+            (_, Some(_)) => Wanted::Gradient,
+            _ => Wanted::Value,
+        };
+        let mapped = stencil.collect(machine, scene.lattice, wanted, nodal);
         let mut sound = true;
         if let Some(kick) = steps.velocity {
-            let v = &mut particles.velocity[k];
-            let before = four(machine, v, T::zero());
-            let kicked = machine.times_plus(machine.splat(kick), acceleration, before);
-            let next = match scene.transfer {
-                Transfer::Flip { fraction: 1.0 } => kicked,
-                Transfer::Flip { fraction } => {
-                    let others = machine.times(machine.splat(T::of(1.0 - fraction)), mapped);
-                    machine.times_plus(machine.splat(T::of(fraction)), kicked, others)
+            let mut next = mapped.value;
+            if !averaged {
+                let acceleration =
+                    stencil.collect(machine, scene.lattice, Wanted::Value, nodal_acceleration);
+                let before = components(machine, particles.velocity.at(k));
+                for a in 0..D {
+                    next[a] =
+                        machine.times_plus(machine.splat(kick), acceleration.value[a], before[a]);
                 }
-                Transfer::Pic | Transfer::Apic => mapped,
-                Transfer::Xpic { .. } if on(Defect::XpicSign) => {
-                    machine.plus(kicked, four(machine, &particles.residual[k], T::zero()))
+            }
+            match scene.transfer {
+                Transfer::Flip { fraction: 1.0 } | Transfer::Pic | Transfer::Apic => {}
+                Transfer::Flip { fraction } => {
+                    let others = machine.splat(T::of(1.0 - fraction));
+                    for a in 0..D {
+                        let others = machine.times(others, mapped.value[a]);
+                        next[a] =
+                            machine.times_plus(machine.splat(T::of(fraction)), next[a], others);
+                    }
                 }
                 Transfer::Xpic { .. } => {
-                    machine.minus(kicked, four(machine, &particles.residual[k], T::zero()))
+                    let residual = components(machine, particles.residual.at(k));
+                    for a in 0..D {
+                        let wrong = on(Defect::XpicSign);
+                        next[a] = match wrong {
+                            true => machine.plus(next[a], residual[a]),
+                            false => machine.minus(next[a], residual[a]),
+                        };
+                    }
                 }
-            };
-            *v = vector(machine, next);
-            *rest = machine.times_plus(next, zero, *rest);
-            if scene.transfer == Transfer::Apic {
-                // For hat functions the nearest linear velocity is the one between the nodes.
-                let affine = match S::DEGREE {
-                    1 => gradient,
-                    _ => stencil.collect_slopes(machine, scene.lattice, nodal),
-                };
-                particles.affine[k] = misread::affine(matrix(machine, affine), S::DEGREE);
             }
-        }
-        if let Some(time_step) = steps.position {
-            let d = &mut particles.displacement[k];
-            let before = four(machine, d, T::zero());
-            let mapped = misread::carrier(machine, mapped, particles.velocity, k);
-            let next = machine.times_plus(machine.splat(time_step), mapped, before);
-            *d = vector(machine, next);
-            *rest = machine.times_plus(next, zero, *rest);
-        }
-        if let Some(time_step) = steps.deformation {
-            let h = &mut particles.displacement_gradient[k];
-            let gradient = misread::velocity_gradient(machine, gradient);
-            let moves = scene.moves && !on(Defect::ReferenceGradient);
-            let next = deformed(machine, h, gradient, time_step, moves);
+            *particles.velocity.at(k) = vectors(machine, next);
             for a in 0..D {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
-            *h = matrix(machine, next);
-            sound = jacobian(h) > T::zero();
+            if scene.transfer == Transfer::Apic {
+                let affine = misread::affine(machine, mapped.slopes, S::DEGREE);
+                *particles.affine.at(k) = matrices(machine, affine);
+            }
+        }
+        if let Some(time_step) = steps.position {
+            let mut next = components(machine, particles.displacement.at(k));
+            let own = components(machine, particles.velocity.at(k));
+            let carrier = misread::carrier(mapped.value, own);
+            for a in 0..D {
+                next[a] = machine.times_plus(machine.splat(time_step), carrier[a], next[a]);
+                *rest = machine.times_plus(next[a], zero, *rest);
+            }
+            *particles.displacement.at(k) = vectors(machine, next);
+        }
+        if let Some(time_step) = steps.deformation {
+            let h = columns(machine, particles.displacement_gradient.at(k));
+            let gradient = misread::velocity_gradient(machine, mapped.gradient);
+            let moves = scene.moves && !on(Defect::ReferenceGradient);
+            let mut next = deformed(machine, h, gradient, time_step, moves);
+            *particles.displacement_gradient.at(k) = matrices(machine, next);
+            for j in 0..D {
+                for i in 0..D {
+                    *rest = machine.times_plus(next[j][i], zero, *rest);
+                }
+                next[j][j] = machine.plus(next[j][j], machine.splat(T::one()));
+            }
+            let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
+            sound = machine.all_at_most(least, determinants(machine, &next));
         }
         sound
-    }
-
-    /// Collects what the steps need, and nothing else.
-    #[inline(always)]
-    fn collect<M: Machine<T>>(
-        &self,
-        machine: M,
-        stencil: &S::Stencil<T, D>,
-    ) -> Collected<M::Four, D> {
-        let Self { scene, steps, velocity, acceleration, .. } = self;
-        let nothing = machine.splat(T::zero());
-        let mut collected =
-            Collected { velocity: nothing, gradient: [nothing; D], acceleration: nothing };
-        let moved = steps.velocity.is_some();
-        let averaged = matches!(scene.transfer, Transfer::Pic | Transfer::Apic);
-        let with_affine = moved && scene.transfer == Transfer::Apic && S::DEGREE == 1;
-        let with_gradient = steps.deformation.is_some() || with_affine;
-        let with_acceleration = moved && !averaged;
-        if with_gradient && with_acceleration {
-            let (values, gradient) = stencil.collect_both(machine, [acceleration, velocity]);
-            ([collected.acceleration, collected.velocity], collected.gradient) = (values, gradient);
-            return collected;
-        }
-        if with_gradient {
-            (collected.velocity, collected.gradient) = stencil.collect(machine, velocity);
-        } else if moved || steps.position.is_some() {
-            collected.velocity = stencil.collect_value(machine, velocity);
-        }
-        if with_acceleration {
-            collected.acceleration = stencil.collect_value(machine, acceleration);
-        }
-        collected
     }
 }
 
@@ -179,20 +201,24 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
 #[inline(always)]
 fn deformed<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    h: &Matrix<T, D>,
-    mut gradient: [M::Four; D],
+    h: [[M::Four; D]; D],
+    mut gradient: [[M::Four; D]; D],
     time_step: T,
     moves: bool,
-) -> [M::Four; D] {
-    for a in 0..D {
-        gradient[a] = machine.times(gradient[a], machine.splat(time_step));
-    }
-    let mut next = columns(machine, h);
+) -> [[M::Four; D]; D] {
+    let mut next = h;
     for j in 0..D {
-        next[j] = machine.plus(next[j], gradient[j]);
-        if moves {
-            for a in 0..D {
-                next[j] = machine.times_plus(machine.splat(h[(a, j)]), gradient[a], next[j]);
+        for i in 0..D {
+            gradient[j][i] = machine.times(gradient[j][i], machine.splat(time_step));
+            next[j][i] = machine.plus(next[j][i], gradient[j][i]);
+        }
+    }
+    if moves {
+        for j in 0..D {
+            for i in 0..D {
+                for a in 0..D {
+                    next[j][i] = machine.times_plus(h[j][a], gradient[a][i], next[j][i]);
+                }
             }
         }
     }
@@ -234,21 +260,23 @@ impl<T: Real, const D: usize, S: Shape> Residual<'_, '_, T, D, S> {
     #[inline(always)]
     fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
         let Self { scene, particles, nodal, source, .. } = self;
-        let mut room = Scene::<T, D, S>::room();
-        for first in (0..particles.len()).step_by(BLOCK) {
-            let block = first..particles.len().min(first + BLOCK);
-            let d = &particles.displacement[block.clone()];
-            let h = &particles.displacement_gradient[block.clone()];
-            let numbers = particles.start + block.start..particles.start + block.end;
-            let stencils = scene.weigh(machine, numbers, d, h, &mut room)?;
-            for (k, stencil) in block.zip(stencils) {
-                let from: Vector<T, D> = match source {
-                    Source::Velocity => particles.velocity[k],
-                    Source::Residual => particles.residual[k],
-                };
-                let represented = stencil.collect_value(machine, nodal);
-                particles.residual[k] = from - vector::<T, M, D>(machine, represented);
+        let (start, count) = (particles.start, particles.len());
+        let mut bunches = Bunches::new(particles);
+        let placed = scene.placed(start..start + count);
+        let mut room = S::Stencil::default();
+        for k in 0..count.div_ceil(BUNCH) {
+            let state = (&*bunches.displacement.at(k), &*bunches.displacement_gradient.at(k));
+            let stencil = scene.weigh(machine, &placed, k, state, &mut room)?;
+            let from = match source {
+                Source::Velocity => &*bunches.velocity.at(k),
+                Source::Residual => &*bunches.residual.at(k),
+            };
+            let represented = stencil.collect(machine, scene.lattice, Wanted::Value, nodal).value;
+            let mut left = components(machine, from);
+            for a in 0..D {
+                left[a] = machine.minus(left[a], represented[a]);
             }
+            *bunches.residual.at(k) = vectors(machine, left);
         }
         Ok(true)
     }

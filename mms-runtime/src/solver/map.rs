@@ -6,15 +6,16 @@ use mms_math::dispatch::{Work, narrow};
 use mms_math::machine::{Fused, Machine, Plain};
 
 use super::clock::{Seconds, timed};
+use super::fours::Fours;
 use super::misread;
-use super::scene::{BLOCK, Room, Scene};
+use super::scene::Scene;
 use super::slabs::Slab;
 use crate::defect::{Defect, on};
 use crate::formulation::Configuration;
 use crate::nodal::{Window, columns, four};
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::Stencil;
+use crate::stencil::{ALL, BUNCH, Carried as Linear, Members, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Matrix, Real, Vector};
 
@@ -67,9 +68,12 @@ where
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
         let mut stress = [Matrix::zeros(); PART];
-        let mut room = Scene::<T, D, S>::room();
-        for first in slab.particles.clone().step_by(PART) {
-            let part = first..slab.particles.end.min(first + PART);
+        let mut room = S::Stencil::default();
+        // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
+        let Range { start, end } = slab.particles;
+        let count = self.particles.len();
+        for first in (start / BUNCH * BUNCH..end).step_by(PART) {
+            let part = first..end.next_multiple_of(BUNCH).min(first + PART).min(count);
             let stress = &mut stress[..part.len()];
             if let Carried::Force | Carried::Everything = self.carried {
                 timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
@@ -81,7 +85,7 @@ where
                 part,
                 stress,
                 nodes: [momentum.reborrow(), force.reborrow()],
-                window: slab.window.clone(),
+                slab,
                 room: &mut room,
             };
             timed(&mut seconds.transfer, || narrow(sums))?;
@@ -113,12 +117,13 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     scene: Scene<'a, T, D, S>,
     particles: &'a Particles<T, D>,
     carried: Carried,
+    /// From the first particle of a bunch on.
     part: Range<usize>,
     stress: &'a [Matrix<T, D>],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
-    window: Range<usize>,
-    room: &'a mut Room<T, D, S>,
+    slab: &'a Slab,
+    room: &'a mut S::Stencil<T, D>,
 }
 
 impl<T: Real, const D: usize, S: Shape> Work for Sums<'_, T, D, S> {
@@ -138,39 +143,80 @@ impl<T: Real, const D: usize, S: Shape> Work for Sums<'_, T, D, S> {
 impl<T: Real, const D: usize, S: Shape> Sums<'_, T, D, S> {
     #[inline(always)]
     fn add<M: Machine<T>>(self, machine: M) -> Result<(), Stop> {
-        let Self { scene, particles, carried, part, stress, mut nodes, window, room } = self;
-        let Particles { displacement, displacement_gradient, .. } = particles;
-        let start = part.start;
-        for first in part.clone().step_by(BLOCK) {
-            let block = first..part.end.min(first + BLOCK);
-            let (d, h) = (&displacement[block.clone()], &displacement_gradient[block.clone()]);
-            let stencils = scene.weigh(machine, block.clone(), d, h, room)?;
-            for (p, stencil) in block.zip(stencils) {
-                // For the stress of the next part.
-                machine.fetch(displacement_gradient.get(p + PART));
-                let [from, to] = stencil.span();
-                if from < window.start || to > window.end {
-                    return Err(Stop::Strayed(p));
+        let Self { scene, particles, carried, part, stress, mut nodes, slab, room } = self;
+        let Slab { particles: own, window } = slab;
+        let bunches = Bunches::new(particles, part.clone(), stress);
+        let placed = scene.placed(part.clone());
+        // For the stress of the next part.
+        let (next, _) = particles.displacement_gradient[part.end..].as_chunks::<BUNCH>();
+        for k in 0..part.len().div_ceil(BUNCH) {
+            let first = part.start + BUNCH * k;
+            if let Some(next) = next.get(k) {
+                for h in next {
+                    machine.fetch(h);
                 }
-                let [momentum, force] = &mut nodes;
-                let nodes = [momentum.reborrow(), force.reborrow()];
-                let one = One { particles, p, stress: &stress[p - start], stencil };
-                one.add(machine, carried, scene.lattice, nodes);
             }
+            let state = (bunches.displacement.at(k), bunches.displacement_gradient.at(k));
+            let stencil = scene.weigh(machine, &placed, k, state, room)?;
+            let whole = own.start <= first && first + BUNCH <= own.end;
+            let members = if whole {
+                ALL
+            } else {
+                [own.start, own.end].map(|p| p.clamp(first, first + BUNCH) - first)
+            };
+            if let Some(p) = stencil.beyond(members, window) {
+                return Err(Stop::Strayed(first + p));
+            }
+            let [momentum, force] = &mut nodes;
+            let nodes = [momentum.reborrow(), force.reborrow()];
+            let bunch = Bunch { bunches: &bunches, k, members, stencil };
+            bunch.add(machine, carried, scene.lattice, nodes);
         }
         Ok(())
     }
 }
 
-/// One particle.
-struct One<'a, T: Real, const D: usize, St> {
-    particles: &'a Particles<T, D>,
-    p: usize,
-    stress: &'a Matrix<T, D>,
+/// The particles that are added, bunch by bunch.
+struct Bunches<'a, T: Real, const D: usize> {
+    displacement: Fours<'a, Vector<T, D>>,
+    velocity: Fours<'a, Vector<T, D>>,
+    displacement_gradient: Fours<'a, Matrix<T, D>>,
+    body_force: Fours<'a, Vector<T, D>>,
+    mass: Fours<'a, T>,
+    reference_volume: Fours<'a, T>,
+    stress: Fours<'a, Matrix<T, D>>,
+    /// With APIC.
+    affine: Option<Fours<'a, Matrix<T, D>>>,
+    /// With XPIC.
+    residual: Option<Fours<'a, Vector<T, D>>>,
+}
+
+impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
+    #[inline(always)]
+    fn new(all: &'a Particles<T, D>, part: Range<usize>, stress: &'a [Matrix<T, D>]) -> Self {
+        Self {
+            displacement: Fours::new(&all.displacement[part.clone()]),
+            velocity: Fours::new(&all.velocity[part.clone()]),
+            displacement_gradient: Fours::new(&all.displacement_gradient[part.clone()]),
+            body_force: Fours::new(&all.body_force[part.clone()]),
+            mass: Fours::new(&all.mass[part.clone()]),
+            reference_volume: Fours::new(&all.reference_volume[part.clone()]),
+            stress: Fours::new(stress),
+            affine: all.affine.get(part.clone()).map(Fours::new),
+            residual: all.residual.get(part).map(Fours::new),
+        }
+    }
+}
+
+/// Some particles beside each other.
+struct Bunch<'a, T: Real, const D: usize, St> {
+    bunches: &'a Bunches<'a, T, D>,
+    k: usize,
+    members: Members,
     stencil: &'a St,
 }
 
-impl<T: Real, const D: usize, St: Stencil<T, D>> One<'_, T, D, St> {
+impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
     /// Adds what is `carried` to momentum and force of the nodes.
     #[inline(always)]
     fn add<M: Machine<T>>(
@@ -180,69 +226,74 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> One<'_, T, D, St> {
         lattice: &Lattice<T, D>,
         [momentum, force]: [Window<'_, T>; 2],
     ) {
-        let Self { particles, p, stencil, .. } = self;
-        let affine = match carried {
-            Carried::Residual => None,
-            _ => particles.affine.get(p),
-        };
-        match (carried, affine) {
-            (Carried::Force, _) => {
-                let (push, slopes) = self.push(machine);
-                stencil.spread(machine, push, slopes, force);
+        let Self { bunches, k, members, stencil } = self;
+        match (carried, &bunches.affine, &bunches.residual) {
+            (Carried::Force, ..) => {}
+            (Carried::Residual, _, Some(residual)) => {
+                let value = self.momentum(machine, residual.at(k));
+                stencil.spread_value(machine, value, members, momentum);
             }
-            (Carried::Everything, None) => {
-                let (push, slopes) = self.push(machine);
-                let values = [self.momentum(machine, &particles.velocity[p]), push];
-                stencil.spread_both(machine, values, slopes, [momentum, force]);
+            (_, Some(affine), _) => {
+                let linear = self.linear(machine, affine.at(k));
+                stencil.spread_moments(machine, lattice, &linear, members, momentum);
             }
-            (Carried::Everything, Some(affine)) => {
-                self.add_affine(machine, affine, lattice, momentum);
-                let (push, slopes) = self.push(machine);
-                stencil.spread(machine, push, slopes, force);
+            _ => {
+                let value = self.momentum(machine, bunches.velocity.at(k));
+                stencil.spread_value(machine, value, members, momentum);
             }
-            (Carried::Momentum, Some(affine)) => {
-                self.add_affine(machine, affine, lattice, momentum);
-            }
-            (Carried::Momentum, None) => {
-                let value = self.momentum(machine, &particles.velocity[p]);
-                stencil.spread_value(machine, value, momentum);
-            }
-            (Carried::Residual, _) => {
-                let value = self.momentum(machine, &particles.residual[p]);
-                stencil.spread_value(machine, value, momentum);
-            }
+        }
+        if let Carried::Force | Carried::Everything = carried {
+            stencil.spread(machine, &self.push(machine), members, force);
         }
     }
 
     /// m v, and m.
     #[inline(always)]
-    fn momentum<M: Machine<T>>(&self, machine: M, velocity: &Vector<T, D>) -> M::Four {
-        let mass = machine.splat(self.particles.mass[self.p]);
-        machine.times(four(machine, velocity, T::one()), mass)
-    }
-
-    /// m b, and - V0 S.
-    #[inline(always)]
-    fn push<M: Machine<T>>(&self, machine: M) -> (M::Four, [M::Four; D]) {
-        let Self { particles, p, stress, .. } = *self;
-        let mass = machine.splat(particles.mass[p]);
-        let body_force = four(machine, &particles.body_force[p], T::zero());
-        let volume = machine.splat(-particles.reference_volume[p]);
-        (machine.times(body_force, mass), misread::stress(scaled(machine, stress, volume)))
+    fn momentum<M: Machine<T>>(
+        &self,
+        machine: M,
+        velocity: &[Vector<T, D>; BUNCH],
+    ) -> [M::Four; BUNCH] {
+        let mass = self.bunches.mass.at(self.k);
+        let mut momentum = [machine.splat(T::zero()); BUNCH];
+        for p in 0..BUNCH {
+            let velocity = four(machine, &velocity[p], T::one());
+            momentum[p] = machine.times(velocity, machine.splat(mass[p]));
+        }
+        momentum
     }
 
     /// The momentum of a linear velocity.
     #[inline(always)]
-    fn add_affine<M: Machine<T>>(
+    fn linear<M: Machine<T>>(
         &self,
         machine: M,
-        affine: &Matrix<T, D>,
-        lattice: &Lattice<T, D>,
-        momentum: Window<'_, T>,
-    ) {
-        let value = self.momentum(machine, &self.particles.velocity[self.p]);
-        let slopes = scaled(machine, affine, machine.splat(self.particles.mass[self.p]));
-        self.stencil.spread_moments(machine, lattice, value, slopes, momentum);
+        affine: &[Matrix<T, D>; BUNCH],
+    ) -> Linear<M::Four, D> {
+        let value = self.momentum(machine, self.bunches.velocity.at(self.k));
+        let mass = self.bunches.mass.at(self.k);
+        let mut slopes = [[machine.splat(T::zero()); D]; BUNCH];
+        for p in 0..BUNCH {
+            slopes[p] = scaled(machine, &affine[p], machine.splat(mass[p]));
+        }
+        Linear { value, slopes }
+    }
+
+    /// m b, and - V0 S.
+    #[inline(always)]
+    fn push<M: Machine<T>>(&self, machine: M) -> Linear<M::Four, D> {
+        let Bunches { body_force, mass, reference_volume, stress, .. } = self.bunches;
+        let (body_force, mass) = (body_force.at(self.k), mass.at(self.k));
+        let (volume, stress) = (reference_volume.at(self.k), stress.at(self.k));
+        let zero = machine.splat(T::zero());
+        let mut push = Linear { value: [zero; BUNCH], slopes: [[zero; D]; BUNCH] };
+        for p in 0..BUNCH {
+            let body_force = four(machine, &body_force[p], T::zero());
+            push.value[p] = machine.times(body_force, machine.splat(mass[p]));
+            let slopes = scaled(machine, &stress[p], machine.splat(-volume[p]));
+            push.slopes[p] = misread::stress(slopes);
+        }
+        push
     }
 }
 

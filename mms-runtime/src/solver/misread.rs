@@ -2,47 +2,54 @@
 
 use mms_math::machine::Machine;
 
+use crate::Real;
 use crate::defect::{Defect, on};
-use crate::nodal::{columns, four, matrix};
-use crate::{Matrix, Real, Vector};
 
-/// The columns of a velocity gradient.
+/// The columns of four velocity gradients.
 #[inline(always)]
 pub(super) fn velocity_gradient<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    gradient: [M::Four; D],
-) -> [M::Four; D] {
-    let whole = || matrix::<T, M, D>(machine, gradient);
+    gradient: [[M::Four; D]; D],
+) -> [[M::Four; D]; D] {
     if on(Defect::TransposedGradient) {
-        return columns(machine, &whole().transpose());
+        return transposed(gradient);
     }
     if on(Defect::LostSpin) {
-        return columns(machine, &((whole() + whole().transpose()) * T::ratio(1, 2)));
+        let (mut sum, other) = (gradient, transposed(gradient));
+        let half = machine.splat(T::ratio(1, 2));
+        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+            sum[j][i] = machine.times(half, machine.plus(gradient[j][i], other[j][i]));
+        }
+        return sum;
     }
     gradient
 }
 
-/// The velocity that moves the particle `k`: that of the nodes.
+/// The velocities that move four particles: those of the nodes.
 #[inline(always)]
-pub(super) fn carrier<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    mapped: M::Four,
-    own: &[Vector<T, D>],
-    k: usize,
-) -> M::Four {
-    if on(Defect::OwnVelocity) { four(machine, &own[k], T::zero()) } else { mapped }
+pub(super) fn carrier<F: Copy, const D: usize>(mapped: [F; D], own: [F; D]) -> [F; D] {
+    if on(Defect::OwnVelocity) { own } else { mapped }
 }
 
-/// The linear velocity of APIC, of splines of this degree.
+/// The linear velocities of APIC, of splines of this degree.
 #[inline(always)]
-pub(super) fn affine<T: Real, const D: usize>(affine: Matrix<T, D>, degree: usize) -> Matrix<T, D> {
+pub(super) fn affine<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    affine: [[M::Four; D]; D],
+    degree: usize,
+) -> [[M::Four; D]; D] {
     if on(Defect::AffineTransposed) {
-        return affine.transpose();
+        return transposed(affine);
     }
     if on(Defect::AffineFactor) && degree == 2 {
-        return affine * T::ratio(3, 4);
+        let factor = machine.splat(T::ratio(3, 4));
+        return affine.map(|column| column.map(|number| machine.times(number, factor)));
     }
     affine
+}
+
+fn transposed<F: Copy, const D: usize>(columns: [[F; D]; D]) -> [[F; D]; D] {
+    std::array::from_fn(|j| std::array::from_fn(|i| columns[i][j]))
 }
 
 /// The columns of the stress, each of which works on the gradient along its axis.

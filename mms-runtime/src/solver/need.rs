@@ -2,6 +2,7 @@
 
 use crate::nodal::Nodal;
 use crate::shape::Shape;
+use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Refusal, Vector};
 
 /// Bytes of a particle and of a node, and those that there are.
@@ -17,7 +18,7 @@ impl Need {
         let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
         let matrix = size_of::<Matrix<T, D>>();
         // Id, X, d, v, b, H, C, m, V0 and the domain, and weights that stay.
-        let weights = if moves { 0 } else { size_of::<S::Stencil<T, D>>() };
+        let weights = if moves { 0 } else { size_of::<S::Stencil<T, D>>() / BUNCH };
         let state = size_of::<u32>() + 4 * vector + 2 * matrix + 2 * number + weights;
         // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
         let measured = 2 * vector + 3 * matrix + number;

@@ -8,8 +8,9 @@ use mms_math::machine::Plain;
 use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
+use super::fours::Fours;
 use super::map::{Carried, Map, Stop};
-use super::scene::{BLOCK, Scene};
+use super::scene::Scene;
 use super::threads::{each_pair, each_part};
 use crate::boundary::traction::Place;
 use crate::defect::{Defect, on};
@@ -18,6 +19,7 @@ use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
+use crate::stencil::BUNCH;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
@@ -148,13 +150,15 @@ where
         };
         weights.clear();
         let found = timed(&mut seconds.transfer, || {
-            let mut room = Scene::<T, D, S>::room();
-            (0..particles.len()).step_by(BLOCK).try_for_each(|first| {
-                let block = first..particles.len().min(first + BLOCK);
-                let d = &particles.displacement[block.clone()];
-                let h = &particles.displacement_gradient[block.clone()];
-                let machine = T::PlainMachine::from(Plain);
-                weights.extend_from_slice(scene.weigh(machine, block, d, h, &mut room)?);
+            let machine = T::PlainMachine::from(Plain);
+            let count = particles.len();
+            let d = Fours::new(&particles.displacement);
+            let h = Fours::new(&particles.displacement_gradient);
+            let placed = scene.placed(0..count);
+            (0..count.div_ceil(BUNCH)).try_for_each(|k| {
+                let mut stencil = S::Stencil::default();
+                scene.weigh(machine, &placed, k, (d.at(k), h.at(k)), &mut stencil)?;
+                weights.push(stencil);
                 Ok(())
             })
         });
@@ -187,19 +191,22 @@ where
                 Err(Stop::Strayed(p)) if sorted => {
                     return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
                 }
-                Err(Stop::Strayed(_)) => self.sort(),
+                Err(Stop::Strayed(_)) => self.sort()?,
             }
             sorted = true;
         }
     }
 
-    /// Puts the particles, and what is kept of them, in the order of the cells they are in now.
-    fn sort(&mut self) {
+    /// Puts the particles, and what is kept of them, in the order of the cells they are in now. Weights that are
+    /// kept are found anew: nothing has changed since they were found.
+    fn sort(&mut self) -> Result<(), Failure> {
         let Self { grid, particles, domains, weights, slabs, seconds, .. } = self;
         let position = |all: &Particles<T, D>, p| all.position(p);
         timed(&mut seconds.transfer, || {
-            slabs.sort(&grid.lattice, particles, domains, weights, position);
+            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, position);
         });
+        weights.clear();
+        self.weigh()
     }
 
     fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {

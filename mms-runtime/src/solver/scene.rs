@@ -4,14 +4,11 @@ use std::ops::Range;
 
 use mms_math::machine::Machine;
 
+use super::fours::Fours;
+use crate::lanes::components;
 use crate::shape::Shape;
+use crate::stencil::BUNCH;
 use crate::{Cause, Lattice, Matrix, Real, Transfer, Vector};
-
-/// Particles whose weights are computed together; they stay in the first cache until they are used.
-pub(super) const BLOCK: usize = 32;
-
-/// The weights of a block.
-pub(super) type Room<T, const D: usize, S> = [<S as Shape>::Stencil<T, D>; BLOCK];
 
 /// The grid's geometry, and the particles' domains and weights.
 pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
@@ -21,7 +18,7 @@ pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
     pub transfer: Transfer,
     pub reference_position: &'a [Vector<T, D>],
     pub domains: &'a [S::Domain<T, D>],
-    /// The weights of every particle, where they are kept.
+    /// The weights of every bunch, where they are kept.
     pub weights: &'a [S::Stencil<T, D>],
 }
 
@@ -33,44 +30,58 @@ impl<T: Real, const D: usize, S: Shape> Clone for Scene<'_, T, D, S> {
 
 impl<T: Real, const D: usize, S: Shape> Copy for Scene<'_, T, D, S> {}
 
+/// The displacements and the displacement gradients of a bunch.
+pub(super) type State<'a, T, const D: usize> =
+    (&'a [Vector<T, D>; BUNCH], &'a [Matrix<T, D>; BUNCH]);
+
+/// What the weights of some particles follow from.
+pub(super) struct Placed<'a, T: Real, const D: usize, S: Shape> {
+    /// The first of them, which is the first of a bunch.
+    start: usize,
+    reference_position: Fours<'a, Vector<T, D>>,
+    domains: Fours<'a, S::Domain<T, D>>,
+}
+
 impl<'a, T: Real, const D: usize, S: Shape> Scene<'a, T, D, S> {
-    /// Room for the weights of a block.
+    /// What the weights of some particles follow from.
     #[inline(always)]
-    pub fn room() -> Room<T, D, S> {
-        std::array::from_fn(|_| S::Stencil::default())
+    pub fn placed(&self, particles: Range<usize>) -> Placed<'a, T, D, S> {
+        Placed {
+            start: particles.start,
+            reference_position: Fours::new(&self.reference_position[particles.clone()]),
+            domains: Fours::new(&self.domains[particles]),
+        }
     }
 
-    /// The weights of a block of particles with these displacements and displacement gradients: those that are
+    /// The weights of the bunch `k` of particles, with these displacements and displacement gradients: those that are
     /// kept, or new ones.
     #[inline(always)]
     pub fn weigh<'b, M: Machine<T>>(
         &self,
         machine: M,
-        block: Range<usize>,
-        displacement: &[Vector<T, D>],
-        displacement_gradient: &[Matrix<T, D>],
-        room: &'b mut Room<T, D, S>,
-    ) -> Result<&'b [S::Stencil<T, D>], (usize, Cause)>
+        placed: &Placed<'_, T, D, S>,
+        k: usize,
+        (displacement, displacement_gradient): State<'_, T, D>,
+        room: &'b mut S::Stencil<T, D>,
+    ) -> Result<&'b S::Stencil<T, D>, (usize, Cause)>
     where
         'a: 'b,
     {
-        if let Some(weights) = self.weights.get(block.clone()) {
+        if let Some(weights) = self.weights.get(placed.start / BUNCH + k) {
             return Ok(weights);
         }
-        let room = &mut room[..block.len()];
-        let reference = &self.reference_position[block.clone()];
-        let particles = reference.iter().zip(&self.domains[block.clone()]);
-        let states = displacement.iter().zip(displacement_gradient);
-        for ((stencil, p), ((reference, domain), (d, h))) in
-            room.iter_mut().zip(block).zip(particles.zip(states))
-        {
-            let placed = if self.moves {
-                S::place(machine, stencil, self.lattice, &(reference + d), domain, h)
-            } else {
-                S::place(machine, stencil, self.lattice, reference, domain, &Matrix::zeros())
-            };
-            placed.map_err(|cause| (p, cause))?;
+        let mut position = components(machine, placed.reference_position.at(k));
+        let mut h = &[Matrix::zeros(); BUNCH];
+        if self.moves {
+            let displacement = components(machine, displacement);
+            for a in 0..D {
+                position[a] = machine.plus(position[a], displacement[a]);
+            }
+            h = displacement_gradient;
         }
+        let last = self.domains.len() - 1;
+        S::place(machine, room, self.lattice, &position, placed.domains.at(k), h)
+            .map_err(|(p, cause)| ((placed.start + BUNCH * k + p).min(last), cause))?;
         Ok(room)
     }
 }

@@ -12,7 +12,7 @@ use crate::lattice::Axis;
 use crate::method::{Division, Setup};
 use crate::nodal::Nodal;
 use crate::particle::Particles;
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::Shape;
 use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
 use crate::{
     Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Matrix, Real,
@@ -21,6 +21,9 @@ use crate::{
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;
+
+/// No particle touches more nodes than this along an axis.
+const MOST_NODES: usize = 4;
 
 /// Cells around the body's motion, on top of what its particles' stencils reach.
 const MARGIN: f64 = 2.0;
@@ -92,8 +95,7 @@ where
         }
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Vec<_> = domains.collect();
-        let kept: &mut [S::Stencil<T, D>] = &mut [];
-        slabs.sort(&grid.lattice, &mut particles, &mut domains, kept, |all, p| {
+        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, |all, p| {
             if moves { all.position(p) } else { all.reference_position[p] }
         });
         Ok(Self {
@@ -197,7 +199,7 @@ fn cells_along(
     ends_at: &dyn Fn(Face) -> bool,
 ) -> Axis {
     let whole = |distance: f64| (distance / cell_size).ceil().max(0.0);
-    let padding = MAX_NODES as f64 + MARGIN;
+    let padding = MOST_NODES as f64 + MARGIN;
     let [mut before, mut after] = [body[0] - motion[0], motion[1] - body[1]].map(whole);
     if setup.periodic[a] {
         (before, after) = (0.0, 0.0);

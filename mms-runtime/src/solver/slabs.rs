@@ -1,10 +1,10 @@
 //! The order of the particles, and which of them may be added to the nodes at the same time.
 //!
-//! The layers of cells along the last axis are cut into slabs. Particles stand in the order of the cells they
-//! were in when they were sorted, so that those of a slab stand together; the nodes that they can reach are a
-//! window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
-//! same time: first the even ones, then the odd ones. Sums onto nodes have one order whatever the number of
-//! threads is.
+//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the last
+//! axis are cut into slabs with about as many particles each, which stand together; the nodes that they can reach
+//! are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
+//! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
+//! whatever the number of threads is.
 
 use std::ops::Range;
 
@@ -12,17 +12,20 @@ use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder};
 use crate::{Lattice, Real, Vector};
 
+/// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
+const REACH: [usize; 2] = [2, 3];
+
+/// Layers that particles may at least drift before they have to be sorted.
+const DRIFT: usize = 1;
+
 /// At least so many layers in a slab, and ...
-const FEWEST_LAYERS: usize = 8;
+const FEWEST_LAYERS: usize = REACH[0] + REACH[1] + 2 * DRIFT;
 
 /// ... at most so many slabs.
 const MOST_SLABS: usize = 64;
 
-/// For fewer particles than this there is one slab.
+/// Fewer particles than this are one slab, and stand as they are.
 const FEWEST_PARTICLES: usize = 4096;
-
-/// Layers of nodes, from the first to the last that a particle in one layer of cells may reach.
-const REACH: [usize; 2] = [1, 3];
 
 /// Particles, and the nodes that they may reach.
 pub(super) struct Slab {
@@ -37,8 +40,10 @@ type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Syn
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
     pub all: Vec<Slab>,
-    /// Layers of a slab.
-    thickness: usize,
+    cuts: Vec<[usize; 2]>,
+    /// Nodes of a layer, and how many layers there are.
+    layer: usize,
+    layers: usize,
     /// Where each particle is, by its number; empty if they are in their first order.
     place: Vec<u32>,
     order: Vec<u32>,
@@ -47,36 +52,22 @@ pub(super) struct Slabs {
 }
 
 impl Slabs {
-    /// Slabs of a grid, not yet with particles. Stencils that are not `near` make it one slab.
+    /// One slab, of particles that are not yet sorted, and never are if there are few or if their stencils are not
+    /// `near`.
     pub fn new<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         particles: usize,
         near: bool,
     ) -> Self {
-        let layers = lattice.count[D - 1];
-        let thickness = layers.div_ceil(MOST_SLABS).max(FEWEST_LAYERS);
-        let slabs = layers / thickness;
-        let stride = lattice.stride[D - 1];
-        if slabs < 3 || particles < FEWEST_PARTICLES || !near {
-            let slab = Slab { particles: 0..particles, window: 0..lattice.len() };
-            let (place, order, cell) = (Vec::new(), Vec::new(), Vec::new());
-            return Self { all: vec![slab], thickness: usize::MAX, place, order, cell };
-        }
-        // Windows are two slabs wide. What is left of that, particles may drift.
-        let drift = (thickness - REACH[0] - REACH[1]) / 2;
-        let slab = |s: usize| {
-            let (from, to) = (s * thickness, (s + 1) * thickness);
-            let before = from.saturating_sub(drift + REACH[0]);
-            let is_last = s + 1 == slabs;
-            let after = if is_last { layers } else { to + drift + REACH[1] };
-            Slab { particles: 0..0, window: before * stride..after * stride }
-        };
+        let sorted = if near && particles >= FEWEST_PARTICLES { particles } else { 0 };
         Self {
-            all: (0..slabs).map(slab).collect(),
-            thickness,
-            place: (0..particles as u32).collect(),
-            order: (0..particles as u32).collect(),
-            cell: vec![0; particles],
+            all: vec![Slab { particles: 0..particles, window: 0..lattice.len() }],
+            cuts: Vec::new(),
+            layer: lattice.stride[D - 1],
+            layers: lattice.count[D - 1],
+            place: (0..sorted as u32).collect(),
+            order: (0..sorted as u32).collect(),
+            cell: vec![0; sorted],
         }
     }
 
@@ -85,65 +76,96 @@ impl Slabs {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
-    /// Where the particles of each slab end.
-    pub fn ends(&self) -> Vec<usize> {
-        self.all.iter().map(|slab| slab.particles.end).collect()
+    /// The layers and the particles that slabs begin with, but for the first one.
+    pub fn cuts(&self) -> &[[usize; 2]] {
+        &self.cuts
     }
 
-    /// Takes the particles of each slab from where they end, if `ends` divide so many.
-    pub fn accept(&mut self, ends: &[usize], particles: usize) -> bool {
-        let divides = ends.is_sorted() && ends.last() == Some(&particles);
-        if ends.len() != self.all.len() || !divides {
+    /// Takes the slabs that these cuts make of so many particles, if there may be such.
+    pub fn accept(&mut self, cuts: &[[usize; 2]], particles: usize) -> bool {
+        let apart = |pair: &[[usize; 2]]| {
+            pair[0][0] + FEWEST_LAYERS <= pair[1][0] && pair[0][1] <= pair[1][1]
+        };
+        let within = |cut: &[usize; 2]| cut[0] <= self.layers && cut[1] <= particles;
+        let fit = cuts.windows(2).all(apart) && cuts.iter().all(within);
+        if !fit || self.place.is_empty() && !cuts.is_empty() {
             return false;
         }
-        let mut first = 0;
-        for (slab, &end) in self.all.iter_mut().zip(ends) {
-            slab.particles = first..end;
-            first = end;
-        }
+        self.cut(cuts.to_vec(), particles);
         true
+    }
+
+    /// Cuts so many particles.
+    fn cut(&mut self, cuts: Vec<[usize; 2]>, particles: usize) {
+        let last = cuts.len();
+        // How far the particles of the neighbours of an inner slab may drift into it.
+        let drift = |s: usize| (cuts[s][0] - cuts[s - 1][0] - REACH[0] - REACH[1]) / 2;
+        let slab = |s: usize| {
+            let before = if s > 1 { cuts[s - 1][0] - REACH[0] - drift(s - 1) } else { 0 };
+            let after =
+                if s + 1 < last { cuts[s][0] + REACH[1] + drift(s + 1) } else { self.layers };
+            let from = if s > 0 { cuts[s - 1][1] } else { 0 };
+            let to = if s < last { cuts[s][1] } else { particles };
+            let after = after.min(self.layers);
+            Slab { particles: from..to, window: before * self.layer..after * self.layer }
+        };
+        self.all = (0..=last).map(slab).collect();
+        self.cuts = cuts;
     }
 
     /// Remembers where each particle stands, where they do not stand in their first order.
     pub fn stand(&mut self, ids: &[u32]) {
-        if self.all.len() > 1 {
+        if !self.place.is_empty() {
             ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
         }
     }
 
-    /// Sorts the particles, with their `domains` and `weights` if there are such, by the cells of their positions.
-    pub fn sort<T: Real, V, W, const D: usize>(
+    /// Sorts the particles, with their `domains`, by the cells of their positions from an origin, in cells.
+    pub fn sort<T: Real, V, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
+        origin: f64,
         particles: &mut Particles<T, D>,
         domains: &mut [V],
-        weights: &mut [W],
         position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
     ) {
-        if self.all.len() == 1 {
+        if self.place.is_empty() {
             return;
         }
         for (p, cell) in self.cell.iter_mut().enumerate() {
             let cells = lattice.in_cells(&position(particles, p));
-            let along = |a: usize| (cells[a].to_f64().max(0.0) as usize).min(lattice.count[a] - 1);
+            let from_origin = |a: usize| (cells[a].to_f64() - origin).max(0.0) as usize;
+            let along = |a: usize| from_origin(a).min(lattice.count[a] - 1);
             *cell = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>() as u64;
         }
         let Self { order, cell, .. } = self;
         arrange(order, cell, &particles.id);
         reorder(cell, order);
         reorder(domains, order);
-        reorder(weights, order);
         particles.reorder(order);
         self.stand(&particles.id);
-        let stride = lattice.stride[D - 1] as u64;
-        let mut first = 0;
-        let slabs = self.all.len();
-        for (s, slab) in self.all.iter_mut().enumerate() {
-            let next = ((s + 1) * self.thickness) as u64 * stride;
-            let after = self.cell.partition_point(|&cell| cell < next);
-            slab.particles = first..if s + 1 == slabs { self.cell.len() } else { after };
-            first = slab.particles.end;
+        self.cut(self.even_cuts(), self.cell.len());
+    }
+
+    /// Cuts into an even number of slabs with about as many particles each; three, where there are too few layers.
+    fn even_cuts(&self) -> Vec<[usize; 2]> {
+        let particles = self.cell.len();
+        let layer = |p: usize| self.cell[p] as usize / self.layer;
+        let (first, last) = (layer(0), layer(particles - 1));
+        let number = match last + 1 - first {
+            few if few < FEWEST_LAYERS + 2 => 1,
+            some if some < 4 * FEWEST_LAYERS => 3,
+            many => (many / FEWEST_LAYERS).min(MOST_SLABS) / 2 * 2,
+        };
+        let mut cuts: Vec<[usize; 2]> = Vec::new();
+        for s in 1..number {
+            let least = cuts.last().map_or(first + 1, |cut| cut[0] + FEWEST_LAYERS);
+            let most = last - (number - 1 - s) * FEWEST_LAYERS;
+            let at = layer(s * particles / number).min(most).max(least);
+            let before = |&cell: &u64| (cell as usize) < at * self.layer;
+            cuts.push([at, self.cell.partition_point(before)]);
         }
+        cuts
     }
 
     /// Does `work` for every slab, with its part of the nodes.

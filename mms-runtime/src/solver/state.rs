@@ -27,8 +27,8 @@ pub(crate) struct State<'a, T: Real, const D: usize> {
     displacement_gradient: Cow<'a, [Matrix<T, D>]>,
     /// C, with APIC only.
     affine: Cow<'a, [Matrix<T, D>]>,
-    /// Where the particles of each slab end.
-    ends: Vec<usize>,
+    /// The layers and the particles that slabs begin with.
+    cuts: Cow<'a, [[usize; 2]]>,
     seconds: Seconds,
 }
 
@@ -44,7 +44,7 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
             velocity: Cow::from(&particles.velocity),
             displacement_gradient: Cow::from(&particles.displacement_gradient),
             affine: Cow::from(&particles.affine),
-            ends: self.slabs.ends(),
+            cuts: Cow::from(self.slabs.cuts()),
             seconds: self.seconds,
         }
     }
@@ -64,7 +64,7 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
             [state.displacement.len(), state.velocity.len(), state.displacement_gradient.len()];
         fits(lengths == [count; 3] && is_order(&state.id, count), "particles")?;
         fits(state.affine.len() == self.particles.affine.len(), "transfers")?;
-        fits(self.slabs.accept(&state.ends, count), "slabs")?;
+        fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =
             state.id.iter().map(|&id| self.slabs.place_of(id as usize) as u32).collect();
         crate::particle::reorder(&mut self.domains, &mut order);

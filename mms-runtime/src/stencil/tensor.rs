@@ -3,256 +3,251 @@
 //! The sums are factorised: what does not depend on the node along an axis is multiplied once for all of
 //! them, so that a node takes one product per number, and one more where there are slopes.
 
+use std::ops::Range;
+
 use mms_math::machine::Machine;
 
-use super::Stencil;
-use super::rows::{Both, Collect, CollectValue, RowSum, Spread, SpreadValue};
+use super::collect::Sums;
+use super::spread::Spread;
+use super::{BUNCH, Carried, Collected, Members, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
-/// A stencil that is the product of the weights along the axes.
+/// For every axis, and the first, second, .. node along it, a number for each particle of a bunch.
+pub(super) type Along<T, const D: usize, const N: usize> = [[[T; BUNCH]; N]; D];
+
+/// A stencil that is the product of the weights along the axes: of `N` nodes along each, or where that is enough
+/// for the whole bunch, of `LEAST`.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub struct Tensor<T, const D: usize, const N: usize> {
-    /// The weights of the first, second, .. node along every axis; past the last axis they mean nothing.
-    weight: [[T; 4]; N],
+pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
+    pub(super) weight: Along<T, D, N>,
     /// Their derivatives, per length.
-    slope: [[T; 4]; N],
-    /// Index of the first node in the grid's arrays.
-    first: usize,
-    /// Distance in the grid's arrays between neighbours along each axis.
-    stride: [usize; D],
+    pub(super) slope: Along<T, D, N>,
     /// Number of the first node along each axis.
-    start: [i32; 4],
-    /// How many nodes along each axis have a weight, at most: N, or 3 of 4, which GIMP mostly has.
+    start: [[i32; BUNCH]; D],
+    /// Index of the first node in the grid's arrays.
+    pub(super) first: [u32; BUNCH],
+    /// Distance in the grid's arrays between neighbours along each axis.
+    pub(super) stride: [usize; D],
+    /// How many nodes along each axis have a weight, at most: N or LEAST.
     width: usize,
+    /// Whether all nodes are one cell apart.
+    even: bool,
 }
 
-/// Nodes along an axis of a stencil that has room for more, but does not need it.
-const NARROW: usize = 3;
-
-/// The weight and the slope of one node along an axis.
-pub type Pair<F> = [F; 2];
-
-impl<T: Real, const D: usize, const N: usize> Tensor<T, D, N> {
+impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, LEAST, N> {
     /// A stencil that has no nodes yet.
     #[inline(always)]
     pub fn new() -> Self {
         Self {
-            weight: [[T::zero(); 4]; N],
-            slope: [[T::zero(); 4]; N],
-            first: 0,
+            weight: [[[T::zero(); BUNCH]; N]; D],
+            slope: [[[T::zero(); BUNCH]; N]; D],
+            start: [[0; BUNCH]; D],
+            first: [0; BUNCH],
             stride: [0; D],
-            start: [0; 4],
             width: N,
+            even: true,
         }
     }
 
-    /// Takes the weights along all axes, and their derivatives per cell, of the nodes from `first` on. Whether all
+    /// Begins to take the weights of nodes that are one cell apart, or are not, `W` along each axis.
+    #[inline(always)]
+    pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, even: bool) {
+        const { assert!(W == LEAST || W == N) };
+        (self.first, self.stride, self.width, self.even) = ([0; BUNCH], lattice.stride, W, even);
+    }
+
+    /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on. Whether all
     /// nodes are on the grid; if not, the stencil may not be used.
     #[inline(always)]
     pub fn set<M: Machine<T>, const W: usize>(
         &mut self,
         machine: M,
         lattice: &Lattice<T, D>,
+        axis: usize,
         first: M::Four,
         [weight, slope]: [[M::Four; W]; 2],
     ) -> bool {
-        let per_length = machine.four(&lattice.frame.per_length);
-        let square = on(Defect::SquareCells);
-        let first_axis = lattice.frame.per_length[0];
-        let per_length = if square { machine.splat(first_axis) } else { per_length };
-        for k in 0..N.min(W) {
-            self.weight[k] = machine.numbers(weight[k]);
-            self.slope[k] = machine.numbers(machine.times(slope[k], per_length));
+        let length_axis = if on(Defect::SquareCells) { 0 } else { axis };
+        let per_length = machine.splat(lattice.per_length[length_axis]);
+        for k in 0..W {
+            self.weight[axis][k] = machine.numbers(weight[k]);
+            self.slope[axis][k] = machine.numbers(machine.times(slope[k], per_length));
         }
-        let width = if W < N { N.min(W.max(NARROW)) } else { N };
-        for k in W..width {
-            (self.weight[k], self.slope[k]) = ([T::zero(); 4], [T::zero(); 4]);
-        }
-        let after = machine.plus(first, machine.splat(T::of(width as f64)));
+        let after = machine.plus(first, machine.splat(T::of(W as f64)));
         // What is not a number is on no grid.
         let fits = machine.all_at_most(machine.splat(T::zero()), first)
-            && machine.all_at_most(after, machine.four(&lattice.frame.nodes));
-        self.start = machine.whole(first);
-        (self.stride, self.width, self.first) = (lattice.stride, width, 0);
-        for a in 0..D {
-            self.first += (self.start[a] as usize).wrapping_mul(lattice.stride[a]);
+            && machine.all_at_most(after, machine.splat(lattice.nodes[axis]));
+        self.start[axis] = machine.whole(first);
+        let stride = lattice.stride[axis] as u32;
+        for p in 0..BUNCH {
+            let along = (self.start[axis][p] as u32).wrapping_mul(stride);
+            self.first[p] = self.first[p].wrapping_add(along);
         }
         fits
     }
 
-    /// With the moments w (x_i - x_p) in place of slopes; `scaled`, over sum_i w (x_i - x_p)^2.
+    /// The moments w (x_i - x_p), and their part of the inverse of sum_i w (x_i - x_p)^2.
     #[inline(always)]
-    fn with_moments<M: Machine<T>>(
+    fn moments<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        scaled: bool,
-    ) -> Self {
-        let mut tensor = *self;
+    ) -> (Along<T, D, N>, [M::Four; D]) {
         let zero = machine.splat(T::zero());
-        let (mut weight, mut apart) = ([zero; N], [zero; N]);
-        let mut middle = zero;
-        for k in 0..N.min(self.width) {
-            let mut from_first = [T::zero(); 4];
-            for a in 0..D {
-                let start = self.start[a] as usize;
-                from_first[a] = lattice.coordinate[a][start + k] - lattice.coordinate[a][start];
+        let mut moment = [[[T::zero(); BUNCH]; N]; D];
+        let mut per_spread = [zero; D];
+        for a in 0..D {
+            let (mut weight, mut apart) = ([zero; N], [zero; N]);
+            let mut middle = zero;
+            for k in 0..N.min(self.width) {
+                weight[k] = machine.four(&self.weight[a][k]);
+                apart[k] = self.beyond_first(machine, lattice, a, k);
+                middle = machine.times_plus(weight[k], apart[k], middle);
             }
-            weight[k] = machine.four(&self.weight[k]);
-            apart[k] = machine.four(&from_first);
-            middle = machine.times_plus(weight[k], apart[k], middle);
-        }
-        let mut spread = zero;
-        for k in 0..N {
-            apart[k] = machine.minus(apart[k], middle);
-            weight[k] = machine.times(weight[k], apart[k]);
-            spread = machine.times_plus(weight[k], apart[k], spread);
-        }
-        for k in 0..N {
-            let moment = if scaled { machine.over(weight[k], spread) } else { weight[k] };
-            tensor.slope[k] = machine.numbers(moment);
-        }
-        tensor
-    }
-
-    /// The weight and slope of node `k` along axis `a`; of an axis that there is not, 1 and 0.
-    #[inline(always)]
-    fn along<M: Machine<T>>(&self, machine: M, a: usize, k: usize) -> Pair<M::Four> {
-        if a < D {
-            [machine.splat(self.weight[k][a]), machine.splat(self.slope[k][a])]
-        } else {
-            [machine.splat(T::one()), machine.splat(T::zero())]
-        }
-    }
-
-    /// Does a sum over all nodes.
-    #[inline(always)]
-    fn sum<M: Machine<T>>(&self, machine: M, sum: &mut impl RowSum<T, M>) {
-        if N > NARROW && self.width == NARROW {
-            self.sum_of::<M, NARROW>(machine, sum);
-        } else {
-            self.sum_of::<M, N>(machine, sum);
-        }
-    }
-
-    /// Does a sum over `W` nodes along every axis.
-    #[inline(always)]
-    fn sum_of<M: Machine<T>, const W: usize>(&self, machine: M, sum: &mut impl RowSum<T, M>) {
-        let mut pairs = [[machine.splat(T::zero()); 2]; W];
-        for k in 0..W {
-            pairs[k] = self.along(machine, 0, k);
-        }
-        for k2 in 0..if D > 2 { W } else { 1 } {
-            let pair = self.along(machine, 2, k2);
-            let mut plane = sum.plane(machine, pair);
-            for k1 in 0..if D > 1 { W } else { 1 } {
-                let mut first = self.first;
-                if D > 1 {
-                    first += k1 * self.stride[1];
-                }
-                if D > 2 {
-                    first += k2 * self.stride[2];
-                }
-                sum.row(machine, &mut plane, self.along(machine, 1, k1), &pairs, first);
+            let mut spread = zero;
+            for k in 0..N {
+                apart[k] = machine.minus(apart[k], middle);
+                weight[k] = machine.times(weight[k], apart[k]);
+                spread = machine.times_plus(weight[k], apart[k], spread);
+                moment[a][k] = machine.numbers(weight[k]);
             }
-            sum.end(machine, plane, pair);
+            per_spread[a] = machine.over(machine.splat(T::one()), spread);
+        }
+        (moment, per_spread)
+    }
+
+    /// How far a node is from the first one along an axis.
+    #[inline(always)]
+    fn beyond_first<M: Machine<T>>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        axis: usize,
+        k: usize,
+    ) -> M::Four {
+        if self.even {
+            return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
+        }
+        let coordinate = &lattice.coordinate[axis];
+        let apart = self.start[axis].map(|start| {
+            let start = start as usize;
+            // Past the width weights are 0, and nodes may not be there.
+            coordinate.get(start + k).map_or(T::zero(), |&there| there - coordinate[start])
+        });
+        machine.four(&apart)
+    }
+
+    /// How far the last node is behind the first one, in the grid's arrays.
+    #[inline(always)]
+    fn extent(&self) -> usize {
+        let mut extent = 0;
+        for stride in self.stride {
+            extent += (self.width - 1) * stride;
+        }
+        extent
+    }
+
+    /// Adds to nodes, with these weights along the axes where the slopes are.
+    #[inline(always)]
+    fn add<M: Machine<T>, const SLOPES: bool>(
+        &self,
+        machine: M,
+        aside: &Along<T, D, N>,
+        carried: &Carried<M::Four, D>,
+        members: Members,
+        nodes: Window<'_, T>,
+    ) {
+        let spread = Spread { stencil: self, aside, carried, members };
+        if LEAST < N && self.width == LEAST {
+            spread.add::<M, SLOPES, LEAST>(machine, nodes);
+        } else {
+            spread.add::<M, SLOPES, N>(machine, nodes);
+        }
+    }
+
+    #[inline(always)]
+    fn sum<M: Machine<T>, const GRADIENT: bool, const SLOPES: bool>(
+        &self,
+        machine: M,
+        moment: &Along<T, D, N>,
+        nodes: &[Nodal<T>],
+    ) -> Collected<M::Four, D> {
+        let sums = Sums { stencil: self, moment, nodes };
+        if LEAST < N && self.width == LEAST {
+            sums.all::<M, GRADIENT, SLOPES, LEAST>(machine)
+        } else {
+            sums.all::<M, GRADIENT, SLOPES, N>(machine)
         }
     }
 }
 
-impl<T: Real, const D: usize, const N: usize> Default for Tensor<T, D, N> {
+impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Default
+    for Tensor<T, D, LEAST, N>
+{
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> {
-    fn each(&self, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
+impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
+    for Tensor<T, D, LEAST, N>
+{
+    fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let width = |a: usize| if a < D { self.width } else { 1 };
         for k2 in 0..width(2) {
             for k1 in 0..width(1) {
                 for k0 in 0..width(0) {
                     let k = [k0, k1, k2];
-                    let node = (0..D).map(|a| k[a] * self.stride[a]).sum::<usize>() + self.first;
+                    let from_first: usize = (0..D).map(|a| k[a] * self.stride[a]).sum();
                     let product = |skip: usize| {
                         let others = (0..D).filter(|&a| a != skip);
-                        others.fold(T::one(), |product, a| product * self.weight[k[a]][a])
+                        others.fold(T::one(), |product, a| product * self.weight[a][k[a]][particle])
                     };
-                    let gradient = Vector::from_fn(|a, _| self.slope[k[a]][a] * product(a));
-                    visit(node, product(D), gradient);
+                    let gradient =
+                        Vector::from_fn(|a, _| self.slope[a][k[a]][particle] * product(a));
+                    visit(self.first[particle] as usize + from_first, product(D), gradient);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn span(&self) -> [usize; 2] {
-        let mut last = self.first;
-        for stride in self.stride {
-            last += (self.width - 1) * stride;
-        }
-        [self.first, last + 1]
+    fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize> {
+        let extent = self.extent();
+        // Compared with all at once: whether one is beyond is rarely asked twice.
+        let strays = self.first.map(|first| {
+            let first = first as usize;
+            first < nodes.start || first + extent >= nodes.end
+        });
+        let [from, to] = members;
+        if strays == [false; BUNCH] { None } else { (from..to).find(|&p| strays[p]) }
     }
 
     #[inline(always)]
-    fn spread_value<M: Machine<T>>(&self, machine: M, value: M::Four, nodes: Window<'_, T>) {
-        self.sum(machine, &mut SpreadValue { value, nodes });
+    fn spread_value<M: Machine<T>>(
+        &self,
+        machine: M,
+        value: [M::Four; BUNCH],
+        members: Members,
+        nodes: Window<'_, T>,
+    ) {
+        let slopes = [[machine.splat(T::zero()); D]; BUNCH];
+        let carried = Carried { value, slopes };
+        self.add::<M, false>(machine, &self.slope, &carried, members, nodes);
     }
 
     #[inline(always)]
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        value: M::Four,
-        slopes: [M::Four; D],
+        carried: &Carried<M::Four, D>,
+        members: Members,
         nodes: Window<'_, T>,
     ) {
-        self.sum(machine, &mut Spread { value, slopes, nodes });
-    }
-
-    #[inline(always)]
-    fn spread_both<M: Machine<T>>(
-        &self,
-        machine: M,
-        [first_value, value]: [M::Four; 2],
-        slopes: [M::Four; D],
-        [first_nodes, nodes]: [Window<'_, T>; 2],
-    ) {
-        let first = SpreadValue { value: first_value, nodes: first_nodes };
-        let second = Spread { value, slopes, nodes };
-        self.sum(machine, &mut Both { first, second });
-    }
-
-    #[inline(always)]
-    fn collect_value<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> M::Four {
-        let mut sum = CollectValue { value: machine.splat(T::zero()), nodes };
-        self.sum(machine, &mut sum);
-        sum.value
-    }
-
-    #[inline(always)]
-    fn collect<M: Machine<T>>(&self, machine: M, nodes: &[Nodal<T>]) -> (M::Four, [M::Four; D]) {
-        let nothing = machine.splat(T::zero());
-        let mut sum = Collect { value: nothing, slopes: [nothing; D], nodes };
-        self.sum(machine, &mut sum);
-        (sum.value, sum.slopes)
-    }
-
-    #[inline(always)]
-    fn collect_both<M: Machine<T>>(
-        &self,
-        machine: M,
-        [first_nodes, nodes]: [&[Nodal<T>]; 2],
-    ) -> ([M::Four; 2], [M::Four; D]) {
-        let nothing = machine.splat(T::zero());
-        let first = CollectValue { value: nothing, nodes: first_nodes };
-        let second = Collect { value: nothing, slopes: [nothing; D], nodes };
-        let mut sum = Both { first, second };
-        self.sum(machine, &mut sum);
-        ([sum.first.value, sum.second.value], sum.second.slopes)
+        self.add::<M, true>(machine, &self.slope, carried, members, nodes);
     }
 
     #[inline(always)]
@@ -260,20 +255,42 @@ impl<T: Real, const D: usize, const N: usize> Stencil<T, D> for Tensor<T, D, N> 
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        value: M::Four,
-        slopes: [M::Four; D],
+        carried: &Carried<M::Four, D>,
+        members: Members,
         nodes: Window<'_, T>,
     ) {
-        self.with_moments(machine, lattice, false).spread(machine, value, slopes, nodes);
+        let (moment, _) = self.moments(machine, lattice);
+        self.add::<M, true>(machine, &moment, carried, members, nodes);
     }
 
     #[inline(always)]
-    fn collect_slopes<M: Machine<T>>(
+    fn collect<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
+        wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> [M::Four; D] {
-        self.with_moments(machine, lattice, true).collect(machine, nodes).1
+    ) -> Collected<M::Four, D> {
+        match wanted {
+            Wanted::Value => self.sum::<M, false, false>(machine, &self.slope, nodes),
+            Wanted::Slopes if lattice.degree > 1 => {
+                let (moment, per_spread) = self.moments(machine, lattice);
+                let mut collected = self.sum::<M, true, true>(machine, &moment, nodes);
+                for a in 0..D {
+                    for c in 0..D {
+                        let slope = &mut collected.slopes[a][c];
+                        *slope = machine.times(*slope, per_spread[a]);
+                    }
+                }
+                collected
+            }
+            Wanted::Gradient | Wanted::Slopes => {
+                let mut collected = self.sum::<M, true, false>(machine, &self.slope, nodes);
+                if wanted == Wanted::Slopes {
+                    collected.slopes = collected.gradient;
+                }
+                collected
+            }
+        }
     }
 }

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use mms_runtime::lanes::components;
 use mms_runtime::lattice::Axis;
+use mms_runtime::math::machine::Plain;
 use mms_runtime::shape::Shape;
-use mms_runtime::stencil::Stencil;
+use mms_runtime::stencil::{BUNCH, Stencil};
 use mms_runtime::tensor::{deformation_gradient, determinant};
 use mms_runtime::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -34,6 +36,9 @@ pub struct Particle<const D: usize> {
     half_edges: Matrix<f64, D>,
     displacement_gradient: Matrix<f64, D>,
 }
+
+/// The nodes of a bunch of particles, and where they are.
+pub type Placed<T, const D: usize, S> = (<S as Shape>::Stencil<T, D>, [Vector<T, D>; BUNCH]);
 
 impl<const D: usize> Particle<D> {
     /// With the half edges `half` along the axes, or turned by 0.7 in the first two of them.
@@ -81,6 +86,24 @@ impl<const D: usize> Particle<D> {
         S::stencil(lattice, &self.position(lattice), &domain, &h)
     }
 
+    /// The nodes of a bunch of its like that are so many cells from it along each axis, and where they are.
+    pub fn bunch<T: Real, S: Shape>(
+        &self,
+        lattice: &Lattice<T, D>,
+        apart: [f64; BUNCH],
+    ) -> Result<Placed<T, D, S>, Cause> {
+        let machine = T::PlainMachine::from(Plain);
+        let here = self.position(lattice);
+        let positions = apart.map(|cells| here + lattice.cell_size * T::of(cells));
+        let domains = [S::domain(&self.lengths(lattice)); BUNCH];
+        let h = [self.displacement_gradient.map(T::of); BUNCH];
+        let mut stencil = S::Stencil::default();
+        let components = components(machine, &positions);
+        S::place(machine, &mut stencil, lattice, &components, &domains, &h)
+            .map_err(|(_, cause)| cause)?;
+        Ok((stencil, positions))
+    }
+
     /// How far its domain reaches along each axis, whatever a shape function makes of it, in cells.
     pub fn reach(&self) -> Vector<f64, D> {
         let edges = |a: usize| Vector::<f64, D>::from_fn(|i, _| EDGES[i] / EDGES[a]);
@@ -111,7 +134,7 @@ pub fn weights<T: Real, const D: usize>(
     stencil: &impl Stencil<T, D>,
 ) -> BTreeMap<usize, (f64, Vector<f64, D>)> {
     let mut table = BTreeMap::new();
-    stencil.each(|node, w, grad_w| {
+    stencil.each(0, |node, w, grad_w| {
         let (weight, gradient) = table.entry(node).or_insert((0.0, Vector::<f64, D>::zeros()));
         *weight += w.to_f64();
         *gradient += grad_w.map(Real::to_f64);
