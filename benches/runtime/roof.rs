@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use core_affinity::CoreId;
 use cpu_time::ThreadTime;
 use mms_runtime::Real;
-use mms_runtime::math::dispatch::{Work, narrow};
+use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Fused, Machine, Plain};
 
 /// Chains of multiply-adds that do not wait for each other, and how often each goes on.
@@ -104,7 +104,7 @@ impl fmt::Display for Roof {
 
 fn turn<T: Real>() -> [f64; 2] {
     let start = ThreadTime::now();
-    black_box(narrow(Chains::<T>(T::of(black_box(0.999)))));
+    black_box(best(Chains::<T>(T::of(black_box(0.999)))));
     let numbers = 4 * CHAINS[0] * CHAINS[1];
     let adds = numbers as f64 / (1e9 * start.elapsed().as_secs_f64());
 

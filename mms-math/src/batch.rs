@@ -8,7 +8,7 @@
 //! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
 //! value is computed again, number by number, with the careful functions of the scalar itself.
 
-use crate::dispatch::{Work, wide};
+use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};
 use crate::{Lane, Real};
 
@@ -334,7 +334,7 @@ pub fn run<T: Float, const I: usize, const O: usize>(
 ) {
     let count = source.count();
     assert_eq!(sink.room(), count, "a batch has {count} points, and other room for its results");
-    wide(Drive { kernel, source, sink, count, scalar: core::marker::PhantomData::<T> });
+    best(Drive { kernel, source, sink, count, scalar: core::marker::PhantomData::<T> });
 }
 
 /// A kernel, and what it is driven over.

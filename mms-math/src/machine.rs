@@ -350,7 +350,7 @@ mod tests {
 
     use super::{Fused, Machine, Plain};
     use crate::batch::Float;
-    use crate::dispatch::{Work, narrow};
+    use crate::dispatch::{Work, best};
 
     /// Everything that a machine can do with some numbers, as numbers.
     struct Everything<T>([[T; 4]; 4]);
@@ -400,7 +400,7 @@ mod tests {
             [-0.5, 3.0, 1e9, 0.25],
         ];
         let numbers = Everything(numbers.map(|row| row.map(T::from_f64)));
-        let (found, expected) = (narrow(&numbers), numbers.by(T::PlainMachine::from(Plain)));
+        let (found, expected) = (best(&numbers), numbers.by(T::PlainMachine::from(Plain)));
         // Not a number is not equal to itself; its text is.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
     }

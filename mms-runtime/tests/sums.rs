@@ -4,7 +4,7 @@
 mod common;
 
 use common::weights::{CELLS, Particle, lattice};
-use mms_runtime::math::dispatch::{Work, narrow};
+use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Fused, Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
@@ -140,7 +140,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(4 * BUNCH)[..]);
             let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
             let expected = sums.by_definition(&positions);
-            for [found, _] in [sums.plain(Plain), narrow(&sums)] {
+            for [found, _] in [sums.plain(Plain), best(&sums)] {
                 close(&found, &expected);
             }
 
@@ -155,7 +155,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let diagonal = |k: usize| (k / BUNCH).is_multiple_of(D + 1);
             let unit = |k: usize| if diagonal(k) { T::one() } else { T::zero() };
             let expected: Vec<T> = (0..BUNCH * D * D).map(unit).collect();
-            for [_, found] in [sums.plain(Plain), narrow(&sums)] {
+            for [_, found] in [sums.plain(Plain), best(&sums)] {
                 close(&found, &expected);
             }
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mms_math::dispatch::{Work, narrow};
+use mms_math::dispatch::{Work, best};
 use mms_math::machine::{Fused, Machine, Plain};
 
 use super::clock::{Seconds, timed};
@@ -88,7 +88,7 @@ where
                 slab,
                 room: &mut room,
             };
-            timed(&mut seconds.transfer, || narrow(sums))?;
+            timed(&mut seconds.transfer, || best(sums))?;
         }
         Ok(seconds)
     }

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use mms_math::dispatch::narrow;
+use mms_math::dispatch::best;
 use mms_math::machine::Plain;
 
 use super::Solver;
@@ -112,7 +112,7 @@ where
         let sound = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
-                &|particles| narrow(Advance { scene, particles, steps, velocity, acceleration }),
+                &|particles| best(Advance { scene, particles, steps, velocity, acceleration }),
                 &both_sound,
             )
         });
@@ -279,7 +279,7 @@ where
         let found = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
-                &|particles| narrow(Residual { scene, particles, nodal, source }),
+                &|particles| best(Residual { scene, particles, nodal, source }),
                 &both_sound,
             )
         });
