@@ -107,17 +107,6 @@ pub fn four<T: Real, M: Machine<T>, const D: usize>(
     machine.four(&[component(0), component(1), component(2), other])
 }
 
-/// The vector in the first places.
-#[inline(always)]
-pub fn vector<T: Real, M: Machine<T>, const D: usize>(machine: M, four: M::Four) -> Vector<T, D> {
-    let numbers = machine.numbers(four);
-    let mut vector = Vector::zeros();
-    for a in 0..D {
-        vector[a] = numbers[a];
-    }
-    vector
-}
-
 /// The columns of a matrix.
 #[inline(always)]
 pub fn columns<T: Real, M: Machine<T>, const D: usize>(
@@ -130,20 +119,4 @@ pub fn columns<T: Real, M: Machine<T>, const D: usize>(
         columns[j] = machine.four(&[row(0), row(1), row(2), T::zero()]);
     }
     columns
-}
-
-/// The matrix whose columns these are.
-#[inline(always)]
-pub fn matrix<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    columns: [M::Four; D],
-) -> Matrix<T, D> {
-    let mut matrix = Matrix::zeros();
-    for j in 0..D {
-        let numbers = machine.numbers(columns[j]);
-        for i in 0..D {
-            matrix[(i, j)] = numbers[i];
-        }
-    }
-    matrix
 }

@@ -107,7 +107,7 @@ struct Nodes<'a, T: Real, const D: usize, S: Shape> {
 }
 
 impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
-    /// Whether all J > 0.
+    /// Whether all J > 0. To `rest` is added zero times all new numbers.
     #[inline(always)]
     fn update<M: Machine<T>>(
         &self,
@@ -117,48 +117,16 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         stencil: &S::Stencil<T, D>,
         rest: &mut M::Four,
     ) -> Sound {
-        let Self { scene, steps, velocity: nodal, acceleration: nodal_acceleration } = self;
+        let Self { scene, steps, velocity, .. } = self;
         let zero = machine.splat(T::zero());
-        let averaged = matches!(scene.transfer, Transfer::Pic | Transfer::Apic);
         let wanted = match (steps.velocity, steps.deformation) {
             (Some(_), _) if scene.transfer == Transfer::Apic => Wanted::Slopes,
             (_, Some(_)) => Wanted::Gradient,
             _ => Wanted::Value,
         };
-        let mapped = stencil.collect(machine, scene.lattice, wanted, nodal);
-        let mut sound = true;
+        let mapped = stencil.collect(machine, scene.lattice, wanted, velocity);
         if let Some(kick) = steps.velocity {
-            let mut next = mapped.value;
-            if !averaged {
-                let acceleration =
-                    stencil.collect(machine, scene.lattice, Wanted::Value, nodal_acceleration);
-                let before = components(machine, particles.velocity.at(k));
-                for a in 0..D {
-                    next[a] =
-                        machine.times_plus(machine.splat(kick), acceleration.value[a], before[a]);
-                }
-            }
-            match scene.transfer {
-                Transfer::Flip { fraction: 1.0 } | Transfer::Pic | Transfer::Apic => {}
-                Transfer::Flip { fraction } => {
-                    let others = machine.splat(T::of(1.0 - fraction));
-                    for a in 0..D {
-                        let others = machine.times(others, mapped.value[a]);
-                        next[a] =
-                            machine.times_plus(machine.splat(T::of(fraction)), next[a], others);
-                    }
-                }
-                Transfer::Xpic { .. } => {
-                    let residual = components(machine, particles.residual.at(k));
-                    for a in 0..D {
-                        let wrong = on(Defect::XpicSign);
-                        next[a] = match wrong {
-                            true => machine.plus(next[a], residual[a]),
-                            false => machine.minus(next[a], residual[a]),
-                        };
-                    }
-                }
-            }
+            let next = self.kicked(machine, kick, mapped.value, particles, k, stencil);
             *particles.velocity.at(k) = vectors(machine, next);
             for a in 0..D {
                 *rest = machine.times_plus(next[a], zero, *rest);
@@ -178,22 +146,60 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
             }
             *particles.displacement.at(k) = vectors(machine, next);
         }
-        if let Some(time_step) = steps.deformation {
-            let h = columns(machine, particles.displacement_gradient.at(k));
-            let gradient = misread::velocity_gradient(machine, mapped.gradient);
-            let moves = scene.moves && !on(Defect::ReferenceGradient);
-            let mut next = deformed(machine, h, gradient, time_step, moves);
-            *particles.displacement_gradient.at(k) = matrices(machine, next);
-            for j in 0..D {
-                for i in 0..D {
-                    *rest = machine.times_plus(next[j][i], zero, *rest);
-                }
-                next[j][j] = machine.plus(next[j][j], machine.splat(T::one()));
+        let Some(time_step) = steps.deformation else { return true };
+        let h = columns(machine, particles.displacement_gradient.at(k));
+        let gradient = misread::velocity_gradient(machine, mapped.gradient);
+        let moves = scene.moves && !on(Defect::ReferenceGradient);
+        let mut next = deformed(machine, h, gradient, time_step, moves);
+        *particles.displacement_gradient.at(k) = matrices(machine, next);
+        for j in 0..D {
+            for i in 0..D {
+                *rest = machine.times_plus(next[j][i], zero, *rest);
             }
-            let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
-            sound = machine.all_at_most(least, determinants(machine, &next));
+            next[j][j] = machine.plus(next[j][j], machine.splat(T::one()));
         }
-        sound
+        let least = machine.splat(T::of(f64::from(f32::MIN_POSITIVE)));
+        machine.all_at_most(least, determinants(machine, &next))
+    }
+
+    /// The velocities after a kick, of particles where that of the nodes is `mapped`.
+    #[inline(always)]
+    fn kicked<M: Machine<T>>(
+        &self,
+        machine: M,
+        kick: T,
+        mapped: [M::Four; D],
+        particles: &mut Bunches<'_, T, D>,
+        k: usize,
+        stencil: &S::Stencil<T, D>,
+    ) -> [M::Four; D] {
+        let Self { scene, acceleration, .. } = self;
+        if let Transfer::Pic | Transfer::Apic = scene.transfer {
+            return mapped;
+        }
+        let acceleration = stencil.collect(machine, scene.lattice, Wanted::Value, acceleration);
+        let mut next = components(machine, particles.velocity.at(k));
+        for a in 0..D {
+            next[a] = machine.times_plus(machine.splat(kick), acceleration.value[a], next[a]);
+        }
+        match scene.transfer {
+            Transfer::Flip { fraction } if fraction < 1.0 => {
+                let [own, others] = [fraction, 1.0 - fraction].map(T::of);
+                for a in 0..D {
+                    let others = machine.times(machine.splat(others), mapped[a]);
+                    next[a] = machine.times_plus(machine.splat(own), next[a], others);
+                }
+            }
+            Transfer::Xpic { .. } => {
+                let sign = machine.splat(if on(Defect::XpicSign) { T::one() } else { -T::one() });
+                let residual = components(machine, particles.residual.at(k));
+                for a in 0..D {
+                    next[a] = machine.times_plus(sign, residual[a], next[a]);
+                }
+            }
+            Transfer::Flip { .. } | Transfer::Pic | Transfer::Apic => {}
+        }
+        next
     }
 }
 
