@@ -41,9 +41,13 @@ impl Count {
         )
     }
 
-    /// APIC: all sums with slopes, and those of the velocity twice.
+    /// APIC: all sums with slopes, that of the velocity with two kinds of them.
     pub fn apic(axes: usize, width: usize) -> Self {
-        Count(slopes(axes, width, axes + 1) + 3 * slopes(axes, width, axes))
+        Count(
+            slopes(axes, width, axes + 1)
+                + slopes(axes, width, axes)
+                + two_slopes(axes, width, axes),
+        )
     }
 }
 
@@ -55,6 +59,12 @@ fn values(axes: usize, width: usize, numbers: usize) -> usize {
 /// Likewise with their slopes along every axis: 2 for every node, 3 for every row, 4 for every plane.
 fn slopes(axes: usize, width: usize, numbers: usize) -> usize {
     let of = |power: u32| (axes as u32 - power + 2) as usize * width.pow(power);
+    numbers * (1..=axes as u32).map(of).sum::<usize>()
+}
+
+/// Likewise with two slopes along every axis: 3 for every node, 5 for every row, 7 for every plane.
+fn two_slopes(axes: usize, width: usize, numbers: usize) -> usize {
+    let of = |power: u32| (2 * (axes - power as usize) + 3) * width.pow(power);
     numbers * (1..=axes as u32).map(of).sum::<usize>()
 }
 

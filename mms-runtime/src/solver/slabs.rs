@@ -243,3 +243,63 @@ impl Colour<'_> {
         Ok(join(first?, second?))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{REACH, Slabs};
+
+    /// Of layers with so many particles each, beginning with layer 5, in rows of ten nodes.
+    fn slabs(particles_of_layers: &[usize]) -> Slabs {
+        let cells = particles_of_layers.iter().zip(5..);
+        let cell: Vec<u64> =
+            cells.flat_map(|(&count, layer)| vec![10 * layer + 3; count]).collect();
+        let count = cell.len() as u32;
+        let (place, order): (Vec<_>, Vec<_>) = ((0..count).collect(), (0..count).collect());
+        let layers = particles_of_layers.len() + 10;
+        let mut slabs =
+            Slabs { all: Vec::new(), cuts: Vec::new(), layer: 10, layers, place, order, cell };
+        slabs.cut(slabs.even_cuts(), count as usize);
+        slabs
+    }
+
+    #[test]
+    fn slabs_have_their_nodes_alone_and_particles_alike() {
+        let thin_at_the_ends = [&[1; 20][..], &[500; 30], &[1; 20]].concat();
+        for layers in [vec![100; 9], vec![100; 31], vec![100; 200], thin_at_the_ends] {
+            let slabs = slabs(&layers);
+            let (all, number) = (&slabs.all, slabs.all.len());
+            assert_eq!(number, if layers.len() < 28 { 3 } else { number / 2 * 2 });
+            assert_eq!((all[0].window.start, all[number - 1].window.end), (0, 10 * slabs.layers));
+            for pair in all.windows(3) {
+                assert!(pair[0].window.end <= pair[2].window.start);
+            }
+            let mut next = 0;
+            for slab in all {
+                assert_eq!(slab.particles.start, next);
+                next = slab.particles.end;
+                for &cell in &slabs.cell[slab.particles.clone()] {
+                    let layer = cell as usize / 10;
+                    let reach = 10 * (layer - REACH[0])..10 * (layer + REACH[1] + 1);
+                    assert!(slab.window.start <= reach.start && reach.end <= slab.window.end);
+                }
+            }
+            assert_eq!(next, slabs.cell.len());
+            if layers.iter().all(|&count| count == 100) && layers.len() > 28 {
+                let fair = slabs.cell.len() / number;
+                assert!(all.iter().all(|slab| slab.particles.len().abs_diff(fair) <= 200));
+            }
+        }
+    }
+
+    #[test]
+    fn cuts_that_slabs_cannot_have_are_refused() {
+        let mut slabs = slabs(&[100; 31]);
+        let cuts = slabs.cuts().to_vec();
+        let windows: Vec<_> = slabs.all.iter().map(|slab| slab.window.clone()).collect();
+        assert!(slabs.accept(&cuts, 3100));
+        assert!(slabs.all.iter().zip(&windows).all(|(slab, window)| slab.window == *window));
+        for wrong in [vec![[9, 100], [15, 200]], vec![[9, 200], [20, 100]], vec![[60, 100]]] {
+            assert!(!slabs.accept(&wrong, 3100), "{wrong:?}");
+        }
+    }
+}
