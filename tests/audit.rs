@@ -9,6 +9,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use rayon::prelude::*;
+
 fn python() -> Command {
     Command::new(std::env::var_os("MMS_PYTHON").unwrap_or_else(|| "python3".into()))
 }
@@ -63,15 +65,15 @@ fn every_script_agrees() {
     if !can_run("every_script_agrees") {
         return;
     }
-    for field in fields() {
-        let output = run(&script(&field));
+    fields().par_iter().for_each(|field| {
+        let output = run(&script(field));
         let (printed, complaint) =
             (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         assert!(output.status.success(), "{field}:\n{printed}\n{complaint}");
         for quantity in mms_codegen::quantity::Quantity::ALL {
             assert!(printed.contains(quantity.name()), "{field}: {}", quantity.name());
         }
-    }
+    });
 }
 
 /// The script with one value made larger by a part in 1e10.
@@ -92,13 +94,13 @@ fn a_wrong_digit_is_found_in_every_quantity() {
         return;
     }
     let script = script("bar_1d");
-    for quantity in mms_codegen::quantity::Quantity::ALL {
+    mms_codegen::quantity::Quantity::ALL.par_iter().for_each(|quantity| {
         let output = run(&mutated(&script, quantity.name()));
         let printed = String::from_utf8_lossy(&output.stdout);
         assert_eq!(output.status.code(), Some(1), "{}:\n{printed}", quantity.name());
         let row = printed.lines().find(|line| line.starts_with(quantity.name()));
         assert!(row.is_some_and(|row| row.ends_with("DIFFERS")), "{printed}");
-    }
+    });
 }
 
 #[test]

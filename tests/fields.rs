@@ -93,7 +93,7 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 /// v, a and H against derivatives of u by hyper-dual numbers. Both sides round some tens of
 /// operations.
 fn kinematics_by_dual_numbers<K: Kernel>() {
-    let points = sample(&compiled(K::NAME), 64);
+    let points = sample(compiled(K::NAME), 64);
     let constants = |point: &[f64]| point.iter().map(|x| Dual::constant(*x)).collect::<Vec<_>>();
     let displacement = |time, point: &[Dual]| K::quantity(Quantity::Displacement, time, point);
     let mut pairs = [const { Vec::<(f64, f64)>::new() }; 3];
@@ -127,7 +127,7 @@ fn kinematics_by_dual_numbers<K: Kernel>() {
 
 /// The displacement gradients of the field at its points.
 fn gradients<K: Kernel>(count: usize) -> Vec<(Vec<f64>, f64, Vec<f64>)> {
-    let points = sample(&compiled(K::NAME), count).into_iter();
+    let points = sample(compiled(K::NAME), count).into_iter();
     points
         .map(|point| {
             let gradient =
@@ -211,7 +211,7 @@ fn rotated_in_a_plane<K: Kernel>(
 
 /// d2W/dF_11^2 at F = I.
 fn modulus<K: Kernel>() -> f64 {
-    let point = sample(&compiled(K::NAME), 1)[0].coordinates.clone();
+    let point = sample(compiled(K::NAME), 1)[0].coordinates.clone();
     let constants: Vec<_> = point.iter().map(|x| Dual::constant(*x)).collect();
     let mut gradient = vec![Dual::constant(0.0); K::DIMENSION * K::DIMENSION];
     gradient[0] = Dual::variable(0.0, 1.0, 1.0);
@@ -315,7 +315,7 @@ fn strains_and_densities<K: Kernel>() {
 /// rho0 a - Div P - rho0 b with Div P from central differences of P: the residual must vanish
 /// like the square of the step.
 fn balance_by_finite_differences<K: Kernel>() {
-    let points = sample(&compiled(K::NAME), 32);
+    let points = sample(compiled(K::NAME), 32);
     let coordinates = points.iter().flat_map(|point| &point.coordinates).copied();
     let size = largest(coordinates);
     let residual = |step: f64| {
@@ -375,10 +375,10 @@ fn momentum_residual<K: Kernel>(at: &[f64], time: f64, step: f64) -> [f64; 2] {
 /// which Rust does not.
 fn emitted_and_interpreted<K: Kernel>() {
     let compiled = compiled(K::NAME);
-    let points = sample(&compiled, 64);
+    let points = sample(compiled, 64);
     for quantity in Quantity::pointwise() {
-        agree_in_double::<K>(&compiled, &points, quantity);
-        agree_in_single::<K>(&compiled, &points, quantity);
+        agree_in_double::<K>(compiled, &points, quantity);
+        agree_in_single::<K>(compiled, &points, quantity);
     }
 }
 
@@ -414,7 +414,7 @@ fn agree_in_single<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Qu
 
 /// Every `[[check]]` of the file, in arbitrary precision.
 fn closed_forms<K: Kernel>() {
-    for comparison in compare(&compiled(K::NAME)) {
+    for comparison in compare(compiled(K::NAME)) {
         assert!(matches!(comparison.finding, Finding::Agrees), "{comparison:?}");
     }
 }
@@ -427,7 +427,7 @@ fn the_gallery_leaves_no_term_unseen() {
     let mut seen = BTreeSet::new();
     for entry in mms::gallery::FIELDS {
         let compiled = compiled(entry.name);
-        let visibility = Visibility::of(&compiled).expect("the gallery is within the bound");
+        let visibility = Visibility::of(compiled).expect("the gallery is within the bound");
         for (term, status) in &visibility.findings {
             let name = match term {
                 Term::Parameter(name) => format!("{}.{name}", compiled.material.name),

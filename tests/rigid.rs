@@ -2,6 +2,7 @@
 //! must be is computed here by plain arithmetic in 77 digits; and they are solutions of their own.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use mms::gallery::{Entry, FIELDS};
 use mms_codegen::certify::sample::{Sample, samples};
@@ -13,6 +14,7 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection};
 use mms_runtime::math::Scalar as _;
+use rayon::prelude::*;
 
 /// At how many points a field is looked at.
 const POINTS: usize = 3;
@@ -61,28 +63,33 @@ struct Field {
     parameters: Vec<Precise>,
 }
 
-impl Field {
-    fn new(entry: &Entry) -> Self {
-        Self::of(entry.compile().unwrap_or_else(|error| panic!("{error}")))
-    }
+/// The name of each field that has a standard twin, the field, and the twin.
+static TWINS: LazyLock<Vec<(&str, Field, Field)>> = LazyLock::new(|| {
+    let twins = FIELDS.par_iter().filter_map(|entry| {
+        let (inner, twin) = with_twin(entry)?;
+        Some((entry.name, inner, twin))
+    });
+    twins.collect()
+});
 
-    /// The standard twin; `None` where the material is not frame-indifferent, and says so.
-    fn twin(entry: &Entry) -> Option<Self> {
-        let options = Options::from(Selection { twin: Twin::Standard, ..Selection::default() });
-        let material = entry.compile().unwrap_or_else(|error| panic!("{error}")).material;
-        match entry.compile_with(&options) {
-            Ok(compiled) => {
-                assert!(material.frame_indifferent, "{}", entry.name);
-                Some(Self::of(compiled))
-            }
-            Err(failure) => {
-                assert!(!material.frame_indifferent, "{failure}");
-                assert!(failure.to_string().contains("it is not frame-indifferent"), "{failure}");
-                None
-            }
+/// A field and its standard twin; `None` where the material is not frame-indifferent, and says so.
+fn with_twin(entry: &Entry) -> Option<(Field, Field)> {
+    let inner = entry.compile().unwrap_or_else(|error| panic!("{error}"));
+    let options = Options::from(Selection { twin: Twin::Standard, ..Selection::default() });
+    match entry.compile_with(&options) {
+        Ok(twin) => {
+            assert!(inner.material.frame_indifferent, "{}", entry.name);
+            Some((Field::of(inner), Field::of(twin)))
+        }
+        Err(failure) => {
+            assert!(!inner.material.frame_indifferent, "{failure}");
+            assert!(failure.to_string().contains("it is not frame-indifferent"), "{failure}");
+            None
         }
     }
+}
 
+impl Field {
     fn of(compiled: Compiled) -> Self {
         let parameters = compiled.parameters(&Default::default());
         Field { compiled, parameters }
@@ -272,17 +279,16 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
 
 #[test]
 fn twins_are_the_field_turned_and_moved() {
-    for entry in FIELDS {
-        let (inner, Some(twin)) = (Field::new(entry), Field::twin(entry)) else { continue };
+    for (name, inner, twin) in TWINS.iter() {
         let mut pairs = Pairs::default();
         for point in inner.points() {
             for quantity in Quantity::ALL {
-                let expected = composed(&inner, *quantity, &point);
+                let expected = composed(inner, *quantity, &point);
                 let found = twin.quantity(*quantity, &point.time, &point.coordinates);
                 pairs.add(quantity.name(), &found, &expected);
             }
         }
-        pairs.assert_agree(entry.name, 1e-60);
+        pairs.assert_agree(name, 1e-60);
     }
 }
 
@@ -297,13 +303,12 @@ fn slope(step: &Precise, f: impl Fn(Precise) -> Vec<Precise>) -> Vec<Precise> {
 /// gradient, and b balances. Central differences of relative step 1e-20 leave 40 digits less a few.
 #[test]
 fn twins_are_solutions_of_their_own() {
-    for entry in FIELDS {
-        let Some(twin) = Field::twin(entry) else { continue };
+    for (name, _, twin) in TWINS.iter() {
         let mut pairs = Pairs::default();
         for point in twin.points() {
-            compare_with_differences(&twin, &point, &mut pairs);
+            compare_with_differences(twin, &point, &mut pairs);
         }
-        pairs.assert_agree(entry.name, 1e-28);
+        pairs.assert_agree(name, 1e-28);
     }
 }
 

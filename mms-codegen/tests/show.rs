@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use mms_codegen::certify::sample::samples;
 use mms_codegen::expr::resolve::Scope;
@@ -76,7 +77,12 @@ const OTHERS: [(&str, &str); 2] = [
 ];
 
 /// Fields of every dimension and kind, each with its name.
-fn fields() -> Vec<Compiled> {
+static FIELDS: LazyLock<Vec<Compiled>> = LazyLock::new(compile_fields);
+
+/// The document of each, with what the field sees.
+static WHOLE: LazyLock<Vec<Document>> = LazyLock::new(|| FIELDS.iter().map(whole).collect());
+
+fn compile_fields() -> Vec<Compiled> {
     let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
     let mut fields = Vec::new();
     let mut paths: Vec<_> = fs::read_dir(gallery)
@@ -174,53 +180,75 @@ fn lines(document: &Document) -> Vec<(Option<(Quantity, usize)>, &Line)> {
     lines
 }
 
-/// Everything that is shown, read as a user reads it, evaluates to what the program computes.
-fn assert_shown_is_computed(field: &Compiled, document: &Document) {
-    let name = &field.field.name;
+/// A line that is shown, read as a user reads it.
+struct Reading {
+    component: Option<(Quantity, usize)>,
+    name: String,
+    text: String,
+    program: Program,
+}
+
+/// The lines of a document, of which each may use the names of those before it; the components of the
+/// normal are names as well.
+fn readings(field: &Compiled, document: &Document) -> Vec<Reading> {
+    let mut reader = Reader::new(field);
     let dimension = field.field.dimension;
+    for axis in 1..=dimension {
+        reader.define(&if dimension == 1 { "N".into() } else { format!("N_{axis}") });
+    }
+    let read = |(component, line): (_, &Line)| {
+        let text = document.formula(line.value, &Language);
+        let program = reader.program(&text);
+        let name = line.left[0].identifier();
+        reader.define(&name);
+        Reading { component, name, text, program }
+    };
+    lines(document).into_iter().map(read).collect()
+}
+
+/// Everything that is shown evaluates to what the program computes, at so many points.
+fn assert_shown_is_computed(field: &Compiled, document: &Document, points: usize) {
+    let readings = readings(field, document);
     let parameters = field.parameters::<Precise>(&Default::default());
-    let normal: Vec<Precise> = (0..dimension).map(fifths).collect();
-    for sample in samples(field, &parameters, 5) {
-        let mut program = Interpreter::new(&field.program, &parameters);
-        let outputs: Vec<_> = Quantity::ALL.iter().map(|found| Output::Quantity(*found)).collect();
-        let plan = program.plan(&outputs);
+    let normal: Vec<Precise> = (0..field.field.dimension).map(fifths).collect();
+    let mut program = Interpreter::new(&field.program, &parameters);
+    let sections = document.sections.iter();
+    let outputs: Vec<_> = sections.map(|section| Output::Quantity(section.quantity)).collect();
+    let plan = program.plan(&outputs);
+    for sample in samples(field, &parameters, points) {
         program.set_time(&sample.time);
         let coordinates = &sample.coordinates;
         program.set_point(&plan, Point { coordinates, normal: &normal, gradient: &[] });
-        let mut reader = Reader::new(field);
-        let mut values = parameters.clone();
-        for (axis, component) in normal.iter().enumerate() {
-            let shown = if dimension == 1 { "N".into() } else { format!("N_{}", axis + 1) };
-            reader.define(&shown);
-            values.push(component.clone());
-        }
-        for (component, line) in lines(document) {
-            let text = document.formula(line.value, &Language);
-            let formula = reader.program(&text);
-            let mut interpreter = Interpreter::new(&formula, &values);
+        let mut values = [&parameters[..], &normal].concat();
+        for reading in &readings {
+            let mut interpreter = Interpreter::new(&reading.program, &values);
             let plan = interpreter.plan(&[Output::Expected(0)]);
             interpreter.set_time(&sample.time);
             interpreter.set_point(&plan, Point::at(coordinates));
             let value = interpreter.output(Output::Expected(0)).remove(0);
-            let shown = line.left[0].identifier();
-            if let Some((quantity, k)) = component {
+            if let Some((quantity, k)) = reading.component {
                 let computed = program.output(Output::Quantity(quantity));
-                assert!(computed.iter().all(Precise::is_defined), "{name}: {shown}");
-                let one = Precise::new(&Rational::ONE);
-                let sum = |sum: Precise, value: &Precise| sum + value.clone().magnitude();
-                let scale = computed.iter().fold(one, sum);
-                let difference = (value.clone() - computed[k].clone()).magnitude();
-                let allowed = scale * tolerance();
-                assert!(
-                    difference.at_most(&allowed),
-                    "{name}: {shown} = {text} is {:e}, not {:e}",
-                    value.to_f64(),
-                    computed[k].to_f64()
-                );
+                reading.assert_is(&field.field.name, &value, &computed, k);
             }
-            reader.define(&shown);
             values.push(value);
         }
+    }
+}
+
+impl Reading {
+    /// Asserts that a value is that component of what is computed.
+    fn assert_is(&self, field: &str, value: &Precise, computed: &[Precise], k: usize) {
+        let Reading { name, text, .. } = self;
+        assert!(computed.iter().all(Precise::is_defined), "{field}: {name}");
+        let one = Precise::new(&Rational::ONE);
+        let scale = computed.iter().fold(one, |sum, value| sum + value.clone().magnitude());
+        let difference = (value.clone() - computed[k].clone()).magnitude();
+        assert!(
+            difference.at_most(&(scale * tolerance())),
+            "{field}: {name} = {text} is {:e}, not {:e}",
+            value.to_f64(),
+            computed[k].to_f64()
+        );
     }
 }
 
@@ -238,26 +266,26 @@ fn fifths(axis: usize) -> Precise {
 
 #[test]
 fn what_is_shown_is_what_is_computed() {
-    for field in fields() {
-        assert_shown_is_computed(&field, &document(&field));
+    for field in FIELDS.iter() {
+        assert_shown_is_computed(field, &document(field), 5);
     }
 }
 
 #[test]
 fn what_is_asked_for_alone_comes_with_all_that_it_uses() {
-    for field in fields() {
+    for field in FIELDS.iter() {
         for quantity in Quantity::ALL {
-            let document = Document::new(&field, &[*quantity]).expect("a usual size");
+            let document = Document::new(field, &[*quantity]).expect("a usual size");
             assert_eq!(document.sections.len(), 1);
-            assert_shown_is_computed(&field, &document);
+            assert_shown_is_computed(field, &document, 2);
         }
     }
 }
 
 #[test]
 fn lines_of_text_are_short() {
-    for field in fields() {
-        for line in text::page(&whole(&field)).lines() {
+    for document in WHOLE.iter() {
+        for line in text::page(document).lines() {
             // A line with a name of a hundred letters cannot be short.
             let is_name = |letter: char| letter.is_alphanumeric() || letter == '_';
             let words = line.split(|letter: char| !is_name(letter));
@@ -265,7 +293,7 @@ fn lines_of_text_are_short() {
                 continue;
             }
             let length = line.chars().count();
-            assert!(length <= LINE, "{}: {length} characters: {line}", field.field.name);
+            assert!(length <= LINE, "{}: {length} characters: {line}", document.name);
         }
     }
 }
@@ -311,13 +339,13 @@ fn a_wall_is_broken_into_lines() {
             let length = line.chars().count();
             assert!(length <= LINE, "{length} characters: {line}");
         }
-        assert_shown_is_computed(&field, &document);
+        assert_shown_is_computed(&field, &document, 5);
     }
 }
 
 #[test]
 fn equal_input_gives_equal_pages() {
-    for (a, b) in fields().iter().zip(fields().iter()) {
+    for (a, b) in FIELDS.iter().zip(&compile_fields()) {
         let (a, b) = (document(a), document(b));
         assert_eq!(text::page(&a), text::page(&b));
         assert_eq!(latex::page(&a), latex::page(&b));
@@ -373,22 +401,26 @@ fn command<'a>(text: &'a str, open: &mut Vec<&'a str>) -> usize {
     1 + name.len()
 }
 
+/// The first document, under another title.
+fn entitled(title: &str) -> Document {
+    let mut field = FIELDS[0].clone();
+    field.field.title = title.into();
+    whole(&field)
+}
+
 #[test]
 fn latex_is_balanced_and_escaped() {
-    let mut fields = fields();
-    fields[0].field.title = r"50% of $A_1 & {B}^2 ~ \input{x} #".into();
-    for field in &fields {
-        assert_balanced(&latex::page(&whole(field)));
+    let odd = entitled(r"50% of $A_1 & {B}^2 ~ \input{x} #");
+    for document in WHOLE.iter().chain([&odd]) {
+        assert_balanced(&latex::page(document));
     }
 }
 
 #[test]
 fn mathml_is_well_formed() {
-    let mut fields = fields();
-    let title = "a < b && \"c\" > </title> \u{1} <script>";
-    fields[0].field.title = title.into();
-    for field in &fields {
-        let page = mathml::page(&whole(field));
+    let odd = entitled("a < b && \"c\" > </title> \u{1} <script>");
+    for document in WHOLE.iter().chain([&odd]) {
+        let page = mathml::page(document);
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
         let parsed = roxmltree::Document::parse_with_options(&page, options)
             .unwrap_or_else(|error| panic!("{error}\n{page}"));
@@ -418,9 +450,8 @@ fn mathml_has_the_structure_of_latex() {
         digits.into_iter().collect::<String>()
     };
     let count = |text: &str, part: &str| text.matches(part).count();
-    for field in &fields() {
-        let document = whole(field);
-        for (_, line) in lines(&document) {
+    for document in WHOLE.iter() {
+        for (_, line) in lines(document) {
             let latex = document.formula(line.value, &latex::Latex);
             let mathml = document.formula(line.value, &mathml::MathMl);
             let page = format!("<math>{mathml}</math>");
@@ -439,9 +470,8 @@ fn mathml_has_the_structure_of_latex() {
 /// On a page of others, headings are theirs; the formulas are those of the page.
 #[test]
 fn a_part_of_a_page_has_its_formulas_and_lower_headings() {
-    let fields = fields();
-    let document = whole(&fields[0]);
-    let (page, part) = (mathml::page(&document), mathml::part(&document, 4));
+    let document = &WHOLE[0];
+    let (page, part) = (mathml::page(document), mathml::part(document, 4));
     assert!(page.contains(&part.replace("<h4>", "<h2>").replace("</h4>", "</h2>")));
     assert!(
         part.contains("<h4>displacement</h4>") && !part.contains("<h1>") && !part.contains("<h2>")

@@ -16,7 +16,7 @@ const ITERATIONS: usize = 50;
 /// what is at the place X that moves to x: both must agree with the derivation like the square of
 /// the step.
 pub fn both_frames<K: Kernel>() {
-    let points = sample(&compiled(K::NAME), 16);
+    let points = sample(compiled(K::NAME), 16);
     let size = largest(points.iter().flat_map(|point| &point.coordinates).copied());
     let errors = |step: f64| {
         let at = points.iter().map(|point| differences::<K>(&point.coordinates, point.time, step));

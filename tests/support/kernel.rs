@@ -1,5 +1,9 @@
 //! Generated modules behind one face, so that a property is written once for all fields.
 
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, OnceLock};
+
+use mms::gallery::FIELDS;
 use mms_codegen::Compiled;
 use mms_codegen::certify::sample::{Sample, samples};
 use mms_codegen::quantity::Quantity;
@@ -115,10 +119,12 @@ pub fn rows<T: Copy, const D: usize>(components: &[T]) -> [[T; D]; D] {
     std::array::from_fn(|row| std::array::from_fn(|column| components[row * D + column]))
 }
 
-/// The compiled text of a gallery field.
-pub fn compiled(name: &str) -> Compiled {
+/// The compiled text of a gallery field, of which each is compiled once.
+pub fn compiled(name: &str) -> &'static Compiled {
+    static COMPILED: LazyLock<BTreeMap<&str, OnceLock<Compiled>>> =
+        LazyLock::new(|| FIELDS.iter().map(|entry| (entry.name, OnceLock::new())).collect());
     let entry = mms::gallery::find(name).expect("a field of the gallery");
-    entry.compile().expect("the gallery compiles")
+    COMPILED[name].get_or_init(|| entry.compile().expect("the gallery compiles"))
 }
 
 /// Points and times over a field's domain.

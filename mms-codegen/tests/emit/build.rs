@@ -70,6 +70,16 @@ pub fn can_build(target: &Target) -> bool {
     }
 }
 
+/// The targets that one of so many cases is tried in: all where compilers are required; elsewhere, to take a
+/// few seconds, C and those whose turn it is, so that each has one case.
+pub fn in_turn(case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
+    let is_tried = move |(place, target): &(usize, &Target)| {
+        all_are_required() || target.name == "c" || place % cases == case
+    };
+    let targets = ports().enumerate().filter(is_tried);
+    targets.map(|(_, target)| target).filter(|target| can_build(target))
+}
+
 /// The Python that has what the tests need.
 fn python() -> String {
     std::env::var("MMS_PYTHON").unwrap_or("python3".into())
