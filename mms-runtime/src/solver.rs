@@ -33,6 +33,10 @@ pub use clock::Seconds;
 pub use present::Present;
 pub(crate) use state::State;
 
+/// After so many steps particles are sorted, for bunches that share their nodes are faster than others: at a twentieth
+/// of a cell in a step, few have left theirs before.
+const STEPS_IN_ORDER: usize = 32;
+
 /// A body of particles, its grid, and the field that drives it, with the shape function `S`.
 pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     field: &'f F,
@@ -67,6 +71,9 @@ where
     pub fn step<I: Integrator>(&mut self) -> Result<(), Failure> {
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
         self.keeps_weights = I::KEEPS_WEIGHTS || !self.formulation.moves;
+        if self.formulation.moves && self.clock.step % STEPS_IN_ORDER == STEPS_IN_ORDER - 1 {
+            self.sort();
+        }
         I::step::<T>(self).map_err(|failure| Failure { step, time, ..failure })?;
         self.clock.step += 1;
         self.clock.lag = I::LAG;

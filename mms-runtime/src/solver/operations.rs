@@ -191,22 +191,24 @@ where
                 Err(Stop::Strayed(p)) if sorted => {
                     return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
                 }
-                Err(Stop::Strayed(_)) => self.sort()?,
+                Err(Stop::Strayed(_)) => {
+                    self.sort();
+                    // Nothing has changed since they were found.
+                    self.weigh()?;
+                }
             }
             sorted = true;
         }
     }
 
-    /// Puts the particles, and what is kept of them, in the order of the cells they are in now. Weights that are
-    /// kept are found anew: nothing has changed since they were found.
-    fn sort(&mut self) -> Result<(), Failure> {
+    /// Puts the particles in the order of the cells they are in now. Weights that were kept are gone.
+    pub(super) fn sort(&mut self) {
         let Self { grid, particles, domains, weights, slabs, seconds, .. } = self;
         let position = |all: &Particles<T, D>, p| all.position(p);
         timed(&mut seconds.transfer, || {
             slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, position);
         });
         weights.clear();
-        self.weigh()
     }
 
     fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {

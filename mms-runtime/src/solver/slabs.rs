@@ -1,6 +1,7 @@
 //! The order of the particles, and which of them may be added to the nodes at the same time.
 //!
-//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the last
+//! Particles stand in the order of the cells they were in when they were sorted, those that make no bunch with others
+//! of their cell after the others of a slab. The layers of cells along the last
 //! axis are cut into slabs with about as many particles each, which stand together; the nodes that they can reach
 //! are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
 //! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
@@ -10,6 +11,7 @@ use std::ops::Range;
 
 use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder};
+use crate::stencil::BUNCH;
 use crate::{Lattice, Real, Vector};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
@@ -141,10 +143,15 @@ impl Slabs {
         let Self { order, cell, .. } = self;
         arrange(order, cell, &particles.id);
         reorder(cell, order);
+        self.cut(self.even_cuts(), self.cell.len());
+        let Self { all, order, cell, place, .. } = self;
+        for Slab { particles, .. } in all {
+            let own = particles.clone();
+            bunch(&mut order[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
+        }
         reorder(domains, order);
         particles.reorder(order);
         self.stand(&particles.id);
-        self.cut(self.even_cuts(), self.cell.len());
     }
 
     /// Cuts into an even number of slabs with about as many particles each; three, where there are too few layers.
@@ -201,6 +208,27 @@ fn arrange(order: &mut [u32], cell: &[u64], id: &[u32]) {
     order.sort_unstable_by_key(|&p| (cell[p as usize], id[p as usize]));
 }
 
+/// Puts those of each cell that make no bunch after all others that do, so that most bunches are of one cell. The
+/// first place has the number `start`; bunches begin at every fourth.
+fn bunch(order: &mut [u32], cell: &[u64], start: usize, scratch: &mut [u32]) {
+    let whole = |count: usize| count / BUNCH * BUNCH;
+    let cells = || cell.chunk_by(|a, b| a == b).map(<[u64]>::len);
+    let bunched: usize = cells().map(whole).sum();
+    let lead = (start.next_multiple_of(BUNCH) - start).min(cell.len() - bunched);
+    let (mut from, mut next, mut others) = (0, lead, 0);
+    for count in cells() {
+        let (bunches, rest) = order[from..from + count].split_at(whole(count));
+        scratch[next..next + bunches.len()].copy_from_slice(bunches);
+        next += bunches.len();
+        for &particle in rest {
+            scratch[if others < lead { others } else { bunched + others }] = particle;
+            others += 1;
+        }
+        from += count;
+    }
+    order.copy_from_slice(scratch);
+}
+
 /// Every other slab.
 struct Colour<'a> {
     slabs: &'a [Slab],
@@ -246,7 +274,7 @@ impl Colour<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{REACH, Slabs};
+    use super::{REACH, Slabs, bunch};
 
     /// Of layers with so many particles each, beginning with layer 5, in rows of ten nodes.
     fn slabs(particles_of_layers: &[usize]) -> Slabs {
@@ -289,6 +317,15 @@ mod tests {
                 assert!(all.iter().all(|slab| slab.particles.len().abs_diff(fair) <= 200));
             }
         }
+    }
+
+    #[test]
+    fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
+        let cell = [0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 3, 3, 3, 3, 3, 3];
+        let mut order: Vec<u32> = (20..37).collect();
+        bunch(&mut order, &cell, 6, &mut [0; 17]);
+        let expected = [24, 29, 20, 21, 22, 23, 25, 26, 27, 28, 31, 32, 33, 34, 30, 35, 36];
+        assert_eq!(order, expected);
     }
 
     #[test]
