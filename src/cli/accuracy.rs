@@ -23,8 +23,9 @@ use crate::workbench::{Module, Time, Way, Workbench, time};
 /// The table shows, for each quantity, precision and form, the regime with the largest error. Errors
 /// are in eps of the precision (2^-23, 2^-52, 2^-104): the median, that which 99 of 100 components do
 /// not exceed, and the largest |error|/|value|; then the largest |error| over the largest |value| of
-/// the quantity. What is not finite is counted, and enters no error. A 2-D field takes some seconds,
-/// a 3-D one about a minute; --quantity, --regime and --points shorten that.
+/// the quantity. What is not finite is counted, and enters no error. A field takes about a minute of
+/// processor time, a few at most, nearly all of it for the functions of the reference; --quantity,
+/// --regime and --points shorten that.
 ///
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
 /// declared, and at displacements down to 1e-12 of the size.

@@ -37,6 +37,9 @@ use crate::quantity::Quantity;
 use crate::selection::Form;
 use crate::variation::Variation;
 
+/// At how many points J is looked for, at least: so that a regime is the same one at fewer points.
+const SEARCHED: usize = 1000;
+
 /// At how many points the digits of the reference are checked.
 const CHECKED: usize = 4;
 
@@ -119,10 +122,8 @@ pub struct Varied {
 
 /// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.
 pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
-    /// At how many points J is looked for.
-    const POINTS: usize = 1000;
     let subject = Subject::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
-    let case = regime.case(&subject, POINTS)?;
+    let case = regime.case(&subject, SEARCHED)?;
     let values = case.values(Precision::F64);
     let variation = match case.variation {
         Variation::Shifted => Variation::Moved,
@@ -156,7 +157,7 @@ pub fn measure(
     for (name, maker) in shared.chain(own).filter(|(name, _)| wanted(name)) {
         progress(name);
         let case = match maker {
-            Maker::Shared(regime) => regime.case(&subject, request.points),
+            Maker::Shared(regime) => regime.case(&subject, request.points.max(SEARCHED)),
             Maker::Own(index) => Ok(Case::extreme(index)),
         };
         accuracy.add(name, case, &subject, request);
