@@ -40,7 +40,8 @@ better. `lost` counts components that are not finite although the true value is 
 whose true value is beyond it are no loss. Magnitudes below the least normal number count as that one.
 
 The stable form promises 64 eps as declared, and at displacements down to 1e-12 of the size: a test
-holds the page to that, with the one exception below. Beyond 64 eps is, in the stable form,
+holds the page to that, with the one exception below. But for J near 0 and far from 1, and for inputs
+and amplitudes at the ends of the range, beyond 64 eps is, in the stable form,
 
 | regime | what is lost | why |
 |---|---|---|
