@@ -10,8 +10,8 @@ use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
 use crate::defect::{Defect, on};
-use crate::lanes::{components, vectors};
-use crate::shape::Shape;
+use crate::lanes::components;
+use crate::shape::{Shape, lost};
 use crate::spline;
 use crate::stencil::{BUNCH, Tensor};
 use crate::tensor::{determinant, stretch_along_axes};
@@ -45,12 +45,12 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         position: &[M::Four; D],
         initial: &[Vector<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
-    ) -> Result<(), (usize, Cause)> {
+    ) -> Result<(), Cause> {
         let mut half_width = *initial;
         if FOLLOWS && !on(Defect::HalfWidthKept) {
             for p in 0..BUNCH {
                 let stretch =
-                    stretch_along_axes(&displacement_gradient[p]).ok_or((p, Cause::FlatDomain))?;
+                    stretch_along_axes(&displacement_gradient[p]).ok_or(Cause::FlatDomain)?;
                 half_width[p].component_mul_assign(&stretch);
             }
         }
@@ -75,7 +75,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
             fits &= stencil.set(machine, lattice, a, first, weights);
         }
-        if fits { Ok(()) } else { Err(lost(machine, lattice, position, &half_width)) }
+        if fits { Ok(()) } else { Err(lost(machine, position)) }
     }
 
     fn point<T: Real, const D: usize>(
@@ -94,22 +94,22 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
     lattice: &Lattice<T, D>,
     position: &[M::Four; D],
     half_width: &[Vector<T, D>; BUNCH],
-) -> Result<(), (usize, Cause)> {
+) -> Result<(), Cause> {
     stencil.begin::<MOST>(lattice, true);
     let mut fits = true;
     for a in 0..D {
         let cells = machine.numbers(lattice.cells_along(machine, a, position[a]));
         let h = lattice.cell_size[a];
         // A particle with fewer nodes may be near the last one.
-        let last = T::of((lattice.count[a] - 1) as f64);
-        let last_first = T::of(lattice.count[a] as f64 - MOST as f64);
+        let last = lattice.nodes[a] - T::one();
+        let last_first = lattice.nodes[a] - T::of(MOST as f64);
         let mut first = [T::zero(); BUNCH];
         let [mut weights, mut slopes] = [[[T::zero(); BUNCH]; MOST]; 2];
         for p in 0..BUNCH {
             let l = half_width[p][a];
             if !(l > T::zero() && l < h) {
                 let (half_width, cell_size) = (l.to_f64(), h.to_f64());
-                return Err((p, Cause::HalfWidth { half_width, cell_size }));
+                return Err(Cause::HalfWidth { half_width, cell_size });
             }
             let l = l * lattice.per_length[a];
             first[p] = (cells[p] - l).floor().min(last_first);
@@ -122,28 +122,7 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
         let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
         fits &= stencil.set(machine, lattice, a, machine.four(&first), all);
     }
-    if fits { Ok(()) } else { Err(lost(machine, lattice, position, half_width)) }
-}
-
-/// The first of four particles whose box is not between nodes.
-#[cold]
-fn lost<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    lattice: &Lattice<T, D>,
-    position: &[M::Four; D],
-    half_width: &[Vector<T, D>; BUNCH],
-) -> (usize, Cause) {
-    let points = vectors(machine, *position);
-    let cells = points.map(|point| lattice.in_cells(&point));
-    let between = |p: usize| {
-        (0..D).all(|a| {
-            let reach = half_width[p][a] * lattice.per_length[a];
-            let last = T::of((lattice.count[a] - 1) as f64);
-            T::zero() <= cells[p][a] - reach && cells[p][a] + reach <= last
-        })
-    };
-    let number = (0..BUNCH).find(|&p| !between(p)).unwrap_or(0);
-    (number, Cause::lost(&points[number]))
+    if fits { Ok(()) } else { Err(lost(machine, position)) }
 }
 
 /// The half widths of the box that stands for a domain: its own if its edges run along the axes, else those

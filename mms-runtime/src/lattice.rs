@@ -39,7 +39,7 @@ pub struct Lattice<T, const D: usize> {
     pub per_length: Vector<T, D>,
     /// Nodes along each axis.
     pub count: [usize; D],
-    /// The same as numbers.
+    /// [`count`](Lattice::count) as lengths in cells, which positions are compared with.
     pub nodes: [T; D],
     /// Distance in the arrays between neighbours along each axis.
     pub stride: [usize; D],

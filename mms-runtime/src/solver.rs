@@ -33,8 +33,7 @@ pub use clock::Seconds;
 pub use present::Present;
 pub(crate) use state::State;
 
-/// After so many steps particles are sorted, for bunches that share their nodes are faster than others: at a twentieth
-/// of a cell in a step, few have left theirs before.
+/// After so many steps particles are put in order again, for bunches that share their nodes are faster than others.
 const STEPS_IN_ORDER: usize = 32;
 
 /// A body of particles, its grid, and the field that drives it, with the shape function `S`.

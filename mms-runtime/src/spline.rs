@@ -7,8 +7,8 @@
 use mms_math::machine::{Machine, Plain};
 
 use crate::defect::{Defect, on};
-use crate::lanes::{components, vectors};
-use crate::shape::Shape;
+use crate::lanes::components;
+use crate::shape::{Shape, lost};
 use crate::stencil::{BUNCH, Tensor};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -34,7 +34,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
         position: &[M::Four; D],
         _: &[(); BUNCH],
         _: &[Matrix<T, D>; BUNCH],
-    ) -> Result<(), (usize, Cause)> {
+    ) -> Result<(), Cause> {
         place::<T, M, D, P, N>(machine, stencil, lattice, position)
     }
 
@@ -49,14 +49,14 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
 /// The products of splines of degree P along the axes, at the points where four particles are.
 ///
 /// # Errors
-/// A point is off the grid, or beyond the ends of the knots; with its number.
+/// A point is off the grid, or beyond the ends of the knots.
 #[inline(always)]
 pub fn place<T, M, const D: usize, const P: usize, const N: usize>(
     machine: M,
     stencil: &mut Tensor<T, D, N, N>,
     lattice: &Lattice<T, D>,
     position: &[M::Four; D],
-) -> Result<(), (usize, Cause)>
+) -> Result<(), Cause>
 where
     T: Real,
     M: Machine<T>,
@@ -87,27 +87,7 @@ where
         };
         fits &= stencil.set(machine, lattice, a, cell[a], weights);
     }
-    if fits { Ok(()) } else { Err(lost::<T, M, D>(machine, lattice, position)) }
-}
-
-/// The first of four points that is lost.
-#[cold]
-fn lost<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    lattice: &Lattice<T, D>,
-    position: &[M::Four; D],
-) -> (usize, Cause) {
-    let points = vectors(machine, *position);
-    let between_ends = |point: &Vector<T, D>| {
-        let (cells, slack) = (lattice.in_cells(point), T::of(SLACK));
-        let within = |a: usize| {
-            let [first, last] = lattice.ends[a];
-            first - slack <= cells[a] && cells[a] <= last + slack
-        };
-        (0..D).all(within)
-    };
-    let number = points.iter().position(|point| !between_ends(point)).unwrap_or(0);
-    (number, Cause::lost(&points[number]))
+    if fits { Ok(()) } else { Err(lost(machine, position)) }
 }
 
 /// As [`place`], at one point, four times.
@@ -121,8 +101,7 @@ pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     let mut stencil = Tensor::new();
     let machine = T::PlainMachine::from(Plain);
     let position = components(machine, &[*position; BUNCH]);
-    place::<T, _, D, P, N>(machine, &mut stencil, lattice, &position)
-        .map_err(|(_, cause)| cause)?;
+    place::<T, _, D, P, N>(machine, &mut stencil, lattice, &position)?;
     Ok(stencil)
 }
 

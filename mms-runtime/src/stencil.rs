@@ -29,7 +29,7 @@ pub const BUNCH: usize = 4;
 
 /// The four numbers of a node for each particle of a bunch, and of slopes along each axis.
 #[derive(Clone, Copy)]
-pub struct Carried<F, const D: usize> {
+pub struct Sloped<F, const D: usize> {
     /// q.
     pub value: [F; BUNCH],
     /// Q_a.
@@ -81,7 +81,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         nodes: Window<'_, T>,
     );
@@ -91,7 +91,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         nodes: Window<'_, T>,
     );

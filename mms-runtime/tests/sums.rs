@@ -8,7 +8,7 @@ use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Fused, Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, BUNCH, Carried, Collected, Members, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, BUNCH, Collected, Members, Sloped, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
@@ -45,7 +45,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         let of = |p: usize, k: usize| machine.four(&carried[4 * p + k].0);
         let value = std::array::from_fn(|p| of(p, 0));
         let slopes = std::array::from_fn(|p| std::array::from_fn(|a| of(p, 1 + a)));
-        let carried = Carried { value, slopes };
+        let carried = Sloped { value, slopes };
         let mut sums: [Vec<_>; 3] = std::array::from_fn(|_| nodes.to_vec());
         let [values, sloping, moments] = sums.each_mut().map(|nodes| Window { start: 0, nodes });
         stencil.spread_value(machine, value, members, values);

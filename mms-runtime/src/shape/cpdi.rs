@@ -16,7 +16,7 @@ use crate::defect::{Defect, on};
 use crate::lanes::columns;
 use crate::nodal::{Nodal, Window};
 use crate::spline;
-use crate::stencil::{BUNCH, Carried, Collected, Members, Stencil, Tensor, Wanted};
+use crate::stencil::{BUNCH, Collected, Members, Sloped, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -56,26 +56,27 @@ impl Shape for Cpdi {
         position: &[M::Four; D],
         half_edges: &[Matrix<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
-    ) -> Result<(), (usize, Cause)> {
+    ) -> Result<(), Cause> {
         let [mut present, mut inverse] = [[Matrix::zeros(); BUNCH]; 2];
         for p in 0..BUNCH {
             present[p] = deformation_gradient(&displacement_gradient[p]) * half_edges[p];
             present[p] = if on(Defect::CornersKept) { half_edges[p] } else { present[p] };
             let found = present[p].try_inverse().filter(matrix_is_finite);
-            inverse[p] = found.ok_or((p, Cause::FlatDomain))?;
+            inverse[p] = found.ok_or(Cause::FlatDomain)?;
             let transposed = on(Defect::CornersTransposed);
             inverse[p] = if transposed { inverse[p].transpose() } else { inverse[p] };
         }
         let (present, inverse) = (columns(machine, &present), columns(machine, &inverse));
         for c in 0..1 << D {
-            let sign = |a: usize| machine.splat(if c >> a & 1 == 0 { -T::one() } else { T::one() });
+            let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
             let share = machine.splat(T::ratio(1, 1 << D));
             let mut corner = *position;
             for i in 0..D {
                 let [mut apart, mut direction] = [machine.splat(T::zero()); 2];
                 for a in 0..D {
-                    apart = machine.times_plus(present[a][i], sign(a), apart);
-                    direction = machine.times_plus(inverse[i][a], sign(a), direction);
+                    let sign = machine.splat(sign(a));
+                    apart = machine.times_plus(present[a][i], sign, apart);
+                    direction = machine.times_plus(inverse[i][a], sign, direction);
                 }
                 corner[i] = machine.plus(position[i], apart);
                 corners.apart[c][i] = machine.numbers(apart);
@@ -108,7 +109,7 @@ impl<T: Real, const D: usize> Corners<T, D> {
         machine: M,
         along: &[[T; BUNCH]; D],
         share: M::Four,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
     ) -> [M::Four; BUNCH] {
         let mut of_corner = carried.value;
         for p in 0..BUNCH {
@@ -145,7 +146,10 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         mut nodes: Window<'_, T>,
     ) {
         let share = machine.splat(T::ratio(1, 1 << D));
-        let of_corner = value.map(|value| machine.times(share, value));
+        let mut of_corner = value;
+        for p in 0..BUNCH {
+            of_corner[p] = machine.times(share, value[p]);
+        }
         for hats in self.hats.iter().take(1 << D) {
             hats.spread_value(machine, of_corner, members, nodes.reborrow());
         }
@@ -155,7 +159,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
@@ -173,7 +177,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
@@ -185,7 +189,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
             }
         }
         for (hats, apart) in self.hats.iter().zip(&self.apart).take(1 << D) {
-            let at_particle = Carried { value: carried.value, slopes: of_node.slopes };
+            let at_particle = Sloped { value: carried.value, slopes: of_node.slopes };
             of_node.value = Self::of_corner(machine, apart, share, &at_particle);
             hats.spread_moments(machine, lattice, &of_node, members, nodes.reborrow());
         }

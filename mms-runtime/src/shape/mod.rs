@@ -7,7 +7,7 @@
 use mms_math::machine::{Machine, Plain};
 
 use crate::extension::extension_list;
-use crate::lanes::components;
+use crate::lanes::{components, vectors};
 use crate::stencil::{BUNCH, Stencil};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -57,7 +57,8 @@ pub trait Shape: 'static {
     /// the components along each axis are given, and have these domains and displacement gradients H.
     ///
     /// # Errors
-    /// A domain does not fit on the grid, or is too large for the stencil; with the particle's number.
+    /// A domain does not fit on the grid, or is too large for the stencil: the cause that the first of four particles
+    /// that are alike would have.
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
         stencil: &mut Self::Stencil<T, D>,
@@ -65,7 +66,7 @@ pub trait Shape: 'static {
         position: &[M::Four; D],
         domain: &[Self::Domain<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
-    ) -> Result<(), (usize, Cause)>;
+    ) -> Result<(), Cause>;
 
     /// The nodes and weights of four particles that are alike; see [`place`](Shape::place).
     ///
@@ -81,8 +82,7 @@ pub trait Shape: 'static {
         let machine = T::PlainMachine::from(Plain);
         let position = components(machine, &[*position; BUNCH]);
         let (domain, h) = ([*domain; BUNCH], [*displacement_gradient; BUNCH]);
-        Self::place(machine, &mut stencil, lattice, &position, &domain, &h)
-            .map_err(|(_, cause)| cause)?;
+        Self::place(machine, &mut stencil, lattice, &position, &domain, &h)?;
         Ok(stencil)
     }
 
@@ -94,4 +94,13 @@ pub trait Shape: 'static {
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
     ) -> Result<Self::Point<T, D>, Cause>;
+}
+
+/// What becomes of a bunch at these positions that is off the grid; of its first particle.
+#[cold]
+pub(crate) fn lost<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    position: &[M::Four; D],
+) -> Cause {
+    Cause::lost(&vectors(machine, *position)[0])
 }

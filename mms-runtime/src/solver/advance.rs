@@ -120,6 +120,8 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         let Self { scene, steps, velocity, .. } = self;
         let zero = machine.splat(T::zero());
         let wanted = match (steps.velocity, steps.deformation) {
+            // For hat functions the nearest linear velocity is the one between the nodes.
+            (Some(_), _) if scene.transfer == Transfer::Apic && S::DEGREE == 1 => Wanted::Gradient,
             (Some(_), _) if scene.transfer == Transfer::Apic => Wanted::Slopes,
             (_, Some(_)) => Wanted::Gradient,
             _ => Wanted::Value,
@@ -132,7 +134,8 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
             if scene.transfer == Transfer::Apic {
-                let affine = misread::affine(machine, mapped.slopes, S::DEGREE);
+                let affine = if S::DEGREE == 1 { mapped.gradient } else { mapped.slopes };
+                let affine = misread::affine(machine, affine, S::DEGREE);
                 *particles.affine.at(k) = matrices(machine, affine);
             }
         }

@@ -21,7 +21,7 @@ impl<'a, V: Copy> Fours<'a, V> {
     pub fn at(&self, k: usize) -> &[V; BUNCH] {
         match self.full.get(k) {
             Some(four) => four,
-            None => self.last.as_ref().expect("a bunch"),
+            None => self.last.as_ref().expect("no bunch after the last one"),
         }
     }
 }
@@ -46,7 +46,7 @@ impl<'a, V: Copy> FoursMut<'a, V> {
     pub fn at(&mut self, k: usize) -> &mut [V; BUNCH] {
         match self.full.get_mut(k) {
             Some(four) => four,
-            None => self.last.as_mut().expect("a bunch"),
+            None => self.last.as_mut().expect("no bunch after the last one"),
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::formulation::Configuration;
 use crate::nodal::{Window, columns, four};
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::{ALL, BUNCH, Carried as Linear, Members, Stencil};
+use crate::stencil::{ALL, BUNCH, Members, Sloped, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Matrix, Real, Vector};
 
@@ -269,24 +269,24 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         &self,
         machine: M,
         affine: &[Matrix<T, D>; BUNCH],
-    ) -> Linear<M::Four, D> {
+    ) -> Sloped<M::Four, D> {
         let value = self.momentum(machine, self.bunches.velocity.at(self.k));
         let mass = self.bunches.mass.at(self.k);
         let mut slopes = [[machine.splat(T::zero()); D]; BUNCH];
         for p in 0..BUNCH {
             slopes[p] = scaled(machine, &affine[p], machine.splat(mass[p]));
         }
-        Linear { value, slopes }
+        Sloped { value, slopes }
     }
 
     /// m b, and - V0 S.
     #[inline(always)]
-    fn push<M: Machine<T>>(&self, machine: M) -> Linear<M::Four, D> {
+    fn push<M: Machine<T>>(&self, machine: M) -> Sloped<M::Four, D> {
         let Bunches { body_force, mass, reference_volume, stress, .. } = self.bunches;
         let (body_force, mass) = (body_force.at(self.k), mass.at(self.k));
         let (volume, stress) = (reference_volume.at(self.k), stress.at(self.k));
         let zero = machine.splat(T::zero());
-        let mut push = Linear { value: [zero; BUNCH], slopes: [[zero; D]; BUNCH] };
+        let mut push = Sloped { value: [zero; BUNCH], slopes: [[zero; D]; BUNCH] };
         for p in 0..BUNCH {
             let body_force = four(machine, &body_force[p], T::zero());
             push.value[p] = machine.times(body_force, machine.splat(mass[p]));

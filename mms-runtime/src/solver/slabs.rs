@@ -42,6 +42,7 @@ type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Syn
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
     pub all: Vec<Slab>,
+    /// The layer and the particle that each slab but the first one begins with. There is room for the most slabs.
     cuts: Vec<[usize; 2]>,
     /// Nodes of a layer, and how many layers there are.
     layer: usize,
@@ -62,15 +63,17 @@ impl Slabs {
         near: bool,
     ) -> Self {
         let sorted = if near && particles >= FEWEST_PARTICLES { particles } else { 0 };
-        Self {
-            all: vec![Slab { particles: 0..particles, window: 0..lattice.len() }],
-            cuts: Vec::new(),
+        let mut slabs = Self {
+            all: Vec::with_capacity(MOST_SLABS),
+            cuts: Vec::with_capacity(MOST_SLABS),
             layer: lattice.stride[D - 1],
             layers: lattice.count[D - 1],
             place: (0..sorted as u32).collect(),
             order: (0..sorted as u32).collect(),
             cell: vec![0; sorted],
-        }
+        };
+        slabs.cut(particles);
+        slabs
     }
 
     /// Where the particle of that number is.
@@ -93,26 +96,28 @@ impl Slabs {
         if !fit || self.place.is_empty() && !cuts.is_empty() {
             return false;
         }
-        self.cut(cuts.to_vec(), particles);
+        self.cuts.clear();
+        self.cuts.extend_from_slice(cuts);
+        self.cut(particles);
         true
     }
 
-    /// Cuts so many particles.
-    fn cut(&mut self, cuts: Vec<[usize; 2]>, particles: usize) {
+    /// Makes slabs of so many particles.
+    fn cut(&mut self, particles: usize) {
+        let Self { all, cuts, layer, layers, .. } = self;
         let last = cuts.len();
         // How far the particles of the neighbours of an inner slab may drift into it.
         let drift = |s: usize| (cuts[s][0] - cuts[s - 1][0] - REACH[0] - REACH[1]) / 2;
         let slab = |s: usize| {
             let before = if s > 1 { cuts[s - 1][0] - REACH[0] - drift(s - 1) } else { 0 };
-            let after =
-                if s + 1 < last { cuts[s][0] + REACH[1] + drift(s + 1) } else { self.layers };
+            let after = if s + 1 < last { cuts[s][0] + REACH[1] + drift(s + 1) } else { *layers };
             let from = if s > 0 { cuts[s - 1][1] } else { 0 };
             let to = if s < last { cuts[s][1] } else { particles };
-            let after = after.min(self.layers);
-            Slab { particles: from..to, window: before * self.layer..after * self.layer }
+            let after = after.min(*layers);
+            Slab { particles: from..to, window: before * *layer..after * *layer }
         };
-        self.all = (0..=last).map(slab).collect();
-        self.cuts = cuts;
+        all.clear();
+        all.extend((0..=last).map(slab));
     }
 
     /// Remembers where each particle stands, where they do not stand in their first order.
@@ -143,7 +148,7 @@ impl Slabs {
         let Self { order, cell, .. } = self;
         arrange(order, cell, &particles.id);
         reorder(cell, order);
-        self.cut(self.even_cuts(), self.cell.len());
+        self.cut_evenly();
         let Self { all, order, cell, place, .. } = self;
         for Slab { particles, .. } in all {
             let own = particles.clone();
@@ -154,25 +159,26 @@ impl Slabs {
         self.stand(&particles.id);
     }
 
-    /// Cuts into an even number of slabs with about as many particles each; three, where there are too few layers.
-    fn even_cuts(&self) -> Vec<[usize; 2]> {
-        let particles = self.cell.len();
-        let layer = |p: usize| self.cell[p] as usize / self.layer;
+    /// Makes an even number of slabs with about as many particles each; three, where there are too few layers.
+    fn cut_evenly(&mut self) {
+        let Self { cuts, cell, layer: nodes, .. } = self;
+        let particles = cell.len();
+        let layer = |p: usize| cell[p] as usize / *nodes;
         let (first, last) = (layer(0), layer(particles - 1));
         let number = match last + 1 - first {
             few if few < FEWEST_LAYERS + 2 => 1,
             some if some < 4 * FEWEST_LAYERS => 3,
             many => (many / FEWEST_LAYERS).min(MOST_SLABS) / 2 * 2,
         };
-        let mut cuts: Vec<[usize; 2]> = Vec::new();
+        cuts.clear();
         for s in 1..number {
             let least = cuts.last().map_or(first + 1, |cut| cut[0] + FEWEST_LAYERS);
             let most = last - (number - 1 - s) * FEWEST_LAYERS;
             let at = layer(s * particles / number).min(most).max(least);
-            let before = |&cell: &u64| (cell as usize) < at * self.layer;
-            cuts.push([at, self.cell.partition_point(before)]);
+            let before = |&cell: &u64| (cell as usize) < at * *nodes;
+            cuts.push([at, cell.partition_point(before)]);
         }
-        cuts
+        self.cut(particles);
     }
 
     /// Does `work` for every slab, with its part of the nodes.
@@ -286,7 +292,7 @@ mod tests {
         let layers = particles_of_layers.len() + 10;
         let mut slabs =
             Slabs { all: Vec::new(), cuts: Vec::new(), layer: 10, layers, place, order, cell };
-        slabs.cut(slabs.even_cuts(), count as usize);
+        slabs.cut_evenly();
         slabs
     }
 

@@ -3,7 +3,7 @@
 use mms_math::machine::Machine;
 
 use super::tensor::{Along, Tensor};
-use super::{ALL, BUNCH, Carried, Members};
+use super::{ALL, BUNCH, Members, Sloped};
 use crate::Real;
 use crate::nodal::{Nodal, Window};
 
@@ -12,7 +12,7 @@ pub(super) struct Spread<'a, T, F, const D: usize, const LEAST: usize, const N: 
     pub stencil: &'a Tensor<T, D, LEAST, N>,
     /// What the slopes are multiplied by, in place of weights, along their axis.
     pub aside: &'a Along<T, D, N>,
-    pub carried: &'a Carried<F, D>,
+    pub carried: &'a Sloped<F, D>,
     pub members: Members,
 }
 

@@ -9,7 +9,7 @@ use mms_math::machine::Machine;
 
 use super::collect::Sums;
 use super::spread::Spread;
-use super::{BUNCH, Carried, Collected, Members, Stencil, Wanted};
+use super::{BUNCH, Collected, Members, Sloped, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
@@ -156,7 +156,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         &self,
         machine: M,
         aside: &Along<T, D, N>,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
@@ -235,7 +235,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         nodes: Window<'_, T>,
     ) {
         let slopes = [[machine.splat(T::zero()); D]; BUNCH];
-        let carried = Carried { value, slopes };
+        let carried = Sloped { value, slopes };
         self.add::<M, false>(machine, &self.slope, &carried, members, nodes);
     }
 
@@ -243,7 +243,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
@@ -255,7 +255,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Carried<M::Four, D>,
+        carried: &Sloped<M::Four, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {

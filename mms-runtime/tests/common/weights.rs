@@ -99,8 +99,7 @@ impl<const D: usize> Particle<D> {
         let h = [self.displacement_gradient.map(T::of); BUNCH];
         let mut stencil = S::Stencil::default();
         let components = components(machine, &positions);
-        S::place(machine, &mut stencil, lattice, &components, &domains, &h)
-            .map_err(|(_, cause)| cause)?;
+        S::place(machine, &mut stencil, lattice, &components, &domains, &h)?;
         Ok((stencil, positions))
     }
 
