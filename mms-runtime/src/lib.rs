@@ -26,6 +26,7 @@ pub mod spline;
 
 pub mod body;
 pub mod boundary;
+pub mod column;
 pub mod failure;
 pub mod field;
 pub mod formulation;

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 
 use crate::body::Filling;
+use crate::column::Column;
+use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Transfer, Vector};
 
 /// The state of all particles.
@@ -12,25 +14,25 @@ use crate::{Matrix, Real, Transfer, Vector};
 #[derive(Clone, Debug)]
 pub struct Particles<T, const D: usize> {
     /// The number that a particle started with: the solver may change their order.
-    pub id: Vec<u32>,
+    pub id: Column<u32>,
     /// X.
-    pub reference_position: Vec<Vector<T, D>>,
+    pub reference_position: Column<Vector<T, D>>,
     /// d = x - X.
-    pub displacement: Vec<Vector<T, D>>,
+    pub displacement: Column<Vector<T, D>>,
     /// v.
-    pub velocity: Vec<Vector<T, D>>,
+    pub velocity: Column<Vector<T, D>>,
     /// H = F - I.
-    pub displacement_gradient: Vec<Matrix<T, D>>,
+    pub displacement_gradient: Column<Matrix<T, D>>,
     /// b, per unit mass.
-    pub body_force: Vec<Vector<T, D>>,
+    pub body_force: Column<Vector<T, D>>,
     /// m.
-    pub mass: Vec<T>,
+    pub mass: Column<T>,
     /// V0.
-    pub reference_volume: Vec<T>,
+    pub reference_volume: Column<T>,
     /// C, the linear velocity on each particle; only with APIC.
-    pub affine: Vec<Matrix<T, D>>,
+    pub affine: Column<Matrix<T, D>>,
     /// (I - S S+)^m v, what the grid does not represent of the velocity; only with XPIC.
-    pub residual: Vec<Vector<T, D>>,
+    pub residual: Column<Vector<T, D>>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
@@ -47,14 +49,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
             // Fillings are limited to less than that.
             id: (0..count as u32).collect(),
             reference_position: filling.position.iter().map(|x| x.map(T::of)).collect(),
-            displacement: vec![Vector::zeros(); count],
-            velocity: vec![Vector::zeros(); count],
-            displacement_gradient: vec![Matrix::zeros(); count],
-            body_force: vec![Vector::zeros(); count],
-            mass: vec![T::zero(); count],
+            displacement: vec![Vector::zeros(); count].into(),
+            velocity: vec![Vector::zeros(); count].into(),
+            displacement_gradient: vec![Matrix::zeros(); count].into(),
+            body_force: vec![Vector::zeros(); count].into(),
+            mass: vec![T::zero(); count].into(),
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
-            affine: vec![Matrix::zeros(); affine],
-            residual: vec![Vector::zeros(); residual],
+            affine: vec![Matrix::zeros(); affine].into(),
+            residual: vec![Vector::zeros(); residual].into(),
         }
     }
 
@@ -110,19 +112,33 @@ impl<T: Real, const D: usize> Particles<T, D> {
         reorder(reference_volume, order);
         reorder(affine, order);
         reorder(residual, order);
+        self.fill_up();
+    }
+
+    /// Has the last particle stand in for those that its bunch has not, when particles were changed one by one.
+    pub(crate) fn fill_up(&mut self) {
+        self.reference_position.fill_up();
+        self.displacement.fill_up();
+        self.velocity.fill_up();
+        self.displacement_gradient.fill_up();
+        self.body_force.fill_up();
+        self.mass.fill_up();
+        self.reference_volume.fill_up();
+        self.affine.fill_up();
+        self.residual.fill_up();
     }
 
     /// X, and what a step changes.
-    pub(crate) fn columns(&mut self) -> (&[Vector<T, D>], Columns<'_, T, D>) {
+    pub(crate) fn columns(&mut self) -> (&[[Vector<T, D>; BUNCH]], Columns<'_, T, D>) {
         let columns = Columns {
             start: 0,
-            displacement: &mut self.displacement,
-            velocity: &mut self.velocity,
-            displacement_gradient: &mut self.displacement_gradient,
-            affine: &mut self.affine,
-            residual: &mut self.residual,
+            displacement: self.displacement.bunches_mut(),
+            velocity: self.velocity.bunches_mut(),
+            displacement_gradient: self.displacement_gradient.bunches_mut(),
+            affine: self.affine.bunches_mut(),
+            residual: self.residual.bunches_mut(),
         };
-        (&self.reference_position, columns)
+        (self.reference_position.bunches(), columns)
     }
 }
 
@@ -148,22 +164,23 @@ pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
     order.iter_mut().for_each(|from| *from &= !DONE);
 }
 
-/// What a step changes of the particles from `start` on.
+/// What a step changes of the bunches from `start` on.
 pub(crate) struct Columns<'a, T, const D: usize> {
     pub start: usize,
-    pub displacement: &'a mut [Vector<T, D>],
-    pub velocity: &'a mut [Vector<T, D>],
-    pub displacement_gradient: &'a mut [Matrix<T, D>],
-    pub affine: &'a mut [Matrix<T, D>],
-    pub residual: &'a mut [Vector<T, D>],
+    pub displacement: &'a mut [[Vector<T, D>; BUNCH]],
+    pub velocity: &'a mut [[Vector<T, D>; BUNCH]],
+    pub displacement_gradient: &'a mut [[Matrix<T, D>; BUNCH]],
+    pub affine: &'a mut [[Matrix<T, D>; BUNCH]],
+    pub residual: &'a mut [[Vector<T, D>; BUNCH]],
 }
 
 impl<T, const D: usize> Columns<'_, T, D> {
+    /// How many bunches there are.
     pub fn len(&self) -> usize {
         self.displacement.len()
     }
 
-    /// The first `count` particles, and the others.
+    /// The first `count` bunches, and the others.
     pub fn split(self, count: usize) -> [Self; 2] {
         let (displacement, displacements) = self.displacement.split_at_mut(count);
         let (velocity, velocities) = self.velocity.split_at_mut(count);

@@ -6,7 +6,6 @@
 
 mod advance;
 mod clock;
-mod fours;
 mod map;
 mod misread;
 mod need;
@@ -19,6 +18,7 @@ mod state;
 mod threads;
 
 use crate::boundary::Boundary;
+use crate::column::Column;
 use crate::formulation::Configuration;
 use crate::integrator::Integrator;
 use crate::nodal::Nodal;
@@ -41,7 +41,7 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     field: &'f F,
     clock: Clock,
     particles: Particles<T, D>,
-    domains: Vec<S::Domain<T, D>>,
+    domains: Column<S::Domain<T, D>>,
     grid: Grid<T, D>,
     boundary: Boundary<T, D>,
     transfer: Transfer,

@@ -62,21 +62,19 @@ where
     M: Machine<T>,
 {
     const { assert!(N == P + 1) };
+    let [slack, reach] = [SLACK, P as f64 - 1.0].map(T::of);
     let (mut fits, mut even) = (true, true);
     let [mut cells, mut cell] = [[machine.splat(T::zero()); D]; 2];
     for a in 0..D {
-        let [first, last] = lattice.ends[a].map(|end| machine.splat(end));
-        let slack = machine.splat(T::of(SLACK));
+        let [first, last] = lattice.ends[a];
         cells[a] = lattice.cells_along(machine, a, position[a]);
-        fits &= machine.all_at_most(machine.minus(first, slack), cells[a])
-            && machine.all_at_most(cells[a], machine.plus(last, slack));
-        let last_cell = machine.minus(last, machine.splat(T::one()));
-        cell[a] = machine.least(machine.greatest(machine.floor(cells[a]), first), last_cell);
-        let reach = machine.splat(T::of(P as f64 - 1.0));
+        fits &= between(machine, cells[a], [first - slack, last + slack]);
+        let [first_cell, last_cell] = [first, last - T::one()];
+        let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first_cell));
+        cell[a] = machine.least(floor, machine.splat(last_cell));
         even &= P == 1
             || on(Defect::SplineEnds)
-            || machine.all_at_most(machine.plus(first, reach), cell[a])
-                && machine.all_at_most(cell[a], machine.minus(last_cell, reach));
+            || between(machine, cell[a], [first_cell + reach, last_cell - reach]);
     }
     stencil.begin::<N>(lattice, even);
     for a in 0..D {
@@ -88,6 +86,14 @@ where
         fits &= stencil.set(machine, lattice, a, cell[a], weights);
     }
     if fits { Ok(()) } else { Err(lost(machine, position)) }
+}
+
+/// Whether four numbers are all between two others.
+#[inline(always)]
+fn between<T: Real, M: Machine<T>>(machine: M, numbers: M::Four, [first, last]: [T; 2]) -> bool {
+    // Almost always both are so: no branch.
+    machine.all_at_most(machine.splat(first), numbers)
+        & machine.all_at_most(numbers, machine.splat(last))
 }
 
 /// As [`place`], at one point, four times.

@@ -112,11 +112,3 @@ pub type Members = [usize; 2];
 
 /// All of a bunch.
 pub const ALL: Members = [0, BUNCH];
-
-impl<F: Copy, const D: usize> Collected<F, D> {
-    /// The same number everywhere.
-    #[inline(always)]
-    pub fn all(number: F) -> Self {
-        Self { value: [number; D], gradient: [[number; D]; D], slopes: [[number; D]; D] }
-    }
-}

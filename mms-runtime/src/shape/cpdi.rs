@@ -203,7 +203,9 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Collected<M::Four, D> {
-        let mut collected = Collected::all(machine.splat(T::zero()));
+        let zero = machine.splat(T::zero());
+        let nothing = [[zero; D]; D];
+        let mut collected = Collected { value: [zero; D], gradient: nothing, slopes: nothing };
         let share = machine.splat(T::ratio(1, 1 << D));
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
             let of_corner = hats.collect(machine, lattice, Wanted::Value, nodes).value;

@@ -3,7 +3,6 @@
 use mms_math::dispatch::Work;
 use mms_math::machine::{Fused, Machine, Plain};
 
-use super::fours::FoursMut;
 use super::misread;
 use super::scene::Scene;
 use crate::defect::{Defect, on};
@@ -11,8 +10,8 @@ use crate::lanes::{columns, components, determinants, matrices, vectors};
 use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::shape::Shape;
-use crate::stencil::{BUNCH, Stencil as _, Wanted};
-use crate::{Cause, Matrix, Real, Transfer, Vector};
+use crate::stencil::{Stencil as _, Wanted};
+use crate::{Cause, Real, Transfer};
 
 /// What of the particles' state follows the nodes, and how far.
 #[derive(Clone, Copy)]
@@ -54,9 +53,7 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
     #[inline(always)]
     fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
         let Columns { start, .. } = self.particles;
-        let count = self.particles.len();
-        let mut bunches = Bunches::new(self.particles);
-        let placed = self.scene.placed(start..start + count);
+        let mut particles = self.particles;
         let nodes = Nodes {
             scene: self.scene,
             steps: self.steps,
@@ -67,34 +64,12 @@ impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
         // Zero times all new numbers: zero, if these are finite.
         let mut rest = machine.splat(T::zero());
         let mut sound = true;
-        for k in 0..count.div_ceil(BUNCH) {
-            let state = (&*bunches.displacement.at(k), &*bunches.displacement_gradient.at(k));
-            let stencil = self.scene.weigh(machine, &placed, k, state, &mut room)?;
-            sound &= nodes.update(machine, &mut bunches, k, stencil, &mut rest);
+        for k in 0..particles.len() {
+            let moved = (&particles.displacement[k], &particles.displacement_gradient[k]);
+            let stencil = self.scene.weigh(machine, start + k, moved, &mut room)?;
+            sound &= nodes.update(machine, &mut particles, k, stencil, &mut rest);
         }
         Ok(sound & machine.all_at_most(rest, rest))
-    }
-}
-
-/// The particles that are updated, bunch by bunch.
-struct Bunches<'a, T: Real, const D: usize> {
-    displacement: FoursMut<'a, Vector<T, D>>,
-    velocity: FoursMut<'a, Vector<T, D>>,
-    displacement_gradient: FoursMut<'a, Matrix<T, D>>,
-    affine: FoursMut<'a, Matrix<T, D>>,
-    residual: FoursMut<'a, Vector<T, D>>,
-}
-
-impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
-    #[inline(always)]
-    fn new(particles: Columns<'a, T, D>) -> Self {
-        Self {
-            displacement: FoursMut::new(particles.displacement),
-            velocity: FoursMut::new(particles.velocity),
-            displacement_gradient: FoursMut::new(particles.displacement_gradient),
-            affine: FoursMut::new(particles.affine),
-            residual: FoursMut::new(particles.residual),
-        }
     }
 }
 
@@ -112,7 +87,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
     fn update<M: Machine<T>>(
         &self,
         machine: M,
-        particles: &mut Bunches<'_, T, D>,
+        particles: &mut Columns<'_, T, D>,
         k: usize,
         stencil: &S::Stencil<T, D>,
         rest: &mut M::Four,
@@ -129,32 +104,32 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         let mapped = stencil.collect(machine, scene.lattice, wanted, velocity);
         if let Some(kick) = steps.velocity {
             let next = self.kicked(machine, kick, mapped.value, particles, k, stencil);
-            *particles.velocity.at(k) = vectors(machine, next);
+            particles.velocity[k] = vectors(machine, next);
             for a in 0..D {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
             if scene.transfer == Transfer::Apic {
                 let affine = if S::DEGREE == 1 { mapped.gradient } else { mapped.slopes };
                 let affine = misread::affine(machine, affine, S::DEGREE);
-                *particles.affine.at(k) = matrices(machine, affine);
+                particles.affine[k] = matrices(machine, affine);
             }
         }
         if let Some(time_step) = steps.position {
-            let mut next = components(machine, particles.displacement.at(k));
-            let own = components(machine, particles.velocity.at(k));
+            let mut next = components(machine, &particles.displacement[k]);
+            let own = components(machine, &particles.velocity[k]);
             let carrier = misread::carrier(mapped.value, own);
             for a in 0..D {
                 next[a] = machine.times_plus(machine.splat(time_step), carrier[a], next[a]);
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
-            *particles.displacement.at(k) = vectors(machine, next);
+            particles.displacement[k] = vectors(machine, next);
         }
         let Some(time_step) = steps.deformation else { return true };
-        let h = columns(machine, particles.displacement_gradient.at(k));
+        let h = columns(machine, &particles.displacement_gradient[k]);
         let gradient = misread::velocity_gradient(machine, mapped.gradient);
         let moves = scene.moves && !on(Defect::ReferenceGradient);
         let mut next = deformed(machine, h, gradient, time_step, moves);
-        *particles.displacement_gradient.at(k) = matrices(machine, next);
+        particles.displacement_gradient[k] = matrices(machine, next);
         for j in 0..D {
             for i in 0..D {
                 *rest = machine.times_plus(next[j][i], zero, *rest);
@@ -172,7 +147,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         machine: M,
         kick: T,
         mapped: [M::Four; D],
-        particles: &mut Bunches<'_, T, D>,
+        particles: &mut Columns<'_, T, D>,
         k: usize,
         stencil: &S::Stencil<T, D>,
     ) -> [M::Four; D] {
@@ -181,7 +156,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
             return mapped;
         }
         let acceleration = stencil.collect(machine, scene.lattice, Wanted::Value, acceleration);
-        let mut next = components(machine, particles.velocity.at(k));
+        let mut next = components(machine, &particles.velocity[k]);
         for a in 0..D {
             next[a] = machine.times_plus(machine.splat(kick), acceleration.value[a], next[a]);
         }
@@ -195,7 +170,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
             }
             Transfer::Xpic { .. } => {
                 let sign = machine.splat(if on(Defect::XpicSign) { T::one() } else { -T::one() });
-                let residual = components(machine, particles.residual.at(k));
+                let residual = components(machine, &particles.residual[k]);
                 for a in 0..D {
                     next[a] = machine.times_plus(sign, residual[a], next[a]);
                 }
@@ -269,23 +244,20 @@ impl<T: Real, const D: usize, S: Shape> Residual<'_, '_, T, D, S> {
     #[inline(always)]
     fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
         let Self { scene, particles, nodal, source, .. } = self;
-        let (start, count) = (particles.start, particles.len());
-        let mut bunches = Bunches::new(particles);
-        let placed = scene.placed(start..start + count);
         let mut room = S::Stencil::default();
-        for k in 0..count.div_ceil(BUNCH) {
-            let state = (&*bunches.displacement.at(k), &*bunches.displacement_gradient.at(k));
-            let stencil = scene.weigh(machine, &placed, k, state, &mut room)?;
+        for k in 0..particles.len() {
+            let moved = (&particles.displacement[k], &particles.displacement_gradient[k]);
+            let stencil = scene.weigh(machine, particles.start + k, moved, &mut room)?;
             let from = match source {
-                Source::Velocity => &*bunches.velocity.at(k),
-                Source::Residual => &*bunches.residual.at(k),
+                Source::Velocity => &particles.velocity[k],
+                Source::Residual => &particles.residual[k],
             };
             let represented = stencil.collect(machine, scene.lattice, Wanted::Value, nodal).value;
             let mut left = components(machine, from);
             for a in 0..D {
                 left[a] = machine.minus(left[a], represented[a]);
             }
-            *bunches.residual.at(k) = vectors(machine, left);
+            particles.residual[k] = vectors(machine, left);
         }
         Ok(true)
     }

@@ -6,7 +6,6 @@ use mms_math::dispatch::{Work, best};
 use mms_math::machine::{Fused, Machine, Plain};
 
 use super::clock::{Seconds, timed};
-use super::fours::Fours;
 use super::misread;
 use super::scene::Scene;
 use super::slabs::Slab;
@@ -73,17 +72,18 @@ where
         let Range { start, end } = slab.particles;
         let count = self.particles.len();
         for first in (start / BUNCH * BUNCH..end).step_by(PART) {
-            let part = first..end.next_multiple_of(BUNCH).min(first + PART).min(count);
-            let stress = &mut stress[..part.len()];
+            let part = first..end.next_multiple_of(BUNCH).min(first + PART);
             if let Carried::Force | Carried::Everything = self.carried {
-                timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
+                let part = first..part.end.min(count);
+                let stress = &mut stress[..part.len()];
+                timed(&mut seconds.stress, || self.find_stress(part, stress))?;
             }
             let sums = Sums {
                 scene: self.scene,
                 particles: self.particles,
                 carried: self.carried,
-                part,
-                stress,
+                bunches: first / BUNCH..part.end / BUNCH,
+                stress: stress.as_chunks().0,
                 nodes: [momentum.reborrow(), force.reborrow()],
                 slab,
                 room: &mut room,
@@ -101,14 +101,7 @@ where
         let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
         self.field.kirchhoff_stress(&points, gradients, stress);
         let singular = |k| (part.start + k, Cause::Inverted { jacobian: 0.0 });
-        (self.formulation.stress)(gradients, stress).map_err(singular)?;
-        for (p, stress) in part.clone().zip(&*stress) {
-            // Almost always one test does for all components.
-            if !stress.sum().is_finite() && !matrix_is_finite(stress) {
-                return Err(Stop::Failed(p, Cause::NotFinite { quantity: "stress" }));
-            }
-        }
-        Ok(())
+        Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
 }
 
@@ -117,9 +110,9 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     scene: Scene<'a, T, D, S>,
     particles: &'a Particles<T, D>,
     carried: Carried,
-    /// From the first particle of a bunch on.
-    part: Range<usize>,
-    stress: &'a [Matrix<T, D>],
+    bunches: Range<usize>,
+    /// From the first one of these on.
+    stress: &'a [[Matrix<T, D>; BUNCH]],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
     slab: &'a Slab,
@@ -143,21 +136,24 @@ impl<T: Real, const D: usize, S: Shape> Work for Sums<'_, T, D, S> {
 impl<T: Real, const D: usize, S: Shape> Sums<'_, T, D, S> {
     #[inline(always)]
     fn add<M: Machine<T>>(self, machine: M) -> Result<(), Stop> {
-        let Self { scene, particles, carried, part, stress, mut nodes, slab, room } = self;
+        let Self { scene, particles, carried, bunches: range, stress, mut nodes, slab, room } =
+            self;
         let Slab { particles: own, window } = slab;
-        let bunches = Bunches::new(particles, part.clone(), stress);
-        let placed = scene.placed(part.clone());
+        let stress = &stress[..range.len()];
+        let bunches = Bunches::new(particles, range.clone(), stress);
         // For the stress of the next part.
-        let (next, _) = particles.displacement_gradient[part.end..].as_chunks::<BUNCH>();
-        for k in 0..part.len().div_ceil(BUNCH) {
-            let first = part.start + BUNCH * k;
+        let next = &particles.displacement_gradient.bunches()[range.end..];
+        let mut rest = machine.splat(T::zero());
+        for k in 0..range.len() {
+            let bunch = range.start + k;
             if let Some(next) = next.get(k) {
                 for h in next {
                     machine.fetch(h);
                 }
             }
-            let state = (bunches.displacement.at(k), bunches.displacement_gradient.at(k));
-            let stencil = scene.weigh(machine, &placed, k, state, room)?;
+            let moved = (&bunches.displacement[k], &bunches.displacement_gradient[k]);
+            let stencil = scene.weigh(machine, bunch, moved, room)?;
+            let first = BUNCH * bunch;
             let whole = own.start <= first && first + BUNCH <= own.end;
             let members = if whole {
                 ALL
@@ -170,40 +166,49 @@ impl<T: Real, const D: usize, S: Shape> Sums<'_, T, D, S> {
             let [momentum, force] = &mut nodes;
             let nodes = [momentum.reborrow(), force.reborrow()];
             let bunch = Bunch { bunches: &bunches, k, members, stencil };
-            bunch.add(machine, carried, scene.lattice, nodes);
+            bunch.add(machine, carried, scene.lattice, nodes, &mut rest);
         }
-        Ok(())
+        if machine.all_at_most(rest, rest) {
+            return Ok(());
+        }
+        let odd = stress.as_flattened().iter().position(|stress| !matrix_is_finite(stress));
+        let cause = Cause::NotFinite { quantity: "stress" };
+        odd.map_or(Ok(()), |p| Err(Stop::Failed(BUNCH * range.start + p, cause)))
     }
 }
 
 /// The particles that are added, bunch by bunch.
 struct Bunches<'a, T: Real, const D: usize> {
-    displacement: Fours<'a, Vector<T, D>>,
-    velocity: Fours<'a, Vector<T, D>>,
-    displacement_gradient: Fours<'a, Matrix<T, D>>,
-    body_force: Fours<'a, Vector<T, D>>,
-    mass: Fours<'a, T>,
-    reference_volume: Fours<'a, T>,
-    stress: Fours<'a, Matrix<T, D>>,
+    displacement: &'a [[Vector<T, D>; BUNCH]],
+    velocity: &'a [[Vector<T, D>; BUNCH]],
+    displacement_gradient: &'a [[Matrix<T, D>; BUNCH]],
+    body_force: &'a [[Vector<T, D>; BUNCH]],
+    mass: &'a [[T; BUNCH]],
+    reference_volume: &'a [[T; BUNCH]],
+    stress: &'a [[Matrix<T, D>; BUNCH]],
     /// With APIC.
-    affine: Option<Fours<'a, Matrix<T, D>>>,
+    affine: Option<&'a [[Matrix<T, D>; BUNCH]]>,
     /// With XPIC.
-    residual: Option<Fours<'a, Vector<T, D>>>,
+    residual: Option<&'a [[Vector<T, D>; BUNCH]]>,
 }
 
 impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
     #[inline(always)]
-    fn new(all: &'a Particles<T, D>, part: Range<usize>, stress: &'a [Matrix<T, D>]) -> Self {
+    fn new(
+        all: &'a Particles<T, D>,
+        range: Range<usize>,
+        stress: &'a [[Matrix<T, D>; BUNCH]],
+    ) -> Self {
         Self {
-            displacement: Fours::new(&all.displacement[part.clone()]),
-            velocity: Fours::new(&all.velocity[part.clone()]),
-            displacement_gradient: Fours::new(&all.displacement_gradient[part.clone()]),
-            body_force: Fours::new(&all.body_force[part.clone()]),
-            mass: Fours::new(&all.mass[part.clone()]),
-            reference_volume: Fours::new(&all.reference_volume[part.clone()]),
-            stress: Fours::new(stress),
-            affine: all.affine.get(part.clone()).map(Fours::new),
-            residual: all.residual.get(part).map(Fours::new),
+            displacement: &all.displacement.bunches()[range.clone()],
+            velocity: &all.velocity.bunches()[range.clone()],
+            displacement_gradient: &all.displacement_gradient.bunches()[range.clone()],
+            body_force: &all.body_force.bunches()[range.clone()],
+            mass: &all.mass.bunches()[range.clone()],
+            reference_volume: &all.reference_volume.bunches()[range.clone()],
+            stress,
+            affine: all.affine.bunches().get(range.clone()),
+            residual: all.residual.bunches().get(range),
         }
     }
 }
@@ -217,7 +222,7 @@ struct Bunch<'a, T: Real, const D: usize, St> {
 }
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
-    /// Adds what is `carried` to momentum and force of the nodes.
+    /// Adds what is `carried` to momentum and force of the nodes; and to `rest` zero times the stress.
     #[inline(always)]
     fn add<M: Machine<T>>(
         self,
@@ -225,25 +230,26 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         carried: Carried,
         lattice: &Lattice<T, D>,
         [momentum, force]: [Window<'_, T>; 2],
+        rest: &mut M::Four,
     ) {
         let Self { bunches, k, members, stencil } = self;
         match (carried, &bunches.affine, &bunches.residual) {
             (Carried::Force, ..) => {}
             (Carried::Residual, _, Some(residual)) => {
-                let value = self.momentum(machine, residual.at(k));
+                let value = self.momentum(machine, &residual[k]);
                 stencil.spread_value(machine, value, members, momentum);
             }
             (_, Some(affine), _) => {
-                let linear = self.linear(machine, affine.at(k));
+                let linear = self.linear(machine, &affine[k]);
                 stencil.spread_moments(machine, lattice, &linear, members, momentum);
             }
             _ => {
-                let value = self.momentum(machine, bunches.velocity.at(k));
+                let value = self.momentum(machine, &bunches.velocity[k]);
                 stencil.spread_value(machine, value, members, momentum);
             }
         }
         if let Carried::Force | Carried::Everything = carried {
-            stencil.spread(machine, &self.push(machine), members, force);
+            stencil.spread(machine, &self.push(machine, rest), members, force);
         }
     }
 
@@ -254,7 +260,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         machine: M,
         velocity: &[Vector<T, D>; BUNCH],
     ) -> [M::Four; BUNCH] {
-        let mass = self.bunches.mass.at(self.k);
+        let mass = &self.bunches.mass[self.k];
         let mut momentum = [machine.splat(T::zero()); BUNCH];
         for p in 0..BUNCH {
             let velocity = four(machine, &velocity[p], T::one());
@@ -270,8 +276,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         machine: M,
         affine: &[Matrix<T, D>; BUNCH],
     ) -> Sloped<M::Four, D> {
-        let value = self.momentum(machine, self.bunches.velocity.at(self.k));
-        let mass = self.bunches.mass.at(self.k);
+        let value = self.momentum(machine, &self.bunches.velocity[self.k]);
+        let mass = &self.bunches.mass[self.k];
         let mut slopes = [[machine.splat(T::zero()); D]; BUNCH];
         for p in 0..BUNCH {
             slopes[p] = scaled(machine, &affine[p], machine.splat(mass[p]));
@@ -279,18 +285,21 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         Sloped { value, slopes }
     }
 
-    /// m b, and - V0 S.
+    /// m b, and - V0 S; to `rest` is added zero times that: zero, if it is finite.
     #[inline(always)]
-    fn push<M: Machine<T>>(&self, machine: M) -> Sloped<M::Four, D> {
+    fn push<M: Machine<T>>(&self, machine: M, rest: &mut M::Four) -> Sloped<M::Four, D> {
         let Bunches { body_force, mass, reference_volume, stress, .. } = self.bunches;
-        let (body_force, mass) = (body_force.at(self.k), mass.at(self.k));
-        let (volume, stress) = (reference_volume.at(self.k), stress.at(self.k));
+        let (body_force, mass) = (&body_force[self.k], &mass[self.k]);
+        let (volume, stress) = (&reference_volume[self.k], &stress[self.k]);
         let zero = machine.splat(T::zero());
         let mut push = Sloped { value: [zero; BUNCH], slopes: [[zero; D]; BUNCH] };
         for p in 0..BUNCH {
             let body_force = four(machine, &body_force[p], T::zero());
             push.value[p] = machine.times(body_force, machine.splat(mass[p]));
             let slopes = scaled(machine, &stress[p], machine.splat(-volume[p]));
+            for column in slopes {
+                *rest = machine.times_plus(column, zero, *rest);
+            }
             push.slopes[p] = misread::stress(slopes);
         }
         push

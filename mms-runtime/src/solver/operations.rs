@@ -8,7 +8,6 @@ use mms_math::machine::Plain;
 use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
-use super::fours::Fours;
 use super::map::{Carried, Map, Stop};
 use super::scene::Scene;
 use super::threads::{each_pair, each_part};
@@ -19,7 +18,6 @@ use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::BUNCH;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
@@ -106,7 +104,7 @@ where
             moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
-            domains,
+            domains: domains.bunches(),
             weights,
         };
         let sound = timed(&mut seconds.transfer, || {
@@ -144,20 +142,18 @@ where
             lattice: &grid.lattice,
             moves: self.formulation.moves,
             transfer: *transfer,
-            reference_position: &particles.reference_position,
-            domains,
+            reference_position: particles.reference_position.bunches(),
+            domains: domains.bunches(),
             weights: &[],
         };
         weights.clear();
         let found = timed(&mut seconds.transfer, || {
             let machine = T::PlainMachine::from(Plain);
-            let count = particles.len();
-            let d = Fours::new(&particles.displacement);
-            let h = Fours::new(&particles.displacement_gradient);
-            let placed = scene.placed(0..count);
-            (0..count.div_ceil(BUNCH)).try_for_each(|k| {
+            let d = particles.displacement.bunches();
+            let h = particles.displacement_gradient.bunches();
+            d.iter().zip(h).enumerate().try_for_each(|(bunch, moved)| {
                 let mut stencil = S::Stencil::default();
-                scene.weigh(machine, &placed, k, (d.at(k), h.at(k)), &mut stencil)?;
+                scene.weigh(machine, bunch, moved, &mut stencil)?;
                 weights.push(stencil);
                 Ok(())
             })
@@ -227,13 +223,13 @@ where
             first.fill(Nodal::zero());
             second.fill(Nodal::zero());
         });
-        let reference_position = &particles.reference_position;
+        let reference_position = particles.reference_position.bunches();
         let scene = Scene::<T, D, S> {
             lattice,
             moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
-            domains,
+            domains: domains.bunches(),
             weights,
         };
         let map = Map { scene, particles, field, carried, formulation };
@@ -271,7 +267,7 @@ where
             moves: self.formulation.moves,
             transfer: *transfer,
             reference_position,
-            domains,
+            domains: domains.bunches(),
             weights,
         };
         let nodal = match source {

@@ -6,6 +6,7 @@ use super::need::Need;
 use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
+use crate::column::Column;
 use crate::defect::{Defect, on};
 use crate::failure::positive;
 use crate::lattice::Axis;
@@ -84,6 +85,7 @@ where
         let residual_nodes = if particles.residual.is_empty() { 0 } else { lattice.len() };
         let mut slabs = Slabs::new(&lattice, count, S::NEAR);
         initialise(field, &mut particles, T::of(clock.start))?;
+        particles.fill_up();
         let mut grid = Grid::new(lattice);
         let smallest = particles.mass.iter().fold(particles.mass[0], |a, &b| a.min(b));
         let widest = grid.lattice.count.iter().fold(0, |a, &b| a.max(b));
@@ -94,7 +96,7 @@ where
             grid.mass_floor = smallest * T::ratio(1, 100);
         }
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
-        let mut domains: Vec<_> = domains.collect();
+        let mut domains: Column<_> = domains.collect();
         slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, |all, p| {
             if moves { all.position(p) } else { all.reference_position[p] }
         });

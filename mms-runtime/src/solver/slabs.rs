@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use crate::column::Column;
 use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder};
 use crate::stencil::BUNCH;
@@ -128,12 +129,12 @@ impl Slabs {
     }
 
     /// Sorts the particles, with their `domains`, by the cells of their positions from an origin, in cells.
-    pub fn sort<T: Real, V, const D: usize>(
+    pub fn sort<T: Real, V: Copy, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
         origin: f64,
         particles: &mut Particles<T, D>,
-        domains: &mut [V],
+        domains: &mut Column<V>,
         position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
     ) {
         if self.place.is_empty() {
@@ -155,6 +156,7 @@ impl Slabs {
             bunch(&mut order[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
         }
         reorder(domains, order);
+        domains.fill_up();
         particles.reorder(order);
         self.stand(&particles.id);
     }

@@ -39,11 +39,11 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         State {
             step: self.clock.step,
             lag: self.clock.lag,
-            id: Cow::from(&particles.id),
-            displacement: Cow::from(&particles.displacement),
-            velocity: Cow::from(&particles.velocity),
-            displacement_gradient: Cow::from(&particles.displacement_gradient),
-            affine: Cow::from(&particles.affine),
+            id: Cow::from(&*particles.id),
+            displacement: Cow::from(&*particles.displacement),
+            velocity: Cow::from(&*particles.velocity),
+            displacement_gradient: Cow::from(&*particles.displacement_gradient),
+            affine: Cow::from(&*particles.affine),
             cuts: Cow::from(self.slabs.cuts()),
             seconds: self.seconds,
         }
@@ -68,12 +68,13 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         let mut order: Vec<u32> =
             state.id.iter().map(|&id| self.slabs.place_of(id as usize) as u32).collect();
         crate::particle::reorder(&mut self.domains, &mut order);
+        self.domains.fill_up();
         self.particles.reorder(&mut order);
         self.slabs.stand(&self.particles.id);
-        self.particles.displacement = state.displacement.into_owned();
-        self.particles.velocity = state.velocity.into_owned();
-        self.particles.displacement_gradient = state.displacement_gradient.into_owned();
-        self.particles.affine = state.affine.into_owned();
+        self.particles.displacement = state.displacement.into_owned().into();
+        self.particles.velocity = state.velocity.into_owned().into();
+        self.particles.displacement_gradient = state.displacement_gradient.into_owned().into();
+        self.particles.affine = state.affine.into_owned().into();
         (self.clock.step, self.clock.lag) = (state.step, state.lag);
         self.seconds = state.seconds;
         Ok(())

@@ -5,9 +5,13 @@
 
 use crate::Real;
 use crate::particle::Columns;
+use crate::stencil::BUNCH;
 
 /// Particles that are worked on by one thread at a time.
 const PART: usize = 2048;
+
+/// And bunches.
+const BUNCHES: usize = PART / BUNCH;
 
 /// Both results; at the same time in a pool of more than one thread.
 pub(super) fn both<A: Send, B: Send>(
@@ -25,10 +29,10 @@ pub(super) fn each_part<T: Real, R: Send, const D: usize>(
     join: &(dyn Fn(R, R) -> R + Sync),
 ) -> R {
     let count = particles.len();
-    if count <= PART {
+    if count <= BUNCHES {
         return work(particles);
     }
-    let [first, others] = particles.split((count / 2).next_multiple_of(PART));
+    let [first, others] = particles.split((count / 2).next_multiple_of(BUNCHES));
     let (first, others) = both(|| each_part(first, work, join), || each_part(others, work, join));
     join(first, others)
 }

@@ -2,75 +2,85 @@
 
 use mms_math::machine::Machine;
 
+use super::BUNCH;
 use super::tensor::{Along, Tensor};
-use super::{BUNCH, Collected};
 use crate::Real;
 use crate::nodal::Nodal;
 
 /// What is summed, over which nodes.
-pub(super) struct Sums<'a, T, const D: usize, const LEAST: usize, const N: usize> {
+pub(super) struct Sums<'a, T, const D: usize, const LEAST: usize, const N: usize, const K: usize> {
     pub stencil: &'a Tensor<T, D, LEAST, N>,
-    /// In place of weights, for slopes.
-    pub moment: &'a Along<T, D, N>,
+    /// What comes, in `K` sums for every axis, in place of the weights along that axis: slopes, moments.
+    pub asides: [&'a Along<T, D, N>; K],
     pub nodes: &'a [Nodal<T>],
 }
 
-/// The weights, slopes and moments of the nodes along an axis.
-struct Axis<F, const W: usize> {
+/// The sums of a vector: with weights, and of each of the `K` asides for every axis.
+pub(super) struct Summed<F, const D: usize, const K: usize> {
+    pub value: [F; D],
+    pub asides: [[[F; D]; D]; K],
+}
+
+/// The weights, and the asides, of the nodes along an axis.
+struct Axis<F, const W: usize, const K: usize> {
     weight: [F; W],
-    slope: [F; W],
-    moment: [F; W],
+    asides: [[F; W]; K],
 }
 
 /// The rows of nodes along the first axis.
 type Rows<'a, T, const W: usize> = [[&'a [Nodal<T>; W]; W]; W];
 
-impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Sums<'_, T, D, LEAST, N> {
+impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize>
+    Sums<'_, T, D, LEAST, N, K>
+{
     /// All sums over `W` nodes along every axis: those of particles that share their nodes together.
     #[inline(always)]
-    pub fn all<M: Machine<T>, const GRADIENT: bool, const SLOPES: bool, const W: usize>(
-        &self,
-        machine: M,
-    ) -> Collected<M::Four, D> {
-        let mut collected = Collected::all(machine.splat(T::zero()));
+    pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Four, D, K> {
+        let zero = machine.splat(T::zero());
+        let mut summed = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
         let firsts = self.stencil.first;
-        let mut left = [true; BUNCH];
-        while let Some(leader) = left.iter().position(|&left| left) {
-            let first = firsts[leader];
+        let shared = self.stencil.is_shared();
+        // A bit of every particle whose nodes have not been seen.
+        let mut left = (1_u32 << BUNCH) - 1;
+        while left != 0 {
+            let first = firsts[left.trailing_zeros() as usize % BUNCH];
             let mut along = self.axis::<M, W>(machine, 0);
-            if firsts == [first; BUNCH] {
-                left = [false; BUNCH];
+            if shared {
+                left = 0;
             } else {
-                let shares = firsts.map(|other| other == first);
+                let mut share = [T::zero(); BUNCH];
                 for p in 0..BUNCH {
-                    left[p] &= !shares[p];
+                    if firsts[p] == first {
+                        share[p] = T::one();
+                        left &= !(1 << p);
+                    }
                 }
                 // Every product has a factor of the first axis: those of others are 0.
-                let share = shares.map(|shares| if shares { T::one() } else { T::zero() });
                 let share = machine.four(&share);
                 for k in 0..W {
                     along.weight[k] = machine.times(along.weight[k], share);
-                    along.slope[k] = machine.times(along.slope[k], share);
-                    along.moment[k] = machine.times(along.moment[k], share);
+                    for aside in &mut along.asides {
+                        aside[k] = machine.times(aside[k], share);
+                    }
                 }
             }
             let rows = self.rows::<W>(first as usize);
             for c in 0..D {
-                self.component::<M, GRADIENT, SLOPES, W>(machine, &along, &rows, c, &mut collected);
+                self.component(machine, &along, &rows, c, &mut summed);
             }
         }
-        collected
+        summed
     }
 
     #[inline(always)]
-    fn axis<M: Machine<T>, const W: usize>(&self, machine: M, a: usize) -> Axis<M::Four, W> {
-        let Self { stencil, moment, .. } = self;
+    fn axis<M: Machine<T>, const W: usize>(&self, machine: M, a: usize) -> Axis<M::Four, W, K> {
         let nothing = [machine.splat(T::zero()); W];
-        let mut along = Axis { weight: nothing, slope: nothing, moment: nothing };
+        let mut along = Axis { weight: nothing, asides: [nothing; K] };
         for k in 0..W {
-            along.weight[k] = machine.four(&stencil.weight[a][k]);
-            along.slope[k] = machine.four(&stencil.slope[a][k]);
-            along.moment[k] = machine.four(&moment[a][k]);
+            along.weight[k] = machine.four(&self.stencil.weight[a][k]);
+            for s in 0..K {
+                along.asides[s][k] = machine.four(&self.asides[s][a][k]);
+            }
         }
         along
     }
@@ -85,87 +95,95 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Sums<'_, T, D,
         std::array::from_fn(|k2| std::array::from_fn(|k1| row(k1, k2)))
     }
 
-    /// Adds the sums of one component.
+    /// Adds the sums of one component: along rows, of these in planes, of these in space. Along the last axis that
+    /// there is, they go on from the sums of other particles, which have the weight 0 here.
     #[inline(always)]
-    fn component<M: Machine<T>, const GRADIENT: bool, const SLOPES: bool, const W: usize>(
+    fn component<M: Machine<T>, const W: usize>(
         &self,
         machine: M,
-        along: &Axis<M::Four, W>,
+        along: &Axis<M::Four, W, K>,
         rows: &Rows<'_, T, W>,
         c: usize,
-        collected: &mut Collected<M::Four, D>,
+        summed: &mut Summed<M::Four, D, K>,
     ) {
         let zero = machine.splat(T::zero());
-        let number = |x: &[T; BUNCH]| machine.four(x);
-        let Self { stencil: Tensor { weight, slope, .. }, moment, .. } = self;
-        let mut value = zero;
-        let (mut gradient, mut slopes) = ([zero; 3], [zero; 3]);
+        let mut before = [[zero; 3]; K];
+        for s in 0..K {
+            for a in 0..D {
+                before[s][a] = summed.asides[s][a][c];
+            }
+        }
+        let (mut space, mut space_asides) = (summed.value[c], before);
         for k2 in 0..if D > 2 { W } else { 1 } {
-            let mut of_plane = zero;
-            let (mut plane_gradient, mut plane_slopes) = ([zero; 2], [zero; 2]);
+            let (mut plane, mut plane_asides) = (zero, [[zero; 3]; K]);
+            if D == 2 {
+                (plane, plane_asides) = (space, space_asides);
+            }
             for k1 in 0..if D > 1 { W } else { 1 } {
-                let (mut of_row, mut row_gradient, mut row_slope) = (zero, zero, zero);
+                let (mut row, mut row_asides) = (zero, [zero; K]);
+                if D == 1 {
+                    row = space;
+                    for s in 0..K {
+                        row_asides[s] = space_asides[s][0];
+                    }
+                }
                 for k0 in 0..W {
                     let node = machine.splat(rows[k2][k1][k0].0[c]);
-                    of_row = machine.times_plus(along.weight[k0], node, of_row);
-                    if GRADIENT {
-                        row_gradient = machine.times_plus(along.slope[k0], node, row_gradient);
-                    }
-                    if SLOPES {
-                        row_slope = machine.times_plus(along.moment[k0], node, row_slope);
+                    row = machine.times_plus(along.weight[k0], node, row);
+                    for s in 0..K {
+                        row_asides[s] =
+                            machine.times_plus(along.asides[s][k0], node, row_asides[s]);
                     }
                 }
                 if D == 1 {
-                    (of_plane, plane_gradient[0], plane_slopes[0]) =
-                        (of_row, row_gradient, row_slope);
+                    plane = row;
+                    for s in 0..K {
+                        plane_asides[s][0] = row_asides[s];
+                    }
                     continue;
                 }
-                let w1 = number(&weight[1 % D][k1]);
-                of_plane = machine.times_plus(w1, of_row, of_plane);
-                if GRADIENT {
-                    let s1 = number(&slope[1 % D][k1]);
-                    plane_gradient[0] = machine.times_plus(w1, row_gradient, plane_gradient[0]);
-                    plane_gradient[1] = machine.times_plus(s1, of_row, plane_gradient[1]);
-                }
-                if SLOPES {
-                    let m1 = number(&moment[1 % D][k1]);
-                    plane_slopes[0] = machine.times_plus(w1, row_slope, plane_slopes[0]);
-                    plane_slopes[1] = machine.times_plus(m1, of_row, plane_slopes[1]);
+                let w1 = machine.four(&self.stencil.weight[1 % D][k1]);
+                plane = machine.times_plus(w1, row, plane);
+                for s in 0..K {
+                    let of_row = [row_asides[s], zero, zero];
+                    let s1 = machine.four(&self.asides[s][1 % D][k1]);
+                    self.gather(machine, [w1, s1], 1, row, of_row, &mut plane_asides[s]);
                 }
             }
             if D < 3 {
-                value = of_plane;
-                gradient = [plane_gradient[0], plane_gradient[1], zero];
-                slopes = [plane_slopes[0], plane_slopes[1], zero];
+                (space, space_asides) = (plane, plane_asides);
                 continue;
             }
-            let w2 = number(&weight[2 % D][k2]);
-            value = machine.times_plus(w2, of_plane, value);
-            if GRADIENT {
-                let s2 = number(&slope[2 % D][k2]);
-                for a in 0..2 {
-                    gradient[a] = machine.times_plus(w2, plane_gradient[a], gradient[a]);
-                }
-                gradient[2] = machine.times_plus(s2, of_plane, gradient[2]);
-            }
-            if SLOPES {
-                let m2 = number(&moment[2 % D][k2]);
-                for a in 0..2 {
-                    slopes[a] = machine.times_plus(w2, plane_slopes[a], slopes[a]);
-                }
-                slopes[2] = machine.times_plus(m2, of_plane, slopes[2]);
+            let w2 = machine.four(&self.stencil.weight[2 % D][k2]);
+            space = machine.times_plus(w2, plane, space);
+            for s in 0..K {
+                let s2 = machine.four(&self.asides[s][2 % D][k2]);
+                let of_plane = plane_asides[s];
+                self.gather(machine, [w2, s2], 2, plane, of_plane, &mut space_asides[s]);
             }
         }
-        collected.value[c] = machine.plus(collected.value[c], value);
-        for a in 0..D {
-            if GRADIENT {
-                let sum = &mut collected.gradient[a][c];
-                *sum = machine.plus(*sum, gradient[a]);
-            }
-            if SLOPES {
-                let sum = &mut collected.slopes[a][c];
-                *sum = machine.plus(*sum, slopes[a]);
+        summed.value[c] = space;
+        for s in 0..K {
+            for a in 0..D {
+                summed.asides[s][a][c] = space_asides[s][a];
             }
         }
+    }
+
+    /// Adds to the sums of an aside what comes of those along the axes before axis `a`.
+    #[inline(always)]
+    fn gather<M: Machine<T>>(
+        &self,
+        machine: M,
+        [weight, aside]: [M::Four; 2],
+        a: usize,
+        value: M::Four,
+        asides: [M::Four; 3],
+        sums: &mut [M::Four; 3],
+    ) {
+        for b in 0..a {
+            sums[b] = machine.times_plus(weight, asides[b], sums[b]);
+        }
+        sums[a] = machine.times_plus(aside, value, sums[a]);
     }
 }

@@ -29,8 +29,7 @@ where
         machine: M,
         mut nodes: Window<'_, T>,
     ) {
-        let first = self.stencil.first;
-        if self.members == ALL && first == [first[0]; BUNCH] {
+        if self.members == ALL && self.stencil.is_shared() {
             self.of::<M, SLOPES, W, BUNCH>(machine, 0, nodes);
         } else {
             let [from, to] = self.members;

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use mms_math::machine::Machine;
 
-use super::collect::Sums;
+use super::collect::{Summed, Sums};
 use super::spread::Spread;
 use super::{BUNCH, Collected, Members, Sloped, Stencil, Wanted};
 use crate::defect::{Defect, on};
@@ -76,10 +76,10 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             self.weight[axis][k] = machine.numbers(weight[k]);
             self.slope[axis][k] = machine.numbers(machine.times(slope[k], per_length));
         }
-        let after = machine.plus(first, machine.splat(T::of(W as f64)));
-        // What is not a number is on no grid.
+        let after = machine.splat(lattice.nodes[axis] - T::of(W as f64));
+        // What is not a number is on no grid. Almost always both are so: no branch.
         let fits = machine.all_at_most(machine.splat(T::zero()), first)
-            && machine.all_at_most(after, machine.splat(lattice.nodes[axis]));
+            & machine.all_at_most(first, after);
         self.start[axis] = machine.whole(first);
         let stride = lattice.stride[axis] as u32;
         for p in 0..BUNCH {
@@ -143,11 +143,26 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     /// How far the last node is behind the first one, in the grid's arrays.
     #[inline(always)]
     fn extent(&self) -> usize {
+        let width = if LEAST < N { self.width } else { N };
         let mut extent = 0;
         for stride in self.stride {
-            extent += (self.width - 1) * stride;
+            extent += (width - 1) * stride;
         }
         extent
+    }
+
+    /// The first of the `members` whose first node is not among the `room` ones from `start` on.
+    #[cold]
+    #[inline(never)]
+    fn first_beyond(&self, [from, to]: Members, start: u32, room: u32) -> Option<usize> {
+        (from..to).find(|&p| self.first[p].wrapping_sub(start) >= room)
+    }
+
+    /// Whether all four have the same nodes.
+    #[inline(always)]
+    pub(super) fn is_shared(&self) -> bool {
+        let [a, b, c, d] = self.first;
+        (a ^ b) | (a ^ c) | (a ^ d) == 0
     }
 
     /// Adds to nodes, with these weights along the axes where the slopes are.
@@ -168,18 +183,19 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         }
     }
 
+    /// The sums over nodes with weights, and those with each of these in place of the weights along an axis.
     #[inline(always)]
-    fn sum<M: Machine<T>, const GRADIENT: bool, const SLOPES: bool>(
+    fn sum<M: Machine<T>, const K: usize>(
         &self,
         machine: M,
-        moment: &Along<T, D, N>,
+        asides: [&Along<T, D, N>; K],
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Four, D> {
-        let sums = Sums { stencil: self, moment, nodes };
+    ) -> Summed<M::Four, D, K> {
+        let sums = Sums { stencil: self, asides, nodes };
         if LEAST < N && self.width == LEAST {
-            sums.all::<M, GRADIENT, SLOPES, LEAST>(machine)
+            sums.all::<M, LEAST>(machine)
         } else {
-            sums.all::<M, GRADIENT, SLOPES, N>(machine)
+            sums.all::<M, N>(machine)
         }
     }
 }
@@ -216,14 +232,13 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
 
     #[inline(always)]
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize> {
-        let extent = self.extent();
-        // Compared with all at once: whether one is beyond is rarely asked twice.
-        let strays = self.first.map(|first| {
-            let first = first as usize;
-            first < nodes.start || first + extent >= nodes.end
-        });
-        let [from, to] = members;
-        if strays == [false; BUNCH] { None } else { (from..to).find(|&p| strays[p]) }
+        // How many nodes may come first; there are fewer than 2^32.
+        let room = nodes.len().saturating_sub(self.extent()) as u32;
+        let mut farthest = 0;
+        for first in self.first {
+            farthest = farthest.max(first.wrapping_sub(nodes.start as u32));
+        }
+        if farthest < room { None } else { self.first_beyond(members, nodes.start as u32, room) }
     }
 
     #[inline(always)]
@@ -271,25 +286,28 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         wanted: Wanted,
         nodes: &[Nodal<T>],
     ) -> Collected<M::Four, D> {
+        let nothing = [[machine.splat(T::zero()); D]; D];
         match wanted {
-            Wanted::Value => self.sum::<M, false, false>(machine, &self.slope, nodes),
+            Wanted::Value => {
+                let Summed { value, asides: [] } = self.sum(machine, [], nodes);
+                Collected { value, gradient: nothing, slopes: nothing }
+            }
             Wanted::Slopes if lattice.degree > 1 => {
                 let (moment, per_spread) = self.moments(machine, lattice);
-                let mut collected = self.sum::<M, true, true>(machine, &moment, nodes);
+                let asides = [&self.slope, &moment];
+                let Summed { value, asides: [gradient, mut slopes] } =
+                    self.sum(machine, asides, nodes);
                 for a in 0..D {
                     for c in 0..D {
-                        let slope = &mut collected.slopes[a][c];
-                        *slope = machine.times(*slope, per_spread[a]);
+                        slopes[a][c] = machine.times(slopes[a][c], per_spread[a]);
                     }
                 }
-                collected
+                Collected { value, gradient, slopes }
             }
             Wanted::Gradient | Wanted::Slopes => {
-                let mut collected = self.sum::<M, true, false>(machine, &self.slope, nodes);
-                if wanted == Wanted::Slopes {
-                    collected.slopes = collected.gradient;
-                }
-                collected
+                let Summed { value, asides: [gradient] } = self.sum(machine, [&self.slope], nodes);
+                let slopes = if wanted == Wanted::Slopes { gradient } else { nothing };
+                Collected { value, gradient, slopes }
             }
         }
     }

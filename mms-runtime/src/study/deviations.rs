@@ -113,7 +113,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
             Errors::of(&particles.velocity, &self.vector).map_err(odd("velocity's error"))?;
 
         field.displacement_gradient(now, reference, &mut self.gradient);
-        let gradients = [&particles.displacement_gradient, &self.gradient];
+        let gradients = [&*particles.displacement_gradient, &self.gradient];
         let deformation_gradient =
             Errors::of_tensors(gradients[0], gradients[1]).map_err(odd("F's error"))?;
         for (stress, gradient) in self.stress.iter_mut().zip(gradients) {
