@@ -1,7 +1,7 @@
 //! The least that a loop over points can take on this machine: the additions, multiplications and
 //! fused multiply-adds of the emitted code, times what one of them takes where none waits for
-//! another. A division counts as one of them, although it takes longer; loads and stores, integers
-//! and selections are free.
+//! another. A division and a square root count as one of them, although they take longer; loads
+//! and stores, integers and selections are free.
 
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
@@ -23,8 +23,6 @@ const SINE_AND_COSINE: Slots = [27, 24];
 const OF_HALF_TURNS: Slots = [21, 15];
 /// The logarithm.
 const LN: Slots = [18, 14];
-/// A root and its inverse.
-const ROOT: Slots = [20, 18];
 
 /// The operations that were done with numbers of a point.
 #[derive(Debug, Default)]
@@ -150,25 +148,8 @@ impl Scalar for Counted<'_> {
         let tally = self.tally.or(factor.tally);
         Counted { tally, ..self }.with(term, self.value * factor.value + term.value)
     }
-    fn quotients<const N: usize>(above: [Self; N], below: [Self; N]) -> [Self; N] {
-        // One division, and for each quotient seven products and sums.
-        let slots = if N > 1 { 7 * N + 1 } else { N };
-        let mut numbers = above.iter().chain(&below);
-        let tally = numbers.find_map(|number| number.tally);
-        tally.inspect(|tally| tally.add(slots));
-        core::array::from_fn(|index| Counted {
-            value: above[index].value / below[index].value,
-            tally,
-        })
-    }
     fn sqrt(self) -> Self {
         self.of([1, 1], self.value.sqrt())
-    }
-    fn root(self) -> [Self; 2] {
-        [self.of(ROOT, self.value.sqrt()); 2]
-    }
-    fn over_root(self, root: Self) -> Self {
-        self / root
     }
     fn ln(self) -> Self {
         self.of(LN, self.value.ln())

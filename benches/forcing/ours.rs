@@ -25,6 +25,8 @@ struct Ours<T> {
 
 impl<T: Copy + Into<f64>> Contender for Ours<T> {
     fn round(&mut self) -> Result<(), Box<dyn std::error::Error>> {
+        // Once untimed, as the peers' programs do: others have had the caches.
+        (self.work)(&self.points, &mut self.out);
         let start = Instant::now();
         (self.work)(&self.points, &mut self.out);
         self.seconds.push(start.elapsed().as_secs_f64());

@@ -19,6 +19,9 @@ pub const BLOCK: usize = 64;
 /// The values of `N` numbers at the points of a block.
 pub type Block<T, const N: usize> = [[T; BLOCK]; N];
 
+/// The same, wherever they are.
+pub type Columns<'a, T, const N: usize> = [&'a [T; BLOCK]; N];
+
 /// A scalar that stands for a number of type `T` in a loop over points.
 pub trait Stand<T>: Real {
     /// In place of the number.
@@ -82,7 +85,7 @@ pub trait Function<S, const I: usize, const O: usize> {
 
     /// Its results at all points of a block.
     #[inline(always)]
-    fn on_block<T: Copy>(&self, inputs: &Block<T, I>, outputs: &mut Block<T, O>)
+    fn on_block<T: Copy>(&self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>)
     where
         S: Stand<T>,
     {
@@ -96,32 +99,6 @@ pub trait Function<S, const I: usize, const O: usize> {
     }
 }
 
-/// One function of the results of another. Each has a loop of its own: the elements of a short loop
-/// wait less for each other, so that more of them are under way at a time.
-#[derive(Debug)]
-pub struct Then<F, G, const M: usize>(pub F, pub G);
-
-impl<S, F, G, const I: usize, const M: usize, const O: usize> Function<S, I, O> for Then<F, G, M>
-where
-    F: Function<S, I, M>,
-    G: Function<S, M, O>,
-{
-    #[inline(always)]
-    fn at(&self, point: [S; I]) -> [S; O] {
-        self.1.at(self.0.at(point))
-    }
-
-    #[inline(always)]
-    fn on_block<T: Copy>(&self, inputs: &Block<T, I>, outputs: &mut Block<T, O>)
-    where
-        S: Stand<T>,
-    {
-        let mut between = [[inputs[0][0]; BLOCK]; M];
-        self.0.on_block(inputs, &mut between);
-        self.1.on_block(&between, outputs);
-    }
-}
-
 /// The same function in any stand-in of `T`.
 pub trait Kernel<T, const I: usize, const O: usize> {
     /// Passes the function to a loop over points.
@@ -132,14 +109,72 @@ pub trait Kernel<T, const I: usize, const O: usize> {
 pub trait Points<S, const I: usize, const O: usize> {
     /// Applies the function to every point.
     fn each(&mut self, function: &impl Function<S, I, O>);
+
+    /// Applies the second function to what the first one makes of every point. Each has a loop of its own: the
+    /// elements of a short loop wait less for each other, so that more of them are under way at a time.
+    fn each_then<const M: usize>(
+        &mut self,
+        first: &impl Function<S, I, M>,
+        second: &impl Function<S, M, O>,
+    );
+}
+
+/// What is done with a block.
+trait OnBlock<S, T, const I: usize, const O: usize> {
+    /// Its results.
+    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>);
+}
+
+/// One function.
+struct One<'a, F>(&'a F);
+
+impl<S, T, F, const I: usize, const O: usize> OnBlock<S, T, I, O> for One<'_, F>
+where
+    S: Stand<T>,
+    T: Copy,
+    F: Function<S, I, O>,
+{
+    #[inline(always)]
+    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
+        self.0.on_block(inputs, outputs);
+    }
+}
+
+/// A function of the results of another.
+struct Two<'a, F, G, T, const M: usize> {
+    first: &'a F,
+    second: &'a G,
+    /// A place for the first one's results, made once for all blocks.
+    between: Block<T, M>,
+}
+
+impl<S, T, F, G, const I: usize, const M: usize, const O: usize> OnBlock<S, T, I, O>
+    for Two<'_, F, G, T, M>
+where
+    S: Stand<T>,
+    T: Copy,
+    F: Function<S, I, M>,
+    G: Function<S, M, O>,
+{
+    #[inline(always)]
+    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
+        self.first.on_block(inputs, &mut self.between);
+        self.second.on_block(&self.between.each_ref(), outputs);
+    }
 }
 
 /// `N` numbers at each of some points, wherever they are stored.
 pub trait Source<T, const N: usize> {
     /// How many points there are.
     fn count(&self) -> usize;
-    /// Copies the points from `start` on, as many as fit and are there.
-    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>);
+    /// The points from `start` on, in a `room` for them where they do not stand in columns. Where there are not as
+    /// many as a block has, the first one stands in for the others: it might be that nothing is defined elsewhere.
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        machine: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N>;
 }
 
 /// A place for `N` numbers at each of some points.
@@ -157,14 +192,21 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn load<M: Machine<T>>(&self, _: M, start: usize, block: &mut Block<T, N>) {
-        for (column, lane) in self.iter().zip(block) {
-            let rest = &column[start..];
-            match rest.first_chunk() {
-                Some(whole) => *lane = *whole,
-                None => lane[..rest.len()].copy_from_slice(rest),
-            }
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        _: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
+        if self.iter().all(|column| column.len() >= start + BLOCK) {
+            return self.map(|column| column[start..].first_chunk().expect("a block"));
         }
+        for (column, lane) in self.iter().zip(room.iter_mut()) {
+            let rest = &column[start..];
+            lane[..rest.len()].copy_from_slice(rest);
+            lane[rest.len()..].fill(rest[0]);
+        }
+        room.each_ref()
     }
 }
 
@@ -175,8 +217,14 @@ impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>) {
-        turn(machine, &self[start..], block);
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        machine: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
+        turn(machine, &self[start..], room);
+        room.each_ref()
     }
 }
 
@@ -189,11 +237,17 @@ impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
     }
 
     #[inline(always)]
-    fn load<M: Machine<T>>(&self, machine: M, start: usize, block: &mut Block<T, N>) {
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        machine: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
         const { assert!(A + B == N) };
-        let (first, second) = block.split_at_mut(A);
+        let (first, second) = room.split_at_mut(A);
         turn(machine, &self.0[start..], first);
         turn(machine, &self.1[start..], second);
+        room.each_ref()
     }
 }
 
@@ -225,8 +279,8 @@ impl<T: Copy, const N: usize> Sink<T, N> for &mut [[T; N]] {
     }
 }
 
-/// Copies points, as many as fit and are there, to lanes: one for each of their numbers. Four numbers of four
-/// points go at a time; the compiler would take them one by one, all over the memory.
+/// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
+/// are no more. Four numbers of four points go at a time; the compiler would take them one by one, all over the memory.
 #[inline(always)]
 fn turn<T: Copy, M: Machine<T>, const N: usize>(
     machine: M,
@@ -259,6 +313,9 @@ fn turn<T: Copy, M: Machine<T>, const N: usize>(
         for number in 0..N {
             lanes[number][place] = point[number];
         }
+    }
+    for number in 0..N {
+        lanes[number][points.len()..].fill(points[0][number]);
     }
 }
 
@@ -384,7 +441,7 @@ where
             count,
             inputs: [[zero; BLOCK]; I],
             outputs: [[zero; BLOCK]; O],
-            careful: |inputs: &Block<T, I>, outputs: &mut Block<T, O>| {
+            careful: |inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>| {
                 kernel.drive::<T>(&mut Single { inputs, outputs });
             },
         });
@@ -402,6 +459,30 @@ struct Blocks<'a, M, T, In, Out, Careful, const I: usize, const O: usize> {
     careful: Careful,
 }
 
+impl<M, T, In, Out, Careful, const I: usize, const O: usize>
+    Blocks<'_, M, T, In, Out, Careful, I, O>
+where
+    M: Machine<T>,
+    T: Float,
+    In: Source<T, I>,
+    Out: Sink<T, O>,
+    Careful: Fn(&Columns<'_, T, I>, &mut Block<T, O>),
+{
+    #[inline(always)]
+    fn all<S>(&mut self, work: &mut impl OnBlock<S, T, I, O>) {
+        let mut start = 0;
+        while start < self.count {
+            let inputs = self.source.block(self.machine, start, &mut self.inputs);
+            work.on_block(&inputs, &mut self.outputs);
+            if !all_known(&self.outputs) {
+                (self.careful)(&inputs, &mut self.outputs);
+            }
+            self.sink.store(self.machine, start, &self.outputs);
+            start += BLOCK;
+        }
+    }
+}
+
 impl<M, T, S, In, Out, Careful, const I: usize, const O: usize> Points<S, I, O>
     for Blocks<'_, M, T, In, Out, Careful, I, O>
 where
@@ -410,42 +491,29 @@ where
     S: Stand<T>,
     In: Source<T, I>,
     Out: Sink<T, O>,
-    Careful: Fn(&Block<T, I>, &mut Block<T, O>),
+    Careful: Fn(&Columns<'_, T, I>, &mut Block<T, O>),
 {
     #[inline(always)]
     fn each(&mut self, function: &impl Function<S, I, O>) {
-        let mut start = 0;
-        while start < self.count {
-            self.source.load(self.machine, start, &mut self.inputs);
-            let left = self.count - start;
-            if left < BLOCK {
-                // What is behind the last point was computed before, or is 0: it might be what no
-                // function is defined at.
-                self.inputs.iter_mut().for_each(|lane| {
-                    let first = lane[0];
-                    lane[left..].fill(first);
-                });
-            }
-            let known = evaluate(function, &self.inputs, &mut self.outputs);
-            if !known {
-                (self.careful)(&self.inputs, &mut self.outputs);
-            }
-            self.sink.store(self.machine, start, &self.outputs);
-            start += BLOCK;
-        }
+        self.all(&mut One(function));
+    }
+
+    #[inline(always)]
+    fn each_then<const B: usize>(
+        &mut self,
+        first: &impl Function<S, I, B>,
+        second: &impl Function<S, B, O>,
+    ) {
+        let between = [[T::from_f64(0.0); BLOCK]; B];
+        self.all(&mut Two { first, second, between });
     }
 }
 
 /// Whether all results are numbers.
 #[inline(always)]
-fn evaluate<T: Float, S: Stand<T>, const I: usize, const O: usize>(
-    function: &impl Function<S, I, O>,
-    inputs: &Block<T, I>,
-    outputs: &mut Block<T, O>,
-) -> bool {
-    function.on_block(inputs, outputs);
+fn all_known<T: Float, const O: usize>(outputs: &Block<T, O>) -> bool {
     let mut known = true;
-    for lane in outputs.iter() {
+    for lane in outputs {
         for value in lane {
             // Only not-a-number differs from itself.
             #[allow(clippy::eq_op)]
@@ -458,17 +526,21 @@ fn evaluate<T: Float, S: Stand<T>, const I: usize, const O: usize>(
 
 /// One block, number by number.
 struct Single<'a, T, const I: usize, const O: usize> {
-    inputs: &'a Block<T, I>,
+    inputs: &'a Columns<'a, T, I>,
     outputs: &'a mut Block<T, O>,
 }
 
-impl<T: Copy, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T, I, O> {
+impl<T: Float, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T, I, O> {
     fn each(&mut self, function: &impl Function<T, I, O>) {
-        for place in 0..BLOCK {
-            let results = function.at(core::array::from_fn(|input| self.inputs[input][place]));
-            for (lane, result) in self.outputs.iter_mut().zip(results) {
-                lane[place] = result;
-            }
-        }
+        function.on_block(self.inputs, self.outputs);
+    }
+
+    fn each_then<const M: usize>(
+        &mut self,
+        first: &impl Function<T, I, M>,
+        second: &impl Function<T, M, O>,
+    ) {
+        let between = [[T::from_f64(0.0); BLOCK]; M];
+        Two { first, second, between }.on_block(self.inputs, self.outputs);
     }
 }

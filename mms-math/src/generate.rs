@@ -48,7 +48,7 @@ macro_rules! kernels {
             ) {
                 let field = self.0.field.standing::<S>();
                 let at = self.0.standing(&field);
-                points.each(&$crate::batch::Then::<_, _, $between>($first(&at), $second(&at)));
+                points.each_then::<$between>(&$first(&at), &$second(&at));
             }
         }
     };

@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
 use crate::quick::number::Float;
-use crate::quick::{division, exponential, inverse, logarithm, power, trigonometric};
+use crate::quick::{exponential, inverse, logarithm, power, trigonometric};
 
 /// One number of a loop that the compiler may turn into vector instructions: the functions have
 /// neither branches nor calls, and are not a number where they do not know.
@@ -86,25 +86,6 @@ macro_rules! scalar {
             #[inline(always)]
             fn mul_add(self, factor: Self, term: Self) -> Self {
                 self.times_plus(factor, term)
-            }
-            #[inline(always)]
-            fn quotients<const N: usize>(above: [Self; N], below: [Self; N]) -> [Self; N] {
-                if FUSED && N > 1 {
-                    return division::quotients(above, below);
-                }
-                core::array::from_fn(|index| above[index] / below[index])
-            }
-            #[inline(always)]
-            fn root(self) -> [Self; 2] {
-                if FUSED {
-                    return division::root_and_inverse(self);
-                }
-                let root = self.sqrt();
-                [root, Self::from_f64(1.0) / root]
-            }
-            #[inline(always)]
-            fn over_root(self, root: Self) -> Self {
-                self * root
             }
             #[inline(always)]
             fn sqrt(self) -> Self {

@@ -79,27 +79,8 @@ pub trait Scalar:
         self * factor + term
     }
 
-    /// above / below, element by element. What a loop over points has to divide by is divided by
-    /// together.
-    fn quotients<const N: usize>(above: [Self; N], below: [Self; N]) -> [Self; N] {
-        let mut below = below.into_iter();
-        above.map(|above| match below.next() {
-            Some(below) => above / below,
-            None => above,
-        })
-    }
-
     /// The square root.
     fn sqrt(self) -> Self;
-    /// The square root, and what [`over_root`](Scalar::over_root) takes to divide by it.
-    fn root(self) -> [Self; 2] {
-        let root = self.sqrt();
-        [root.clone(), root]
-    }
-    /// `self` over the root that [`root`](Scalar::root) is the second part of.
-    fn over_root(self, root: Self) -> Self {
-        self / root
-    }
     /// The real cube root, of either sign.
     fn cbrt(self) -> Self;
     /// The exponential function.

@@ -1,7 +1,5 @@
 //! The quick functions of `Lane` and the careful ones of `f32` and `f64` against 77 digits.
 
-mod division;
-
 use mms_codegen::program::precise::Precise;
 use mms_math::{Lane, NEAR_ZERO, Scalar};
 

@@ -14,7 +14,6 @@
 //! that it is part of (Remez, 1934), with the first three rounded one by one and the others fitted
 //! again after each. The error is that of the rounded polynomial.
 
-pub mod division;
 pub mod exponential;
 pub mod inverse;
 pub mod logarithm;

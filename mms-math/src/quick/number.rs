@@ -107,10 +107,6 @@ pub trait Float:
     const CBRT_SHIFT: usize;
     /// What a third of the upper bits of x is subtracted from, for those of x^(-1/3).
     const CBRT_OFFSET: Self;
-    /// What half the bits of x is subtracted from, for those of x^(-1/2).
-    const INVERSE_ROOT: Self::Bits;
-    /// ((1 - e)^(-1/2) - 1)/e, as many powers of e as the last step to an inverse root needs.
-    const INVERSE_ROOT_SERIES: &'static [Self];
     /// The polynomials.
     const POLYNOMIALS: Polynomials<Self>;
 

@@ -1,14 +1,11 @@
 //! The body of a function: one `let` for every instruction that its results need.
 
-use std::collections::BTreeSet;
-
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::division::{Step, roots_below, steps};
 use super::fusion::{Fused, Fusion};
-use super::{Emitter, Place, constant, input, path, pi};
-use crate::expr::{Function, Symbol};
+use super::{Emitter, Place, constant, input, pi};
+use crate::expr::Symbol;
 use crate::program::{Op, Output, Value};
 
 impl Emitter<'_> {
@@ -30,10 +27,6 @@ impl Emitter<'_> {
             .map(|(instr, needed)| *needed && place.own.contains(&instr.stage))
             .collect();
         let once = place.is_once();
-        let steps = match place.is_whole && !once {
-            true => steps(self.program, &computed),
-            false => (0..computed.len()).filter(|at| computed[*at]).map(Step::One).collect(),
-        };
         let body = Body {
             emitter: self,
             place,
@@ -41,12 +34,10 @@ impl Emitter<'_> {
                 true => Fusion::none(self.program),
                 false => Fusion::new(self.program, &roots, &needed, place.own),
             },
-            below: match once {
-                true => BTreeSet::new(),
-                false => roots_below(self.program, &computed),
-            },
         };
-        steps.iter().flat_map(|step| body.statement(step)).collect()
+        let written =
+            (0..computed.len()).filter(|index| computed[*index] && body.is_written(*index));
+        written.map(|index| body.statement(Value(index as u32))).collect()
     }
 }
 
@@ -55,18 +46,9 @@ struct Body<'a> {
     emitter: &'a Emitter<'a>,
     place: &'a Place,
     fusion: Fusion,
-    /// The square roots that it divides by.
-    below: BTreeSet<Value>,
 }
 
 impl Body<'_> {
-    fn statement(&self, step: &Step) -> Option<TokenStream> {
-        match step {
-            Step::One(index) => self.is_written(*index).then(|| self.single(Value(*index as u32))),
-            Step::Together(members) => Some(self.quotients(members)),
-        }
-    }
-
     /// Constants stand where they are read, and arguments have their names already.
     fn is_written(&self, index: usize) -> bool {
         let has_a_value = match self.emitter.program.instrs[index].op {
@@ -77,38 +59,13 @@ impl Body<'_> {
         has_a_value && !self.fusion.absorbed[index]
     }
 
-    fn single(&self, value: Value) -> TokenStream {
+    fn statement(&self, value: Value) -> TokenStream {
         let name = self.emitter.name(value);
-        if let Some(fused) = &self.fusion.fused[value.index()] {
-            let fused = self.fused(fused);
-            return quote!(let #name = #fused;);
-        }
-        match &self.emitter.program.instr(value).op {
-            Op::Unary(Function::Sqrt, of) if self.below.contains(&value) => {
-                let (of, below) = (self.operand(*of), self.below_name(value));
-                quote!(let [#name, #below] = #of.root();)
-            }
-            Op::Divide(above, root) if self.below.contains(root) => {
-                let (above, below) = (self.operand(*above), self.below_name(*root));
-                quote!(let #name = #above.over_root(#below);)
-            }
-            op => {
-                let value = self.operation(op);
-                quote!(let #name = #value;)
-            }
-        }
-    }
-
-    fn quotients(&self, members: &[usize]) -> TokenStream {
-        let names = members.iter().map(|index| self.emitter.name(Value(*index as u32)));
-        let operands = members.iter().map(|index| {
-            let operands = self.emitter.program.instrs[*index].op.operands();
-            operands.map(|operand| self.operand(operand)).collect::<Vec<_>>()
-        });
-        let (above, below): (Vec<_>, Vec<_>) =
-            operands.map(|pair| (pair[0].clone(), pair[1].clone())).unzip();
-        let scalar = path(&self.place.scalar);
-        quote!(let [#(#names),*] = #scalar::quotients([#(#above),*], [#(#below),*]);)
+        let computed = match &self.fusion.fused[value.index()] {
+            Some(fused) => self.fused(fused),
+            None => self.operation(&self.emitter.program.instr(value).op),
+        };
+        quote!(let #name = #computed;)
     }
 
     fn fused(&self, fused: &Fused) -> TokenStream {
@@ -157,10 +114,5 @@ impl Body<'_> {
 
     fn operand(&self, value: Value) -> TokenStream {
         self.emitter.operand(value, self.place)
-    }
-
-    /// What divides by a square root.
-    fn below_name(&self, root: Value) -> Ident {
-        format_ident!("r{}", root.index())
     }
 }

@@ -3,7 +3,6 @@
 mod adapter;
 mod batch;
 mod body;
-mod division;
 mod face;
 mod file;
 mod fusion;
@@ -136,19 +135,17 @@ struct Place {
     own: &'static [Stage],
     /// The scalar that it computes in.
     scalar: TokenStream,
-    /// Whether all that it computes is of use wherever it is called.
-    is_whole: bool,
 }
 
 impl Place {
     /// A function that computes `own` for every point.
     fn at_points(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T), is_whole: true }
+        Place { field, own, scalar: quote!(T) }
     }
 
     /// A function that computes `own` once, with more digits.
     fn once(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T::Wide), is_whole: true }
+        Place { field, own, scalar: quote!(T::Wide) }
     }
 
     fn is_once(&self) -> bool {

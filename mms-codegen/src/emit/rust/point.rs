@@ -13,8 +13,7 @@ impl Emitter<'_> {
     pub(super) fn point_cache(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Point);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        // Who reads a part of it alone does not pay for the rest.
-        let place = Place { is_whole: false, ..Place::at_points(quote!(self), &[Stage::Point]) };
+        let place = Place::at_points(quote!(self), &[Stage::Point]);
         let body = self.statements(kept.iter().copied(), &place);
         let (dimension, point) = (self.dimension(), self.point());
         let axes: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();

@@ -15,8 +15,6 @@ impl Float for f64 {
     const LARGEST_EXPONENT: Self = 708.7;
     const LARGEST_TANH: Self = 22.0;
     const CBRT_OFFSET: Self = 1430186664.0;
-    const INVERSE_ROOT: Self::Bits = Wrapping(0x5fe6_eb50_c7b5_37a9);
-    const INVERSE_ROOT_SERIES: &'static [Self] = &[0.5, 0.375, 0.3125];
     const POLYNOMIALS: Polynomials<Self> = Polynomials {
         // Minimax on [0, 1/16], relative error 4.1e-18.
         sin_pi: &[

@@ -15,8 +15,6 @@ impl Float for f32 {
     const LARGEST_EXPONENT: Self = 87.6;
     const LARGEST_TANH: Self = 10.0;
     const CBRT_OFFSET: Self = 2773248.0;
-    const INVERSE_ROOT: Self::Bits = Wrapping(0x5f37_5a86);
-    const INVERSE_ROOT_SERIES: &'static [Self] = &[0.5];
     const POLYNOMIALS: Polynomials<Self> = Polynomials {
         // Minimax on [0, 1/16], relative error 4.1e-9.
         sin_pi: &[-5.167709, 2.5497947, -0.5892762],
