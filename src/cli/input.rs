@@ -80,10 +80,8 @@ pub struct Variant {
     #[command(flatten)]
     motion: Motion,
     /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
-    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small. The
-    /// gallery is compiled in the stable form: a solver gets the fast one from the interpreter, as it
-    /// does any field of a file, so that it shows errors, not times.
-    #[arg(long, value_name = "stable|fast", default_value = "stable", value_parser = Form::from_name, hide_default_value = true)]
+    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
     form: Form,
 }
 

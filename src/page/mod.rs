@@ -12,6 +12,7 @@ mod folder;
 mod frame;
 pub mod gallery;
 mod mark;
+mod method;
 mod motion;
 mod phase;
 mod picture;

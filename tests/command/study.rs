@@ -46,6 +46,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "transfer",
             "flip_fraction",
             "precision",
+            "form",
             "particles_per_cell",
             "fill",
             "jitter",
