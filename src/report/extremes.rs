@@ -5,8 +5,8 @@ use comfy_table::{CellAlignment, Table};
 use mms_runtime::Method;
 use serde_json::{Value, json};
 
-use super::method;
 use super::provenance::Provenance;
+use super::{method, tally};
 use crate::cli::method::Arithmetic;
 use crate::extremes::rows::Row;
 use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
@@ -230,11 +230,7 @@ impl Report {
             text += &format!("\n{}: {}: {reason}", row.row.name, row.verdict.name());
         }
         let (unexpected, count) = (self.unexpected().len(), self.rows.len() + self.stability.len());
-        text += &match unexpected {
-            0 => format!("\nall {count} verdicts are as theory expects"),
-            _ => format!("\n{unexpected} of {count} verdicts are not as theory expects"),
-        };
-        text
+        text + "\n" + &tally(unexpected, count, "as theory expects")
     }
 }
 
