@@ -112,6 +112,32 @@ struct Alone {
     study: Study,
 }
 
+/// The periods that runs go through.
+struct Periods {
+    start: f64,
+    length: f64,
+    last: usize,
+}
+
+impl Periods {
+    /// What a run that stops says of its step and grid is not all there is to say, if it went well for periods.
+    fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
+        let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
+        let numbers =
+            failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);
+        let numbers: Vec<_> = numbers.filter(|&number| number > 1).collect();
+        if numbers.is_empty() {
+            return;
+        }
+        let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        anstream::eprintln!(
+            "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
+             that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
+            self.last
+        );
+    }
+}
+
 /// One of the methods, and the field in the form that it takes.
 struct Case<'a> {
     options: &'a MethodOptions,
@@ -195,7 +221,7 @@ impl Study {
     fn report(&self, case: &Case<'_>, provenance: Provenance) -> anyhow::Result<Report> {
         let Case { options, input, method } = case;
         let mut method = method.clone();
-        let period = self.through_periods(input, &mut method)?;
+        let periods = self.through_periods(input, &mut method)?;
         let (levels, fit) = match options.arithmetic.precision {
             Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
             Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
@@ -207,8 +233,14 @@ impl Study {
                 Err(refused) => (Err(refused), Vec::new()),
             })
             .unzip();
-        let phases =
-            period.map(|period| InPhase { period, measured: self.wanted(), levels: phases });
+        if let Some(periods) = &periods {
+            periods.say_where_they_stopped(&levels);
+        }
+        let phases = periods.map(|periods| InPhase {
+            period: periods.length,
+            measured: self.wanted(),
+            levels: phases,
+        });
         let started: Vec<_> = levels.iter().flatten().collect();
         let (expected_order, tolerance) = self.expectation(input, options);
         let differences = (self.refine == Refinement::Time).then(|| differences(&started));
@@ -252,17 +284,20 @@ impl Study {
         wanted
     }
 
-    /// Lets a method run to the end of the last period that is wanted, in as many steps in each; returns how long
-    /// they take.
-    fn through_periods(&self, input: &Input, method: &mut Method) -> anyhow::Result<Option<f64>> {
+    /// Lets a method run to the end of the last period that is wanted, in as many steps in each.
+    fn through_periods(
+        &self,
+        input: &Input,
+        method: &mut Method,
+    ) -> anyhow::Result<Option<Periods>> {
         let Some(&last) = self.wanted().last() else { return Ok(None) };
         let set = input.settings(&self.set)?;
-        let period = period(&input.compiled, &set)
+        let length = period(&input.compiled, &set)
             .with_context(|| format!("`--periods`: `{}` has no period", input.name))?;
         let (_, [start, _]) = domain(&input.compiled, &input.compiled.parameters::<f64>(&set));
-        method.setup.end_time = Some(start + last as f64 * period);
+        method.setup.end_time = Some(start + last as f64 * length);
         method.setup.parts = last;
-        Ok(Some(period))
+        Ok(Some(Periods { start, length, last }))
     }
 
     fn validate(&self) -> anyhow::Result<()> {
