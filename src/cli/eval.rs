@@ -154,6 +154,8 @@ impl Serialize for Record {
 struct Document<'a> {
     field: &'a str,
     time: Box<RawValue>,
+    precision: &'static str,
+    form: &'static str,
     points: Vec<Record>,
 }
 
@@ -225,8 +227,13 @@ impl Eval {
             records.push(record);
         }
         if self.json {
-            let time = Numbers::one(&time);
-            print_json(&Document { field: &input.name, time, points: records })?;
+            print_json(&Document {
+                field: &input.name,
+                time: Numbers::one(&time),
+                precision: self.precision.name(),
+                form: self.variant.form().name(),
+                points: records,
+            })?;
         } else {
             print(&text(&records))?;
         }

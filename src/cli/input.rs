@@ -91,6 +91,11 @@ impl Variant {
         Variant { motion, form }
     }
 
+    /// Its form.
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
     /// Everything of the field, or a part of it.
     pub fn options(&self, selection: Selection) -> Options {
         Options { form: self.form, ..self.motion.options(selection) }

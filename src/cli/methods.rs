@@ -24,7 +24,7 @@ impl Args for Methods {
         LISTS.into_iter().fold(MethodOptions::augment_args(command), |command, name| {
             command.mut_arg(name, |arg| {
                 let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-                arg.help(help + "; a list, as in A,B, compares methods")
+                arg.help(help + ". A list, as in A,B, compares methods")
                     .value_delimiter(',')
                     .action(ArgAction::Append)
             })
