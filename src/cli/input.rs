@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, Error, anyhow, bail};
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
+use mms_codegen::accuracy::Precision;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::program::interpret::Number;
@@ -327,6 +329,12 @@ pub fn settings(settings: &[String]) -> anyhow::Result<Vec<(String, String)>> {
         None => bail!("`--set {setting}`: expected name=value"),
     };
     settings.iter().map(pair).collect()
+}
+
+/// Reads one of all precisions; a solver has two of them, of its own.
+pub fn precision() -> impl TypedValueParser<Value = Precision> {
+    let names = PossibleValuesParser::new(Precision::ALL.map(Precision::name));
+    names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
 }
 
 /// The quantities of some names or aliases, each once; `all` stands for those of a point and a time.
