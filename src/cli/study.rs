@@ -120,7 +120,7 @@ struct Periods {
 }
 
 impl Periods {
-    /// What a run that stops says of its step and grid is not all there is to say, if it went well for periods.
+    /// What the failure of a run advises may not help one that went well for periods.
     fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
         let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
         let numbers =

@@ -87,7 +87,7 @@ fn to_the_right(mut table: Table) -> Table {
     table
 }
 
-/// How many of all verdicts are not `expected`, which ends a sentence such as "it is as theory expects".
+/// How many of all verdicts are not as expected; `expected` is how to say that, as in "as theory expects".
 pub(crate) fn tally(unexpected: usize, all: usize, expected: &str) -> String {
     match (unexpected, all) {
         (0, 1) => format!("the verdict is {expected}"),
