@@ -63,9 +63,10 @@ impl Trials {
     pub fn run(&mut self, arguments: &[String]) -> anyhow::Result<Trial> {
         let study = Study::try_parse_from(arguments)?;
         let [cells] = *study.cells.as_slice() else { anyhow::bail!("a run has one grid") };
-        let name = format!("{} {:?}", study.field, study.variant);
+        let variant = study.variant();
+        let name = format!("{} {variant:?}", study.field);
         if !self.inputs.contains_key(&name) {
-            self.inputs.insert(name.clone(), Input::find(&study.field, &study.variant)?);
+            self.inputs.insert(name.clone(), Input::find(&study.field, &variant)?);
         }
         let input = self.inputs.get(&name).context("it was put there")?;
         let mut method = study.method.method(input.compiled.field.dimension)?;
@@ -94,7 +95,7 @@ impl Trials {
             method.setup.fastest_wave = self.waves.get(&wave).copied().flatten();
         }
         let mut observer = self.progress.of(cells);
-        let trial = match study.method.precision {
+        let trial = match study.method.arithmetic.precision {
             Precision::F32 => measure(
                 &input.scene(&study.set, |entry| entry.single)?,
                 &method,

@@ -5,15 +5,19 @@ mod current;
 mod support;
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
+use mms::gallery::Entry;
+use mms::interpreted;
 use mms::scene::{Scene, Solvable};
-use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::Form;
 use mms_codegen::spec::StudySpec;
 use mms_codegen::visibility::{Status, Term, Visibility};
+use mms_codegen::{Compiled, Options};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Level, Method, Verdict};
@@ -449,12 +453,30 @@ fn studies<K: Kernel>() {
     for study in &compiled.field.studies {
         let entry = mms::gallery::find(K::NAME).expect("a field of the gallery");
         let levels = if study.precision.as_deref() == Some("f32") {
-            levels((entry.single)(&compiled.parameters(&Default::default())), study)
+            levels(scene(entry, entry.single, study), study)
         } else {
-            levels((entry.double)(&compiled.parameters(&Default::default())), study)
+            levels(scene(entry, entry.double, study), study)
         };
         let judgement = judge(&levels, study.order, study.tolerance.unwrap_or(TOLERANCE));
         assert_eq!(judgement.verdict, Verdict::Pass, "{judgement:?}\n{levels:#?}");
+    }
+}
+
+/// The field in the form that a study names; what is compiled is the usual one.
+fn scene<T: Solvable + Number>(
+    entry: &Entry,
+    build: fn(&[T]) -> Option<Scene<T>>,
+    study: &StudySpec,
+) -> Scene<T> {
+    let set = Default::default();
+    match study.form.as_deref().map(Form::from_name) {
+        None | Some(Ok(Form::Stable)) => build(&compiled(entry.name).parameters(&set))
+            .expect("parameters in the order of the file"),
+        Some(form) => {
+            let options = Options { form: form.expect("a form"), ..Options::default() };
+            let compiled = entry.compile_with(&options).expect("a field of the gallery");
+            interpreted::scene(Arc::new(compiled), &set)
+        }
     }
 }
 
@@ -483,8 +505,7 @@ fn method(study: &StudySpec) -> Method {
     method
 }
 
-fn levels<T: Solvable>(scene: Option<Scene<T>>, study: &StudySpec) -> Vec<Level> {
-    let scene = scene.expect("parameters in the order of the file");
+fn levels<T: Solvable>(scene: Scene<T>, study: &StudySpec) -> Vec<Level> {
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {
         let progress = &mut ();

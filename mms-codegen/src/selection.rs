@@ -51,8 +51,8 @@ impl Form {
     /// Every form.
     pub const ALL: [Form; 2] = [Form::Stable, Form::Fast];
 
-    /// Its name on the command line and in the macro.
-    pub fn name(self) -> &'static str {
+    /// Its name in a field file, on the command line and in the macro.
+    pub const fn name(self) -> &'static str {
         match self {
             Form::Stable => "stable",
             Form::Fast => "fast",

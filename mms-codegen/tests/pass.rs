@@ -102,6 +102,7 @@ fn every_key_arrives() {
         ("quadratic_bspline", "leapfrog")
     );
     assert_eq!((study.courant, study.particles_per_cell), (Some(0.4), Some(3)));
+    assert_eq!((study.precision.as_deref(), study.form.as_deref()), (Some("f64"), Some("fast")));
     assert_eq!((study.cells.as_slice(), study.order), ([8, 16].as_slice(), 2.0));
     assert_eq!(spec.checks[0].lets[0].name.value, "s");
     assert_eq!(spec.extremes[0].set.len(), 2);

@@ -53,6 +53,19 @@ use request::Request;
 /// A parameter that depends on others and is frozen without them keeps the value that their
 /// defaults give.
 ///
+/// # Precision
+///
+/// A module computes in any scalar: `f32`, `f64`, or `mms_math::Double`, which has twice the digits of `f64`. What
+/// needs no position is computed with twice the digits in each. Loops over many points and the contract of a
+/// solver (`boxed`) take `f32` and `f64`.
+///
+/// ```ignore
+/// use mms_math::{Double, Scalar as _};
+///
+/// let wide = bar_1d::prepare(&bar_1d::Parameters::<Double>::default());
+/// let [b] = wide.at_time(Double::from(0.013)).body_force([Double::from(0.37)]);
+/// ```
+///
 /// # Once per point
 ///
 /// Each quantity can be computed from a position, or from what the position determines, which a

@@ -11,7 +11,7 @@ use mms_codegen::selection::{Form, Selection};
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, Options};
 
-use super::input::{Motion, Text, quantities, settings};
+use super::input::{Motion, Text, precision, quantities, settings};
 use super::{Outcome, print, print_json, this_command};
 use crate::report::accuracy::Report;
 use crate::report::provenance::Input;
@@ -25,7 +25,7 @@ use crate::workbench::{Module, Time, Way, Workbench, time};
 /// not exceed, and the largest |error|/|value|; then the largest |error| over the largest |value| of
 /// the quantity. What is not finite is counted, and enters no error. A field takes about a minute of
 /// processor time, a few at most, nearly all of it for the functions of the reference; --quantity,
-/// --regime and --points shorten that.
+/// --regime, --precision and --points shorten that.
 ///
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
 /// declared, and at displacements down to 1e-12 of the size.
@@ -41,6 +41,12 @@ pub struct Accuracy {
     /// field's [[extreme]] tables.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     regime: Vec<String>,
+    /// Precisions, separated by commas; all of them by default.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = precision())]
+    precision: Vec<Precision>,
+    /// Forms, stable or fast, separated by commas; both by default.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = Form::from_name)]
+    form: Vec<Form>,
     /// At how many points and times; one in four lies on a face or close to one.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     points: u32,
@@ -85,15 +91,16 @@ impl Accuracy {
         let request = Request {
             options: options.clone(),
             quantities: quantities.clone(),
+            precisions: wanted(Precision::ALL, &self.precision),
+            forms: wanted(Form::ALL, &self.form),
             regimes: self.regimes(&compiled)?,
             points: self.points as usize,
-            ..Request::default()
         };
         let say = |regime: &str| anstream::eprintln!("{}: {regime}", text.name());
         let compile = |options: &Options| text.compile(options);
         let accuracy = measure(&compile, &request, say).map_err(refused)?;
         let times = match self.time || self.output.is_some() {
-            true => timed(&text, &options, &quantities),
+            true => timed(&text, &request),
             false => None,
         };
         let twin = &options.selection.twin;
@@ -149,27 +156,32 @@ impl Accuracy {
     }
 }
 
-/// The times of both forms; `None`, with a word on stderr, where nothing can be timed.
-fn timed(text: &Text, options: &Options, quantities: &[Quantity]) -> Option<Vec<(Form, Time)>> {
+/// Those of all that are given, in the order of all; all, if none is.
+fn wanted<T: PartialEq, const N: usize>(all: [T; N], given: &[T]) -> Vec<T> {
+    all.into_iter().filter(|it| given.is_empty() || given.contains(it)).collect()
+}
+
+/// The times of the forms; `None`, with a word on stderr, where nothing can be timed.
+fn timed(text: &Text, request: &Request) -> Option<Vec<(Form, Time)>> {
     anstream::eprintln!("{}: compiling and timing the emitted code", text.name());
     let compiled = |form: Form| {
-        let mut options = Options { form, ..options.clone() };
-        options.selection.quantities = Some(quantities.iter().copied().collect());
+        let mut options = Options { form, ..request.options.clone() };
+        options.selection.quantities = Some(request.quantities.iter().copied().collect());
         text.compile(&options).map_err(|failure| anyhow!("{failure}"))
     };
     let times = || {
         let bench = Workbench::open()?;
-        let forms = Form::ALL.map(|form| (form, compiled(form)));
+        let forms: Vec<_> = request.forms.iter().map(|form| (*form, compiled(*form))).collect();
         let mut modules = Vec::new();
         for (form, compiled) in &forms {
             let compiled = compiled.as_ref().map_err(|error| anyhow!("{error}"))?;
             modules.push(Module { name: form.name(), compiled });
         }
-        let ways = Precision::ALL.map(|precision| match precision {
-            Precision::Wide => (precision, Way::Single),
-            _ => (precision, Way::Batch),
+        let ways = request.precisions.iter().map(|precision| match precision {
+            Precision::Wide => (*precision, Way::Single),
+            _ => (*precision, Way::Batch),
         });
-        time(&bench, &modules, &ways)
+        time(&bench, &modules, &ways.collect::<Vec<_>>())
     };
     match times() {
         Ok(times) => Some(

@@ -2,6 +2,7 @@
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_codegen::accuracy::Precision;
 use mms_codegen::compile::constant;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
@@ -11,7 +12,7 @@ use mms_runtime::math::{Double, Scalar as _};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
-use super::input::{Input, Variant, quantities};
+use super::input::{Input, Variant, precision, quantities};
 use super::{Outcome, print, print_json};
 
 /// Evaluate quantities of a field at points.
@@ -37,37 +38,14 @@ pub struct Eval {
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The precision to compute in.
-    #[arg(long, value_enum, default_value_t)]
+    /// The precision to compute in: single, double, or twice the digits of double.
+    #[arg(long, default_value = Precision::F64.name(), value_parser = precision())]
     precision: Precision,
     #[command(flatten)]
     variant: Variant,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
-}
-
-/// The precision of a computation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum Precision {
-    /// Single.
-    F32,
-    /// Double.
-    #[default]
-    F64,
-    /// Twice the digits of double precision.
-    Wide,
-}
-
-impl Precision {
-    /// The word of the command line.
-    fn name(self) -> &'static str {
-        match self {
-            Precision::F32 => "f32",
-            Precision::F64 => "f64",
-            Precision::Wide => "wide",
-        }
-    }
 }
 
 /// A number of the command line.
@@ -154,6 +132,8 @@ impl Serialize for Record {
 struct Document<'a> {
     field: &'a str,
     time: Box<RawValue>,
+    precision: &'static str,
+    form: &'static str,
     points: Vec<Record>,
 }
 
@@ -225,8 +205,13 @@ impl Eval {
             records.push(record);
         }
         if self.json {
-            let time = Numbers::one(&time);
-            print_json(&Document { field: &input.name, time, points: records })?;
+            print_json(&Document {
+                field: &input.name,
+                time: Numbers::one(&time),
+                precision: self.precision.name(),
+                form: self.variant.form().name(),
+                points: records,
+            })?;
         } else {
             print(&text(&records))?;
         }

@@ -8,7 +8,7 @@ use mms_codegen::suggest::did_you_mean;
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
-use super::method::{MethodOptions, Precision};
+use super::method::{Arithmetic, MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, print, print_json, this_command};
 use crate::extremes::rows::{Row, rows};
@@ -58,7 +58,8 @@ impl Extremes {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let all = rows()?;
         let wanted = self.select(&all)?;
-        let declared = match Subject::new(&self.field, None)? {
+        let arithmetic = self.method.arithmetic;
+        let declared = match Subject::new(&self.field, arithmetic.form, None)? {
             Ok(declared) => declared,
             Err(reason) => bail!("{reason}"),
         };
@@ -66,7 +67,7 @@ impl Extremes {
         let method = self.method.method(dimension)?;
         let progress = Progress::new();
         let usual = Division::Uniform(usual_cells(dimension));
-        let seen = declared.run(&method, usual, self.method.precision, &mut progress.of(usual))?;
+        let seen = declared.run(&method, usual, arithmetic.precision, &mut progress.of(usual))?;
         let declared_error = match seen {
             Seen::Ended { l2, cell_size, .. } if l2 > 0.0 => Declared { l2, cell_size },
             Seen::Ended { .. } => bail!(
@@ -95,7 +96,7 @@ impl Extremes {
             field: declared.input.name.clone(),
             title: declared.input.compiled.field.title.clone(),
             method,
-            precision: self.method.precision.name(),
+            arithmetic,
             quick: self.quick,
             declared: declared_error,
             rows: judged,
@@ -151,15 +152,22 @@ impl Extremes {
         declared: Declared,
         progress: &Progress,
     ) -> anyhow::Result<Judged> {
-        let (setting, seen) = match Subject::new(&self.field, Some(row))? {
+        let mut arithmetic = self.method.arithmetic;
+        let (setting, seen) = match Subject::new(&self.field, arithmetic.form, Some(row))? {
             Err(reason) => (row.name.clone(), Seen::LeftOut { reason }),
             Ok(subject) => {
                 let (method, cells) = subject.method(base, row, self.quick);
-                let precision = if row.single { Precision::F32 } else { self.method.precision };
+                if row.single {
+                    arithmetic.precision = Precision::F32;
+                }
                 let mut observer = progress.of(cells);
-                let seen =
-                    subject.run(&method, cells, precision, &mut observer as &mut dyn Observer)?;
-                (describe(&method, cells, precision, &subject.settings), seen)
+                let seen = subject.run(
+                    &method,
+                    cells,
+                    arithmetic.precision,
+                    &mut observer as &mut dyn Observer,
+                )?;
+                (describe(&method, cells, arithmetic, &subject.settings), seen)
             }
         };
         let verdict = judge(row, declared, &seen);
@@ -179,7 +187,7 @@ impl Extremes {
         let Some(small) = all.iter().find(|row| row.name == "displacement/1e-8") else {
             return Ok(Vec::new());
         };
-        let subject = match Subject::new(&self.field, Some(small))? {
+        let subject = match Subject::new(&self.field, self.method.arithmetic.form, Some(small))? {
             Ok(subject) => subject,
             Err(reason) => {
                 progress.say(&format!("note: stability is not measured: {reason}"));
@@ -233,7 +241,7 @@ impl Extremes {
 }
 
 /// What is extreme about a run.
-fn describe(method: &Method, cells: Division, precision: Precision, settings: &str) -> String {
+fn describe(method: &Method, cells: Division, arithmetic: Arithmetic, settings: &str) -> String {
     let setup = &method.setup;
     let mut words = vec![format!("{cells} cells")];
     if !settings.is_empty() {
@@ -244,6 +252,6 @@ fn describe(method: &Method, cells: Division, precision: Precision, settings: &s
         Some(step) => format!("time step {step:.2e}"),
         None => format!("Courant {}", setup.courant),
     });
-    words.push(precision.name().into());
+    words.push(arithmetic.to_string());
     words.join(", ")
 }

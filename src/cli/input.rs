@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, Error, anyhow, bail};
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
+use mms_codegen::accuracy::Precision;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::program::interpret::Number;
@@ -80,10 +82,8 @@ pub struct Variant {
     #[command(flatten)]
     motion: Motion,
     /// How quantities are computed: `stable` holds each to 64 eps of its largest magnitude, at any
-    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small. The
-    /// gallery is compiled in the stable form: a solver gets the fast one from the interpreter, as it
-    /// does any field of a file, so that it shows errors, not times.
-    #[arg(long, value_name = "stable|fast", default_value = "stable", value_parser = Form::from_name, hide_default_value = true)]
+    /// strain; `fast` takes the fewest operations, and loses eps/e where the strain e is small.
+    #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
     form: Form,
 }
 
@@ -91,6 +91,11 @@ impl Variant {
     /// With a motion and a form.
     pub fn new(motion: Motion, form: Form) -> Self {
         Variant { motion, form }
+    }
+
+    /// Its form.
+    pub fn form(&self) -> Form {
+        self.form
     }
 
     /// Everything of the field, or a part of it.
@@ -324,6 +329,12 @@ pub fn settings(settings: &[String]) -> anyhow::Result<Vec<(String, String)>> {
         None => bail!("`--set {setting}`: expected name=value"),
     };
     settings.iter().map(pair).collect()
+}
+
+/// Reads one of all precisions; a solver has two of them, of its own.
+pub fn precision() -> impl TypedValueParser<Value = Precision> {
+    let names = PossibleValuesParser::new(Precision::ALL.map(Precision::name));
+    names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
 }
 
 /// The quantities of some names or aliases, each once; `all` stands for those of a point and a time.

@@ -4,7 +4,7 @@ use clap::Args;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
 use mms_codegen::compile::MATERIALS;
-use mms_codegen::spec::{Claim, FieldSpec, StudySpec};
+use mms_codegen::spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use serde_json::{Map, Value, json};
 
@@ -34,18 +34,24 @@ impl List {
                 "integrators": IntegratorName::NAMES,
                 "formulations": FormulationName::NAMES,
                 "transfers": Transfer::NAMES,
+                "precisions": PRECISIONS,
+                "forms": FORMS,
             }))?;
             return Ok(Outcome::AsExpected);
         }
-        print(&format!(
-            "{}\n\nmaterials:    {}\nshapes:       {}\nintegrators:  {}\nformulations: {}\ntransfers:    {}",
-            table(&fields),
-            materials.join(", "),
-            ShapeName::NAMES.join(", "),
-            IntegratorName::NAMES.join(", "),
-            FormulationName::NAMES.join(", "),
-            Transfer::NAMES.join(", ")
-        ))?;
+        let choices = [
+            ("materials", materials.as_slice()),
+            ("shapes", ShapeName::NAMES),
+            ("integrators", IntegratorName::NAMES),
+            ("formulations", FormulationName::NAMES),
+            ("transfers", Transfer::NAMES),
+            ("precisions", PRECISIONS),
+            ("forms", FORMS),
+        ];
+        let line = |(what, words): (&str, &[&str])| {
+            format!("\n{:13} {}", format!("{what}:"), words.join(", "))
+        };
+        print(&format!("{}\n{}", table(&fields), choices.map(line).concat()))?;
         Ok(Outcome::AsExpected)
     }
 }
@@ -99,7 +105,10 @@ fn study(study: &StudySpec) -> Value {
         "shape": study.shape,
         "integrator": study.integrator,
         "formulation": study.formulation,
+        "transfer": study.transfer,
         "fill": study.fill,
+        "precision": study.precision,
+        "form": study.form,
         "cells": study.cells,
         "order": study.order,
         "reason": study.reason,

@@ -1,14 +1,16 @@
 //! The options of a method, the same in every command that runs one.
 
+use std::fmt;
 use std::str::FromStr;
 
 use anyhow::bail;
 use clap::Args;
+use mms_codegen::selection::Form;
 use mms_runtime::{
     Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
 };
 
-use super::input::Input;
+use super::input::{Input, Motion, Variant};
 use super::stability::fastest_wave;
 
 /// The precision of the solver.
@@ -27,6 +29,30 @@ impl Precision {
         match self {
             Precision::F32 => "f32",
             Precision::F64 => "f64",
+        }
+    }
+}
+
+/// How numbers are computed, whatever is computed with them.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Arithmetic {
+    /// The precision to compute in.
+    #[arg(long, value_enum, default_value_t)]
+    pub precision: Precision,
+    /// How the field's quantities are computed: stable, or fast, which takes the fewest operations and loses digits
+    /// at small strains. The gallery is compiled in the stable form; the fast one is interpreted, as any field of a
+    /// file is, and so shows errors, not times.
+    #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
+    pub form: Form,
+}
+
+impl fmt::Display for Arithmetic {
+    /// In words; the usual form is left out.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.precision.name())?;
+        match self.form {
+            Form::Stable => Ok(()),
+            other => write!(f, ", {} form", other.name()),
         }
     }
 }
@@ -86,9 +112,8 @@ pub struct MethodOptions {
     /// depend on it.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// The precision to compute in.
-    #[arg(long, value_enum, default_value_t)]
-    pub precision: Precision,
+    #[command(flatten)]
+    pub arithmetic: Arithmetic,
 }
 
 /// How many threads run at the same time here.
@@ -122,6 +147,11 @@ impl FromStr for Axis {
 }
 
 impl MethodOptions {
+    /// How a field is taken, with a motion on top.
+    pub fn variant(&self, motion: &Motion) -> Variant {
+        Variant::new(motion.clone(), self.arithmetic.form)
+    }
+
     /// The method for a field with some parameters set, its time step held to the stable one.
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
         let mut method = self.method(input.compiled.field.dimension)?;

@@ -10,7 +10,7 @@ use super::method::MethodOptions;
 pub struct Methods(Vec<MethodOptions>);
 
 /// The options that take a list.
-const LISTS: [&str; 5] = ["formulation", "shape", "integrator", "transfer", "precision"];
+const LISTS: [&str; 6] = ["formulation", "shape", "integrator", "transfer", "precision", "form"];
 
 impl Methods {
     /// The methods, those of the first word of each list first.
@@ -24,7 +24,7 @@ impl Args for Methods {
         LISTS.into_iter().fold(MethodOptions::augment_args(command), |command, name| {
             command.mut_arg(name, |arg| {
                 let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-                arg.help(help + "; a list, as in A,B, compares methods")
+                arg.help(help + ". A list, as in A,B, compares methods")
                     .value_delimiter(',')
                     .action(ArgAction::Append)
             })
@@ -44,7 +44,8 @@ impl FromArgMatches for Methods {
         all = vary(all, matches, "shape", |it, word| it.shape = word)?;
         all = vary(all, matches, "integrator", |it, word| it.integrator = word)?;
         all = vary(all, matches, "transfer", |it, word| it.transfer = word)?;
-        all = vary(all, matches, "precision", |it, word| it.precision = word)?;
+        all = vary(all, matches, "precision", |it, word| it.arithmetic.precision = word)?;
+        all = vary(all, matches, "form", |it, word| it.arithmetic.form = word)?;
         Ok(Self(all))
     }
 

@@ -8,7 +8,7 @@ use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
 
 use super::follow::{Followers, Interrupted};
-use super::input::{Input, Variant};
+use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, print, print_json};
@@ -36,7 +36,7 @@ pub struct Run {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
-    variant: Variant,
+    motion: Motion,
     /// Write states for ParaView to this folder: FIELD.pvd, which is the file to open, and one .vtu file
     /// for each.
     #[arg(long, value_name = "DIR")]
@@ -68,7 +68,7 @@ pub struct Run {
 
 impl Run {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, &self.variant)?;
+        let input = Input::find(&self.field, &self.method.variant(&self.motion))?;
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
@@ -76,7 +76,7 @@ impl Run {
         let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
         let head = Head::new(self.key(&input, &method, cells), provenance.command.clone());
         let mut followers = self.followers(&input, cells, head, &progress)?;
-        let run = match self.method.precision {
+        let run = match self.method.arithmetic.precision {
             Precision::F32 => {
                 let scene = input.scene(&self.set, |entry| entry.single)?;
                 scene.run(&method, &cells, Watch::Everything, &mut followers)
@@ -99,7 +99,7 @@ impl Run {
         let report = Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
-            precision: self.method.precision.name(),
+            arithmetic: self.method.arithmetic,
             method,
             run,
             provenance,
@@ -161,8 +161,8 @@ impl Run {
     fn key(&self, input: &Input, method: &Method, cells: Division) -> String {
         let mut method = method.clone();
         (method.setup.threads, method.setup.memory) = (1, None);
-        let scene = format!("{method:?}, {cells} cells, {:?}", self.method.precision);
-        let field = format!("{:?}, {:?}", self.set, self.variant);
+        let scene = format!("{method:?}, {cells} cells, {:?}", self.method.arithmetic);
+        let field = format!("{:?}, {:?}", self.set, self.motion);
         let program = env!("CARGO_PKG_VERSION").to_owned();
         digest([program, input.compiled.provenance(), scene, field])
     }

@@ -1,6 +1,8 @@
 //! `mms study`: the observed order of a method on a field.
 
+use std::collections::btree_map::{BTreeMap, Entry};
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
@@ -11,7 +13,7 @@ use mms_runtime::study::{
 };
 use mms_runtime::{Division, Method, Run, Verdict};
 
-use super::input::{Input, Variant};
+use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision};
 use super::methods::Methods;
 use super::progress::Progress;
@@ -74,7 +76,7 @@ pub struct Study {
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    variant: Variant,
+    motion: Motion,
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
@@ -110,6 +112,39 @@ struct Alone {
     study: Study,
 }
 
+/// The periods that runs go through.
+struct Periods {
+    start: f64,
+    length: f64,
+    last: usize,
+}
+
+impl Periods {
+    /// What the failure of a run advises may not help one that went well for periods.
+    fn say_where_they_stopped(&self, levels: &[Result<Run, Refused>]) {
+        let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
+        let numbers =
+            failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);
+        let numbers: Vec<_> = numbers.filter(|&number| number > 1).collect();
+        if numbers.is_empty() {
+            return;
+        }
+        let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        anstream::eprintln!(
+            "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
+             that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
+            self.last
+        );
+    }
+}
+
+/// One of the methods, and the field in the form that it takes.
+struct Case<'a> {
+    options: &'a MethodOptions,
+    input: Rc<Input>,
+    method: Method,
+}
+
 /// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run()
@@ -118,10 +153,11 @@ pub(super) fn main_job() -> anyhow::Result<Outcome> {
 impl Study {
     pub(super) fn run(self) -> anyhow::Result<Outcome> {
         self.validate()?;
-        let input = Input::find(&self.field, &self.variant)?;
+        let cases = self.cases()?;
+        let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), &input.name)?;
         let provenance = this_command("study", input.provenance(&self.set))?;
-        let studies = self.reports(&input, &provenance)?;
+        let studies = self.reports(&cases, &provenance)?;
         if !studies.iter().any(Report::is_started) {
             anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
             return Ok(Outcome::RunFailed);
@@ -143,42 +179,50 @@ impl Study {
     pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
         let study = Alone::try_parse_from(words)?.study;
         study.validate()?;
-        let input = Input::find(&study.field, &study.variant)?;
+        let cases = study.cases()?;
         let command: Vec<_> = [&["mms".to_owned()], words].concat();
-        let provenance = Provenance::new("study", &command, input.provenance(&study.set));
-        let studies = study.reports(&input, &Provenance { machine: None, ..provenance })?;
+        let input = cases[0].input.provenance(&study.set);
+        let provenance = Provenance::new("study", &command, input);
+        let studies = study.reports(&cases, &Provenance { machine: None, ..provenance })?;
         Ok(studies.into_iter().next().filter(Report::is_started))
     }
 
-    /// The study of a field with each of the methods.
-    fn reports(&self, input: &Input, provenance: &Provenance) -> anyhow::Result<Vec<Report>> {
-        // What cannot be is said before anything runs.
-        let methods: Vec<Method> = self
-            .methods
-            .each()
-            .iter()
-            .map(|options| options.method_for(input, &self.set))
-            .collect::<anyhow::Result<_>>()?;
+    /// What is studied, one case at least: what cannot be is said before anything runs.
+    fn cases(&self) -> anyhow::Result<Vec<Case<'_>>> {
+        let mut inputs = BTreeMap::new();
+        let mut cases = Vec::new();
+        for options in self.methods.each() {
+            let input = match inputs.entry(options.arithmetic.form) {
+                Entry::Occupied(known) => Rc::clone(known.get()),
+                Entry::Vacant(new) => {
+                    let input = Input::find(&self.field, &options.variant(&self.motion))?;
+                    Rc::clone(new.insert(Rc::new(input)))
+                }
+            };
+            let method = options.method_for(&input, &self.set)?;
+            cases.push(Case { options, input, method });
+        }
+        Ok(cases)
+    }
+
+    /// The study of each case.
+    fn reports(&self, cases: &[Case<'_>], provenance: &Provenance) -> anyhow::Result<Vec<Report>> {
         let mut reports = Vec::new();
-        for (options, method) in self.methods.each().iter().zip(methods) {
-            if self.methods.each().len() > 1 {
-                anstream::eprintln!("{}", method::line(&method, options.precision.name()));
+        for case in cases {
+            if cases.len() > 1 {
+                anstream::eprintln!("{}", method::line(&case.method, case.options.arithmetic));
             }
-            reports.push(self.report(input, options, method, provenance.clone())?);
+            reports.push(self.report(case, provenance.clone())?);
         }
         Ok(reports)
     }
 
     /// The study of a field with one method.
-    fn report(
-        &self,
-        input: &Input,
-        options: &MethodOptions,
-        mut method: Method,
-        provenance: Provenance,
-    ) -> anyhow::Result<Report> {
-        let period = self.through_periods(input, &mut method)?;
-        let (levels, fit) = match options.precision {
+    fn report(&self, case: &Case<'_>, provenance: Provenance) -> anyhow::Result<Report> {
+        let Case { options, input, method } = case;
+        let mut method = method.clone();
+        let periods = self.through_periods(input, &mut method)?;
+        let (levels, fit) = match options.arithmetic.precision {
             Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
             Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
         };
@@ -189,8 +233,14 @@ impl Study {
                 Err(refused) => (Err(refused), Vec::new()),
             })
             .unzip();
-        let phases =
-            period.map(|period| InPhase { period, measured: self.wanted(), levels: phases });
+        if let Some(periods) = &periods {
+            periods.say_where_they_stopped(&levels);
+        }
+        let phases = periods.map(|periods| InPhase {
+            period: periods.length,
+            measured: self.wanted(),
+            levels: phases,
+        });
         let started: Vec<_> = levels.iter().flatten().collect();
         let (expected_order, tolerance) = self.expectation(input, options);
         let differences = (self.refine == Refinement::Time).then(|| differences(&started));
@@ -209,7 +259,7 @@ impl Study {
         Ok(Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
-            precision: options.precision.name(),
+            arithmetic: options.arithmetic,
             refinement: self.refine,
             judgement,
             uncertainty: series.uncertainty(),
@@ -234,17 +284,20 @@ impl Study {
         wanted
     }
 
-    /// Lets a method run to the end of the last period that is wanted, in as many steps in each; returns how long
-    /// they take.
-    fn through_periods(&self, input: &Input, method: &mut Method) -> anyhow::Result<Option<f64>> {
+    /// Lets a method run to the end of the last period that is wanted, in as many steps in each.
+    fn through_periods(
+        &self,
+        input: &Input,
+        method: &mut Method,
+    ) -> anyhow::Result<Option<Periods>> {
         let Some(&last) = self.wanted().last() else { return Ok(None) };
         let set = input.settings(&self.set)?;
-        let period = period(&input.compiled, &set)
+        let length = period(&input.compiled, &set)
             .with_context(|| format!("`--periods`: `{}` has no period", input.name))?;
         let (_, [start, _]) = domain(&input.compiled, &input.compiled.parameters::<f64>(&set));
-        method.setup.end_time = Some(start + last as f64 * period);
+        method.setup.end_time = Some(start + last as f64 * length);
         method.setup.parts = last;
-        Ok(Some(period))
+        Ok(Some(Periods { start, length, last }))
     }
 
     fn validate(&self) -> anyhow::Result<()> {

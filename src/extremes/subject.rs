@@ -8,6 +8,7 @@ use mms_codegen::expr::Rational;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::Form;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection};
 use mms_runtime::study::{Observer, Watch};
@@ -41,12 +42,13 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A field in a regime, or with another material; why it cannot be, where it cannot.
+    /// A field in a form, in a regime or with another material; why it cannot be, where it cannot.
     ///
     /// # Errors
     /// A field that cannot be read, or does not compile as it is.
-    pub fn new(field: &str, row: Option<&Row>) -> anyhow::Result<Result<Self, String>> {
-        let mut options = Options::default();
+    pub fn new(field: &str, form: Form, row: Option<&Row>) -> anyhow::Result<Result<Self, String>> {
+        let declared = Options { form, ..Options::default() };
+        let mut options = declared.clone();
         let mut set = BTreeMap::new();
         let mut settings = String::new();
         let text = Text::find(field)?;
@@ -58,7 +60,8 @@ impl Subject {
                 Err(reason) => return Ok(Err(reason)),
             };
             settings = name.replace('_', " ");
-            (options, set) = take(&Input::find(field, &Default::default())?.compiled, varied);
+            let compiled = Input::find(field, &Default::default())?.compiled;
+            (options, set) = take(&compiled, varied, &declared);
         } else if let Some(ratio) = row.and_then(|row| row.lambda_over_mu.clone()) {
             settings = format!("lambda/mu {ratio}");
             let variation = Variation::Moduli(ratio);
@@ -68,7 +71,7 @@ impl Subject {
             }
             options.variation = variation;
         }
-        let varied = options != Options::default();
+        let varied = options != declared;
         let input = match Input::find_with(field, &options) {
             // The field holds as it is: it is the extreme that it does not claim anything about.
             Err(error) if varied => return Ok(Err(first_line(&error))),
@@ -195,13 +198,17 @@ impl Subject {
 
 /// What is compiled, and set behind it: values of the field's own parameters become its defaults, so that its claims are
 /// looked at with them.
-fn take(compiled: &Compiled, varied: Varied) -> (Options, BTreeMap<usize, Rational>) {
+fn take(
+    compiled: &Compiled,
+    varied: Varied,
+    declared: &Options,
+) -> (Options, BTreeMap<usize, Rational>) {
     let parameters = &compiled.model.parameters;
     let (own, added): (BTreeMap<_, _>, BTreeMap<_, _>) =
         varied.values.into_iter().partition(|(at, _)| *at < parameters.len());
     let own = own.iter().map(|(at, value)| (parameters[*at].name.clone(), format!("({value})")));
     let selection = Selection { set: own.collect(), ..Selection::default() };
-    (Options { selection, variation: varied.variation, ..Options::default() }, added)
+    (Options { selection, variation: varied.variation, ..declared.clone() }, added)
 }
 
 fn first_line(error: &anyhow::Error) -> String {

@@ -104,7 +104,12 @@ impl Accuracy {
             }
         }
         let ways = || {
-            Precision::ALL.into_iter().flat_map(|it| Form::ALL.map(|form| (it.name(), form.name())))
+            let all = Precision::ALL.into_iter().flat_map(|it| Form::ALL.map(|form| (it, form)));
+            let all = all.map(|(precision, form)| (precision.name(), form.name()));
+            let is_there = |way: &(&str, &str)| {
+                self.rows.iter().any(|row| (row.precision.as_str(), row.form.as_str()) == *way)
+            };
+            all.filter(is_there)
         };
         let columns: Vec<_> = std::iter::once(words("regime"))
             .chain(

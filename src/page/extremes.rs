@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 use serde::Deserialize;
-use serde_json::{Map, Value};
 
-use super::mark::{list, number, numbers, small, table, verdict, words};
+use super::mark::{number, numbers, small, table, verdict, words};
+use super::method::Method;
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 
@@ -12,7 +12,7 @@ use super::{Section, Verdicts};
 #[derive(Deserialize)]
 pub struct Extremes {
     field: String,
-    method: Map<String, Value>,
+    method: Method,
     declared_l2: f64,
     rows: Vec<Row>,
     stability: Vec<Stability>,
@@ -72,10 +72,7 @@ impl Section for Extremes {
             @if let Some(svg) = self.limits().svg(&format!("{id}-limits")) {
                 figure { (svg) figcaption { "A mark for each method; below the dashed line the faces are less stable than the interior." } }
             }
-            details {
-                summary { "The method" }
-                (list(&self.method))
-            }
+            (self.method.html())
         }
     }
 }

@@ -48,6 +48,7 @@ fn command(name: &str, study: &StudySpec) -> Vec<String> {
         ("particles-per-cell", study.particles_per_cell.map(|number| number.to_string())),
         ("fill", study.fill.clone()),
         ("precision", study.precision.clone()),
+        ("form", study.form.clone()),
         ("cells", (!cells.is_empty()).then_some(cells)),
     ];
     let given = options.into_iter().filter_map(|(name, value)| Some([format!("--{name}"), value?]));

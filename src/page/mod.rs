@@ -12,6 +12,7 @@ mod folder;
 mod frame;
 pub mod gallery;
 mod mark;
+mod method;
 mod motion;
 mod phase;
 mod picture;
@@ -28,6 +29,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::report::provenance::Provenance;
+use crate::report::tally;
 use field::Shown;
 
 /// A result, ready to be shown.
@@ -142,13 +144,9 @@ impl Page {
         let each = || self.entries.iter().map(|entry| entry.section.verdicts());
         let expected = each().map(|verdicts| verdicts.expected).sum();
         let all = each().map(|verdicts| verdicts.all).sum();
-        let word = match all - expected {
-            _ if all == 0 => "nothing here has a verdict".into(),
-            0 if all == 1 => "the verdict is as expected".into(),
-            1 if all == 1 => "the verdict is not as expected".into(),
-            0 => format!("all {all} verdicts are as expected"),
-            1 => format!("1 of {all} verdicts is not as expected"),
-            several => format!("{several} of {all} verdicts are not as expected"),
+        let word = match all {
+            0 => "nothing here has a verdict".into(),
+            _ => tally(all - expected, all, "as expected"),
         };
         Verdicts { expected, all, word }
     }

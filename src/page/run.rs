@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 use serde::Deserialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
-use super::mark::{count, list, number, numbers, plain, seconds, small, table, words};
+use super::mark::{count, number, numbers, plain, seconds, small, table, words};
+use super::method::Method;
 use super::plot::short;
 use super::{Section, Verdicts};
 
@@ -14,7 +15,7 @@ use super::{Section, Verdicts};
 #[derive(Deserialize)]
 pub struct Run {
     field: String,
-    method: Map<String, Value>,
+    method: Method,
     cells: Value,
     cell_size: f64,
     time_step: f64,
@@ -50,9 +51,7 @@ struct State {
 
 impl Section for Run {
     fn title(&self) -> String {
-        let word = |key: &str| plain(self.method.get(key).unwrap_or(&Value::Null));
-        let cells = plain(&self.cells);
-        format!("{}: {} {}, {cells} cells", self.field, word("shape"), word("integrator"))
+        format!("{}: {}, {} cells", self.field, self.method.name(), plain(&self.cells))
     }
 
     /// A run that reached its end is not judged.
@@ -78,10 +77,7 @@ impl Section for Run {
                     vec![html! { (part) }, seconds(Some(*time))]
                 })))
             }
-            details {
-                summary { "The method" }
-                (list(&self.method))
-            }
+            (self.method.html())
         }
     }
 }

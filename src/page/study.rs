@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 use serde::Deserialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::comparison::Comparison;
-use super::mark::{
-    Column, count, list, number, numbers, order, plain, seconds, small, table, words,
-};
+use super::mark::{Column, count, number, numbers, order, plain, seconds, small, table, words};
+use super::method::Method;
 use super::phase::Phases;
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
@@ -18,7 +17,7 @@ use super::{Section, Verdicts};
 #[derive(Deserialize)]
 pub struct Study {
     field: String,
-    method: Map<String, Value>,
+    method: Method,
     refinement: String,
     levels: Vec<Level>,
     noise: Vec<bool>,
@@ -105,13 +104,12 @@ const NORMS: [Column; 6] = [
 
 impl Section for Study {
     fn title(&self) -> String {
-        let word = |key: &str| plain(self.method.get(key).unwrap_or(&Value::Null));
         let refined = match self.refinement.as_str() {
             "both" => "",
             "space" => ", in space",
             _ => ", in time",
         };
-        format!("{}: {} {}{refined}", self.field, word("shape"), word("integrator"))
+        format!("{}: {}{refined}", self.field, self.method.name())
     }
 
     fn verdicts(&self) -> Verdicts {
@@ -151,10 +149,7 @@ impl Section for Study {
             @if let Some(differences) = &self.differences { (steps(differences)) }
             @else { (self.others()) }
             @if let Some(phases) = &self.phase { (self.in_phase(phases)) }
-            details {
-                summary { "The method" }
-                (list(&self.method))
-            }
+            (self.method.html())
         }
     }
 }

@@ -140,7 +140,7 @@ impl Tradeoff {
                 @if let Some(goal) = self.goal() { "Wanted is the best method " (goal) ". " }
                 @match &self.choice {
                     Some(choice) => {
-                        "Choose " strong { (choice.method()) } ", " (choice.precision) ", "
+                        "Choose " strong { (choice.method()) } ", " (choice.precision) ", " (choice.form) " form, "
                         (choice.particles_per_cell) @if choice.particles_per_cell == 1 { " particle" } @else { " particles" }
                         " per cell and direction, Courant "
                         (choice.courant) ", on " (choice.cells) " cells: " (small(choice.linf)) " in "

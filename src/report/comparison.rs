@@ -33,9 +33,9 @@ impl Comparison {
 
     /// What tells each method from the others.
     pub fn names(&self) -> Vec<String> {
-        let words: Vec<[String; 5]> = self.studies.iter().map(words).collect();
+        let words: Vec<[String; 6]> = self.studies.iter().map(words).collect();
         let differs = |at: usize| words.iter().any(|word| word[at] != words[0][at]);
-        let name = |word: &[String; 5]| {
+        let name = |word: &[String; 6]| {
             let told = (0..word.len()).filter(|&at| differs(at));
             told.map(|at| word[at].as_str()).collect::<Vec<_>>().join(" ")
         };
@@ -142,13 +142,14 @@ impl Comparison {
 }
 
 /// What methods of one study may differ in.
-fn words(study: &Study) -> [String; 5] {
+fn words(study: &Study) -> [String; 6] {
     let method = &study.method;
     [
         method.formulation.to_string(),
         method.shape.to_string(),
         method.integrator.to_string(),
         method.setup.transfer.to_string(),
-        study.precision.to_owned(),
+        study.arithmetic.precision.name().to_owned(),
+        study.arithmetic.form.name().to_owned(),
     ]
 }

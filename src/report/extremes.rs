@@ -5,8 +5,9 @@ use comfy_table::{CellAlignment, Table};
 use mms_runtime::Method;
 use serde_json::{Value, json};
 
-use super::method;
 use super::provenance::Provenance;
+use super::{method, tally};
+use crate::cli::method::Arithmetic;
 use crate::extremes::rows::Row;
 use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
 
@@ -18,8 +19,8 @@ pub struct Report {
     pub title: String,
     /// The method.
     pub method: Method,
-    /// `f32` or `f64`.
-    pub precision: &'static str,
+    /// How numbers were computed.
+    pub arithmetic: Arithmetic,
     /// Whether `--quick` was asked for.
     pub quick: bool,
     /// The field as declared.
@@ -161,7 +162,7 @@ impl Report {
         });
         self.provenance.sign(json!({
             "field": self.field,
-            "method": method::document(&self.method, self.precision),
+            "method": method::document(&self.method, self.arithmetic),
             "quick": self.quick,
             "declared_l2": self.declared.l2,
             "rows": self.rows.iter().map(|row| row.document(self.declared)).collect::<Vec<_>>(),
@@ -210,7 +211,7 @@ impl Report {
             "{}: {}\n{}\nas declared, l2 is {:.2e} of the largest displacement\n",
             self.field,
             self.title,
-            method::line(&self.method, self.precision),
+            method::line(&self.method, self.arithmetic),
             self.declared.l2
         );
         if !self.rows.is_empty() {
@@ -229,11 +230,7 @@ impl Report {
             text += &format!("\n{}: {}: {reason}", row.row.name, row.verdict.name());
         }
         let (unexpected, count) = (self.unexpected().len(), self.rows.len() + self.stability.len());
-        text += &match unexpected {
-            0 => format!("\nall {count} verdicts are as theory expects"),
-            _ => format!("\n{unexpected} of {count} verdicts are not as theory expects"),
-        };
-        text
+        text + "\n" + &tally(unexpected, count, "as theory expects")
     }
 }
 

@@ -3,8 +3,10 @@
 use mms_runtime::{Division, FormulationName, Method, Setup, Transfer};
 use serde_json::{Value, json};
 
+use crate::cli::method::Arithmetic;
+
 /// The JSON object.
-pub fn document(method: &Method, precision: &str) -> Value {
+pub fn document(method: &Method, arithmetic: Arithmetic) -> Value {
     let Setup { transfer, particles_per_cell, fill, jitter, seed, offset, .. } = &method.setup;
     let axes = ["x", "y", "z"].into_iter().zip(method.setup.periodic);
     let periodic: Vec<_> = axes.filter_map(|(name, periodic)| periodic.then_some(name)).collect();
@@ -18,7 +20,8 @@ pub fn document(method: &Method, precision: &str) -> Value {
         "formulation": method.formulation.name(),
         "transfer": transfer.to_string(),
         "flip_fraction": flip_fraction,
-        "precision": precision,
+        "precision": arithmetic.precision.name(),
+        "form": arithmetic.form.name(),
         "particles_per_cell": division(particles_per_cell),
         "fill": fill.map(|fill| fill.to_string()),
         "jitter": jitter,
@@ -40,7 +43,7 @@ pub fn division(division: &Division) -> Value {
 }
 
 /// The method in words; what is as always is left out.
-pub fn line(method: &Method, precision: &str) -> String {
+pub fn line(method: &Method, arithmetic: Arithmetic) -> String {
     let Setup { transfer, particles_per_cell, fill, jitter, offset, courant, .. } = &method.setup;
     let formulation = match method.formulation {
         FormulationName::Updated => "",
@@ -48,7 +51,7 @@ pub fn line(method: &Method, precision: &str) -> String {
     };
     let mut words = vec![
         format!("{formulation}{} {}", method.shape, method.integrator),
-        precision.to_owned(),
+        arithmetic.to_string(),
         format!("{particles_per_cell} particles per cell and direction"),
     ];
     match transfer {

@@ -42,7 +42,7 @@ struct Picture {
 
 /// The picture of a study as SVG text: a line for each norm.
 pub fn draw(study: &Study) -> anyhow::Result<String> {
-    let caption = format!("{}: {}", study.field, method::line(&study.method, study.precision));
+    let caption = format!("{}: {}", study.field, method::line(&study.method, study.arithmetic));
     let line = |name: &str, norm: fn(&Errors) -> f64| (name.to_owned(), points(study, norm));
     let lines = vec![
         line("l1", |errors| errors.l1),

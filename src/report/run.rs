@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::provenance::Provenance;
 use super::{duration, method};
+use crate::cli::method::Arithmetic;
 
 /// A run that was started.
 pub struct Run {
@@ -17,8 +18,8 @@ pub struct Run {
     pub title: String,
     /// The method.
     pub method: Method,
-    /// `f32` or `f64`.
-    pub precision: &'static str,
+    /// How numbers were computed.
+    pub arithmetic: Arithmetic,
     /// What came of it.
     pub run: mms_runtime::Run,
     /// Where it is from.
@@ -49,7 +50,7 @@ impl Run {
         let details = self.run.details.as_ref();
         self.provenance.sign(json!({
             "field": self.field,
-            "method": method::document(&self.method, self.precision),
+            "method": method::document(&self.method, self.arithmetic),
             "cells": method::division(&level.cells),
             "cell_size": level.cell_size,
             "time_step": level.time_step,
@@ -81,7 +82,7 @@ impl Run {
             "{}: {}\n{}\n\n{} cells, {} particles, {} steps of {:.3e}",
             self.field,
             self.title,
-            method::line(&self.method, self.precision),
+            method::line(&self.method, self.arithmetic),
             level.cells,
             level.particles,
             level.steps,

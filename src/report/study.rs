@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 use super::provenance::Provenance;
 use super::run::quantities;
 use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
+use crate::cli::method::Arithmetic;
 
 /// A finished study.
 pub struct Study {
@@ -22,8 +23,8 @@ pub struct Study {
     pub title: String,
     /// The method.
     pub method: Method,
-    /// `f32` or `f64`.
-    pub precision: &'static str,
+    /// How numbers were computed.
+    pub arithmetic: Arithmetic,
     /// What was refined.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
@@ -255,7 +256,7 @@ impl Study {
             self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
         json!({
             "field": self.field,
-            "method": method::document(&self.method, self.precision),
+            "method": method::document(&self.method, self.arithmetic),
             "refinement": self.refinement.name(),
             "levels": self.rows(),
             "noise": self.rows().iter().map(Row::is_noise).collect::<Vec<_>>(),
@@ -285,7 +286,7 @@ impl Study {
                 "{}: {}\n{}",
                 self.field,
                 self.title,
-                method::line(&self.method, self.precision)
+                method::line(&self.method, self.arithmetic)
             ),
             self.levels_table().to_string(),
         ];

@@ -5,7 +5,7 @@ use std::fmt;
 use mms_codegen::selection::Form;
 use mms_runtime::{FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer};
 
-use crate::cli::method::Precision;
+use crate::cli::method::{Arithmetic, Precision};
 
 /// The Courant numbers that are tried.
 pub const COURANT: [f64; 11] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
@@ -17,7 +17,7 @@ pub const PARTICLES: [usize; 4] = [1, 2, 3, 4];
 const TRANSFERS: [Transfer; 4] =
     [Transfer::FLIP, Transfer::Apic, Transfer::Xpic { order: 2 }, Transfer::Pic];
 
-/// A method with its numbers, a precision and a form.
+/// A method with its numbers, and how they are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setting {
     /// The formulation.
@@ -32,10 +32,8 @@ pub struct Setting {
     pub particles: usize,
     /// The Courant number.
     pub courant: f64,
-    /// The precision of the solver.
-    pub precision: Precision,
-    /// How the field's quantities are computed.
-    pub form: Form,
+    /// The precision, and the form of the field's quantities.
+    pub arithmetic: Arithmetic,
 }
 
 impl Default for Setting {
@@ -43,8 +41,8 @@ impl Default for Setting {
     fn default() -> Self {
         let Method { shape, integrator, formulation, setup } = Method::default();
         let Setup { transfer, courant, .. } = setup;
-        let (precision, form) = Default::default();
-        Setting { formulation, shape, integrator, transfer, particles: 2, courant, precision, form }
+        let arithmetic = Arithmetic::default();
+        Setting { formulation, shape, integrator, transfer, particles: 2, courant, arithmetic }
     }
 }
 
@@ -124,15 +122,17 @@ impl Setting {
                 |courant| Setting { courant, ..*self },
             ),
             Axis::Precision => {
-                let precision = match self.precision {
+                let precision = match self.arithmetic.precision {
                     Precision::F32 => Precision::F64,
                     Precision::F64 => Precision::F32,
                 };
-                vec![one(Setting { precision, ..*self })]
+                vec![one(self.computed(Arithmetic { precision, ..self.arithmetic }))]
             }
             Axis::Form => {
-                let others = Form::ALL.into_iter().filter(|it| *it != self.form);
-                others.map(|form| one(Setting { form, ..*self })).collect()
+                let others = Form::ALL.into_iter().filter(|it| *it != self.arithmetic.form);
+                others
+                    .map(|form| one(self.computed(Arithmetic { form, ..self.arithmetic })))
+                    .collect()
             }
         }
     }
@@ -140,6 +140,11 @@ impl Setting {
     /// The same with another formulation and shape function.
     fn of_kind(&self, kind: &Setting) -> Setting {
         Setting { formulation: kind.formulation, shape: kind.shape, ..*self }
+    }
+
+    /// The same, computed in another way.
+    fn computed(&self, arithmetic: Arithmetic) -> Setting {
+        Setting { arithmetic, ..*self }
     }
 
     /// Whether only the Courant number differs: then a particle takes the same in a step.
@@ -162,8 +167,9 @@ impl Setting {
         option("transfer", self.transfer.to_string(), default.transfer.to_string());
         option("particles-per-cell", self.particles.to_string(), default.particles.to_string());
         option("courant", self.courant.to_string(), default.courant.to_string());
-        option("precision", self.precision.name().into(), default.precision.name().into());
-        option("form", self.form.name().into(), default.form.name().into());
+        let [own, usual] = [self.arithmetic, default.arithmetic];
+        option("precision", own.precision.name().into(), usual.precision.name().into());
+        option("form", own.form.name().into(), usual.form.name().into());
         options
     }
 
@@ -176,8 +182,8 @@ impl Setting {
             Axis::Particles if self.particles == 1 => "1 particle per cell and direction".into(),
             Axis::Particles => format!("{} particles per cell and direction", self.particles),
             Axis::Courant => format!("Courant {}", self.courant),
-            Axis::Precision => self.precision.name().into(),
-            Axis::Form => format!("form {}", self.form.name()),
+            Axis::Precision => self.arithmetic.precision.name().into(),
+            Axis::Form => format!("{} form", self.arithmetic.form.name()),
         }
     }
 }
@@ -188,15 +194,11 @@ impl fmt::Display for Setting {
         let default = Setting::default();
         let [kind, integrator] = [Axis::Kind, Axis::Integrator].map(|axis| self.word(axis));
         write!(f, "{kind} {integrator}")?;
-        for axis in [Axis::Transfer, Axis::Form] {
-            if self.word(axis) != default.word(axis) {
-                write!(f, " {}", self.word(axis))?;
-            }
+        if self.transfer != default.transfer {
+            write!(f, " {}", self.word(Axis::Transfer))?;
         }
-        for axis in [Axis::Precision, Axis::Particles, Axis::Courant] {
-            write!(f, ", {}", self.word(axis))?;
-        }
-        Ok(())
+        let [particles, courant] = [Axis::Particles, Axis::Courant].map(|axis| self.word(axis));
+        write!(f, ", {}, {particles}, {courant}", self.arithmetic)
     }
 }
 
@@ -234,8 +236,7 @@ mod tests {
                         transfer: method.setup.transfer,
                         particles: method.setup.particles_per_cell.along(0),
                         courant: method.setup.courant,
-                        precision: study.method.precision,
-                        form: setting.form,
+                        arithmetic: study.method.arithmetic,
                     };
                     assert_eq!(found, setting, "{words:?}");
                     assert!(method.validate().is_ok());

@@ -100,16 +100,17 @@ fn what_is_to_be_small_decides() {
 fn round_off_that_shows_late_sends_the_search_back() {
     let floor = |setting: &Setting, cells: f64| {
         let error = smooth(setting, cells)?;
-        Ok(if setting.precision == Precision::F32 { error.max(2e-5) } else { error })
+        Ok(if setting.arithmetic.precision == Precision::F32 { error.max(2e-5) } else { error })
     };
     let cheap = |setting: &Setting, cells: f64| {
-        floor(setting, cells)
-            .map(|error| if setting.precision == Precision::F32 { error / 1.5 } else { error })
+        floor(setting, cells).map(|error| {
+            if setting.arithmetic.precision == Precision::F32 { error / 1.5 } else { error }
+        })
     };
     let (coarse, _) = search(plan(Goal::Error(1e-3), Cost::ParticleSteps), cheap);
-    assert_eq!(choice(&coarse).setting.precision, Precision::F32);
+    assert_eq!(choice(&coarse).setting.arithmetic.precision, Precision::F32);
     let (fine, _) = search(plan(Goal::Error(1e-6), Cost::ParticleSteps), cheap);
-    assert_eq!(choice(&fine).setting.precision, Precision::F64);
+    assert_eq!(choice(&fine).setting.arithmetic.precision, Precision::F64);
     assert!(choice(&fine).error.clone().unwrap() <= 1e-6);
 }
 

@@ -6,7 +6,7 @@ use mms_runtime::study::TOLERANCE;
 use mms_runtime::{Division, Setup};
 use serde::Deserialize;
 
-use crate::cli::input::Variant;
+use crate::cli::input::{Motion, Variant};
 use crate::cli::method::MethodOptions;
 use crate::gallery::{self, Entry};
 use crate::rows::{Named, read};
@@ -128,7 +128,14 @@ pub struct Study {
     #[arg(long)]
     pub set: Vec<String>,
     #[command(flatten)]
-    pub variant: Variant,
+    pub motion: Motion,
+}
+
+impl Study {
+    /// How its field is taken.
+    pub fn variant(&self) -> Variant {
+        self.method.variant(&self.motion)
+    }
 }
 
 /// The arguments of a line that is cut where blanks are, except between apostrophes.

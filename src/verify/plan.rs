@@ -17,7 +17,7 @@ pub struct Key {
     pub program: String,
     /// The digest of the field's text, and of its own material's.
     pub field: String,
-    /// Method, cells, precision, parameters and motion.
+    /// Method, cells, precision, form, parameters and motion.
     pub run: String,
     /// Of what errors are measured.
     pub quantity: &'static str,
@@ -35,7 +35,7 @@ pub struct Job {
     pub command: String,
     /// Its field.
     pub entry: &'static Entry,
-    /// Cells, precision, parameters and motion.
+    /// Cells, precision, form, parameters and motion.
     pub study: Study,
     /// The method.
     pub method: Method,
@@ -113,11 +113,11 @@ fn job(
     };
     let cells = &study.cells[0];
     let work = work(&study, &method, cells, dimension);
-    let (precision, Study { set, variant, .. }) = (study.method.precision.name(), &study);
+    let Study { set, motion, method: options, .. } = &study;
     let key = Key {
         program: program.to_owned(),
         field: digest([entry.text, entry.material.unwrap_or_default()]),
-        run: format!("{method:?}, {cells} cells, {precision}, {set:?}, {variant:?}"),
+        run: format!("{method:?}, {cells} cells, {:?}, {set:?}, {motion:?}", options.arithmetic),
         quantity: quantity.name(),
         defect: None,
     };
@@ -135,6 +135,6 @@ fn work(study: &Study, method: &Method, cells: &Division, dimension: usize) -> f
     let product = |numbers: Vec<usize>| numbers.into_iter().map(|n| n as f64).product::<f64>();
     let longest = cells.numbers().into_iter().max().unwrap_or(1) as f64;
     let particles = product(per_axis(cells)) * product(per_axis(&method.setup.particles_per_cell));
-    let scale = if study.variant == Default::default() { 1.0 } else { INTERPRETED };
+    let scale = if study.variant() == Default::default() { 1.0 } else { INTERPRETED };
     particles * longest / method.setup.courant * scale
 }

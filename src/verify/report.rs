@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use super::matrix::{Row, Study};
 use super::verdict::Judgement;
 use super::work::Outcome;
-use crate::report::duration;
 use crate::report::method::division;
 use crate::report::provenance::Provenance;
+use crate::report::{duration, tally};
 use crate::rows::Named as _;
 
 /// Rows, with what came of them.
@@ -130,13 +130,7 @@ impl Report<'_> {
                 "\n{name}: {verdict}, expected {expected}: {reason}\n  theory: {theory}\n  mms study {study}\n"
             );
         }
-        let unexpected = self.unexpected().count();
-        let count = self.rows.len();
-        text += &match unexpected {
-            0 => format!("\nall {count} verdicts are as theory expects"),
-            _ => format!("\n{unexpected} of {count} verdicts are not as theory expects"),
-        };
-        text
+        text + "\n" + &tally(self.unexpected().count(), self.rows.len(), "as theory expects")
     }
 
     /// The page: what does not depend on a machine.

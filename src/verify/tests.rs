@@ -26,6 +26,28 @@ fn each_has_a_row<T: std::fmt::Debug + Copy>(all: &[T], has: impl Fn(&Row, &Stud
     }
 }
 
+/// Two runs that share a key would share a result.
+#[test]
+fn whatever_a_result_depends_on_is_in_its_key() {
+    let (mut row, _) = studies().into_iter().find(|(row, _)| row.name == "precision/f32").unwrap();
+    let study = "bar_1d --cells 8,16";
+    let mut keys = BTreeSet::new();
+    let others = [
+        "--precision f32",
+        "--form fast",
+        "--courant 0.3",
+        "--set young=2e6",
+        "--rigid",
+        "--shape linear",
+    ];
+    for (number, options) in std::iter::once("").chain(others).enumerate() {
+        row.study = format!("{study} {options}");
+        let plan = Plan::new(&[&row], false, "this program").unwrap();
+        keys.extend(plan.jobs.into_iter().map(|job| job.key));
+        assert_eq!(keys.len(), 2 * (number + 1), "{options}");
+    }
+}
+
 #[test]
 fn every_shape_function_has_a_row_in_every_formulation_that_takes_it() {
     for &formulation in FormulationName::ALL {

@@ -268,7 +268,7 @@ impl Fields {
     ) -> anyhow::Result<R> {
         let input = self.input(job)?;
         let set = &job.study.set;
-        Ok(match job.study.method.precision {
+        Ok(match job.study.method.arithmetic.precision {
             Precision::F32 => single(job, &input.scene(set, |entry| entry.single)?, step),
             Precision::F64 => double(job, &input.scene(set, |entry| entry.double)?, step),
         })
@@ -284,13 +284,14 @@ impl Fields {
     /// # Errors
     /// It does not compile.
     pub fn input(&self, job: &Job) -> anyhow::Result<Arc<Input>> {
-        let name = format!("{} {:?}", job.entry.name, job.study.variant);
+        let variant = job.study.variant();
+        let name = format!("{} {variant:?}", job.entry.name);
         // Whoever else needs a field has to wait for it anyway.
         let mut inputs = self.inputs.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(input) = inputs.get(&name) {
             return Ok(input.clone());
         }
-        let input = Arc::new((self.find)(job.entry.name, &job.study.variant)?);
+        let input = Arc::new((self.find)(job.entry.name, &variant)?);
         inputs.insert(name, input.clone());
         Ok(input)
     }

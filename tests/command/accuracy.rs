@@ -48,6 +48,26 @@ fn the_document_has_a_row_for_each_precision_and_form() {
 }
 
 #[test]
+fn only_what_is_wanted_is_measured() {
+    let folder = Folder::new();
+    let arguments = "accuracy bar_1d --quantity P --regime declared --points 8";
+    let all = folder.mms(&format!("{arguments} --json")).exits(0).json();
+    let some = "--precision wide,f32 --form stable --json --output some";
+    let document = folder.mms(&format!("{arguments} {some}")).exits(0).json();
+    let ways = |row: &Value| [row["precision"].clone(), row["form"].clone()];
+    let found: Vec<_> = rows(&document).iter().map(ways).collect();
+    assert_eq!(found, [["f32", "stable"], ["wide", "stable"]]);
+    // They are the rows of all.
+    for row in rows(&document) {
+        let same = rows(&all).iter().find(|it| ways(it) == ways(row)).expect("the same row");
+        assert_eq!(row["max_scaled_eps"], same["max_scaled_eps"]);
+    }
+    folder.mms("report some").exits(0);
+    let page = folder.read("some/report.html");
+    assert!(page.contains("wide, stable") && !page.contains("f64, stable"), "{page}");
+}
+
+#[test]
 fn a_fields_own_extreme_is_a_regime() {
     let folder = Folder::new();
     let own = "\n[[extreme]]\nname = \"soft\"\nset = { young = 1e-3 }\n";
@@ -73,6 +93,8 @@ fn names_that_do_not_exist_are_refused_with_those_that_do() {
         ("accuracy bar_1d --regime declred", "did you mean `declared`?"),
         ("accuracy bar_1d --regime nothing_like_it", "there are declared, displacement_1e-4"),
         ("accuracy bar_2d", "did you mean `bar_1d`?"),
+        ("accuracy bar_1d --precision f16", "[possible values: f32, f64, wide]"),
+        ("accuracy bar_1d --form fst", "did you mean `fast`?"),
         ("accuracy bar_1d --set young", "expected name=value"),
         ("accuracy bar_1d --set yung=2", "did you mean `young`?"),
     ] {

@@ -155,6 +155,7 @@ fn a_checkpoint_of_another_run_is_refused_by_the_command_that_wrote_it() {
         "run bar_1d --cells 9",
         "run bar_1d --cells 8 --courant 0.3",
         "run bar_1d --cells 8 --precision f32",
+        "run bar_1d --cells 8 --form fast",
         "run bar_1d --cells 8 --set young=2e6",
         "run periodic_bar --cells 8",
     ] {

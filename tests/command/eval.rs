@@ -52,6 +52,8 @@ fn the_document_has_the_promised_shape() {
     let expected = json!({
         "field": "bar_1d",
         "time": 0.013,
+        "precision": "f64",
+        "form": "stable",
         "points": [{ "at": [0.37], "body_force": field.at_time(0.013).body_force([0.37]) }],
     });
     assert_eq!(document("--at 0.37 --time 0.013 --quantity body_force"), expected);

@@ -1,5 +1,7 @@
 //! `--form`: stable, or with the fewest operations.
 
+use serde_json::Value;
+
 use super::mms::{Folder, numbers};
 
 /// P of a bar that is stretched by next to nothing, by `eval` with these options.
@@ -40,8 +42,79 @@ fn the_fast_form_has_fewer_operations() {
 #[test]
 fn there_is_no_other_form() {
     let folder = Folder::new();
-    for command in ["eval bar_1d --at 0.3", "show bar_1d", "check bar_1d", "emit bar_1d"] {
+    for command in [
+        "eval bar_1d --at 0.3",
+        "show bar_1d",
+        "check bar_1d",
+        "emit bar_1d",
+        "run bar_1d",
+        "study bar_1d",
+        "extremes bar_1d",
+    ] {
         let run = folder.mms(&format!("{command} --form quick")).exits(2);
         run.complains("the forms are stable, fast");
+    }
+}
+
+/// All errors of a study.
+fn errors(study: &Value) -> &Value {
+    &study["quantities"]
+}
+
+#[test]
+fn a_study_of_both_forms_sets_them_beside_each_other() {
+    let folder = Folder::new();
+    // Interpreted in either form, so that nothing else differs; and Div P does, where moduli depend on X.
+    folder.write("bar.toml", include_str!("../../fields/graded_bar.toml"));
+    let study = "study bar.toml --cells 4,8 --precision f32";
+    let run = folder.mms(&format!("{study} --form stable,fast --json --output both")).exits(0);
+    run.complains("leapfrog, f32, 2 particles").complains("leapfrog, f32, fast form, 2 particles");
+    let document = run.json();
+    let studies = document["studies"].as_array().expect("studies");
+    assert_eq!(studies.len(), 2);
+    assert_ne!(errors(&studies[0]), errors(&studies[1]), "{document:#}");
+    for (study_of_both, form) in studies.iter().zip(["stable", "fast"]) {
+        assert_eq!(study_of_both["name"], form);
+        assert_eq!(study_of_both["method"]["form"], form);
+        let alone = folder.mms(&format!("{study} --form {form} --json")).exits(0).json();
+        assert_eq!(alone["method"], study_of_both["method"]);
+        assert_eq!(errors(&alone), errors(study_of_both));
+    }
+    folder.mms("report both").exits(0);
+    let page = folder.read("both/report.html");
+    assert!(page.contains("<dt>form</dt><dd>fast</dd>"), "{page}");
+}
+
+#[test]
+fn a_saved_scene_has_a_form() {
+    let folder = Folder::new();
+    let scene = "field = \"bar_1d\"\ncells = [4, 8]\nform = ";
+    folder.write("one.toml", &format!("{scene}\"fast\"\n"));
+    let one = folder.mms("study --study one.toml --json").json();
+    assert_eq!(one["method"]["form"], "fast");
+    let given = folder.mms("study --study one.toml --form stable --json").json();
+    assert_eq!(given["method"]["form"], "stable");
+    folder.write("both.toml", &format!("{scene}[\"stable\", \"fast\"]\n"));
+    folder.mms("study --study both.toml").prints("fast: ").prints("of 2 methods pass");
+    folder.write("none.toml", &format!("{scene}\"quick\"\n"));
+    folder.mms("study --study none.toml").exits(2).complains("the forms are stable, fast");
+}
+
+#[test]
+fn what_runs_says_in_which_form() {
+    let folder = Folder::new();
+    let run = "run bar_1d --cells 8 --output one";
+    folder.mms(&format!("{run} --form fast")).exits(0).prints("cpgimp leapfrog, f64, fast form, 2");
+    folder.mms("report one").exits(0);
+    assert!(folder.read("one/report.html").contains("bar_1d: cpgimp leapfrog, fast form, 8 cells"));
+    let stable = folder.mms(run).exits(0);
+    stable.prints("cpgimp leapfrog, f64, 2 particles");
+    let extremes = "extremes bar_1d --quick --row single --json";
+    for form in ["stable", "fast"] {
+        let document = folder.mms(&format!("{extremes} --form {form}")).json();
+        assert_eq!(document["method"]["form"], form);
+        let settings = document["rows"].as_array().expect("rows").iter();
+        let mut settings = settings.map(|row| row["setting"].as_str().expect("a setting"));
+        assert!(settings.all(|it| it.contains("fast form") == (form == "fast")), "{document:#}");
     }
 }

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use mms::gallery::FIELDS;
 use mms_codegen::compile::MATERIALS;
+use mms_codegen::selection::Form;
+use mms_codegen::spec::PRECISIONS;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use serde_json::{Map, Value, json};
 
@@ -30,6 +32,8 @@ fn list_as_a_document_has_the_same_names() {
     assert_eq!(document["integrators"], json!(IntegratorName::NAMES));
     assert_eq!(document["formulations"], json!(FormulationName::NAMES));
     assert_eq!(document["transfers"], json!(Transfer::NAMES));
+    assert_eq!(document["precisions"], json!(PRECISIONS));
+    assert_eq!(document["forms"], json!(Form::ALL.map(Form::name)));
     let materials: Vec<_> = MATERIALS.iter().map(|(stem, _)| *stem).collect();
     assert_eq!(document["materials"], json!(materials));
 }
@@ -48,9 +52,12 @@ fn list_tells_what_each_field_claims_and_is_checked_by() {
         assert_eq!(listed["body"], field.domain.body.name(), "{}", entry.name);
         let checks: Vec<_> = field.checks.iter().map(|it| it.quantity.value.name()).collect();
         assert_eq!(listed["checks"], json!(checks), "{}", entry.name);
-        let orders: Vec<_> = field.studies.iter().map(|study| json!(study.order)).collect();
-        let studies = listed["studies"].as_array().expect("studies").iter();
-        assert_eq!(studies.map(|study| study["order"].clone()).collect::<Vec<_>>(), orders);
+        let studies = listed["studies"].as_array().expect("studies");
+        assert_eq!(studies.len(), field.studies.len(), "{}", entry.name);
+        for (listed, study) in studies.iter().zip(&field.studies) {
+            assert_eq!(listed["order"], json!(study.order), "{}", entry.name);
+            assert_eq!(listed["form"], json!(study.form), "{}", entry.name);
+        }
     }
 }
 

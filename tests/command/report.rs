@@ -522,6 +522,8 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
     folder.write("all/d.json", &study.replace("\"levels\"", "\"steps\""));
     folder.write("all/e.json", &study.replace("\"study\"", "\"dance\""));
     folder.write("all/f.pvd", "<VTKFile/>");
+    // Before a method had a form, a result did not say which one it was of.
+    folder.write("all/g.json", &study.replace("\"form\": \"stable\",", ""));
     let run: Run = folder.mms("report all --output page.html");
     let page = folder.read("page.html");
     for (file, reason) in [
@@ -531,6 +533,7 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
         ("d.json", "not what `mms study` writes: missing field `levels`"),
         ("e.json", "nothing is known of a `dance`"),
         ("f.pvd", "no states in it"),
+        ("g.json", "not what `mms study` writes: its method does not say its `form`"),
     ] {
         run.complains(&format!("{file}: {reason}"));
         assert!(page.contains(&format!("{file}: {reason}")), "{file}");

@@ -46,6 +46,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "transfer",
             "flip_fraction",
             "precision",
+            "form",
             "particles_per_cell",
             "fill",
             "jitter",
@@ -234,7 +235,9 @@ fn periods_are_of_fields_that_repeat_themselves() {
     run("bar_1d --periods 1 --time 0.1").exits(2).complains("cannot be used with");
     run("bar_1d --periods 1,2").prints("in period").prints("a phase lag is in radians");
     // A run that stops has the periods before.
-    let stopped = run("bar_1d --periods 1,1000 --courant 0.6 --json").exits(1).json();
+    let stopped = run("bar_1d --periods 1,1000 --courant 0.6 --json").exits(1);
+    stopped.complains(" of 1000; where finer grids").complains("ask for fewer periods");
+    let stopped = stopped.json();
     assert!(stopped["levels"][0]["failure"].is_string(), "{stopped:#}");
     let measured = array(&stopped["phase"]["measured"]);
     assert!(measured[0]["levels"][0]["phase_lag"].is_f64(), "{stopped:#}");

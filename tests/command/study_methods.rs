@@ -32,6 +32,7 @@ fn options_choose_the_method_and_the_levels() {
         "transfer": "flip",
         "flip_fraction": 1.0,
         "precision": "f32",
+        "form": "stable",
         "particles_per_cell": 3,
         "fill": null,
         "jitter": 0.0,
@@ -57,7 +58,7 @@ fn options_choose_the_method_and_the_levels() {
 #[test]
 fn the_defaults_are_contiguous_particles_and_leapfrog() {
     let given = "--shape cpgimp --integrator leapfrog --particles-per-cell 2 --courant 0.4 \
-                 --precision f64";
+                 --precision f64 --form stable";
     let [spelt, left_out] = [given, ""].map(|options| {
         let document = document(&format!("--cells 8,16 {options}"), 0);
         (document["method"].clone(), column(&document, "linf"))
@@ -215,6 +216,8 @@ fn lists_of_methods_that_make_no_sense_exit_2() {
         ("--shape linear,linear", "`--shape`: a word is given twice"),
         ("--shape linear,cpgmp", "known are: linear, ugimp, cpgimp"),
         ("--formulation updated,total --shape cpgimp", "total"),
+        ("--form fast,stable,fast", "`--form`: a word is given twice"),
+        ("--form stable,quick", "the forms are stable, fast"),
         ("--precision f32,f64 --expected-constant 1", "each method has a constant of its own"),
     ] {
         let run = Folder::new().mms(&format!("study bar_1d --cells 4,8 {arguments}")).exits(2);

@@ -117,7 +117,7 @@ fn without_a_terminal_there_is_a_line_per_run_and_results_come_from_the_store_th
     let folder = Folder::new();
     let first = folder.mms("verify --row time/usl --threads 1000000000").exits(0);
     first.complains("5 of 5 runs").complains("mms run uniform_stretch");
-    first.prints("all 1 verdicts are as theory expects");
+    first.prints("\nthe verdict is as theory expects");
     assert_eq!(results(&folder.path("target/mms/verify")).len(), 5);
     let second = folder.mms("verify --row time/usl").exits(0);
     assert_eq!(second.stderr, "", "nothing was run");

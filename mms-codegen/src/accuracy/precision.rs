@@ -29,6 +29,11 @@ impl Precision {
         }
     }
 
+    /// The precision of that name.
+    pub fn from_name(name: &str) -> Option<Precision> {
+        Self::ALL.into_iter().find(|precision| precision.name() == name)
+    }
+
     /// The distance from 1 to the next number; 2^-104 where there are twice the digits.
     pub fn eps(self) -> f64 {
         match self {

@@ -6,7 +6,7 @@
 
 use super::domain::{BODIES, Claim};
 use super::names::Keeper;
-use super::study::{FILLS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
+use super::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
 use crate::quantity::Quantity;
 
 /// A key of a table.
@@ -247,6 +247,11 @@ pub const STUDY: &[Key] = &[
         "How the body is filled with particles: on the cells, or fitted to the body.",
     ),
     optional("precision", Holds::Word(|| PRECISIONS.to_vec()), "The solver's precision."),
+    optional(
+        "form",
+        Holds::Word(|| FORMS.to_vec()),
+        "How the field's quantities are computed; stable by default.",
+    ),
     optional(
         "cells",
         Holds::Levels,

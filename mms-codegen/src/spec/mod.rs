@@ -33,7 +33,9 @@ pub use field::{FieldSpec, read_field};
 pub use formula::Formula;
 pub use material::{MaterialSpec, MaterialUse, read_material};
 pub use rigid::{RigidSpec, Rotation, read_rigid};
-pub use study::{FILLS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS};
+pub use study::{
+    FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS,
+};
 pub use symbols::{LetSpec, MaterialParameter, ParameterSpec};
 pub use value::MAX_COUNT;
 

@@ -3,6 +3,7 @@
 use super::table::{Reader, Table};
 use super::value::plural;
 use crate::diagnostic::Diagnostic;
+use crate::selection::Form;
 use crate::source::Span;
 
 /// The shape functions that a study may name.
@@ -24,6 +25,9 @@ pub const FILLS: &[&str] = &["cartesian", "fitted"];
 /// The precisions that a study may name.
 pub const PRECISIONS: &[&str] = &["f32", "f64"];
 
+/// The forms of the forcing that a study may name.
+pub const FORMS: &[&str] = &[Form::Stable.name(), Form::Fast.name()];
+
 /// A method and the order it must show. What is `None` or empty has the command's default.
 #[derive(Clone, Debug)]
 pub struct StudySpec {
@@ -43,6 +47,8 @@ pub struct StudySpec {
     pub fill: Option<String>,
     /// The solver's precision, one of [`PRECISIONS`].
     pub precision: Option<String>,
+    /// How the field's quantities are computed, one of [`FORMS`].
+    pub form: Option<String>,
     /// Cells along the longest edge on each level, coarse to fine.
     pub cells: Vec<usize>,
     /// The expected order.
@@ -72,6 +78,7 @@ pub(super) fn study<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> StudySpec
     let transfer = word("transfer", "transfer", TRANSFERS);
     let fill = word("fill", "fill", FILLS);
     let precision = word("precision", "precision", PRECISIONS);
+    let form = word("form", "form", FORMS);
     let mut positive = |key: &str| reader.positive(&table.get(key)?);
     let (courant, order, tolerance) =
         (positive("courant"), positive("order"), positive("tolerance"));
@@ -87,6 +94,7 @@ pub(super) fn study<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> StudySpec
         particles_per_cell,
         fill,
         precision,
+        form,
         cells: cells(table, reader).unwrap_or_default(),
         order: order.unwrap_or(DEFAULT_ORDER),
         tolerance,

@@ -9,7 +9,7 @@ use anyhow::bail;
 use mms_codegen::compile::MATERIALS;
 use mms_codegen::spec::names::FUNCTIONS;
 use mms_codegen::spec::{
-    FILLS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
+    FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
 use mms_codegen::suggest::did_you_mean;
 
@@ -138,6 +138,7 @@ impl Template<'_> {
             "transfers" => TRANSFERS.join(" "),
             "fills" => FILLS.join(" "),
             "precisions" => PRECISIONS.join(" "),
+            "forms" => FORMS.join(" "),
             unknown => format!("@{unknown}@"),
         }
     }

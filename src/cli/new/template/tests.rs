@@ -86,7 +86,7 @@ fn every_example_works_when_it_is_uncommented() {
         let field = &compiled.field;
         assert!(field.reference.is_some() && field.extremes.len() == 1, "{whole}");
         for study in &field.studies {
-            assert!(study.transfer.is_some() && study.precision.is_some(), "{whole}");
+            assert!(study.precision.is_some() && study.form.is_some(), "{whole}");
         }
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         assert!(compare(&compiled).iter().all(agrees));
