@@ -185,7 +185,7 @@ fn method(port: &Port<'_>, callable: &Callable) -> String {
     };
     format!(
         "{}    #[inline]\n    pub fn {}({}) -> {} {{\n{}        {result}\n    }}\n",
-        documented(&format!("{} Unit: {}.", callable.doc, callable.unit), "    "),
+        documented(&callable.documentation(dimension), "    "),
         callable.name,
         arguments.join(", "),
         kind(callable.shape, callable.components.len(), dimension),
