@@ -27,6 +27,11 @@ pub(super) fn text(port: &Port<'_>) -> String {
         vectors.sets.len(),
         vectors.samples.len()
     );
+    if vectors.accepted_in_single.is_none() {
+        text += &format!(
+            "#ifdef {upper}_FLOAT\n#error \"the numbers of {name} are beyond the range of float\"\n#endif\n\n"
+        );
+    }
     text += &tables(port, vectors);
     let program = include_str!("support/check.c");
     text += &program
@@ -121,14 +126,27 @@ fn main(port: &Port<'_>, vectors: &Vectors) -> String {
     for (parameter, value) in port.parameters.values().zip(&vectors.defaults) {
         let _ = writeln!(text, "    CHECK_DEFAULT({parameter}, {});", hexadecimal(*value));
     }
-    let checked = port.callables.iter().zip(&vectors.accepted);
-    for (callable, accepted) in checked.filter(|(it, _)| samples || !it.is_of_points()) {
-        let _ = writeln!(text, "    {}", check(port, callable, *accepted));
+    for (place, callable) in port.callables.iter().enumerate() {
+        if samples || !callable.is_of_points() {
+            let accepted = accepted(name, vectors, place);
+            let _ = writeln!(text, "    {}", check(port, callable, &accepted));
+        }
     }
     text + "    return conclude();\n}\n"
 }
 
-fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
+/// The accepted error, which may be another one in single precision.
+fn accepted(name: &str, vectors: &Vectors, place: usize) -> String {
+    let double = vectors.accepted[place];
+    match vectors.accepted_in_single.as_ref().map(|single| single[place]) {
+        Some(single) if single != double => {
+            format!("sizeof({name}_real) < sizeof(double) ? {single} : {double}")
+        }
+        _ => double.to_string(),
+    }
+}
+
+fn check(port: &Port<'_>, callable: &Callable, accepted: &str) -> String {
     let subject = match (callable.time, callable.is_of_points()) {
         (true, _) => "&now[s]",
         (false, true) => "&fields[samples[s].set]",

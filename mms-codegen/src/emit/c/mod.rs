@@ -54,6 +54,11 @@ pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
     text + " */\n"
 }
 
+/// The same as a comment of documentation.
+fn documented(paragraphs: &[String], indent: &str) -> String {
+    comment(paragraphs, indent).replacen("/*", "/**", 1)
+}
+
 /// A function's head or call, broken where it is too long.
 pub(super) fn broken(start: &str, arguments: &[String], end: &str) -> String {
     let line = format!("{start}({}){end}", arguments.join(", "));
