@@ -65,13 +65,15 @@ fn members(kind: &str, names: impl Iterator<Item = String>) -> String {
 
 fn functions(port: &Port<'_>) -> String {
     let name = &port.name;
+    let at_time = [format!("const {name}_field *field"), format!("{name}_real t")];
     let mut text = format!(
         "/** The parameters of the field file, or those that were set in their place. */\n\
          {name}_parameters {name}_default_parameters(void);\n\n\
          /** Computes once what only the parameters determine. */\n\
          {name}_field {name}_prepare(const {name}_parameters *parameters);\n\n\
          /** Computes once what the parameters and the time determine. */\n\
-         {name}_instant {name}_at_time(const {name}_field *field, {name}_real t);\n\n"
+         {};\n\n",
+        broken(&format!("{name}_instant {name}_at_time"), &at_time, "")
     );
     if port.callables.iter().any(Callable::is_of_points) {
         text += &comment(

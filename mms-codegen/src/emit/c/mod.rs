@@ -65,6 +65,7 @@ pub(super) fn broken(start: &str, arguments: &[String], end: &str) -> String {
     if line.len() <= 100 {
         return line;
     }
-    let lines = crate::emit::text::listed(arguments, 92);
-    format!("{start}(\n        {}){end}", lines.join("\n        "))
+    let indent = " ".repeat(start.len() - start.trim_start().len() + 8);
+    let lines = crate::emit::text::listed(arguments, 100 - indent.len());
+    format!("{start}(\n{indent}{}){end}", lines.join(&format!("\n{indent}")))
 }

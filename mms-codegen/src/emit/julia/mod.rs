@@ -18,7 +18,7 @@ pub const TARGET: Target = Target {
 
 /// Names that Julia takes.
 const RULES: Rules = Rules {
-    words: &[KEYWORDS, "T Parameters float promote"],
+    words: &[KEYWORDS, "T Parameters float promote new"],
     modules: &[KEYWORDS, FUNCTIONS, NAMES],
     folds_case: false,
     longest: 120,

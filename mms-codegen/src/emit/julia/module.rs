@@ -86,22 +86,24 @@ fn parameters(port: &Port<'_>) -> String {
     if port.parameters.is_empty() {
         return text + "Parameters() = Parameters{Float64}()\n\n";
     }
-    let names: Vec<&String> = port.parameters.values().collect();
-    let keywords: Vec<String> = names
-        .iter()
-        .zip(defaults)
+    let names: Vec<String> = port.parameters.values().cloned().collect();
+    let keywords: Vec<String> = (names.iter().zip(defaults))
         .map(|(name, default)| format!("{name} = {}", decimal(*default)))
         .collect();
-    let list = |items: &[String]| listed(items, 88).join("\n    ");
-    let keywords = list(&keywords);
-    let plain = list(&names.iter().map(|name| (*name).clone()).collect::<Vec<_>>());
-    let floats = list(&names.iter().map(|name| format!("float({name})")).collect::<Vec<_>>());
-    let _ = write!(
-        text,
-        "Parameters(;\n    {keywords},\n) = Parameters(promote(\n    {floats},\n)...)\n\n\
-         Parameters{{T}}(;\n    {keywords},\n) where {{T<:AbstractFloat}} = Parameters{{T}}(\n    {plain},\n)\n\n"
-    );
-    text
+    let floats: Vec<String> = names.iter().map(|name| format!("float({name})")).collect();
+    let own = |head: &str, start: &str| bracketed(&format!("{head}(; "), &keywords, start);
+    text += &own("Parameters", ") = ");
+    text += &bracketed("Parameters(promote(", &floats, ")...)\n\n");
+    text += &own("Parameters{T}", ") where {T<:AbstractFloat} = ");
+    text + &bracketed("Parameters{T}(", &names, ")\n\n")
+}
+
+/// Items between brackets: on the line of these, or on lines of their own.
+fn bracketed(open: &str, items: &[String], close: &str) -> String {
+    match listed(items, 88).as_slice() {
+        [line] if line.len() <= 40 => format!("{open}{line}{close}"),
+        lines => format!("{}\n    {},\n{close}", open.trim_end(), lines.join("\n    ")),
+    }
 }
 
 fn indented(statements: &[String], by: usize) -> String {
