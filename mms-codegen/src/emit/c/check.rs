@@ -43,15 +43,16 @@ pub(super) fn text(port: &Port<'_>) -> String {
 }
 
 fn tables(port: &Port<'_>, vectors: &Vectors) -> String {
-    let name = &port.name;
-    let mut text = format!(
-        "/* Parameters: the defaults, others, and extremes. */\n\
-         static const {name}_parameters sets[SETS] = {{\n"
-    );
-    for set in &vectors.sets {
-        text += &row(if set.is_empty() { &[0.0] } else { set });
+    let mut text = String::new();
+    if !port.parameters.is_empty() {
+        text += &format!(
+            "/* Parameters: the defaults, others, and extremes. */\n\
+             static const double sets[SETS][{}] = {{\n",
+            port.parameters.len()
+        );
+        vectors.sets.iter().for_each(|set| text += &row(set));
+        text += "};\n\n";
     }
-    text += "};\n\n";
     if !vectors.samples.is_empty() {
         text += &samples(port, vectors);
     }
@@ -115,8 +116,12 @@ fn main(port: &Port<'_>, vectors: &Vectors) -> String {
     if timed && samples {
         text += &format!("    static {name}_instant now[SAMPLES];\n");
     }
+    let set: Vec<String> =
+        (0..port.parameters.len()).map(|place| format!("({name}_real)sets[s][{place}]")).collect();
+    let set = if set.is_empty() { "0".into() } else { listed(&set, 84).join("\n            ") };
     text += &format!(
-        "    for (int s = 0; s < SETS; s++) {{\n        fields[s] = {name}_prepare(&sets[s]);\n    }}\n"
+        "    for (int s = 0; s < SETS; s++) {{\n        const {name}_parameters parameters = {{\n            \
+         {set}\n        }};\n        fields[s] = {name}_prepare(&parameters);\n    }}\n"
     );
     if timed && samples {
         text += &format!(

@@ -28,9 +28,9 @@ pub(super) fn text(port: &Port<'_>) -> String {
                  #endif\n\n";
     }
     text += &format!(
-        "typedef {name}_real real;\n\n\
-         #ifdef {upper}_FLOAT\n#define MATH(function) function##f\n#define REAL(number) number##f\n\
-         #else\n#define MATH(function) function\n#define REAL(number) number\n#endif\n\n"
+        "typedef {name}_real real;\n\n#define REAL(number) ((real)(number))\n\
+         #ifdef {upper}_FLOAT\n#define MATH(function) function##f\n\
+         #else\n#define MATH(function) function\n#endif\n\n"
     );
     if !wide.is_empty() {
         text += &match port.kept_wide.is_empty() {
