@@ -60,7 +60,9 @@ pub struct Emit {
 
 /// The words of the compiler's list.
 fn targets() -> PossibleValuesParser {
-    TARGETS.iter().map(|target| PossibleValue::new(target.name).help(target.doc)).into()
+    let word =
+        |target: &Target| PossibleValue::new(target.name).help(target.doc).aliases(target.alias());
+    TARGETS.iter().map(word).into()
 }
 
 impl Emit {

@@ -85,6 +85,15 @@ fn a_bundle_is_written_with_the_line_that_checks_it() {
 }
 
 #[test]
+fn matlab_is_another_word_for_octave() {
+    let folder = Folder::new();
+    let [one, other] = ["octave", "matlab"].map(|target| {
+        folder.mms(&format!("emit bar_1d --quantity u --json --target {target}")).exits(0).stdout
+    });
+    assert_eq!(one, other);
+}
+
+#[test]
 fn what_is_stale_or_missing_is_named_and_nothing_is_written() {
     let folder = Folder::new();
     let check = "emit bar_1d --target c -o out --check";

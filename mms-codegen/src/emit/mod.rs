@@ -79,8 +79,13 @@ macro_rules! targets {
 targets! { rust rust_standalone c cpp fortran python numpy sympy ufl octave julia moose karamelo }
 
 impl Target {
-    /// The target of that name.
+    /// The target of that name, or of its other one.
     pub fn find(name: &str) -> Option<&'static Target> {
-        TARGETS.iter().find(|target| target.name == name)
+        TARGETS.iter().find(|target| target.name == name || target.alias() == Some(name))
+    }
+
+    /// Another word for it: MATLAB reads what is written for Octave.
+    pub fn alias(&self) -> Option<&'static str> {
+        (self.name == "octave").then_some("matlab")
     }
 }

@@ -29,10 +29,19 @@ pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Words that are separated by `, ` in lines of at most `width` characters, each but the last with
-/// its comma.
+/// Items that are separated by `, ` in lines of at most `width` characters, each but the last with
+/// its comma; no item is broken.
 pub(super) fn listed<T: AsRef<str>>(items: &[T], width: usize) -> Vec<String> {
-    wrapped(&items.iter().map(T::as_ref).collect::<Vec<_>>().join(", "), width)
+    let mut lines: Vec<String> = Vec::new();
+    for (index, item) in items.iter().enumerate() {
+        let comma = if index + 1 < items.len() { "," } else { "" };
+        let item = format!("{}{comma}", item.as_ref());
+        match lines.last_mut() {
+            Some(line) if line.len() + 1 + item.len() <= width => *line = format!("{line} {item}"),
+            _ => lines.push(item),
+        }
+    }
+    lines
 }
 
 #[cfg(test)]
@@ -49,6 +58,7 @@ mod tests {
     fn lines_break_between_words() {
         assert_eq!(wrapped("a bb  ccc dddddd", 5), ["a bb", "ccc", "dddddd"]);
         assert_eq!(listed(&["a", "b", "c"], 5), ["a, b,", "c"]);
+        assert_eq!(listed(&["a b", "c d"], 5), ["a b,", "c d"]);
         assert!(wrapped(" ", 5).is_empty());
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use mms_codegen::emit::Subject;
 use mms_codegen::{Compiled, Options, compile_with};
 
-use super::build::{all_are_required, can_build, in_pairs, ports, prove, quick};
+use super::build::{all_are_required, can_prove, in_pairs, ports, prove, quick};
 
 /// The fields of the gallery, compiled.
 fn gallery() -> Vec<Compiled> {
@@ -42,7 +42,7 @@ fn compiled(path: &Path) -> Compiled {
 fn every_field_proves_itself_in_every_language() {
     let fields = gallery();
     let subjects: Vec<_> = fields.iter().map(Subject::new).collect();
-    let targets: Vec<_> = ports().filter(|target| can_build(target)).collect();
+    let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
     let others = targets.iter().filter(|target| target.name != "c").count().max(1);
     let is_tried = |field: usize, target: usize| {
         all_are_required() || targets[target].name == "c" || (field + target).is_multiple_of(others)

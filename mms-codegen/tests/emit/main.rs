@@ -3,6 +3,7 @@
 
 mod build;
 mod coverage;
+mod faces;
 mod fuzz;
 mod gallery;
 mod literals;

@@ -9,7 +9,7 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::names::{COORDINATES, FUNCTIONS};
 use mms_codegen::{Compiled, Options, compile_with};
 
-use super::build::{can_build, in_turn, ports, prove, quick};
+use super::build::{can_prove, in_turn, ports, prove, quick};
 
 const ODD_NAMES: &str = "../tests/programs/odd_names.toml";
 
@@ -29,7 +29,7 @@ fn compiled(stem: &str, text: &str) -> Compiled {
 fn parameters_may_have_any_name_in_every_language() {
     let field = compiled("odd_names", &odd_names());
     let subject = Subject::new(&field);
-    for target in ports().filter(|target| can_build(target)) {
+    for target in ports().filter(|target| can_prove(target)) {
         prove(target, &subject, "odd_names", quick);
     }
 }
@@ -68,17 +68,19 @@ fn words_of_any_language_are_names() {
     );
     let field = compiled("words", &text);
     let subject = Subject::new(&field);
-    for target in ports().filter(|target| can_build(target)) {
+    for target in ports().filter(|target| can_prove(target)) {
         prove(target, &subject, "words", quick);
     }
 }
 
+fn plain() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/programs/plain.toml");
+    fs::read_to_string(path).expect("a field file")
+}
+
 #[test]
 fn a_field_may_have_any_stem_and_title_in_every_language() {
-    let bar = fs::read_to_string(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/programs/plain.toml"),
-    )
-    .expect("a field file");
+    let bar = plain();
     let title = bar.lines().find(|line| line.starts_with("title")).expect("a title");
     let evil = r#"title = "a */ int evil; /* ??/ \\\n\"\"\" \u2028 ''' -- !end \\""#;
     let text = bar.replace(title, evil);
@@ -89,6 +91,19 @@ fn a_field_may_have_any_stem_and_title_in_every_language() {
         let subject = Subject::new(&field);
         for target in in_turn(index, stems.len()) {
             prove(target, &subject, &format!("stems/{stem}"), quick);
+        }
+    }
+}
+
+#[test]
+fn a_field_may_be_called_like_a_function_of_its_own() {
+    for (stem, target) in [("material_strain_energy", "fortran"), ("wave_speed_c", "fortran")] {
+        let field =
+            compile_with(stem, "x.toml", &plain(), &|path| Err(path.into()), &Options::default())
+                .unwrap_or_else(|failure| panic!("{failure}"));
+        let target = TARGETS.iter().find(|it| it.name == target).expect("a target");
+        if can_prove(target) {
+            prove(target, &Subject::new(&field), &format!("functions/{stem}"), quick);
         }
     }
 }

@@ -48,6 +48,21 @@ fn c_has_no_warning_in_two_compilers_and_two_precisions() {
 }
 
 #[test]
+fn c_takes_numbers_that_are_none_in_single_precision() {
+    if !is_installed("cc --version") {
+        return;
+    }
+    let text = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { value = 1e-300 }\n\
+        [displacement]\nu = [\"X*t*(a + 1/3 + 1e-200)\"]\n[material]\nmodel = \"neo_hookean\"\n\
+        lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n";
+    let field = compile_with("tiny", "x.toml", text, &|path| Err(path.into()), &Options::default())
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    prove(target("c"), &Subject::new(&field), "strict/tiny", |line| {
+        line.replacen("cc ", &format!("cc {MORE_WARNINGS} -DTINY_FLOAT "), 1)
+    });
+}
+
+#[test]
 fn cpp_has_no_warning_in_two_compilers() {
     let field = field("conformal_sector_2d", &Options::default());
     for compiler in ["g++", "clang++"] {

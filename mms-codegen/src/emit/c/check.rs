@@ -27,6 +27,11 @@ pub(super) fn text(port: &Port<'_>) -> String {
         vectors.sets.len(),
         vectors.samples.len()
     );
+    if vectors.accepted_in_single.is_none() {
+        text += &format!(
+            "#ifdef {upper}_FLOAT\n#error \"the numbers of {name} are beyond the range of float\"\n#endif\n\n"
+        );
+    }
     text += &tables(port, vectors);
     let program = include_str!("support/check.c");
     text += &program
@@ -38,15 +43,16 @@ pub(super) fn text(port: &Port<'_>) -> String {
 }
 
 fn tables(port: &Port<'_>, vectors: &Vectors) -> String {
-    let name = &port.name;
-    let mut text = format!(
-        "/* Parameters: the defaults, others, and extremes. */\n\
-         static const {name}_parameters sets[SETS] = {{\n"
-    );
-    for set in &vectors.sets {
-        text += &row(if set.is_empty() { &[0.0] } else { set });
+    let mut text = String::new();
+    if !port.parameters.is_empty() {
+        text += &format!(
+            "/* Parameters: the defaults, others, and extremes. */\n\
+             static const double sets[SETS][{}] = {{\n",
+            port.parameters.len()
+        );
+        vectors.sets.iter().for_each(|set| text += &row(set));
+        text += "};\n\n";
     }
-    text += "};\n\n";
     if !vectors.samples.is_empty() {
         text += &samples(port, vectors);
     }
@@ -110,8 +116,12 @@ fn main(port: &Port<'_>, vectors: &Vectors) -> String {
     if timed && samples {
         text += &format!("    static {name}_instant now[SAMPLES];\n");
     }
+    let set: Vec<String> =
+        (0..port.parameters.len()).map(|place| format!("({name}_real)sets[s][{place}]")).collect();
+    let set = if set.is_empty() { "0".into() } else { listed(&set, 84).join("\n            ") };
     text += &format!(
-        "    for (int s = 0; s < SETS; s++) {{\n        fields[s] = {name}_prepare(&sets[s]);\n    }}\n"
+        "    for (int s = 0; s < SETS; s++) {{\n        const {name}_parameters parameters = {{\n            \
+         {set}\n        }};\n        fields[s] = {name}_prepare(&parameters);\n    }}\n"
     );
     if timed && samples {
         text += &format!(
@@ -121,14 +131,27 @@ fn main(port: &Port<'_>, vectors: &Vectors) -> String {
     for (parameter, value) in port.parameters.values().zip(&vectors.defaults) {
         let _ = writeln!(text, "    CHECK_DEFAULT({parameter}, {});", hexadecimal(*value));
     }
-    let checked = port.callables.iter().zip(&vectors.accepted);
-    for (callable, accepted) in checked.filter(|(it, _)| samples || !it.is_of_points()) {
-        let _ = writeln!(text, "    {}", check(port, callable, *accepted));
+    for (place, callable) in port.callables.iter().enumerate() {
+        if samples || !callable.is_of_points() {
+            let accepted = accepted(name, vectors, place);
+            let _ = writeln!(text, "    {}", check(port, callable, &accepted));
+        }
     }
     text + "    return conclude();\n}\n"
 }
 
-fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
+/// The accepted error, which may be another one in single precision.
+fn accepted(name: &str, vectors: &Vectors, place: usize) -> String {
+    let double = vectors.accepted[place];
+    match vectors.accepted_in_single.as_ref().map(|single| single[place]) {
+        Some(single) if single != double => {
+            format!("sizeof({name}_real) < sizeof(double) ? {single} : {double}")
+        }
+        _ => double.to_string(),
+    }
+}
+
+fn check(port: &Port<'_>, callable: &Callable, accepted: &str) -> String {
     let subject = match (callable.time, callable.is_of_points()) {
         (true, _) => "&now[s]",
         (false, true) => "&fields[samples[s].set]",

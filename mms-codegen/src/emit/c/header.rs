@@ -1,10 +1,9 @@
 //! The header: types and declarations.
 
-use super::{broken, comment};
+use super::{broken, comment, documented};
 use crate::emit::port::Port;
 use crate::emit::port::body::local;
 use crate::emit::port::callable::Callable;
-use crate::quantity::Shape;
 
 /// The text of `FIELD.h`.
 pub(super) fn text(port: &Port<'_>) -> String {
@@ -33,22 +32,22 @@ fn types(port: &Port<'_>) -> String {
     let mut text = String::new();
     if !port.kept_wide.is_empty() {
         text += &format!(
-            "/* A number of twice the digits of a double. */\n\
+            "/** A number of twice the digits of a double. */\n\
              typedef struct {{ double high, low; }} {name}_wide;\n\n"
         );
     }
-    text += "/* The parameters. */\ntypedef struct {\n";
+    text += "/** The parameters. */\ntypedef struct {\n";
     for (index, parameter) in &port.parameters {
-        text += &comment(&[port.parameter_doc(*index)], "    ");
+        text += &documented(&[port.parameter_doc(*index)], "    ");
         text += &format!("    {name}_real {parameter};\n");
     }
     text += &closed(&format!("{name}_parameters"), port.parameters.is_empty());
-    text += "/* What only the parameters determine. */\ntypedef struct {\n";
+    text += "/** What only the parameters determine. */\ntypedef struct {\n";
     text += &members(&format!("{name}_real"), port.kept.iter().map(|it| local(*it, false)));
     text += &members(&format!("{name}_wide"), port.kept_wide.iter().map(|it| local(*it, true)));
     let is_empty = port.kept.is_empty() && port.kept_wide.is_empty();
     text += &closed(&format!("{name}_field"), is_empty);
-    text += "/* What the parameters and the time determine. */\ntypedef struct {\n";
+    text += "/** What the parameters and the time determine. */\ntypedef struct {\n";
     text +=
         &members(&format!("{name}_real"), port.kept_at_times.iter().map(|it| local(*it, false)));
     text + &closed(&format!("{name}_instant"), port.kept_at_times.is_empty())
@@ -66,13 +65,15 @@ fn members(kind: &str, names: impl Iterator<Item = String>) -> String {
 
 fn functions(port: &Port<'_>) -> String {
     let name = &port.name;
+    let at_time = [format!("const {name}_field *field"), format!("{name}_real t")];
     let mut text = format!(
-        "/* The parameters of the field file, or those that were set in their place. */\n\
+        "/** The parameters of the field file, or those that were set in their place. */\n\
          {name}_parameters {name}_default_parameters(void);\n\n\
-         /* Computes once what only the parameters determine. */\n\
+         /** Computes once what only the parameters determine. */\n\
          {name}_field {name}_prepare(const {name}_parameters *parameters);\n\n\
-         /* Computes once what the parameters and the time determine. */\n\
-         {name}_instant {name}_at_time(const {name}_field *field, {name}_real t);\n\n"
+         /** Computes once what the parameters and the time determine. */\n\
+         {};\n\n",
+        broken(&format!("{name}_instant {name}_at_time"), &at_time, "")
     );
     if port.callables.iter().any(Callable::is_of_points) {
         text += &comment(
@@ -82,28 +83,14 @@ fn functions(port: &Port<'_>) -> String {
         text += "\n";
     }
     for callable in &port.callables {
-        text += &comment(
-            &[format!("{} Unit: {}.{}", callable.doc, callable.unit, of_shape(callable))],
-            "",
-        );
+        text += &documented(&[callable.documentation(port.dimension())], "");
         text += &format!("{};\n", head(port, callable));
         if callable.is_of_points() {
-            text += &format!("{};\n", batch_head(port, callable));
+            text += &format!("{};\n", batch_head(port, callable, ""));
         }
         text += "\n";
     }
     text
-}
-
-fn of_shape(callable: &Callable) -> String {
-    match callable.shape {
-        Some(Shape::Scalar) => String::new(),
-        Some(Shape::Tensor) => format!(" {} components, rows first.", callable.components.len()),
-        Some(Shape::Vector) | None => match callable.components.len() {
-            1 => " 1 component.".into(),
-            count => format!(" {count} components."),
-        },
-    }
 }
 
 /// What a function is of.
@@ -132,12 +119,13 @@ pub(super) fn head(port: &Port<'_>, callable: &Callable) -> String {
     broken(&start, &arguments, "")
 }
 
-/// The head of a function of many points.
-pub(super) fn batch_head(port: &Port<'_>, callable: &Callable) -> String {
+/// The head of a function of many points, where arrays are said to be apart, or not.
+pub(super) fn batch_head(port: &Port<'_>, callable: &Callable, restrict: &str) -> String {
     let name = &port.name;
     let mut arguments = vec![subject(port, callable), "size_t n".into()];
     let inputs = callable.input_names();
-    arguments.extend(inputs.iter().map(|it| format!("const {name}_real *{it}")));
-    arguments.extend(callable.components.iter().map(|it| format!("{name}_real *{it}")));
+    arguments.extend(inputs.iter().map(|it| format!("const {name}_real *{restrict}{it}")));
+    let results = callable.components.iter();
+    arguments.extend(results.map(|it| format!("{name}_real *{restrict}{it}")));
     broken(&format!("void {name}_{}_batch", callable.name), &arguments, "")
 }

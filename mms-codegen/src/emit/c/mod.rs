@@ -54,12 +54,18 @@ pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
     text + " */\n"
 }
 
+/// The same as a comment of documentation.
+fn documented(paragraphs: &[String], indent: &str) -> String {
+    comment(paragraphs, indent).replacen("/*", "/**", 1)
+}
+
 /// A function's head or call, broken where it is too long.
 pub(super) fn broken(start: &str, arguments: &[String], end: &str) -> String {
     let line = format!("{start}({}){end}", arguments.join(", "));
     if line.len() <= 100 {
         return line;
     }
-    let lines = crate::emit::text::listed(arguments, 92);
-    format!("{start}(\n        {}){end}", lines.join("\n        "))
+    let indent = " ".repeat(start.len() - start.trim_start().len() + 8);
+    let lines = crate::emit::text::listed(arguments, 100 - indent.len());
+    format!("{start}(\n{indent}{}){end}", lines.join(&format!("\n{indent}")))
 }

@@ -28,9 +28,9 @@ pub(super) fn text(port: &Port<'_>) -> String {
                  #endif\n\n";
     }
     text += &format!(
-        "typedef {name}_real real;\n\n\
-         #ifdef {upper}_FLOAT\n#define MATH(function) function##f\n#define REAL(number) number##f\n\
-         #else\n#define MATH(function) function\n#define REAL(number) number\n#endif\n\n"
+        "typedef {name}_real real;\n\n#define REAL(number) ((real)(number))\n\
+         #ifdef {upper}_FLOAT\n#define MATH(function) function##f\n\
+         #else\n#define MATH(function) function\n#endif\n\n"
     );
     if !wide.is_empty() {
         text += &match port.kept_wide.is_empty() {
@@ -125,8 +125,7 @@ fn at_time(port: &Port<'_>) -> String {
 /// A loop over points, which is where a function is computed.
 fn of_many_points(port: &Port<'_>, callable: &Callable) -> String {
     let body = port.body(&C, port.values(callable.output), Place::Points { timed: callable.time });
-    let head = batch_head(port, callable).replace("real *", "real *restrict ");
-    let mut text = head + "\n{\n";
+    let mut text = batch_head(port, callable, "restrict ") + "\n{\n";
     if !body.reads_kept {
         let _ = writeln!(text, "    (void){};", if callable.time { "now" } else { "field" });
     }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::emit::c::check::{row, sample_rows};
-use crate::emit::c::comment;
+use crate::emit::c::{broken, comment};
 use crate::emit::port::Port;
 use crate::emit::port::callable::Callable;
 use crate::emit::port::number::hexadecimal;
@@ -104,20 +104,47 @@ fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
         true => format!("{name}::at_time(fields[{set}], static_cast<T>(samples[s].t))"),
         false => format!("fields[{set}]"),
     };
-    let mut arguments = vec![subject];
-    let arrays = callable.arrays();
-    arguments.extend(arrays.iter().map(|(array, _)| format!("of<T>(samples[s].{array}).data()")));
+    let (function, count) = (&callable.name, callable.components.len());
+    let mut arguments = vec!["subject".to_string()];
+    let mut given = String::new();
+    for (array, _) in callable.arrays() {
+        let _ = writeln!(given, "        const auto {array} = of<T>(samples[s].{array});");
+        arguments.push(format!("{array}.data()"));
+    }
     let mut start = "out[0] = ";
     if !callable.is_scalar() {
         start = "";
         arguments.push("out".into());
     }
+    let mut text = format!(
+        "    for (int s = 0; s < {rows}; s++) {{\n        const auto subject = {subject};\n{given}        \
+         T out[{count}];\n        {start}{name}::{function}({});\n        \
+         errors.compare({set}, {function}_expected[s], out, {count});\n",
+        arguments.join(", ")
+    );
+    if callable.is_of_points() {
+        text += &batch(port, callable);
+    }
+    text + &format!("    }}\n    errors.settle(\"{function}\", {accepted});\n")
+}
+
+/// The same through the function of many points: the first point, whatever it gives, and this one.
+fn batch(port: &Port<'_>, callable: &Callable) -> String {
     let (function, count) = (&callable.name, callable.components.len());
-    let arguments = arguments.join(",\n            ");
-    format!(
-        "    for (int s = 0; s < {rows}; s++) {{\n        T out[{count}];\n        \
-         {start}{name}::{function}(\n            {arguments});\n        \
-         errors.compare({set}, {function}_expected[s], out, {count});\n    }}\n    \
-         errors.settle(\"{function}\", {accepted});\n"
+    let mut text = String::new();
+    let mut arguments = vec!["subject".to_string(), "2".into()];
+    for (array, count) in callable.arrays() {
+        let _ = writeln!(
+            text,
+            "        const auto {array}s = columns<T>(samples[0].{array}, samples[s].{array});"
+        );
+        arguments.extend((0..count).map(|index| format!("&{array}s[{}]", 2 * index)));
+    }
+    arguments.extend((0..count).map(|index| format!("&both[{}]", 2 * index)));
+    let call = broken(&format!("        {}::{function}_batch", port.name), &arguments, ";");
+    text + &format!(
+        "        T both[{}];\n{call}\n        \
+         errors.compare(samples[s].set, {function}_expected[s], second(both).data(), {count});\n",
+        2 * count
     )
 }

@@ -10,7 +10,6 @@ use crate::emit::port::callable::{Callable, input};
 use crate::emit::port::support::Support;
 use crate::emit::text::wrapped;
 use crate::program::{Output, Value};
-use crate::quantity::Shape;
 
 const WIDE: &str = include_str!("support/wide.hpp");
 const POINT: &str = include_str!("support/point.hpp");
@@ -105,7 +104,7 @@ fn functions(port: &Port<'_>) -> String {
 /// A function with its documentation.
 fn definition(doc: &str, result: &str, name: &str, arguments: &[String], body: &str) -> String {
     let head = broken(&format!("{result} {name}"), arguments, "");
-    let head = format!("template <class T> FIELD_FUNCTION {head}");
+    let head = format!("template <class T> FIELD_FUNCTION\n{head}");
     let using = if body.contains("wide") || body.contains("_pi(") || body.contains("ln_1p_rest") {
         "    using namespace detail;\n"
     } else {
@@ -178,7 +177,7 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
     let place = Place::Points { timed: callable.time };
     let body = port.body(&dialect, port.values(callable.output), place);
     let mut arguments = vec![subject(callable, body.reads_kept)];
-    let mut doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+    let mut doc = callable.documentation(port.dimension());
     for (array, count) in callable.arrays() {
         let reads =
             body.inputs.iter().any(|symbol| dialect.input(&input(*symbol)).starts_with(array));
@@ -191,17 +190,13 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
         "T"
     } else {
         arguments.push("T *out".into());
-        let _ = write!(doc, " out: {}{}.", body.results.len(), rows(callable));
+        let _ = write!(doc, " out: {}.", body.results.len());
         for (index, value) in body.results.iter().enumerate() {
             let _ = writeln!(text, "    out[{index}] = {value};");
         }
         "void"
     };
     definition(&doc, result, &callable.name, &arguments, &text)
-}
-
-fn rows(callable: &Callable) -> &'static str {
-    if callable.shape == Some(Shape::Tensor) { ", rows first" } else { "" }
 }
 
 /// The same at many points: an array for each coordinate and each component.

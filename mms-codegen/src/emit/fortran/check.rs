@@ -19,15 +19,23 @@ pub(super) fn text(port: &Port<'_>) -> String {
     ));
     let (sets, samples) = (vectors.sets.len(), vectors.samples.len());
     let dimension = port.dimension();
+    let of_points = samples > 0 && port.callables.iter().any(Callable::is_of_points);
+    let of_c = match of_points {
+        true => "  use, intrinsic :: iso_c_binding, only: c_size_t\n",
+        false => "",
+    };
     let mut text = comment(&header, "");
     let _ = write!(
         text,
-        "program {name}_check\n  use, intrinsic :: iso_fortran_env, only: real64, int64\n  use {name}\n  implicit none\n\n  \
+        "program {name}_check\n  use, intrinsic :: iso_fortran_env, only: real64, int64\n  use {name}\n  use {name}_c\n{of_c}  implicit none\n\n  \
          integer, parameter :: sets_count = {sets}, samples_count = {samples}\n  \
          real(real64) :: errors(sets_count) = 0.0_real64, magnitudes(sets_count) = 0.0_real64\n  \
          real(real64) :: worst = 0.0_real64\n  character(40) :: worst_name = 'nothing'\n  \
          integer :: failures = 0\n\n  type(field_type) :: fields(sets_count)\n"
     );
+    if !port.parameters.is_empty() {
+        let _ = writeln!(text, "  real(real64) :: given({}, sets_count)", port.parameters.len());
+    }
     let points = 1 + 2 * dimension + dimension * dimension;
     let _ = write!(
         text,
@@ -94,6 +102,9 @@ fn prepared(port: &Port<'_>, vectors: &Vectors) -> String {
         for (parameter, value) in port.parameters.values().zip(values) {
             let _ = writeln!(text, "    parameters%{parameter} = real({}, wp)", bits(*value));
         }
+        if !values.is_empty() {
+            let _ = writeln!(text, "    given(:, {}) = {}", set + 1, array(values, "    "));
+        }
         let _ = writeln!(text, "    fields({}) = prepare(parameters)", set + 1);
     }
     text + "  end subroutine prepare_fields\n\n"
@@ -136,7 +147,7 @@ fn check(port: &Port<'_>, callable: &Callable, vectors: &Vectors, place: usize) 
     let mut text = format!("  subroutine check_{}()\n", short(name));
     let _ = write!(
         text,
-        "    real(real64) :: expected({count}, {})\n    real(wp) :: out({count})\n    integer :: s\n",
+        "    real(real64) :: expected({count}, {}), of_c({count})\n    real(wp) :: out({count})\n    integer :: s\n",
         rows.len()
     );
     for (index, values) in rows.iter().enumerate() {
@@ -150,11 +161,7 @@ fn check(port: &Port<'_>, callable: &Callable, vectors: &Vectors, place: usize) 
     };
     let mut arguments = vec![subject.to_string()];
     for (array, count) in callable.arrays() {
-        let first = match array {
-            "N" => 2 + dimension,
-            "H" => 2 + 2 * dimension,
-            _ => 2,
-        };
+        let first = first_row(array, dimension);
         arguments.extend((first..first + count).map(|row| format!("at({row}, s)")));
     }
     let _ = writeln!(text, "    do s = 1, {limit}");
@@ -167,12 +174,44 @@ fn check(port: &Port<'_>, callable: &Callable, vectors: &Vectors, place: usize) 
         (false, false) => super::continued(&format!("      out = {name}"), &arguments, ""),
     };
     text += &call;
+    text += &format!("      call compare({set}, expected(:, s), out)\n");
+    text += &through_c(port, callable, set);
     let accepted = vectors.accepted[place];
     let _ = write!(
         text,
-        "      call compare({set}, expected(:, s), out)\n    end do\n    \
+        "      call compare({set}, expected(:, s), real(of_c, wp))\n    end do\n    \
          call settle('{name}', {accepted})\n  end subroutine check_{}\n\n",
         short(name)
     );
     text
+}
+
+/// The call of the procedure for C, of one point.
+fn through_c(port: &Port<'_>, callable: &Callable, set: &str) -> String {
+    let dimension = port.dimension();
+    let mut arguments = Vec::new();
+    if callable.is_of_points() {
+        arguments.push("1_c_size_t".to_string());
+    }
+    if !port.parameters.is_empty() {
+        arguments.push(format!("given(:, {set})"));
+    }
+    if callable.time {
+        arguments.push("real(at(1, s), real64)".into());
+    }
+    for (array, count) in callable.arrays() {
+        let first = first_row(array, dimension);
+        arguments.push(format!("real(at({first}:{}, s), real64)", first + count - 1));
+    }
+    arguments.push("of_c".into());
+    super::continued(&format!("      call {}_c", callable.name), &arguments, "")
+}
+
+/// Where the numbers of an array begin among those of a point.
+fn first_row(array: &str, dimension: usize) -> usize {
+    match array {
+        "N" => 2 + dimension,
+        "H" => 2 + 2 * dimension,
+        _ => 2,
+    }
 }

@@ -1,7 +1,8 @@
-//! Fortran 2008: a module of elemental procedures, and a program that checks it.
+//! Fortran 2008: a module of elemental procedures, its face for C, and a program that checks both.
 
 mod check;
 mod dialect;
+mod face;
 mod module;
 
 use crate::emit::port::Port;
@@ -12,7 +13,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Fortran.
 pub const TARGET: Target = Target {
     name: "fortran",
-    doc: "Fortran 2008: a module of pure elemental procedures and a check program",
+    doc: "Fortran 2008: a module of pure elemental procedures, its face for C, and a check program",
     emit: bundle,
     words: RULES.words,
 };
@@ -39,10 +40,11 @@ fn bundle(subject: &Subject<'_>) -> Bundle {
     Bundle {
         files: vec![
             File { name: format!("{name}.f90"), text: module::text(&port) },
+            File { name: format!("{name}_c.f90"), text: face::text(&port) },
             File { name: format!("{name}_check.f90"), text: check::text(&port) },
         ],
         verify: Some(format!(
-            "gfortran {FLAGS} {name}.f90 {name}_check.f90 -o {name}_check && ./{name}_check"
+            "gfortran {FLAGS} {name}.f90 {name}_c.f90 {name}_check.f90 -o {name}_check && ./{name}_check"
         )),
     }
 }
@@ -54,6 +56,12 @@ fn comment(paragraphs: &[String], indent: &str) -> String {
     let lines = paragraphs.join(&String::new());
     let lines = lines.iter().map(|line| format!("{indent}! {line}").trim_end().to_string() + "\n");
     lines.collect()
+}
+
+/// A text as a comment of documentation.
+fn documented(text: &str, indent: &str) -> String {
+    let lines = wrapped(text, 95 - indent.len());
+    lines.iter().map(|line| format!("{indent}!> {line}\n")).collect()
 }
 
 /// Items in brackets behind a start, on as many lines as they need.

@@ -3,13 +3,12 @@
 use std::fmt::Write as _;
 
 use super::dialect::Fortran;
-use super::{comment, continued, declared};
+use super::{comment, continued, declared, documented};
 use crate::emit::port::Port;
 use crate::emit::port::body::{Body, Place, local};
 use crate::emit::port::callable::{Callable, input};
 use crate::emit::port::support::Support;
 use crate::program::{Output, Value};
-use crate::quantity::Shape;
 
 const WIDE: &str = include_str!("support/wide.f90");
 const POINT: &str = include_str!("support/point.f90");
@@ -71,17 +70,17 @@ fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
 }
 
 fn types(port: &Port<'_>) -> String {
-    let mut text = "  ! The parameters.\n  type, public :: parameters_type\n".to_string();
+    let mut text = "  !> The parameters.\n  type, public :: parameters_type\n".to_string();
     for (index, parameter) in &port.parameters {
-        text += &comment(&[port.parameter_doc(*index)], "    ");
+        text += &documented(&port.parameter_doc(*index), "    ");
         let _ = writeln!(text, "    real(wp) :: {parameter} = 0.0_wp");
     }
     text += "  end type parameters_type\n\n";
-    text += "  ! What only the parameters determine.\n  type, public :: field_type\n    private\n";
+    text += "  !> What only the parameters determine.\n  type, public :: field_type\n    private\n";
     text += &declared("real(wp)", &names(&port.kept, false), "    ");
     text += &declared("type(wide)", &names(&port.kept_wide, true), "    ");
     text += "  end type field_type\n\n";
-    text += "  ! What the parameters and the time determine.\n  type, public :: instant_type\n    private\n";
+    text += "  !> What the parameters and the time determine.\n  type, public :: instant_type\n    private\n";
     text += &declared("real(wp)", &names(&port.kept_at_times, false), "    ");
     text + "  end type instant_type\n\n"
 }
@@ -123,7 +122,7 @@ fn defaults(port: &Port<'_>) -> String {
         (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
     let body = port.body(&Fortran, &roots, Place::Parameters);
     let mut text =
-        "  ! The parameters of the field file, or those that were set in their place.\n  \
+        "  !> The parameters of the field file, or those that were set in their place.\n  \
                     pure function default_parameters() result(parameters)\n    \
                     type(parameters_type) :: parameters\n"
             .to_string();
@@ -141,7 +140,7 @@ fn prepare(port: &Port<'_>) -> String {
     let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
     let body = port.body(&Fortran, &roots, Place::Parameters);
     let reads = body.statements.iter().any(|statement| statement.contains("parameters%"));
-    let mut text = "  ! Computes once what only the parameters determine.\n  \
+    let mut text = "  !> Computes once what only the parameters determine.\n  \
                     pure function prepare(parameters) result(field)\n    \
                     type(parameters_type), intent(in) :: parameters\n    \
                     type(field_type) :: field\n"
@@ -165,7 +164,7 @@ fn at_time(port: &Port<'_>) -> String {
     let mut idle = Vec::new();
     idle.extend((!body.reads_kept).then_some("field"));
     idle.extend(body.inputs.is_empty().then_some("t"));
-    let mut text = "  ! Computes once what the parameters and the time determine.\n  \
+    let mut text = "  !> Computes once what the parameters and the time determine.\n  \
                     pure function at_time(field, t) result(now)\n    \
                     type(field_type), intent(in) :: field\n    real(wp), intent(in) :: t\n    \
                     type(instant_type) :: now\n"
@@ -200,7 +199,7 @@ fn of_points(port: &Port<'_>, callable: &Callable) -> String {
     };
     let mut arguments = vec![subject.to_string()];
     arguments.extend(inputs.iter().cloned());
-    let mut text = documented(callable);
+    let mut text = documented(&callable.documentation(port.dimension()), "  ");
     if is_scalar {
         let start = format!("  pure elemental function {}", callable.name);
         text += &continued(&start, &arguments, " result(out)");
@@ -222,18 +221,13 @@ fn of_points(port: &Port<'_>, callable: &Callable) -> String {
     text
 }
 
-fn documented(callable: &Callable) -> String {
-    let rows = if callable.shape == Some(Shape::Tensor) { " Components by rows." } else { "" };
-    comment(&[format!("{} Unit: {}.{rows}", callable.doc, callable.unit)], "  ")
-}
-
 /// A part of the domain.
 fn of_no_point(port: &Port<'_>, callable: &Callable, is_scalar: bool) -> String {
     let body = port.body(&Fortran, port.values(callable.output), Place::Points { timed: false });
     let name = &callable.name;
     let count = callable.components.len();
     let shape = if is_scalar { String::new() } else { format!("({count})") };
-    let mut text = documented(callable);
+    let mut text = documented(&callable.documentation(port.dimension()), "  ");
     let _ = writeln!(text, "  pure function {name}(field) result(out)");
     let _ = writeln!(text, "    type(field_type), intent(in) :: field\n    real(wp) :: out{shape}");
     text += &statements(&body, "real(wp)", &unused(if body.reads_kept { &[] } else { &["field"] }));

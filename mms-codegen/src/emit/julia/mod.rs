@@ -11,14 +11,14 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Julia.
 pub const TARGET: Target = Target {
     name: "julia",
-    doc: "Julia: a module of functions of any precision, which broadcast, and a check program",
+    doc: "Julia: a module of functions that broadcast, in both precisions, and a check program",
     emit: bundle,
     words: RULES.words,
 };
 
 /// Names that Julia takes.
 const RULES: Rules = Rules {
-    words: &[KEYWORDS, "T Parameters float promote"],
+    words: &[KEYWORDS, "T Parameters float promote new"],
     modules: &[KEYWORDS, FUNCTIONS, NAMES],
     folds_case: false,
     longest: 120,

@@ -7,7 +7,6 @@ use crate::emit::port::Port;
 use crate::emit::port::body::{Place, local};
 use crate::emit::port::callable::Callable;
 use crate::emit::port::number::decimal;
-use crate::emit::python::module::comment;
 use crate::emit::text::{listed, wrapped};
 use crate::program::Value;
 use crate::quantity::Shape;
@@ -19,12 +18,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let name = &port.name;
     let mut header = port.header();
     header.push(format!(
-        "Functions take a prepared field, or one at a time, and coordinates; they return a number, a tuple, or a tuple of rows, in the precision of the parameters, and broadcast: f.(now, X, Y). Where a formula has no real value they throw a DomainError. {name}_check.jl checks the result."
+        "Functions take a prepared field, or one at a time, and coordinates; they return a number, a tuple, or a tuple of rows, and broadcast: f.(now, X, Y). Numbers are Float64 or Float32, as the parameters are. Where a formula has no real value they throw a DomainError. {name}_check.jl checks the result."
     ));
-    let mut text = comment(&header, "");
+    let mut text = documented(&header, 96);
     let _ = write!(
         text,
-        "\nmodule {name}\n\n\"The number of space dimensions.\"\nconst dimension = {}\n\n",
+        "module {name}\n\n\"The number of space dimensions.\"\nconst dimension = {}\n\n",
         port.dimension()
     );
     text += &parameters(port);
@@ -36,13 +35,31 @@ pub(super) fn text(port: &Port<'_>) -> String {
         &[],
     );
     let (_, support) = POINT.split_once("\n\n").unwrap_or_default();
-    let _ = writeln!(text, "{support}");
+    text += support;
     text += &prepare(port);
     text += &at_time(port);
     for callable in &port.callables {
         text += &function(port, callable);
     }
     text + "\nend\n"
+}
+
+/// Paragraphs as documentation of what follows.
+fn documented(paragraphs: &[String], width: usize) -> String {
+    let paragraphs: Vec<String> =
+        paragraphs.iter().map(|text| wrapped(&escaped(text), width).join("\n")).collect();
+    format!("\"\"\"\n{}\n\"\"\"\n", paragraphs.join("\n\n"))
+}
+
+/// A text inside of a string.
+fn escaped(text: &str) -> String {
+    let special = |c: char| matches!(c, '\\' | '"' | '$');
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        escaped.extend(special(c).then_some('\\'));
+        escaped.push(c);
+    }
+    escaped
 }
 
 fn structure(doc: &str, name: &str, values: &[Value], wide: &[Value]) -> String {
@@ -59,32 +76,34 @@ fn structure(doc: &str, name: &str, values: &[Value], wide: &[Value]) -> String 
 fn parameters(port: &Port<'_>) -> String {
     let defaults = &port.subject.vectors().defaults;
     let mut text = "\"The parameters; their defaults are those of the field file, or set.\"\n\
-                    struct Parameters{T<:Real}\n"
+                    struct Parameters{T<:AbstractFloat}\n"
         .to_string();
     for (index, name) in &port.parameters {
-        text += &comment(&[port.parameter_doc(*index)], "    ");
+        let _ = writeln!(text, "    \"{}\"", escaped(&port.parameter_doc(*index)));
         let _ = writeln!(text, "    {name}::T");
     }
     text += "end\n\n";
     if port.parameters.is_empty() {
         return text + "Parameters() = Parameters{Float64}()\n\n";
     }
-    let names: Vec<&String> = port.parameters.values().collect();
-    let keywords: Vec<String> = names
-        .iter()
-        .zip(defaults)
+    let names: Vec<String> = port.parameters.values().cloned().collect();
+    let keywords: Vec<String> = (names.iter().zip(defaults))
         .map(|(name, default)| format!("{name} = {}", decimal(*default)))
         .collect();
-    let list = |items: &[String]| listed(items, 88).join("\n    ");
-    let keywords = list(&keywords);
-    let plain = list(&names.iter().map(|name| (*name).clone()).collect::<Vec<_>>());
-    let floats = list(&names.iter().map(|name| format!("float({name})")).collect::<Vec<_>>());
-    let _ = write!(
-        text,
-        "Parameters(;\n    {keywords},\n) = Parameters(promote(\n    {floats},\n)...)\n\n\
-         Parameters{{T}}(;\n    {keywords},\n) where {{T<:Real}} = Parameters{{T}}(\n    {plain},\n)\n\n"
-    );
-    text
+    let floats: Vec<String> = names.iter().map(|name| format!("float({name})")).collect();
+    let own = |head: &str, start: &str| bracketed(&format!("{head}(; "), &keywords, start);
+    text += &own("Parameters", ") = ");
+    text += &bracketed("Parameters(promote(", &floats, ")...)\n\n");
+    text += &own("Parameters{T}", ") where {T<:AbstractFloat} = ");
+    text + &bracketed("Parameters{T}(", &names, ")\n\n")
+}
+
+/// Items between brackets: on the line of these, or on lines of their own.
+fn bracketed(open: &str, items: &[String], close: &str) -> String {
+    match listed(items, 88).as_slice() {
+        [line] if line.len() <= 40 => format!("{open}{line}{close}"),
+        lines => format!("{}\n    {},\n{close}", open.trim_end(), lines.join("\n    ")),
+    }
 }
 
 fn indented(statements: &[String], by: usize) -> String {
@@ -141,7 +160,7 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
     let owner = if callable.time { "now::Instant{T}" } else { "field::Field{T}" };
     let mut arguments = vec![owner.to_string()];
     arguments.extend(callable.input_names());
-    let doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+    let doc = callable.documentation(port.dimension());
     let tuple = |items: &[String]| match items {
         [item] => format!("({item},)"),
         items => format!("({})", items.join(", ")),
@@ -154,10 +173,22 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
         Some(Shape::Vector) | None => tuple(&body.results),
     };
     format!(
-        "\n\"\"\"\n{}\n\"\"\"\nfunction {}({}) where {{T}}\n{}    return {value}\nend\n",
-        wrapped(&doc, 92).join("\n"),
+        "\n{}function {}({}) where {{T}}\n{}    return {value}\nend\n",
+        documented(&[doc], 92),
         callable.name,
         arguments.join(", "),
         indented(&body.statements, 4)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_stays_in_its_string() {
+        assert_eq!(escaped(r#"a "b" $(c) \d"#), r#"a \"b\" \$(c) \\d"#);
+        let text = documented(&["a \"\"\"".into(), "b".into()], 9);
+        assert_eq!(text, "\"\"\"\na \\\"\\\"\\\"\n\nb\n\"\"\"\n");
+    }
 }

@@ -97,7 +97,7 @@ fn text(port: &Port<'_>) -> String {
     let mut results = body.results.iter();
     for callable in callables {
         text += "\n";
-        text += &comment(&[format!("{} Unit: {}.", callable.doc, callable.unit)], "");
+        text += &comment(&[callable.documentation(port.dimension())], "");
         for (suffix, result) in callable.suffixes(port.dimension()).iter().zip(&mut results) {
             let _ = writeln!(text, "{name}_{}{suffix} = {result}", callable.name);
         }

@@ -80,7 +80,7 @@ fn text(port: &Port<'_>) -> String {
         blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart);
     }
     for callable in places {
-        let doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+        let doc = callable.documentation(port.dimension());
         let values = port.values(callable.output);
         for (suffix, value) in callable.suffixes(port.dimension()).iter().zip(values) {
             blocks += &block(port, &format!("{}{suffix}", callable.name), &doc, *value, &apart);

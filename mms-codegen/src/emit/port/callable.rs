@@ -42,6 +42,18 @@ impl Callable {
         self.shape == Some(Shape::Scalar)
     }
 
+    /// What it is, of which shape and in which unit: its documentation in every language.
+    pub fn documentation(&self, dimension: usize) -> String {
+        let shape = match (self.shape, self.components.len()) {
+            (Some(Shape::Scalar), _) => "Scalar".into(),
+            (Some(Shape::Tensor), _) => format!("Tensor, {dimension}x{dimension}, by rows"),
+            (Some(Shape::Vector), count) => format!("Vector of {count}"),
+            (None, 1) => "1 number".into(),
+            (None, count) => format!("{count} numbers"),
+        };
+        format!("{} {shape}. Unit: {}.", self.doc, self.unit)
+    }
+
     /// What it takes at a point as arrays: X, N or H, and how many numbers each holds.
     pub fn arrays(&self) -> Vec<(&'static str, usize)> {
         let mut arrays: Vec<(&'static str, usize)> = Vec::new();

@@ -20,7 +20,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use self::callable::{Callable, callables};
-use self::names::{Rules, sanitised, unique};
+use self::names::{Rules, of_holder, unique};
 use super::Subject;
 use super::layout::Later;
 use crate::compile::Compiled;
@@ -85,10 +85,11 @@ impl<'a> Port<'a> {
             .filter(|(_, parameter)| !parameter.frozen)
             .map(|(position, parameter)| (position, parameter.name.value.as_str()))
             .unzip();
+        let functions: Vec<&str> = callables.iter().map(|it| it.name.as_str()).collect();
         Port {
             subject,
             compiled,
-            name: sanitised(&compiled.field.name, rules, rules.modules),
+            name: of_holder(&compiled.field.name, rules, &functions),
             parameters: positions.into_iter().zip(unique(&names, rules)).collect(),
             callables,
             kept,

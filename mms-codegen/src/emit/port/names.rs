@@ -46,6 +46,20 @@ pub fn sanitised(name: &str, rules: &Rules, words: &[&str]) -> String {
     own
 }
 
+/// The name of what holds functions, where the language keeps their names from it, and those of their
+/// faces for C.
+pub fn of_holder(name: &str, rules: &Rules, functions: &[&str]) -> String {
+    let mut own = sanitised(name, rules, rules.modules);
+    let keeps = rules.modules.contains(&FUNCTIONS);
+    let is = |function: &str, own: &str| {
+        rules.same(function, own) || rules.same(&format!("{function}_c"), own)
+    };
+    while keeps && functions.iter().any(|function| is(function, &own)) {
+        own = suffixed(&own, "_", rules.longest);
+    }
+    own
+}
+
 /// Distinct names as distinct names of the language: one that had to be changed makes way for the
 /// others, and the later for the earlier.
 pub fn unique(names: &[&str], rules: &Rules) -> Vec<String> {
@@ -104,5 +118,11 @@ mod tests {
         assert_eq!(stem("\u{3bb}-x"), "p__x");
         assert_eq!(stem("math"), "math_");
         assert_eq!(stem("end"), "end");
+        let rules = Rules { modules: &[FUNCTIONS], longest: 57, ..RULES };
+        let holder = |name, rules| of_holder(name, rules, &["x_max_traction"]);
+        assert_eq!(holder("X_max_traction", &rules), "X_max_traction_");
+        assert_eq!(holder("x_max_traction_c", &rules), "x_max_traction_c_");
+        assert_eq!(holder("jacobian", &rules), "jacobian_");
+        assert_eq!(holder("x_max_traction", &Rules { modules: &[], ..rules }), "x_max_traction");
     }
 }

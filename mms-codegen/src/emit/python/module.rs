@@ -175,7 +175,7 @@ fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
     let inputs = callable.input_names();
     let arguments: Vec<String> =
         std::iter::once("self".to_string()).chain(inputs.iter().cloned()).collect();
-    let doc = format!("{} Unit: {}.", callable.doc, callable.unit);
+    let doc = callable.documentation(port.dimension());
     let doc = wrapped(&doc, 88).join("\n        ");
     let mut text = format!(
         "\n    def {}({}):\n        \"\"\"{doc}\"\"\"\n",

@@ -145,10 +145,26 @@ fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
         Some(Shape::Tensor) => "found.as_flattened()",
         _ => "&found",
     };
+    // Through the function of many points: the first point, whatever it gives, and this one.
+    let columns: String = callable
+        .arrays()
+        .iter()
+        .map(|(array, _)| {
+            format!(
+                "            columns(SAMPLES[0].{array}, sample.{array}).each_ref().map(|it| &it[..]),\n"
+            )
+        })
+        .collect();
+    let count = callable.components.len();
     format!(
         "    for (sample, expected) in SAMPLES.iter().zip(&{upper}) {{\n        \
-         let found = {owner}.{function}({});\n        \
-         errors.compare(sample.set, expected, {found});\n    }}\n    \
+         let subject = {owner};\n        \
+         let found = subject.{function}({});\n        \
+         errors.compare(sample.set, expected, {found});\n        \
+         let mut both = [of::<T, 2>([0; 2]); {count}];\n        \
+         subject.{function}_batch(\n{columns}            \
+         both.each_mut().map(|it| &mut it[..]),\n        );\n        \
+         errors.compare(sample.set, expected, &both.map(|it| it[1]));\n    }}\n    \
          errors.settle(\"{function}\", {accepted}.0);\n",
         arguments.join(", ")
     )

@@ -8,7 +8,6 @@ use crate::emit::port::Port;
 use crate::emit::port::body::{Place, local};
 use crate::emit::port::callable::Callable;
 use crate::emit::port::support::Support;
-use crate::emit::text::listed;
 use crate::program::{Output, Value};
 use crate::quantity::Shape;
 
@@ -185,7 +184,7 @@ fn method(port: &Port<'_>, callable: &Callable) -> String {
     };
     format!(
         "{}    #[inline]\n    pub fn {}({}) -> {} {{\n{}        {result}\n    }}\n",
-        documented(&format!("{} Unit: {}.", callable.doc, callable.unit), "    "),
+        documented(&callable.documentation(dimension), "    "),
         callable.name,
         arguments.join(", "),
         kind(callable.shape, callable.components.len(), dimension),
@@ -218,18 +217,20 @@ fn batch(port: &Port<'_>, callable: &Callable) -> String {
             format!("            out[{index}][i] = {component};\n")
         })
         .collect();
-    format!(
-        "    /// The same at many points: a slice for each coordinate and each component ({}), of which none\n    \
-         /// may be shorter than the first component.\n    \
-         pub fn {}_batch({}) {{\n        let count = out[0].len();\n{short}        \
-         let out = out.map(|out| &mut out[..count]);\n        \
-         for i in 0..count {{\n            let value = self.{}({});\n{stores}        }}\n    }}\n",
-        listed(&callable.components, 40).join(" "),
-        callable.name,
-        arguments.join(", "),
-        callable.name,
-        call.join(", ")
-    )
+    let doc = format!(
+        "The same at many points: a slice for each coordinate and each component ({}), of which none may be shorter than the first component.",
+        callable.components.join(", ")
+    );
+    documented(&doc, "    ")
+        + &format!(
+            "    pub fn {}_batch({}) {{\n        let count = out[0].len();\n{short}        \
+             let out = out.map(|out| &mut out[..count]);\n        \
+             for i in 0..count {{\n            let value = self.{}({});\n{stores}        }}\n    }}\n",
+            callable.name,
+            arguments.join(", "),
+            callable.name,
+            call.join(", ")
+        )
 }
 
 fn indented(statements: &[String], by: usize) -> String {

@@ -95,6 +95,9 @@ impl Reader<'_> {
         let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
         self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
             Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
+            None if known.is_empty() => {
+                diagnostic.help("it has none: a material file lists them in [parameters]")
+            }
             None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
         });
     }

@@ -211,7 +211,8 @@ static wide circular_series(wide a, int n)
 /* The sine of as many quarter turns and of a rest of |rest| <= 0.8. */
 static wide sine_of_turn(double quarters, wide rest)
 {
-    const int turn = ((int)fmod(quarters, 4.0) + 4) % 4;
+    const double turned = fmod(quarters, 4.0);
+    const int turn = ((int)turned + 4) % 4;
     const wide sine = wide_add(rest, wide_mul(rest, circular_series(rest, 31)));
     const wide cosine = wide_add(wide_of(1.0), circular_series(rest, 32));
     const wide result = turn % 2 == 0 ? sine : cosine;

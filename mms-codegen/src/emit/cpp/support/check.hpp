@@ -54,3 +54,25 @@ template <class T, std::size_t N> std::array<T, N> of(const double (&values)[N])
     }
     return result;
 }
+
+/// Two points as a function of many takes them: a column for each number.
+template <class T, std::size_t N>
+std::array<T, 2 * N> columns(const double (&first)[N], const double (&second)[N])
+{
+    std::array<T, 2 * N> result{};
+    for (std::size_t k = 0; k < N; k++) {
+        result[2 * k] = static_cast<T>(first[k]);
+        result[2 * k + 1] = static_cast<T>(second[k]);
+    }
+    return result;
+}
+
+/// What it gives at the second of two points.
+template <class T, std::size_t N> std::array<T, N / 2> second(const T (&both)[N])
+{
+    std::array<T, N / 2> result{};
+    for (std::size_t k = 0; k < N / 2; k++) {
+        result[k] = both[2 * k + 1];
+    }
+    return result;
+}

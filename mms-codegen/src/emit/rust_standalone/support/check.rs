@@ -53,3 +53,8 @@ impl Check {
 fn of<T: Real, const N: usize>(bits: [u64; N]) -> [T; N] {
     bits.map(|bits| T::of(f64::from_bits(bits)))
 }
+
+/// Two points as a function of many takes them: a column for each number.
+fn columns<T: Real, const N: usize>(first: [u64; N], second: [u64; N]) -> [[T; 2]; N] {
+    core::array::from_fn(|k| of([first[k], second[k]]))
+}
