@@ -36,8 +36,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     /// All sums over `W` nodes along every axis: those of particles that share their nodes together.
     #[inline(always)]
     pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Four, D, K> {
-        let zero = machine.splat(T::zero());
-        let mut summed = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
+        // -0 changes no sum, and is not written by a call as 0 is, for which all registers would be given up.
+        let nothing = machine.splat(-T::zero());
+        let mut summed = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
         let firsts = self.stencil.first;
         let shared = self.stencil.is_shared();
         // A bit of every particle whose nodes have not been seen.

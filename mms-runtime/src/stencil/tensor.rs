@@ -89,20 +89,20 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         fits
     }
 
-    /// The moments w (x_i - x_p), and their part of the inverse of sum_i w (x_i - x_p)^2.
+    /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis.
     #[inline(always)]
     fn moments<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-    ) -> (Along<T, D, N>, [M::Four; D]) {
+        moment: &mut Along<T, D, N>,
+    ) -> [M::Four; D] {
         let zero = machine.splat(T::zero());
-        let mut moment = [[[T::zero(); BUNCH]; N]; D];
         let mut per_spread = [zero; D];
         for a in 0..D {
             let (mut weight, mut apart) = ([zero; N], [zero; N]);
             let mut middle = zero;
-            for k in 0..N.min(self.width) {
+            for k in 0..self.width() {
                 weight[k] = machine.four(&self.weight[a][k]);
                 apart[k] = self.beyond_first(machine, lattice, a, k);
                 middle = machine.times_plus(weight[k], apart[k], middle);
@@ -116,7 +116,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             }
             per_spread[a] = machine.over(machine.splat(T::one()), spread);
         }
-        (moment, per_spread)
+        per_spread
     }
 
     /// How far a node is from the first one along an axis.
@@ -143,12 +143,17 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     /// How far the last node is behind the first one, in the grid's arrays.
     #[inline(always)]
     fn extent(&self) -> usize {
-        let width = if LEAST < N { self.width } else { N };
         let mut extent = 0;
         for stride in self.stride {
-            extent += (width - 1) * stride;
+            extent += (self.width() - 1) * stride;
         }
         extent
+    }
+
+    /// How many nodes along each axis have a weight, at most.
+    #[inline(always)]
+    fn width(&self) -> usize {
+        if LEAST < N { self.width } else { N }
     }
 
     /// The first of the `members` whose first node is not among the `room` ones from `start` on.
@@ -274,7 +279,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let (moment, _) = self.moments(machine, lattice);
+        let mut moment = [[[T::zero(); BUNCH]; N]; D];
+        self.moments(machine, lattice, &mut moment);
         self.add::<M, true>(machine, &moment, carried, members, nodes);
     }
 
@@ -293,7 +299,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
                 Collected { value, gradient: nothing, slopes: nothing }
             }
             Wanted::Slopes if lattice.degree > 1 => {
-                let (moment, per_spread) = self.moments(machine, lattice);
+                let mut moment = [[[T::zero(); BUNCH]; N]; D];
+                let per_spread = self.moments(machine, lattice, &mut moment);
                 let asides = [&self.slope, &moment];
                 let Summed { value, asides: [gradient, mut slopes] } =
                     self.sum(machine, asides, nodes);
