@@ -45,7 +45,7 @@ fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");
     let names = Names { parameters: compiled.model.names.parameters.clone(), ..Names::default() };
     let print = |expr| compiled.graph.print(expr, &names);
-    let emitted = emit::rust::file(compiled).text;
+    let emitted = emit::rust_mms_math::file(compiled).text;
     let function = emitted.find("pub fn jacobian(").expect("the function");
     let length = emitted[function..].find("\n    }").expect("its end");
     let output = Output::Quantity(Quantity::Jacobian);

@@ -15,7 +15,7 @@ fn bar() -> Compiled {
 
 #[test]
 fn the_generated_rust_of_the_bar_is_as_reviewed() {
-    insta::assert_snapshot!("bar_1d_rust", emit::rust::text(&bar()));
+    insta::assert_snapshot!("bar_1d_rust", emit::rust_mms_math::text(&bar()));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use mms_codegen::emit::rust;
+use mms_codegen::emit::rust_mms_math as rust;
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Freeze, Selection};

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mms_codegen::compile::Failure;
-use mms_codegen::emit::rust::{module, module_named};
+use mms_codegen::emit::rust_mms_math::{module, module_named};
 use mms_codegen::{Options, compile_with};
 use proc_macro::TokenStream;
 use quote::quote;

@@ -19,9 +19,9 @@ use crate::gallery::FIELDS;
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///
-/// For other languages than Rust a check program comes with it, which holds test vectors: the line
-/// printed at the end builds and runs it. With your own compiler and flags in that line it proves
-/// your build.
+/// A check program comes with it, which holds test vectors: the line printed at the end builds and
+/// runs it. With your own compiler and flags in that line it proves your build. The Rust that is
+/// written without --target has none: it shares its code with what this program computes.
 #[derive(Args)]
 pub struct Emit {
     /// A gallery name, or a path to a TOML file.
@@ -31,9 +31,9 @@ pub struct Emit {
     #[arg(long, conflicts_with = "field", requires = "output")]
     all: bool,
     /// The language.
-    #[arg(long, value_name = "NAME", default_value = "rust", value_parser = targets())]
+    #[arg(long, value_name = "NAME", default_value = "rust-mms-math", value_parser = targets())]
     target: String,
-    /// The folder for the files; without it the text goes to stdout, where it is one file.
+    /// The folder for the files; without it the source goes to stdout, where it is one file.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Quantities, separated by commas; without it all of them, the domain and the material.
@@ -112,7 +112,7 @@ impl Emit {
 
     /// What goes to stdout: the one file that a solver needs.
     fn printed(&self, bundle: &Bundle) -> anyhow::Result<Delivered> {
-        if bundle.files.len() > 1 && !self.json {
+        if bundle.sources().len() > 1 && !self.json {
             let names: Vec<_> = bundle.files.iter().map(|file| file.name.as_str()).collect();
             bail!(
                 "`--target {}` makes {}: give the folder for them, as in `-o forcing`",

@@ -2,7 +2,7 @@
 
 use mms_codegen::Compiled;
 use mms_codegen::accuracy::Precision;
-use mms_codegen::emit::rust;
+use mms_codegen::emit::rust_mms_math as rust;
 use mms_codegen::program::Output;
 use mms_codegen::quantity::Quantity;
 

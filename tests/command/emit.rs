@@ -13,8 +13,19 @@ fn the_text_goes_to_stdout_with_what_it_was_made_of() {
         .prints("pub fn upper(");
     assert!(!run.stdout.contains("mms_runtime"), "{run}");
     assert!(!run.stdout.contains("Quantities:") && !run.stdout.contains("Constants:"), "{run}");
-    let same = folder.mms("emit bar_1d --target rust --quantity all").exits(0);
+    let same = folder.mms("emit bar_1d --target rust-mms-math --quantity all").exits(0);
     assert_eq!(same.stdout, run.stdout);
+}
+
+#[test]
+fn a_source_of_one_file_goes_to_stdout_without_its_check_program() {
+    let folder = Folder::new();
+    let run = folder.mms("emit bar_1d --target rust").exits(0);
+    run.prints("pub fn body_force(").prints("// Body force on a 1D bar.");
+    assert!(!run.stdout.contains("mms_math") && !run.stdout.contains("fn main"), "{run}");
+    folder.mms("emit bar_1d --target rust -o out").exits(0);
+    assert_eq!(folder.read("out/bar_1d.rs").trim_end(), run.stdout.trim_end());
+    folder.mms("emit bar_1d --target numpy").exits(0).prints("def body_force(");
 }
 
 #[test]
@@ -120,7 +131,7 @@ fn what_is_stale_or_missing_is_named_and_nothing_is_written() {
 #[test]
 fn all_fields_are_written_each_in_a_folder_of_its_own() {
     let folder = Folder::new();
-    let all = "emit --all --target rust --quantity displacement -o all";
+    let all = "emit --all --quantity displacement -o all";
     let run = folder.mms(all).exits(0);
     assert!(run.stdout.starts_with("all/axis_aligned_1d/axis_aligned_1d.rs\n"), "{run}");
     assert!(folder.read("all/bar_1d/bar_1d.rs").contains("pub fn displacement("));
@@ -146,7 +157,7 @@ fn a_wrong_word_is_refused_with_advice() {
         ("--quantity velocty", "unknown quantity `velocty`; did you mean `velocity`?"),
         (
             "--target cobol",
-            "[possible values: rust, rust-standalone, c, cpp, fortran, python, numpy, sympy, ufl, octave, julia, moose, karamelo]",
+            "[possible values: rust, rust-mms-math, c, cpp, fortran, python, numpy, sympy, ufl, octave, julia, moose, karamelo]",
         ),
         ("--target c", "makes bar_1d.h, bar_1d.c, bar_1d_check.c: give the folder for them"),
         ("--check", "--output <DIR>"),

@@ -52,7 +52,7 @@ fn scratch_crate() -> PathBuf {
 
 fn emit(field: &str, folder: &Path, options: &[&str]) {
     let emit = Command::new(env!("CARGO_BIN_EXE_mms"))
-        .args(["emit", field, "--target", "rust", "-o"])
+        .args(["emit", field, "--target", "rust-mms-math", "-o"])
         .arg(folder)
         .args(options)
         .current_dir(root())

@@ -47,10 +47,20 @@ pub struct File {
 /// What a target makes of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bundle {
-    /// The files, the one that a solver uses first.
+    /// The files: the one that a solver uses first, and the check program, where there is one, last.
     pub files: Vec<File>,
     /// The line that builds and runs the check program in their folder, where there is one.
     pub verify: Option<String>,
+}
+
+impl Bundle {
+    /// The files that a solver needs.
+    pub fn sources(&self) -> &[File] {
+        match (&self.verify, self.files.split_last()) {
+            (Some(_), Some((_, sources))) => sources,
+            _ => &self.files,
+        }
+    }
 }
 
 /// A language that code is emitted in.
@@ -76,7 +86,7 @@ macro_rules! targets {
     };
 }
 
-targets! { rust rust_standalone c cpp fortran python numpy sympy ufl octave julia moose karamelo }
+targets! { rust rust_mms_math c cpp fortran python numpy sympy ufl octave julia moose karamelo }
 
 impl Target {
     /// The target of that name, or of its other one.

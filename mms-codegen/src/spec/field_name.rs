@@ -1,7 +1,7 @@
 //! Which names a field may have: its file's stem becomes a module of generated code.
 
 use super::names::{MAX_NAME, is_identifier};
-use crate::emit::rust::is_keyword;
+use crate::emit::rust_mms_math::is_keyword;
 
 /// Says what is wrong with a field's name, and which one is near.
 pub fn validate(name: &str) -> Result<(), String> {

@@ -10,7 +10,7 @@ use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
 
 /// The targets that come with a check program.
 pub fn ports() -> impl Iterator<Item = &'static Target> {
-    TARGETS.iter().filter(|target| target.name != "rust")
+    TARGETS.iter().filter(|target| target.name != "rust-mms-math")
 }
 
 /// Whether everything must be tried, and nothing may be skipped.
@@ -47,7 +47,7 @@ pub fn can_build(target: &Target) -> bool {
         // Debian has no package of it.
         "julia" if !is_installed_optionally("julia --version") => false,
         "octave" => is_installed("octave-cli --version"),
-        "rust-standalone" => is_installed("rustc --version"),
+        "rust" => is_installed("rustc --version"),
         "numpy" | "sympy" | "ufl" => {
             is_installed(&format!("{} -c 'import {}'", python(), target.name))
         }

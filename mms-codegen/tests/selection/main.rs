@@ -5,7 +5,7 @@ mod refusals;
 use std::collections::{BTreeMap, BTreeSet};
 
 use mms_codegen::certify::sample::samples;
-use mms_codegen::emit::rust;
+use mms_codegen::emit::rust_mms_math as rust;
 use mms_codegen::expr::Rational;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::{Output, Stage};
