@@ -199,7 +199,8 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
         if self.iter().all(|column| column.len() >= start + BLOCK) {
-            return self.map(|column| column[start..].first_chunk().expect("a block"));
+            return self
+                .map(|column| column[start..].first_chunk().expect("as many points are left"));
         }
         for (column, lane) in self.iter().zip(room.iter_mut()) {
             let rest = &column[start..];
@@ -439,7 +440,7 @@ where
             source,
             sink,
             count,
-            inputs: [[zero; BLOCK]; I],
+            room: [[zero; BLOCK]; I],
             outputs: [[zero; BLOCK]; O],
             careful: |inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>| {
                 kernel.drive::<T>(&mut Single { inputs, outputs });
@@ -454,7 +455,8 @@ struct Blocks<'a, M, T, In, Out, Careful, const I: usize, const O: usize> {
     source: &'a In,
     sink: &'a mut Out,
     count: usize,
-    inputs: Block<T, I>,
+    /// For inputs that do not stand in columns.
+    room: Block<T, I>,
     outputs: Block<T, O>,
     careful: Careful,
 }
@@ -472,7 +474,7 @@ where
     fn all<S>(&mut self, work: &mut impl OnBlock<S, T, I, O>) {
         let mut start = 0;
         while start < self.count {
-            let inputs = self.source.block(self.machine, start, &mut self.inputs);
+            let inputs = self.source.block(self.machine, start, &mut self.room);
             work.on_block(&inputs, &mut self.outputs);
             if !all_known(&self.outputs) {
                 (self.careful)(&inputs, &mut self.outputs);

@@ -61,7 +61,7 @@ pub struct Emit {
 /// The words of the compiler's list.
 fn targets() -> PossibleValuesParser {
     let word =
-        |target: &Target| PossibleValue::new(target.name).help(target.doc).aliases(target.alias());
+        |target: &Target| PossibleValue::new(target.name).help(target.doc).aliases(target.alias);
     TARGETS.iter().map(word).into()
 }
 

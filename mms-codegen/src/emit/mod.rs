@@ -68,6 +68,8 @@ impl Bundle {
 pub struct Target {
     /// The word of the command line.
     pub name: &'static str,
+    /// Another word for it, where a second language reads the same files.
+    pub alias: Option<&'static str>,
     /// What comes out, in one line.
     pub doc: &'static str,
     /// Emits what a field was compiled for.
@@ -91,11 +93,6 @@ targets! { rust rust_mms_math c cpp fortran python numpy sympy ufl octave julia 
 impl Target {
     /// The target of that name, or of its other one.
     pub fn find(name: &str) -> Option<&'static Target> {
-        TARGETS.iter().find(|target| target.name == name || target.alias() == Some(name))
-    }
-
-    /// Another word for it: MATLAB reads what is written for Octave.
-    pub fn alias(&self) -> Option<&'static str> {
-        (self.name == "octave").then_some("matlab")
+        TARGETS.iter().find(|target| target.name == name || target.alias == Some(name))
     }
 }

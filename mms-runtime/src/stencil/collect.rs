@@ -148,7 +148,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
                 for s in 0..K {
                     let of_row = [row_asides[s], zero, zero];
                     let s1 = machine.four(&self.asides[s][1 % D][k1]);
-                    self.gather(machine, [w1, s1], 1, row, of_row, &mut plane_asides[s]);
+                    gather(machine, [w1, s1], 1, row, of_row, &mut plane_asides[s]);
                 }
             }
             if D < 3 {
@@ -160,7 +160,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
             for s in 0..K {
                 let s2 = machine.four(&self.asides[s][2 % D][k2]);
                 let of_plane = plane_asides[s];
-                self.gather(machine, [w2, s2], 2, plane, of_plane, &mut space_asides[s]);
+                gather(machine, [w2, s2], 2, plane, of_plane, &mut space_asides[s]);
             }
         }
         summed.value[c] = space;
@@ -170,21 +170,20 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
             }
         }
     }
+}
 
-    /// Adds to the sums of an aside what comes of those along the axes before axis `a`.
-    #[inline(always)]
-    fn gather<M: Machine<T>>(
-        &self,
-        machine: M,
-        [weight, aside]: [M::Four; 2],
-        a: usize,
-        value: M::Four,
-        asides: [M::Four; 3],
-        sums: &mut [M::Four; 3],
-    ) {
-        for b in 0..a {
-            sums[b] = machine.times_plus(weight, asides[b], sums[b]);
-        }
-        sums[a] = machine.times_plus(aside, value, sums[a]);
+/// Adds to the sums of an aside what comes of those along the axes before axis `a`.
+#[inline(always)]
+fn gather<T: Real, M: Machine<T>>(
+    machine: M,
+    [weight, aside]: [M::Four; 2],
+    a: usize,
+    value: M::Four,
+    asides: [M::Four; 3],
+    sums: &mut [M::Four; 3],
+) {
+    for b in 0..a {
+        sums[b] = machine.times_plus(weight, asides[b], sums[b]);
     }
+    sums[a] = machine.times_plus(aside, value, sums[a]);
 }

@@ -13,6 +13,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// C.
 pub const TARGET: Target = Target {
     name: "c",
+    alias: None,
     doc: "C99: a header, a source file and a check program",
     emit: bundle,
     words: RULES.words,

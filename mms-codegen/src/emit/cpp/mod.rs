@@ -12,6 +12,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// C++.
 pub const TARGET: Target = Target {
     name: "cpp",
+    alias: None,
     doc: "C++17: a header templated on the scalar, for CUDA and HIP too, and a check program",
     emit: bundle,
     words: RULES.words,

@@ -13,6 +13,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Fortran.
 pub const TARGET: Target = Target {
     name: "fortran",
+    alias: None,
     doc: "Fortran 2008: a module of pure elemental procedures, its face for C, and a check program",
     emit: bundle,
     words: RULES.words,

@@ -11,6 +11,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Julia.
 pub const TARGET: Target = Target {
     name: "julia",
+    alias: None,
     doc: "Julia: a module of functions that broadcast, in both precisions, and a check program",
     emit: bundle,
     words: RULES.words,

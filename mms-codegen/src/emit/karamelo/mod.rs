@@ -22,6 +22,7 @@ use crate::program::Value;
 /// Karamelo.
 pub const TARGET: Target = Target {
     name: "karamelo",
+    alias: None,
     doc: "Karamelo: variables of its input language, in single precision, and a check program in Python",
     emit: bundle,
     words: RULES.words,

@@ -24,6 +24,7 @@ use crate::program::{Op, Value};
 /// MOOSE.
 pub const TARGET: Target = Target {
     name: "moose",
+    alias: None,
     doc: "MOOSE: ParsedFunction blocks of an input file, and a check program in Python",
     emit: bundle,
     words: RULES.words,

@@ -6,6 +6,7 @@ use crate::emit::python::{PythonForm, TARGET as PYTHON, bundle};
 /// Python with NumPy.
 pub const TARGET: Target = Target {
     name: "numpy",
+    alias: None,
     doc: "Python: a module over NumPy arrays, which broadcasts, and a check program",
     emit: |subject| bundle(subject, PythonForm::NumPy),
     words: PYTHON.words,

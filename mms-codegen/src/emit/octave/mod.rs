@@ -12,6 +12,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Octave and MATLAB.
 pub const TARGET: Target = Target {
     name: "octave",
+    alias: Some("matlab"),
     doc: "Octave and MATLAB: one file of functions over arrays, which broadcast, and a check program",
     emit: bundle,
     words: RULES.words,

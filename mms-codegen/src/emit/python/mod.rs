@@ -13,6 +13,7 @@ use crate::expr::Function;
 /// Python.
 pub const TARGET: Target = Target {
     name: "python",
+    alias: None,
     doc: "Python: a module that needs the standard library alone, and a check program",
     emit: |subject| bundle(subject, Form::Math),
     words: RULES.words,

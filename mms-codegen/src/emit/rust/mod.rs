@@ -15,6 +15,7 @@ use crate::emit::{Bundle, File, Subject, Target};
 /// Rust that stands alone.
 pub const TARGET: Target = Target {
     name: "rust",
+    alias: None,
     doc: "Rust: a module without any dependency, for `no_std` too, and a check program",
     emit: bundle,
     words: RULES.words,
