@@ -8,6 +8,8 @@ use super::vectors::Sample;
 pub struct Check<'a> {
     /// The function.
     pub callable: &'a Callable,
+    /// Its place among the functions of the field.
+    pub place: usize,
     /// What it must give: for each set of parameters, at its points or once.
     pub expected: Vec<&'a [Vec<f64>]>,
     /// The error that is accepted, in eps.
@@ -31,6 +33,7 @@ impl Port<'_> {
             let rows: &[Vec<f64>] = &vectors.expected[place];
             (!rows.is_empty()).then(|| Check {
                 callable,
+                place,
                 expected: rows.chunks(rows.len() / vectors.sets.len()).collect(),
                 accepted: vectors.accepted[place],
                 accepted_in_single: vectors.accepted_in_single.as_ref().map(|it| it[place]),

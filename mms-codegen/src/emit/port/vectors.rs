@@ -84,6 +84,12 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// t, X, N and H.
+    pub fn numbers(&self) -> Vec<f64> {
+        let arrays = [&self.coordinates, &self.normal, &self.gradient];
+        std::iter::once(self.time).chain(arrays.into_iter().flatten().copied()).collect()
+    }
+
     /// What a function takes.
     pub fn input(&self, symbol: Symbol) -> f64 {
         match symbol {
