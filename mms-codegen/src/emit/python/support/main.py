@@ -5,7 +5,8 @@ for values, points, expected in zip(SETS, POINTS, EXPECTED):
     now = INSTANTS
     for name, of, columns, accepted in FUNCTIONS:
         owners = {"domain": [one], "field": [one] * len(points), "now": now}[of]
-        found = [CALL for owner, point in zip(owners, points or [[]])]
+        calls = zip(owners, points or [[]])
+        found = [CALL for owner, point in calls]
         check(name, accepted, rows(expected[name]), found)
 
 print(f"field_: worst error {worst:.3g} eps")

@@ -9,8 +9,12 @@ struct Errors {
 
 impl Errors {
     /// Compares what a function gives with a set of parameters.
-    fn check<T: Real, const COUNT: usize, const ROWS: usize>(
-        &mut self, name: &str, accepted: f64, expected: &[[u64; ROWS]; COUNT], found: &[[T; ROWS]; COUNT],
+    fn check<T: Real, const N: usize, const P: usize>(
+        &mut self,
+        name: &str,
+        accepted: f64,
+        expected: &[[u64; P]; N],
+        found: &[[T; P]; N],
     ) {
         let (eps, least) = match size_of::<T>() {
             4 => (f32::EPSILON.into(), f32::MIN_POSITIVE.into()),
@@ -19,7 +23,8 @@ impl Errors {
         let (mut error, mut magnitude) = (0.0_f64, least);
         for (expected, found) in expected.as_flattened().iter().zip(found.as_flattened()) {
             let (expected, found) = (f64::from_bits(*expected), found.to_f64());
-            error = error.max(if found.is_finite() { (found - expected).abs() } else { f64::INFINITY });
+            let difference = if found.is_finite() { found - expected } else { f64::INFINITY };
+            error = error.max(difference.abs());
             magnitude = f64::max(magnitude, expected.abs());
         }
         let error = error / magnitude / eps;
