@@ -53,6 +53,20 @@ fn a_thousand_terms_compile_in_every_language() {
     }
 }
 
+/// Where no function has a value at any point, defaults are what is left to check.
+#[test]
+fn a_field_without_a_value_compiles() {
+    let field = field("t*sqrt(X - 10)", Quantity::Velocity);
+    let subject = Subject::new(&field);
+    assert!(subject.vectors().samples.is_empty());
+    for name in ["c", "cpp", "fortran", "rust", "python", "octave"] {
+        let target = Target::find(name).expect("a target of that name");
+        if can_prove(target) {
+            prove(target, &subject, "valueless", quick);
+        }
+    }
+}
+
 #[test]
 fn every_check_program_refuses_the_source_of_another_field() {
     for target in ports().filter(|target| can_build(target)) {

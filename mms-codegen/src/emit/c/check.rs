@@ -102,7 +102,10 @@ pub(in crate::emit) fn row(items: &[String], indent: usize) -> String {
 fn program(port: &Port<'_>) -> String {
     let (name, checks) = (&port.name, port.checks());
     let widest = checks.iter().map(|check| check.callable.components.len()).max().unwrap_or(1);
-    let functions: String = checks.iter().map(|check| call(name, check)).collect();
+    let functions: String = match checks.is_empty() {
+        true => "        (void)field;\n        (void)found;\n".into(),
+        false => checks.iter().map(|check| call(name, check)).collect(),
+    };
     let mut text = include_str!("support/check.c").to_string();
     let mut found = format!("POINTS * {widest}");
     if port.points() == 0 {

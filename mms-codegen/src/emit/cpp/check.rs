@@ -93,7 +93,10 @@ fn program(port: &Port<'_>) -> String {
     if checks.iter().any(|check| check.accepted_in_single.is_none()) {
         text = text.replace("    check_all<float>();\n", "");
     }
-    let functions: String = checks.iter().map(|check| call(name, check)).collect();
+    let functions: String = match checks.is_empty() {
+        true => "        (void)field;\n        (void)out;\n".into(),
+        false => checks.iter().map(|check| call(name, check)).collect(),
+    };
     text.replace("WIDEST", &widest.to_string())
         .replace("field_", name)
         .replace("    DEFAULTS\n", &defaults(port))

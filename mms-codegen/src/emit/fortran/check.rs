@@ -23,7 +23,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     }
     let _ = write!(
         text,
-        "  implicit none\n\n  integer, parameter :: sets_count = {sets}, points_count = {points}\n  \
+        "  implicit none\n\n  integer, parameter :: sets_count = {sets}\n  \
          real(real64) :: worst = 0.0_real64\n  integer :: failures = 0\n\n  \
          type(field_type) :: fields(sets_count)\n"
     );
@@ -35,7 +35,8 @@ pub(super) fn text(port: &Port<'_>) -> String {
         let width = 1 + 2 * dimension + dimension * dimension;
         let _ = write!(
             text,
-            "  type(instant_type) :: now(points_count, sets_count)\n  \
+            "  integer, parameter :: points_count = {points}\n  \
+             type(instant_type) :: now(points_count, sets_count)\n  \
              real(real64) :: at({width}, points_count, sets_count) ! t, X, N and H\n"
         );
     }

@@ -23,14 +23,16 @@ pub(super) fn text(port: &Port<'_>) -> String {
 
 fn tables(port: &Port<'_>) -> String {
     let (vectors, samples) = (port.subject.vectors(), port.samples());
-    let sets: String = vectors.sets.iter().map(|set| row(set, 4)).collect();
-    let mut text = format!(
-        "const SETS: usize = {};\n\n\
-         /// Parameters: the defaults, others, and extremes.\n\
-         const PARAMETERS: [[u64; {}]; SETS] = [\n{sets}];\n\n",
-        vectors.sets.len(),
-        port.parameters.len(),
-    );
+    let mut text = format!("const SETS: usize = {};\n\n", vectors.sets.len());
+    if !port.parameters.is_empty() {
+        let sets: String = vectors.sets.iter().map(|set| row(set, 4)).collect();
+        let _ = write!(
+            text,
+            "/// Parameters: the defaults, others, and extremes.\n\
+             const PARAMETERS: [[u64; {}]; SETS] = [\n{sets}];\n\n",
+            port.parameters.len()
+        );
+    }
     if !samples.is_empty() {
         let dimension = port.dimension();
         let points: String = samples.iter().map(|samples| points(samples)).collect();
@@ -86,6 +88,9 @@ fn row(values: &[f64], indent: usize) -> String {
 fn program(port: &Port<'_>) -> String {
     let (name, checks) = (&port.name, port.checks());
     let mut text = include_str!("support/check.rs").to_string();
+    if port.parameters.is_empty() && port.points() == 0 {
+        text = without(&text, "/// Numbers in the precision", "/// The numbers of a point.");
+    }
     if port.points() == 0 {
         text = without(&text, "/// Columns of numbers", "#[derive");
         text = without(&text, "/// The numbers of a point.", "/// The components of a tensor");
@@ -95,7 +100,10 @@ fn program(port: &Port<'_>) -> String {
     if checks.iter().any(|check| check.accepted_in_single.is_none()) {
         text = text.replace("    check_all::<f32>(&mut errors);\n", "");
     }
-    let functions: String = checks.iter().map(call).collect();
+    let functions: String = match checks.is_empty() {
+        true => "        let _ = field;\n".into(),
+        false => checks.iter().map(call).collect(),
+    };
     let helpers = [
         ("flat(", "/// The components of a tensor", "/// A tensor of"),
         ("square(", "/// A tensor of", "impl Points"),

@@ -13,25 +13,22 @@
       for n = 1:numel(names)
         parameters.(names{n}) = sets(s, n);
       end
-      field = f.prepare(parameters);
-      now = cell(1, size(points{s}, 1));
-      for k = 1:numel(now)
-        now{k} = f.at_time(field, points{s}(k, 1));
+      prepared = f.prepare(parameters);
+      of.field = repmat({prepared}, 1, size(points{s}, 1));
+      of.now = of.field;
+      for k = 1:numel(of.now)
+        of.now{k} = f.at_time(prepared, points{s}(k, 1));
       end
       for n = 1:size(functions, 1)
         [name, owner, columns, count, accepted] = functions{n, [1:4, 4 + p]};
         wanted = expected.(name){s};
         found = zeros(size(wanted));
         for k = 1:size(wanted, 1)
-          if strcmp(owner, 'alone')
-            found(k, :) = f.(name)(field);
+          if isempty(columns)
+            found(k, :) = f.(name)(prepared);
           else
-            subject = field;
-            if strcmp(owner, 'now')
-              subject = now{k};
-            end
             inputs = cast(points{s}(k, columns), precision);
-            found(k, :) = at_arrays(f.(name), subject, inputs, count);
+            found(k, :) = at_arrays(f.(name), of.(owner){k}, inputs, count);
           end
         end
         most = eps_between(found, wanted, precision);
