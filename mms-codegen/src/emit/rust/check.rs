@@ -88,15 +88,6 @@ fn row(values: &[f64], indent: usize) -> String {
 fn program(port: &Port<'_>) -> String {
     let (name, checks) = (&port.name, port.checks());
     let mut text = include_str!("support/check.rs").to_string();
-    if port.parameters.is_empty() && port.points() == 0 {
-        text = without(&text, "/// Numbers in the precision", "/// The numbers of a point.");
-    }
-    if port.points() == 0 {
-        text = without(&text, "/// Columns of numbers", "#[derive");
-        text = without(&text, "/// The numbers of a point.", "/// The components of a tensor");
-        text = without(&text, "impl Points", "fn check_all");
-        text = without(&text, "        let at: ", "        FUNCTIONS");
-    }
     if checks.iter().any(|check| check.accepted_in_single.is_none()) {
         text = text.replace("    check_all::<f32>(&mut errors);\n", "");
     }
@@ -110,6 +101,14 @@ fn program(port: &Port<'_>) -> String {
     ];
     for (_, first, end) in helpers.into_iter().filter(|(call, ..)| !functions.contains(call)) {
         text = without(&text, first, end);
+    }
+    if port.parameters.is_empty() && port.points() == 0 {
+        text = without(&text, "/// Numbers in the precision", "/// The numbers of a point.");
+    }
+    if port.points() == 0 {
+        text = without(&text, "/// Columns of numbers", "#[derive");
+        text = without(&text, "/// The numbers of a point.", "fn check_all");
+        text = without(&text, "        let at: ", "        FUNCTIONS");
     }
     text.replace("DIMENSION", &port.dimension().to_string())
         .replace("field_", name)
