@@ -112,9 +112,9 @@ fn program(port: &Port<'_>) -> String {
     }
     text.replace("DIMENSION", &port.dimension().to_string())
         .replace("field_", name)
-        .replace("    DEFAULTS\n", &defaults(port))
-        .replace("        PARAMETERS\n", &parameters(port))
-        .replace("        FUNCTIONS\n", &functions)
+        .replace("    DEFAULTS;\n", &defaults(port))
+        .replace("        PARAMETERS;\n", &parameters(port))
+        .replace("        FUNCTIONS;\n", &functions)
 }
 
 /// The lines that check the defaults of the parameters.

@@ -82,13 +82,13 @@ impl Points<u64> {
 }
 
 fn check_all<T: Real>(errors: &mut Errors) {
-    DEFAULTS
+    DEFAULTS;
     for set in 0..SETS {
-        PARAMETERS
+        PARAMETERS;
         let field = field_::prepare(&parameters);
         let at: Points<T> = POINTS_OF[set].real();
         let now = at.t.map(|t| field.at_time(t));
-        FUNCTIONS
+        FUNCTIONS;
     }
 }
 
