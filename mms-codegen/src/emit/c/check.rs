@@ -4,173 +4,157 @@ use std::fmt::Write as _;
 
 use super::comment;
 use crate::emit::port::Port;
-use crate::emit::port::callable::Callable;
+use crate::emit::port::check::{Check, without};
 use crate::emit::port::number::hexadecimal;
-use crate::emit::port::vectors::Vectors;
+use crate::emit::port::vectors::Sample;
 use crate::emit::text::listed;
 
 /// The text of `FIELD_check.c`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let vectors = port.subject.vectors();
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
-    let mut header = port.header();
-    header.push(format!(
-        "Checks a build of {name}.c: runs every function at the points below, prints its worst error, and fails where that is not accepted. {}",
-        vectors.meaning()
-    ));
-    let mut text = comment(&header, "");
-    text += &format!(
-        "#include \"{name}.h\"\n\n#include <float.h>\n#include <math.h>\n#include <stdio.h>\n\n"
-    );
-    text += &format!(
-        "enum {{ SETS = {}, SAMPLES = {} }};\n\n",
-        vectors.sets.len(),
-        vectors.samples.len()
+    let mut text = comment(&port.check_header(&format!("a build of {name}.c")), "");
+    let _ = write!(
+        text,
+        "#include \"{name}.h\"\n\n#include <float.h>\n#include <math.h>\n#include <stdio.h>\n\ntypedef {name}_real real;\n\n"
     );
     if vectors.accepted_in_single.is_none() {
-        text += &format!(
+        let _ = write!(
+            text,
             "#ifdef {upper}_FLOAT\n#error \"the numbers of {name} are beyond the range of float\"\n#endif\n\n"
         );
     }
-    text += &tables(port, vectors);
-    let program = include_str!("support/check.c");
-    text += &program
-        .replace("FIELD", &upper)
-        .replace("field_:", &format!("{name}:"))
-        .replace("field_", &format!("{name}_"));
-    text += &main(port, vectors);
-    text
+    text += &tables(port);
+    text + &program(port)
 }
 
-fn tables(port: &Port<'_>, vectors: &Vectors) -> String {
-    let mut text = String::new();
-    if !port.parameters.is_empty() {
-        text += &format!(
-            "/* Parameters: the defaults, others, and extremes. */\n\
-             static const double sets[SETS][{}] = {{\n",
-            port.parameters.len()
-        );
-        vectors.sets.iter().for_each(|set| text += &row(set));
-        text += "};\n\n";
-    }
-    if !vectors.samples.is_empty() {
-        text += &samples(port, vectors);
-    }
-    for (callable, expected) in port.callables.iter().zip(&vectors.expected) {
-        if expected.is_empty() {
-            continue;
-        }
-        let rows = if callable.is_of_points() { "SAMPLES" } else { "SETS" };
-        text += &format!(
-            "static const double {}_expected[{rows}][{}] = {{\n",
-            callable.name,
-            callable.components.len()
-        );
-        expected.iter().for_each(|values| text += &row(values));
-        text += "};\n\n";
-    }
-    text
-}
-
-/// The points: of which set of parameters, t, X, N and H.
-fn samples(port: &Port<'_>, vectors: &Vectors) -> String {
+fn tables(port: &Port<'_>) -> String {
     let (name, dimension) = (&port.name, port.dimension());
-    format!(
-        "static const struct {{\n    int set;\n    {name}_real t, X[{dimension}], N[{dimension}], H[{}];\n\
-         }} samples[SAMPLES] = {{\n{}}};\n\n",
-        dimension * dimension,
-        sample_rows(vectors)
-    )
-}
-
-/// The same as rows of a table.
-pub(in crate::emit) fn sample_rows(vectors: &Vectors) -> String {
-    let rows = vectors.samples.iter().map(|sample| {
-        let arrays = [&sample.coordinates, &sample.normal, &sample.gradient];
-        let arrays = arrays.map(|values| format!("{{{}}}", hexadecimals(values).join(", ")));
-        let time = hexadecimal(sample.time);
-        let items: Vec<_> = [sample.set.to_string(), time].into_iter().chain(arrays).collect();
-        format!("    {{{}}},\n", listed(&items, 92).join("\n     "))
+    let (vectors, samples) = (port.subject.vectors(), port.samples());
+    let mut text =
+        format!("enum {{ SETS = {}, POINTS = {} }};\n\n", vectors.sets.len(), port.points());
+    let real = |value: &f64| match f64::from(*value as f32) == *value {
+        true => hexadecimal(*value),
+        false => format!("(real){}", hexadecimal(*value)),
+    };
+    let sets = vectors.sets.iter().map(|set| match set.as_slice() {
+        [] => "0".into(),
+        set => row(&set.iter().map(real).collect::<Vec<_>>(), 4),
     });
-    rows.collect()
-}
-
-fn hexadecimals(values: &[f64]) -> Vec<String> {
-    values.iter().map(|value| hexadecimal(*value)).collect()
-}
-
-/// A row of numbers.
-pub(in crate::emit) fn row(values: &[f64]) -> String {
-    format!("    {{{}}},\n", listed(&hexadecimals(values), 92).join("\n     "))
-}
-
-fn main(port: &Port<'_>, vectors: &Vectors) -> String {
-    let name = &port.name;
-    let mut text = "int main(void)\n{\n".to_string();
-    let timed = port.callables.iter().any(|callable| callable.time);
-    if !port.parameters.is_empty() {
-        text += &format!("    const {name}_parameters defaults = {name}_default_parameters();\n");
-    }
-    text += &format!("    static {name}_field fields[SETS];\n");
-    let samples = !vectors.samples.is_empty();
-    if timed && samples {
-        text += &format!("    static {name}_instant now[SAMPLES];\n");
-    }
-    let set: Vec<String> =
-        (0..port.parameters.len()).map(|place| format!("({name}_real)sets[s][{place}]")).collect();
-    let set = if set.is_empty() { "0".into() } else { listed(&set, 84).join("\n            ") };
-    text += &format!(
-        "    for (int s = 0; s < SETS; s++) {{\n        const {name}_parameters parameters = {{\n            \
-         {set}\n        }};\n        fields[s] = {name}_prepare(&parameters);\n    }}\n"
+    let sets: String = sets.map(|set| format!("    {{{set}}},\n")).collect();
+    let _ = write!(
+        text,
+        "/* Parameters: the defaults, others, and extremes. */\n\
+         static const {name}_parameters sets[SETS] = {{\n{sets}}};\n\n"
     );
-    if timed && samples {
-        text += &format!(
-            "    for (int s = 0; s < SAMPLES; s++) {{\n        now[s] = {name}_at_time(&fields[samples[s].set], samples[s].t);\n    }}\n"
+    if !samples.is_empty() {
+        let squared = dimension * dimension;
+        let set = |samples: &&[Sample]| samples.iter().map(sample).collect::<String>();
+        let sets = samples.iter().map(|samples| format!("    {{\n{}    }},\n", set(samples)));
+        let _ = write!(
+            text,
+            "/* The points of each set of parameters. */\nstatic const struct point {{\n    \
+             real t, X[{dimension}], N[{dimension}], H[{squared}];\n\
+             }} points[SETS][POINTS] = {{\n{}}};\n\n",
+            sets.collect::<String>()
         );
     }
-    for (parameter, value) in port.parameters.values().zip(&vectors.defaults) {
-        let _ = writeln!(text, "    CHECK_DEFAULT({parameter}, {});", hexadecimal(*value));
+    for Check { callable, expected, .. } in port.checks() {
+        let rows = if callable.is_of_points() { "POINTS" } else { "1" };
+        let (function, count) = (&callable.name, callable.components.len());
+        let values = expected.iter().map(|rows| block(rows, 4));
+        let _ = write!(
+            text,
+            "static const double expected_{function}[SETS][{rows}][{count}] = {{\n{}}};\n\n",
+            values.collect::<String>()
+        );
     }
-    for (place, callable) in port.callables.iter().enumerate() {
-        if samples || !callable.is_of_points() {
-            let accepted = accepted(name, vectors, place);
-            let _ = writeln!(text, "    {}", check(port, callable, &accepted));
-        }
-    }
-    text + "    return conclude();\n}\n"
+    text
 }
 
-/// The accepted error, which may be another one in single precision.
-fn accepted(name: &str, vectors: &Vectors, place: usize) -> String {
-    let double = vectors.accepted[place];
-    match vectors.accepted_in_single.as_ref().map(|single| single[place]) {
-        Some(single) if single != double => {
-            format!("sizeof({name}_real) < sizeof(double) ? {single} : {double}")
-        }
-        _ => double.to_string(),
-    }
+/// A point: t, X, N and H.
+fn sample(sample: &Sample) -> String {
+    let arrays = [&sample.coordinates, &sample.normal, &sample.gradient];
+    let arrays = arrays.map(|values| format!("{{{}}}", numbers(values, 8)));
+    let items: Vec<_> = [hexadecimal(sample.time)].into_iter().chain(arrays).collect();
+    format!("        {{{}}},\n", row(&items, 8))
 }
 
-fn check(port: &Port<'_>, callable: &Callable, accepted: &str) -> String {
-    let subject = match (callable.time, callable.is_of_points()) {
-        (true, _) => "&now[s]",
-        (false, true) => "&fields[samples[s].set]",
-        (false, false) => "&fields[s]",
+/// Rows of numbers in a bracket that stands behind `indent` spaces.
+pub(in crate::emit) fn block(rows: &[Vec<f64>], indent: usize) -> String {
+    let row = |row: &Vec<f64>| format!("{:indent$}    {{{}}},\n", "", numbers(row, indent + 4));
+    let rows: String = rows.iter().map(row).collect();
+    format!("{:indent$}{{\n{rows}{:indent$}}},\n", "", "")
+}
+
+/// Numbers behind a bracket that stands behind `indent` spaces.
+pub(in crate::emit) fn numbers(values: &[f64], indent: usize) -> String {
+    let numbers: Vec<String> = values.iter().map(|value| hexadecimal(*value)).collect();
+    row(&numbers, indent)
+}
+
+/// The same of any items.
+pub(in crate::emit) fn row(items: &[String], indent: usize) -> String {
+    listed(items, 96 - indent).join(&format!("\n{:1$}", "", indent + 1))
+}
+
+/// The program itself, with its list of functions.
+fn program(port: &Port<'_>) -> String {
+    let (name, checks) = (&port.name, port.checks());
+    let widest = checks.iter().map(|check| check.callable.components.len()).max().unwrap_or(1);
+    let functions: String = match checks.is_empty() {
+        true => "        (void)field;\n        (void)found;\n".into(),
+        false => checks.iter().map(|check| call(name, check)).collect(),
     };
-    let mut arguments = vec![subject.to_string()];
-    arguments.extend(callable.arrays().iter().map(|(array, _)| format!("samples[s].{array}")));
-    let mut start = "";
-    if callable.is_scalar() {
-        start = "out[0] = ";
-    } else {
+    let mut text = include_str!("support/check.c").to_string();
+    let mut found = format!("POINTS * {widest}");
+    if port.points() == 0 {
+        found = widest.to_string();
+        text = without(&text, "        const struct point", "        FUNCTIONS");
+    }
+    text.replace("FOUND", &found)
+        .replace("field_", &format!("{name}_"))
+        .replace("    DEFAULTS\n", &defaults(port))
+        .replace("        FUNCTIONS\n", &functions)
+}
+
+/// The lines that check the defaults of the parameters.
+fn defaults(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let mut text = match port.parameters.is_empty() {
+        true => String::new(),
+        false => format!("    const {name}_parameters defaults = {name}_default_parameters();\n"),
+    };
+    for (parameter, value) in port.parameters.values().zip(&port.subject.vectors().defaults) {
+        let _ = writeln!(
+            text,
+            "    check(\"default of {parameter}\", 1, 1, &(const double){{{}}}, &defaults.{parameter});",
+            hexadecimal(*value)
+        );
+    }
+    text
+}
+
+/// The line that checks a function.
+fn call(name: &str, check: &Check<'_>) -> String {
+    let callable = check.callable;
+    let (function, count) = (&callable.name, callable.components.len());
+    let mut arguments = vec![if callable.time { "&now[p]" } else { "&field" }.to_string()];
+    arguments.extend(callable.arrays().iter().map(|(array, _)| format!("at[p].{array}")));
+    let mut result = "*out = ";
+    if !callable.is_scalar() {
+        result = "";
         arguments.push("out".into());
     }
-    let kind = if callable.is_of_points() { "CHECK" } else { "CHECK_DOMAIN" };
-    let count = callable.components.len();
-    let call = format!("{start}{}_{}({})", port.name, callable.name, arguments.join(", "));
-    let line = format!("{kind}({}, {count}, {accepted}, {call});", callable.name);
-    if line.len() <= 96 {
-        return line;
-    }
-    format!("{kind}({}, {count}, {accepted},\n          {call});", callable.name)
+    let rows = if callable.is_of_points() { "POINTS" } else { "1" };
+    let accepted = match check.accepted_in_single {
+        Some(single) if single != check.accepted => {
+            format!("sizeof(real) < sizeof(double) ? {single} : {}", check.accepted)
+        }
+        _ => check.accepted.to_string(),
+    };
+    let start = format!("        CHECK({function}, {rows}, {count}, {accepted},");
+    let call = format!("{result}{name}_{function}({}));\n", arguments.join(", "));
+    let between = if start.len() + call.len() <= 100 { " " } else { "\n              " };
+    start + between + &call
 }

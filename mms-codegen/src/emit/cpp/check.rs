@@ -2,149 +2,148 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::c::check::{row, sample_rows};
+use crate::emit::c::check::{block, numbers, row};
 use crate::emit::c::{broken, comment};
 use crate::emit::port::Port;
-use crate::emit::port::callable::Callable;
+use crate::emit::port::check::{Check, columns, without};
 use crate::emit::port::number::hexadecimal;
-use crate::emit::port::vectors::Vectors;
+use crate::emit::port::vectors::Sample;
 
 /// The text of `FIELD_check.cpp`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let vectors = port.subject.vectors();
-    let (name, dimension) = (&port.name, port.dimension());
-    let mut header = port.header();
-    header.push(format!(
-        "Checks {name}.hpp: runs every function at the points below, prints its worst error, and fails where that is not accepted. {}",
-        vectors.meaning()
-    ));
-    let mut text = comment(&header, "");
+    let name = &port.name;
+    let mut text = comment(&port.check_header(&format!("{name}.hpp")), "");
     let _ = write!(
         text,
         "#include \"{name}.hpp\"\n\n#include <array>\n#include <cmath>\n#include <cstdio>\n#include <limits>\n\n\
-         namespace {{\n\nconstexpr int SETS = {}, SAMPLES = {};\n\n",
-        vectors.sets.len(),
-        vectors.samples.len()
+         namespace {{\n\n"
     );
-    if !port.parameters.is_empty() {
-        text += "/// Parameters: the defaults, others, and extremes.\n";
-        let _ = writeln!(text, "constexpr double sets[SETS][{}] = {{", port.parameters.len());
-        vectors.sets.iter().for_each(|set| text += &row(set));
-        text += "};\n\n";
-    }
-    if !vectors.samples.is_empty() {
-        let _ = write!(
-            text,
-            "struct Sample {{\n    int set;\n    double t, X[{dimension}], N[{dimension}], H[{}];\n}};\n\n\
-             constexpr Sample samples[SAMPLES] = {{\n{}}};\n\n",
-            dimension * dimension,
-            sample_rows(vectors)
-        );
-    }
-    for (callable, expected) in port.callables.iter().zip(&vectors.expected) {
-        if expected.is_empty() {
-            continue;
-        }
-        let rows = if callable.is_of_points() { "SAMPLES" } else { "SETS" };
-        let count = callable.components.len();
-        let _ = writeln!(text, "constexpr double {}_expected[{rows}][{count}] = {{", callable.name);
-        expected.iter().for_each(|values| text += &row(values));
-        text += "};\n\n";
-    }
-    text += &include_str!("support/check.hpp").replace("field_ ", &format!("{name} "));
-    text += "\ntemplate <class T> int check(const char *precision)\n{\n";
-    text += &body(port, vectors);
-    text += "    return errors.conclude();\n}\n\n} // namespace\n\nint main()\n{\n";
-    text += "    int failures = check<double>(\"double precision\");\n";
-    if vectors.accepted_in_single.is_some() {
-        text += "    failures += check<float>(\"single precision\");\n";
-    }
-    text + "    return failures == 0 ? 0 : 1;\n}\n"
+    text + &tables(port) + &program(port)
 }
 
-fn body(port: &Port<'_>, vectors: &Vectors) -> String {
-    let name = &port.name;
-    let mut text = "    Check<T> errors(precision);\n".to_string();
-    if !port.parameters.is_empty() {
-        let _ = writeln!(text, "    const auto defaults = {name}::default_parameters<T>();");
-    }
-    for (parameter, value) in port.parameters.values().zip(&vectors.defaults) {
-        let _ = writeln!(
+fn tables(port: &Port<'_>) -> String {
+    let (name, dimension) = (&port.name, port.dimension());
+    let (vectors, samples) = (port.subject.vectors(), port.samples());
+    let mut text =
+        format!("constexpr int SETS = {}, POINTS = {};\n\n", vectors.sets.len(), port.points());
+    let real = |value: &f64| match f64::from(*value as f32) == *value {
+        true => hexadecimal(*value),
+        false => format!("T({})", hexadecimal(*value)),
+    };
+    let set = |set: &Vec<f64>| row(&set.iter().map(real).collect::<Vec<_>>(), 4);
+    let sets: String = vectors.sets.iter().map(|it| format!("    {{{}}},\n", set(it))).collect();
+    let _ = write!(
+        text,
+        "/// Parameters: the defaults, others, and extremes.\n\
+         template <class T> constexpr {name}::Parameters<T> sets[SETS] = {{\n{sets}}};\n\n"
+    );
+    if !samples.is_empty() {
+        let squared = dimension * dimension;
+        let points: String = samples.iter().map(|samples| points(samples)).collect();
+        let _ = write!(
             text,
-            "    errors.compare(0, &std::array<double, 1>{{{}}}[0], &defaults.{parameter}, 1);\n    \
-             errors.settle(\"default of {parameter}\", 1);",
-            hexadecimal(*value)
+            "/// The points of a set of parameters.\ntemplate <class T> struct Points {{\n    \
+             T t[POINTS], X[{dimension}][POINTS], N[{dimension}][POINTS], H[{squared}][POINTS];\n}};\n\n\
+             template <class T> constexpr Points<T> points[SETS] = {{\n{points}}};\n\n"
         );
     }
-    let _ =
-        writeln!(text, "    {name}::Field<T> fields[SETS];\n    for (int s = 0; s < SETS; s++) {{");
-    let _ = writeln!(text, "        {name}::Parameters<T> parameters{{}};");
-    for (index, parameter) in port.parameters.values().enumerate() {
+    for Check { callable, expected, .. } in port.checks() {
+        let (function, count) = (&callable.name, callable.components.len());
+        let (shape, values): (_, String) = match callable.is_of_points() {
+            true => (
+                format!("[{count}][POINTS]"),
+                expected.iter().map(|it| block(&columns(it), 4)).collect(),
+            ),
+            false => (
+                format!("[{count}]"),
+                expected.iter().map(|it| format!("    {{{}}},\n", numbers(&it[0], 4))).collect(),
+            ),
+        };
         let _ =
-            writeln!(text, "        parameters.{parameter} = static_cast<T>(sets[s][{index}]);");
-    }
-    let _ = writeln!(text, "        fields[s] = {name}::prepare(parameters);\n    }}");
-    let single = vectors.accepted_in_single.as_ref().unwrap_or(&vectors.accepted);
-    for (place, callable) in port.callables.iter().enumerate() {
-        if vectors.expected[place].is_empty() {
-            continue;
-        }
-        text += &check(port, callable, vectors.accepted[place].max(single[place]));
+            write!(text, "constexpr double expected_{function}[SETS]{shape} = {{\n{values}}};\n\n");
     }
     text
 }
 
-fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
-    let name = &port.name;
-    let (rows, set) = match callable.is_of_points() {
-        true => ("SAMPLES", "samples[s].set"),
-        false => ("SETS", "s"),
+/// The points of a set of parameters, as columns.
+fn points(samples: &[Sample]) -> String {
+    let column = |of: fn(&Sample) -> &Vec<f64>| {
+        let rows: Vec<Vec<f64>> = samples.iter().map(|sample| of(sample).clone()).collect();
+        block(&columns(&rows), 8)
     };
-    let subject = match callable.time {
-        true => format!("{name}::at_time(fields[{set}], static_cast<T>(samples[s].t))"),
-        false => format!("fields[{set}]"),
-    };
-    let (function, count) = (&callable.name, callable.components.len());
-    let mut arguments = vec!["subject".to_string()];
-    let mut given = String::new();
-    for (array, _) in callable.arrays() {
-        let _ = writeln!(given, "        const auto {array} = of<T>(samples[s].{array});");
-        arguments.push(format!("{array}.data()"));
-    }
-    let mut start = "out[0] = ";
-    if !callable.is_scalar() {
-        start = "";
-        arguments.push("out".into());
-    }
-    let mut text = format!(
-        "    for (int s = 0; s < {rows}; s++) {{\n        const auto subject = {subject};\n{given}        \
-         T out[{count}];\n        {start}{name}::{function}({});\n        \
-         errors.compare({set}, {function}_expected[s], out, {count});\n",
-        arguments.join(", ")
-    );
-    if callable.is_of_points() {
-        text += &batch(port, callable);
-    }
-    text + &format!("    }}\n    errors.settle(\"{function}\", {accepted});\n")
+    let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
+    format!(
+        "    {{\n        {{{}}},\n{}{}{}    }},\n",
+        numbers(&times, 8),
+        column(|it| &it.coordinates),
+        column(|it| &it.normal),
+        column(|it| &it.gradient)
+    )
 }
 
-/// The same through the function of many points: the first point, whatever it gives, and this one.
-fn batch(port: &Port<'_>, callable: &Callable) -> String {
-    let (function, count) = (&callable.name, callable.components.len());
-    let mut text = String::new();
-    let mut arguments = vec!["subject".to_string(), "2".into()];
-    for (array, count) in callable.arrays() {
+/// The program itself, with its list of functions.
+fn program(port: &Port<'_>) -> String {
+    let (name, checks) = (&port.name, port.checks());
+    let widest = checks.iter().map(|check| check.callable.components.len()).max().unwrap_or(1);
+    let mut text = include_str!("support/check.hpp").to_string();
+    if port.points() == 0 {
+        text = without(&text, "/// The numbers of a point", "template <class T> void check_all");
+        text = without(&text, "        const auto &at", "        FUNCTIONS");
+    }
+    if checks.iter().any(|check| check.accepted_in_single.is_none()) {
+        text = text.replace("    check_all<float>();\n", "");
+    }
+    let functions: String = match checks.is_empty() {
+        true => "        (void)field;\n        (void)out;\n".into(),
+        false => checks.iter().map(|check| call(name, check)).collect(),
+    };
+    text.replace("WIDEST", &widest.to_string())
+        .replace("field_", name)
+        .replace("    DEFAULTS\n", &defaults(port))
+        .replace("        FUNCTIONS\n", &functions)
+}
+
+/// The lines that check the defaults of the parameters.
+fn defaults(port: &Port<'_>) -> String {
+    let mut text = match port.parameters.is_empty() {
+        true => String::new(),
+        false => format!("    const auto defaults = {}::default_parameters<T>();\n", port.name),
+    };
+    for (parameter, value) in port.parameters.values().zip(&port.subject.vectors().defaults) {
+        let value = hexadecimal(*value);
         let _ = writeln!(
             text,
-            "        const auto {array}s = columns<T>(samples[0].{array}, samples[s].{array});"
+            "    check(\"default of {parameter}\", 1, 1, std::array{{{value}}}.data(), &defaults.{parameter});"
         );
-        arguments.extend((0..count).map(|index| format!("&{array}s[{}]", 2 * index)));
     }
-    arguments.extend((0..count).map(|index| format!("&both[{}]", 2 * index)));
-    let call = broken(&format!("        {}::{function}_batch", port.name), &arguments, ";");
-    text + &format!(
-        "        T both[{}];\n{call}\n        \
-         errors.compare(samples[s].set, {function}_expected[s], second(both).data(), {count});\n",
-        2 * count
-    )
+    text
+}
+
+/// The lines that check a function.
+fn call(name: &str, check: &Check<'_>) -> String {
+    let (callable, accepted) = (check.callable, check.accepted_in_both());
+    let (function, count) = (&callable.name, callable.components.len());
+    let of = if callable.time { "now[p]" } else { "field" }.to_string();
+    let (mut one, mut many) = (vec![of.clone()], vec![of, "POINTS - p".into()]);
+    for (array, count) in callable.arrays() {
+        one.push(format!("row(at.{array}, p).data()"));
+        many.extend((0..count).map(|k| format!("&at.{array}[{k}][p]")));
+    }
+    many.extend((0..count).map(|k| format!("&found[{k}][p]")));
+    let mut result = "*out = ";
+    if !callable.is_scalar() {
+        result = "";
+        one.push("out".into());
+    }
+    let one =
+        |indent: &str, end: &str| broken(&format!("{indent}{result}{name}::{function}"), &one, end);
+    if !callable.is_of_points() {
+        return format!(
+            "{}        check(\"{function}\", {count}, {accepted}, expected_{function}[set], out);\n",
+            one("        ", ";\n")
+        );
+    }
+    let indent = " ".repeat(14);
+    let many = broken(&format!("{indent}{name}::{function}_batch"), &many, ");\n");
+    format!("        CHECK({function}, {count}, {accepted},\n{}{many}", one(&indent, ",\n"))
 }

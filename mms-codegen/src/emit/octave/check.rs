@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use super::comment;
 use crate::emit::port::Port;
-use crate::emit::port::callable::Callable;
-use crate::emit::port::vectors::Vectors;
+use crate::emit::port::vectors::{Sample, Vectors};
 
 const SUPPORT: &str = include_str!("support/check.m");
 
@@ -13,31 +12,24 @@ const SUPPORT: &str = include_str!("support/check.m");
 pub(super) fn text(port: &Port<'_>) -> String {
     let vectors = port.subject.vectors();
     let name = &port.name;
-    let mut header = port.header();
-    header.push(format!(
-        "Checks {name}.m: runs every function at the points below, prints its worst error, and fails where that is not accepted. {} Numbers are the digits of hex2num.",
-        vectors.meaning()
-    ));
+    let mut header = port.check_header(&format!("{name}.m"));
+    if let Some(last) = header.last_mut() {
+        *last += " Numbers are the digits of hex2num.";
+    }
     let mut text = format!("function {name}_check()\n{}", comment(&header, "  "));
     text += "\n  % Parameters: the defaults, others, and extremes.\n";
     text += &table("sets", &vectors.sets, vectors.sets.len());
-    text += "  % Points: t, X, N and H; and which set of parameters each is of.\n";
-    let samples: Vec<Vec<f64>> = (vectors.samples.iter())
-        .map(|sample| {
-            let parts = [&sample.coordinates, &sample.normal, &sample.gradient];
-            std::iter::once(sample.time).chain(parts.into_iter().flatten().copied()).collect()
-        })
-        .collect();
-    text += &table("samples", &samples, samples.len());
-    let which: Vec<String> =
-        vectors.samples.iter().map(|sample| (sample.set + 1).to_string()).collect();
-    let _ = writeln!(
-        text,
-        "  set_of = [ ...\n    {}];",
-        crate::emit::text::listed(&which, 90).join(" ...\n    ")
-    );
-    for (callable, expected) in port.callables.iter().zip(&vectors.expected) {
-        text += &table(&format!("expected.{}", callable.name), expected, expected.len());
+    text += "  % The points of each set of parameters: t, X, N and H.\n";
+    let _ = writeln!(text, "  points = cell(1, {});", vectors.sets.len());
+    for (set, samples) in port.samples().into_iter().enumerate() {
+        let numbers: Vec<Vec<f64>> = samples.iter().map(Sample::numbers).collect();
+        text += &table(&format!("points{{{}}}", set + 1), &numbers, numbers.len());
+    }
+    for check in port.checks() {
+        for (set, rows) in check.expected.iter().enumerate() {
+            let name = format!("expected.{}{{{}}}", check.callable.name, set + 1);
+            text += &table(&name, rows, rows.len());
+        }
     }
     text += &defaults(port, vectors);
     text += &functions(port, vectors);
@@ -64,44 +56,31 @@ fn defaults(port: &Port<'_>, vectors: &Vectors) -> String {
     format!("  names = {{{}}};\n{}", names.join(", "), table("defaults", defaults, 1))
 }
 
-/// What is checked: name, its owner (0 a prepared field, 1 that at a time, 2 a prepared field without a
-/// point), the columns of what it takes, the number of its components, and the accepted errors.
+/// What is checked: name, what it is of, the columns of what it takes, the number of its components, and
+/// the accepted errors.
 fn functions(port: &Port<'_>, vectors: &Vectors) -> String {
-    let mut text = "\n  % Name, owner (0 field, 1 now, 2 field alone), columns of its inputs, components, accepted errors.\n  functions = { ...\n"
+    let mut text = "\n  % Name, what it is of, columns of its inputs, components, accepted errors.\n  functions = { ...\n"
         .to_string();
-    let single = vectors.accepted_in_single.as_ref();
-    for (place, callable) in port.callables.iter().enumerate() {
-        if vectors.expected[place].is_empty() {
-            continue;
-        }
-        let owner = match (callable.is_of_points(), callable.time) {
-            (false, _) => 2,
-            (true, timed) => usize::from(timed),
+    for check in port.checks() {
+        let callable = check.callable;
+        let of = match (callable.is_of_points(), callable.time) {
+            (false, _) => "alone",
+            (true, false) => "field",
+            (true, true) => "now",
         };
-        let count = if owner == 2 { 1 } else { callable.components.len() };
-        let accepted = vectors.accepted[place];
-        let accepted_in_single = single.map_or("Inf".into(), |single| single[place].to_string());
+        let columns: Vec<usize> =
+            callable.columns(port.dimension()).iter().map(|it| it + 1).collect();
+        let accepted_in_single = check.accepted_in_single.map_or("Inf".into(), |it| it.to_string());
         let _ = writeln!(
             text,
-            "    '{}', {owner}, {}, {count}, {accepted}, {accepted_in_single}; ...",
+            "    '{}', '{of}', {columns:?}, {}, {}, {accepted_in_single}; ...",
             callable.name,
-            columns(callable, port.dimension())
+            callable.components.len(),
+            check.accepted,
         );
     }
     text += "  };\n";
-    let precisions = if single.is_some() { "'double', 'single'" } else { "'double'" };
+    let has_single = vectors.accepted_in_single.is_some();
+    let precisions = if has_single { "'double', 'single'" } else { "'double'" };
     text + &format!("  precisions = {{{precisions}}};\n")
-}
-
-fn columns(callable: &Callable, dimension: usize) -> String {
-    let mut columns: Vec<String> = Vec::new();
-    for (array, count) in callable.arrays() {
-        let first = match array {
-            "N" => 2 + dimension,
-            "H" => 2 + 2 * dimension,
-            _ => 2,
-        };
-        columns.extend((first..first + count).map(|column| column.to_string()));
-    }
-    format!("[{}]", columns.join(", "))
 }

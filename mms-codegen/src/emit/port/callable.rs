@@ -71,6 +71,17 @@ impl Callable {
         arrays
     }
 
+    /// The places of what it takes, among t, X, N and H of a point.
+    pub fn columns(&self, dimension: usize) -> Vec<usize> {
+        let first = |array: &str| match array {
+            "N" => 1 + dimension,
+            "H" => 1 + 2 * dimension,
+            _ => 1,
+        };
+        let arrays = self.arrays().into_iter();
+        arrays.flat_map(|(array, count)| first(array)..first(array) + count).collect()
+    }
+
     /// Whether it needs nothing but a point and a time, as functions of input files do.
     pub fn is_of_places(&self) -> bool {
         self.inputs.iter().all(|symbol| matches!(symbol, Symbol::Coordinate(_)))

@@ -8,6 +8,7 @@
 
 pub mod body;
 pub mod callable;
+pub mod check;
 pub mod docs;
 pub mod lower;
 pub mod names;

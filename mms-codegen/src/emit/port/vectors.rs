@@ -43,7 +43,7 @@ pub struct Vectors {
     pub defaults: Vec<f64>,
     /// Sets of values for the parameters that are left: the defaults, others, and extremes.
     pub sets: Vec<Vec<f64>>,
-    /// Where functions are evaluated.
+    /// Where functions are evaluated: as many points for each set of parameters as for any other.
     pub samples: Vec<Sample>,
     /// The components that each function must give: at each sample, or for each set where it is of no
     /// point.
@@ -84,6 +84,12 @@ pub struct Sample {
 }
 
 impl Sample {
+    /// t, X, N and H.
+    pub fn numbers(&self) -> Vec<f64> {
+        let arrays = [&self.coordinates, &self.normal, &self.gradient];
+        std::iter::once(self.time).chain(arrays.into_iter().flatten().copied()).collect()
+    }
+
     /// What a function takes.
     pub fn input(&self, symbol: Symbol) -> f64 {
         match symbol {
@@ -125,8 +131,10 @@ impl Port<'_> {
             let parameters = compiled.parameters::<f64>(&fixed);
             let set = vectors.sets.len();
             let errors = self.own_errors::<f64>(&parameters, &vectors, set);
-            if errors.iter().any(is_lost) && !vectors.sets.is_empty() {
-                // No port can keep digits that the formulas lose.
+            let is_lost =
+                errors.iter().any(is_lost) || vectors.samples.len() == before.samples.len();
+            if is_lost && set > 0 {
+                // No port can keep digits that the formulas lose, or give what has no value.
                 vectors = before;
                 continue;
             }
@@ -247,7 +255,8 @@ impl Port<'_> {
         set
     }
 
-    /// Adds what the functions give with these parameters, where all have a value.
+    /// Adds what the functions give with these parameters, at points where all have a value. Those are
+    /// repeated in the place of others.
     fn sample(&self, parameters: &[Precise], vectors: &mut Vectors) {
         let set = vectors.sets.len();
         let outputs: Vec<Output> = self.callables.iter().map(|callable| callable.output).collect();
@@ -259,7 +268,10 @@ impl Port<'_> {
                 expected.push(rounded(interpreter.output(callable.output)));
             }
         }
-        for mut sample in points(self.compiled, parameters, set) {
+        let points = points(self.compiled, parameters, set);
+        let count = vectors.samples.len().checked_div(set).unwrap_or(points.len());
+        let mut valued = Vec::new();
+        for mut sample in points {
             let coordinates: Vec<Precise> = precise(&sample.coordinates);
             interpreter.set_time(&Precise::from_f64(sample.time));
             if self.values(GRADIENT).is_empty() {
@@ -277,11 +289,14 @@ impl Port<'_> {
                 .map(|callable| rounded(interpreter.output(callable.output)))
                 .collect();
             if values.iter().flatten().all(|value| value.is_finite()) {
-                let of_points = self.callables.iter().zip(&mut vectors.expected);
-                let of_points = of_points.filter(|(callable, _)| callable.is_of_points());
-                of_points.zip(values).for_each(|((_, expected), values)| expected.push(values));
-                vectors.samples.push(sample);
+                valued.push((sample, values));
             }
+        }
+        for (sample, values) in valued.into_iter().cycle().take(count) {
+            let of_points = self.callables.iter().zip(&mut vectors.expected);
+            let of_points = of_points.filter(|(callable, _)| callable.is_of_points());
+            of_points.zip(values).for_each(|((_, expected), values)| expected.push(values));
+            vectors.samples.push(sample);
         }
     }
 }

@@ -4,180 +4,180 @@ use std::fmt::Write as _;
 
 use super::comment;
 use crate::emit::port::Port;
-use crate::emit::port::callable::Callable;
-use crate::emit::port::vectors::Vectors;
+use crate::emit::port::check::{Check, columns, without};
+use crate::emit::port::vectors::Sample;
 use crate::emit::text::listed;
 use crate::quantity::Shape;
 
 /// The text of `FIELD_check.rs`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let vectors = port.subject.vectors();
-    let (name, dimension) = (&port.name, port.dimension());
-    let mut header = port.header();
-    header.push(format!(
-        "Checks {name}.rs: runs every function at the points below, prints its worst error, and fails where that is not accepted. {} Numbers are the bits of an `f64`.",
-        vectors.meaning()
-    ));
-    let mut text = comment(&header, "//");
-    let _ = write!(
-        text,
-        "\n#[path = \"{name}.rs\"]\nmod {name};\n\nuse {name}::Real;\n\n\
-         const SETS: usize = {};\n\n\
-         /// Parameters: the defaults, others, and extremes.\nconst PARAMETERS: [[u64; {}]; SETS] = [\n",
-        vectors.sets.len(),
-        port.parameters.len()
-    );
-    vectors.sets.iter().for_each(|set| text += &row(set));
-    let _ = write!(
-        text,
-        "];\n\n/// A point: of which set of parameters, t, X, N and H.\nstruct Sample {{\n    set: usize,\n    \
-         t: [u64; 1],\n    X: [u64; {dimension}],\n    N: [u64; {dimension}],\n    H: [u64; {}],\n}}\n\n",
-        dimension * dimension
-    );
-    text = text.replacen("struct Sample", "#[allow(dead_code, non_snake_case)]\nstruct Sample", 1);
-    let _ = writeln!(text, "const SAMPLES: [Sample; {}] = [", vectors.samples.len());
-    for sample in &vectors.samples {
-        let list = |values: &[f64]| row(values).trim().trim_end_matches(',').to_string();
-        let _ = writeln!(
-            text,
-            "    Sample {{\n        set: {},\n        t: {},\n        X: {},\n        N: {},\n        H: {},\n    }},",
-            sample.set,
-            list(&[sample.time]),
-            list(&sample.coordinates),
-            list(&sample.normal),
-            list(&sample.gradient)
-        );
-    }
-    text += "];\n\n";
-    for (callable, expected) in port.callables.iter().zip(&vectors.expected) {
-        let (upper, count) = (callable.name.to_ascii_uppercase(), callable.components.len());
-        let _ = writeln!(text, "const {upper}: [[u64; {count}]; {}] = [", expected.len());
-        expected.iter().for_each(|values| text += &row(values));
-        text += "];\n\n";
-    }
-    text += &include_str!("support/check.rs").replace("field_ ", &format!("{name} "));
-    text += "\nfn check<T: Real>(mut errors: Check) -> usize {\n";
-    text += &body(port, vectors);
-    text += "    errors.conclude()\n}\n\nfn main() {\n    \
-             let double = Check::new(\"double precision\", f64::EPSILON, f64::MIN_POSITIVE);\n    \
-             let mut failures = check::<f64>(double);\n";
-    text += match vectors.accepted_in_single {
-        Some(_) => {
-            "    let (eps, least) = (f64::from(f32::EPSILON), f64::from(f32::MIN_POSITIVE));\n    \
-            failures += check::<f32>(Check::new(\"single precision\", eps, least));\n"
-        }
-        None => {
-            "    failures += 0; // The range of single precision is too small for this field.\n"
-        }
-    };
-    text + "    std::process::exit(i32::from(failures > 0));\n}\n"
-}
-
-/// A row of numbers.
-fn row(values: &[f64]) -> String {
-    let bits: Vec<String> = values.iter().map(|value| format!("{:#x}", value.to_bits())).collect();
-    format!("    [{}],\n", listed(&bits, 92).join("\n     "))
-}
-
-fn body(port: &Port<'_>, vectors: &Vectors) -> String {
     let name = &port.name;
-    let mut text = String::new();
+    let mut header = port.check_header(&format!("{name}.rs"));
+    if let Some(last) = header.last_mut() {
+        *last += " Numbers are the bits of an `f64`.";
+    }
+    let mut text = comment(&header, "//");
+    let _ = write!(text, "\n#[path = \"{name}.rs\"]\nmod {name};\n\nuse {name}::Real;\n\n");
+    text + &tables(port) + &program(port)
+}
+
+fn tables(port: &Port<'_>) -> String {
+    let (vectors, samples) = (port.subject.vectors(), port.samples());
+    let mut text = format!("const SETS: usize = {};\n\n", vectors.sets.len());
     if !port.parameters.is_empty() {
-        let _ = writeln!(text, "    let defaults = {name}::Parameters::<T>::default();");
-    }
-    for (parameter, value) in port.parameters.values().zip(&vectors.defaults) {
-        let _ = writeln!(
+        let sets: String = vectors.sets.iter().map(|set| row(set, 4)).collect();
+        let _ = write!(
             text,
-            "    errors.compare(0, &[{:#x}], &[defaults.{parameter}]);\n    \
-             errors.settle(\"default of {parameter}\", 1.0);",
-            value.to_bits()
+            "/// Parameters: the defaults, others, and extremes.\n\
+             const PARAMETERS: [[u64; {}]; SETS] = [\n{sets}];\n\n",
+            port.parameters.len()
         );
     }
-    let (first, names): (_, Vec<&str>) =
-        ("        let mut parameters = ", port.parameters.values().map(String::as_str).collect());
-    let mutable = if names.is_empty() { first.replace("mut ", "") } else { first.into() };
-    let values = if names.is_empty() { "_" } else { "values" };
-    let _ = writeln!(
-        text,
-        "    let fields = PARAMETERS.map(|{values}| {{\n{mutable}{name}::Parameters::<T>::default();"
-    );
-    if !names.is_empty() {
-        let targets: Vec<String> = names.iter().map(|name| format!("parameters.{name}")).collect();
-        let _ = writeln!(
+    if !samples.is_empty() {
+        let dimension = port.dimension();
+        let points: String = samples.iter().map(|samples| points(samples)).collect();
+        let _ = write!(
             text,
-            "        [\n            {},\n        ] = of(values);",
-            listed(&targets, 84).join("\n            ")
+            "const POINTS: usize = {};\n\n/// The points of a set of parameters.\n\
+             #[allow(dead_code, non_snake_case)]\nstruct Points<T> {{\n    \
+             t: [T; POINTS],\n    X: Columns<T, {dimension}>,\n    N: Columns<T, {dimension}>,\n    \
+             H: Columns<T, {}>,\n}}\n\nconst POINTS_OF: [Points<u64>; SETS] = [\n{points}];\n\n",
+            port.points(),
+            dimension * dimension
         );
     }
-    let _ = writeln!(text, "        {name}::prepare(&parameters)\n    }});");
-    let single = vectors.accepted_in_single.as_ref().unwrap_or(&vectors.accepted);
-    for (place, callable) in port.callables.iter().enumerate() {
-        if !vectors.expected[place].is_empty() {
-            text += &check(port, callable, vectors.accepted[place].max(single[place]));
-        }
+    for Check { callable, expected, .. } in port.checks() {
+        let (upper, count) = (callable.name.to_ascii_uppercase(), callable.components.len());
+        let rows = if callable.is_of_points() { "POINTS" } else { "1" };
+        let values: String = expected.iter().map(|rows| block(rows, "", 4)).collect();
+        let _ = write!(text, "const {upper}: [[[u64; {rows}]; {count}]; SETS] = [\n{values}];\n\n");
     }
     text
 }
 
-fn check(port: &Port<'_>, callable: &Callable, accepted: u32) -> String {
-    let dimension = port.dimension();
-    let (function, upper) = (&callable.name, callable.name.to_ascii_uppercase());
-    if !callable.is_of_points() {
-        let found = if callable.is_scalar() { "&[found]" } else { "&found" };
-        return format!(
-            "    for (set, expected) in {upper}.iter().enumerate() {{\n        \
-             let found = fields[set].{function}();\n        errors.compare(set, expected, {found});\n    }}\n    \
-             errors.settle(\"{function}\", {accepted}.0);\n"
-        );
-    }
-    let owner = match callable.time {
-        true => "fields[sample.set].at_time(of(sample.t)[0])",
-        false => "fields[sample.set]",
+/// The points of a set of parameters, as columns.
+fn points(samples: &[Sample]) -> String {
+    let column = |name: &str, of: fn(&Sample) -> Vec<f64>| {
+        let rows: Vec<Vec<f64>> = samples.iter().map(of).collect();
+        block(&rows, name, 8)
     };
-    let argument = |array: &str| match array {
-        "H" => rows("of(sample.H)", dimension),
-        array => format!("of(sample.{array})"),
-    };
-    let arguments: Vec<String> =
-        callable.arrays().iter().map(|(array, _)| argument(array)).collect();
-    let found = match callable.shape {
-        Some(Shape::Scalar) => "&[found]",
-        Some(Shape::Tensor) => "found.as_flattened()",
-        _ => "&found",
-    };
-    // Through the function of many points: the first point, whatever it gives, and this one.
-    let columns: String = callable
-        .arrays()
-        .iter()
-        .map(|(array, _)| {
-            format!(
-                "            columns(SAMPLES[0].{array}, sample.{array}).each_ref().map(|it| &it[..]),\n"
-            )
-        })
-        .collect();
-    let count = callable.components.len();
+    let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
     format!(
-        "    for (sample, expected) in SAMPLES.iter().zip(&{upper}) {{\n        \
-         let subject = {owner};\n        \
-         let found = subject.{function}({});\n        \
-         errors.compare(sample.set, expected, {found});\n        \
-         let mut both = [of::<T, 2>([0; 2]); {count}];\n        \
-         subject.{function}_batch(\n{columns}            \
-         both.each_mut().map(|it| &mut it[..]),\n        );\n        \
-         errors.compare(sample.set, expected, &both.map(|it| it[1]));\n    }}\n    \
-         errors.settle(\"{function}\", {accepted}.0);\n",
-        arguments.join(", ")
+        "    Points {{\n        t: {}{}{}{}    }},\n",
+        row(&times, 8).trim_start(),
+        column("X: ", |it| it.coordinates.clone()),
+        column("N: ", |it| it.normal.clone()),
+        column("H: ", |it| it.gradient.clone())
     )
 }
 
-/// A list of D x D numbers as rows.
-fn rows(list: &str, dimension: usize) -> String {
-    let items: Vec<String> = (0..dimension)
-        .map(|row| {
-            let row: Vec<String> =
-                (0..dimension).map(|column| format!("h[{}]", row * dimension + column)).collect();
-            format!("[{}]", row.join(", "))
-        })
-        .collect();
-    format!("{{\n            let h = {list};\n            [{}]\n        }}", items.join(", "))
+/// The columns of rows, behind `name` and as many spaces.
+fn block(rows: &[Vec<f64>], name: &str, indent: usize) -> String {
+    let columns: String = columns(rows).iter().map(|column| row(column, indent + 4)).collect();
+    format!("{:indent$}{name}[\n{columns}{:indent$}],\n", "", "")
+}
+
+/// A row of numbers, behind as many spaces.
+fn row(values: &[f64], indent: usize) -> String {
+    let bits: Vec<String> = values.iter().map(|value| format!("{:#x}", value.to_bits())).collect();
+    let lines = listed(&bits, 96 - indent).join(&format!("\n{:indent$} ", ""));
+    format!("{:indent$}[{lines}],\n", "")
+}
+
+/// The program itself, with its list of functions.
+fn program(port: &Port<'_>) -> String {
+    let (name, checks) = (&port.name, port.checks());
+    let mut text = include_str!("support/check.rs").to_string();
+    if checks.iter().any(|check| check.accepted_in_single.is_none()) {
+        text = text.replace("    check_all::<f32>(&mut errors);\n", "");
+    }
+    let functions: String = match checks.is_empty() {
+        true => "        let _ = field;\n".into(),
+        false => checks.iter().map(call).collect(),
+    };
+    let helpers = [
+        ("flat(", "/// The components of a tensor", "/// A tensor of"),
+        ("square(", "/// A tensor of", "impl Points"),
+    ];
+    for (_, first, end) in helpers.into_iter().filter(|(call, ..)| !functions.contains(call)) {
+        text = without(&text, first, end);
+    }
+    if port.parameters.is_empty() && port.points() == 0 {
+        text = without(&text, "/// Numbers in the precision", "/// The numbers of a point.");
+    }
+    if port.points() == 0 {
+        text = without(&text, "/// Columns of numbers", "#[derive");
+        text = without(&text, "/// The numbers of a point.", "fn check_all");
+        text = without(&text, "        let at: ", "        FUNCTIONS");
+    }
+    text.replace("DIMENSION", &port.dimension().to_string())
+        .replace("field_", name)
+        .replace("    DEFAULTS;\n", &defaults(port))
+        .replace("        PARAMETERS;\n", &parameters(port))
+        .replace("        FUNCTIONS;\n", &functions)
+}
+
+/// The lines that check the defaults of the parameters.
+fn defaults(port: &Port<'_>) -> String {
+    let mut text = match port.parameters.is_empty() {
+        true => String::new(),
+        false => format!("    let defaults = {}::Parameters::<T>::default();\n", port.name),
+    };
+    for (parameter, value) in port.parameters.values().zip(&port.subject.vectors().defaults) {
+        let _ = writeln!(
+            text,
+            "    errors.check(\"default of {parameter}\", 1.0, &[[{:#x}]], &[[defaults.{parameter}]]);",
+            value.to_bits()
+        );
+    }
+    text
+}
+
+/// The lines that make parameters of a set of numbers.
+fn parameters(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let members: Vec<String> =
+        port.parameters.values().map(|parameter| format!("parameters.{parameter}")).collect();
+    if members.is_empty() {
+        return format!("        let parameters = {name}::Parameters::<T>::default();\n");
+    }
+    format!(
+        "        let mut parameters = {name}::Parameters::<T>::default();\n        \
+         [\n            {},\n        ] = real(PARAMETERS[set]);\n",
+        listed(&members, 84).join("\n            ")
+    )
+}
+
+/// The lines that check a function.
+fn call(check: &Check<'_>) -> String {
+    let (callable, accepted) = (check.callable, check.accepted_in_both());
+    let (function, upper) = (&callable.name, callable.name.to_ascii_uppercase());
+    let line = |name: &str, found: String| {
+        let start = format!("        errors.check(\"{name}\", {accepted}.0, &{upper}[set],");
+        let between = if start.len() + found.len() < 96 { " " } else { "\n            " };
+        format!("{start}{between}&{found});\n")
+    };
+    if !callable.is_of_points() {
+        let found = match callable.is_scalar() {
+            true => format!("[[field.{function}()]]"),
+            false => format!("field.{function}().map(|it| [it])"),
+        };
+        return line(function, found);
+    }
+    let of = if callable.time { "now[p]" } else { "field" };
+    let arrays = callable.arrays();
+    let given = arrays.iter().map(|(array, _)| match *array {
+        "H" => "square(row(&at.H, p))".to_string(),
+        array => format!("row(&at.{array}, p)"),
+    });
+    let one = format!("{of}.{function}({})", given.collect::<Vec<_>>().join(", "));
+    let one = match callable.shape {
+        Some(Shape::Scalar) => format!("[{one}]"),
+        Some(Shape::Tensor) => format!("flat({one})"),
+        _ => one,
+    };
+    let given: String = arrays.iter().map(|(array, _)| format!("from(&at.{array}, p), ")).collect();
+    let many = format!("{of}.{function}_batch({given}out)");
+    line(function, format!("one(|p| {one})"))
+        + &line(&format!("{function}_batch"), format!("many(|p, out| {many})"))
 }

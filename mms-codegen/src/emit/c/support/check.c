@@ -1,57 +1,46 @@
-#ifdef FIELD_FLOAT
-static const double eps = (double)FLT_EPSILON, least = (double)FLT_MIN;
-#else
-static const double eps = DBL_EPSILON, least = DBL_MIN;
-#endif
+static const double eps = sizeof(real) < sizeof(double) ? (double)FLT_EPSILON : DBL_EPSILON;
+static const double least = sizeof(real) < sizeof(double) ? (double)FLT_MIN : DBL_MIN;
+static double worst = 0.0;
+static int failures = 0;
 
-static double errors[SETS], magnitudes[SETS], worst;
-static const char *worst_name = "nothing";
-static int failures;
-
-static void compare(int set, int count, const double *expected, const field_real *found)
+/* Compares what a function gives with a set of parameters. */
+static void check(const char *name, int n, int accepted, const double *expected, const real *found)
 {
-    for (int k = 0; k < count; k++) {
-        const double value = (double)found[k];
-        const double error = isfinite(value) ? fabs(value - expected[k]) : HUGE_VAL;
-        errors[set] = fmax(errors[set], error);
-        magnitudes[set] = fmax(magnitudes[set], fabs(expected[k]));
+    double error = 0.0, magnitude = least;
+    for (int k = 0; k < n; k++) {
+        const double difference = fabs((double)found[k] - expected[k]);
+        error = fmax(error, isfinite(difference) ? difference : HUGE_VAL);
+        magnitude = fmax(magnitude, fabs(expected[k]));
+    }
+    error = error / magnitude / eps;
+    worst = fmax(worst, error);
+    if (error > accepted) {
+        printf("%s: %.3g eps, accepted %d\n", name, error, accepted);
+        failures++;
     }
 }
 
-/* Ends the comparison of a function. */
-static void settle(const char *name, int accepted)
+/* Calls a function, which puts COUNT numbers into `out`, at each of so many points. */
+#define CHECK(NAME, ROWS, COUNT, ACCEPTED, CALL)                              \
+    for (int p = 0; p < ROWS; p++) {                                          \
+        real *const out = &found[COUNT * p];                                  \
+        CALL;                                                                 \
+    }                                                                         \
+    check(#NAME, ROWS * COUNT, ACCEPTED, expected_##NAME[set][0], found)
+
+int main(void)
 {
+    static real found[FOUND];
+    DEFAULTS
     for (int set = 0; set < SETS; set++) {
-        const double error = errors[set] / fmax(magnitudes[set], least) / eps;
-        if (error > accepted) {
-            printf("%s: %.3g eps, accepted %d\n", name, error, accepted);
-            failures++;
+        const field_field field = field_prepare(&sets[set]);
+        const struct point *const at = points[set];
+        field_instant now[POINTS];
+        for (int p = 0; p < POINTS; p++) {
+            now[p] = field_at_time(&field, at[p].t);
         }
-        if (error > worst) {
-            worst = error;
-            worst_name = name;
-        }
-        errors[set] = magnitudes[set] = 0.0;
+        FUNCTIONS
     }
+    printf("field_: worst error %.3g eps\n", worst);
+    return failures > 0;
 }
-
-static int conclude(void)
-{
-    printf("field_: worst error %.3g eps, of %s\n", worst, worst_name);
-    return failures == 0 ? 0 : 1;
-}
-
-#define CHECK_ROWS(ROWS, SET, NAME, COUNT, ACCEPTED, CALL)  \
-    for (int s = 0; s < ROWS; s++) {                        \
-        field_real out[COUNT];                              \
-        CALL;                                               \
-        compare(SET, COUNT, NAME##_expected[s], out);       \
-    }                                                       \
-    settle(#NAME, ACCEPTED)
-#define CHECK(NAME, COUNT, ACCEPTED, CALL) \
-    CHECK_ROWS(SAMPLES, samples[s].set, NAME, COUNT, ACCEPTED, CALL)
-#define CHECK_DOMAIN(NAME, COUNT, ACCEPTED, CALL) CHECK_ROWS(SETS, s, NAME, COUNT, ACCEPTED, CALL)
-#define CHECK_DEFAULT(NAME, VALUE)                          \
-    compare(0, 1, &(const double){VALUE}, &defaults.NAME);  \
-    settle("default of " #NAME, 1)
-

@@ -1,78 +1,71 @@
-/// The errors of one precision.
-template <class T> class Check {
-public:
-    explicit Check(const char *precision) : precision_(precision) {}
+int failures = 0;
+double worst = 0.0;
 
-    void compare(int set, const double *expected, const T *found, int count)
-    {
-        for (int k = 0; k < count; k++) {
-            const double value = static_cast<double>(found[k]);
-            const double error = std::isfinite(value) ? std::fabs(value - expected[k]) : HUGE_VAL;
-            errors_[set] = std::fmax(errors_[set], error);
-            magnitudes_[set] = std::fmax(magnitudes_[set], std::fabs(expected[k]));
-        }
-    }
-
-    /// Ends the comparison of a function.
-    void settle(const char *name, int accepted)
-    {
-        const double eps = static_cast<double>(std::numeric_limits<T>::epsilon());
-        const double least = static_cast<double>(std::numeric_limits<T>::min());
-        for (int set = 0; set < SETS; set++) {
-            const double error = errors_[set] / std::fmax(magnitudes_[set], least) / eps;
-            if (error > accepted) {
-                std::printf("%s in %s: %.3g eps, accepted %d\n", name, precision_, error, accepted);
-                failures_++;
-            }
-            if (error > worst_) {
-                worst_ = error;
-                worst_name_ = name;
-            }
-            errors_[set] = magnitudes_[set] = 0.0;
-        }
-    }
-
-    int conclude() const
-    {
-        std::printf("field_ in %s: worst error %.3g eps, of %s\n", precision_, worst_, worst_name_);
-        return failures_;
-    }
-
-private:
-    const char *precision_;
-    const char *worst_name_ = "nothing";
-    double errors_[SETS] = {}, magnitudes_[SETS] = {}, worst_ = 0.0;
-    int failures_ = 0;
-};
-
-/// Numbers in the precision that is checked.
-template <class T, std::size_t N> std::array<T, N> of(const double (&values)[N])
+/// Compares what a function gives with a set of parameters.
+template <class T>
+void check(const char *name, int n, int accepted, const double *expected, const T *found)
 {
-    std::array<T, N> result{};
-    for (std::size_t k = 0; k < N; k++) {
-        result[k] = static_cast<T>(values[k]);
+    double error = 0.0, magnitude = static_cast<double>(std::numeric_limits<T>::min());
+    for (int k = 0; k < n; k++) {
+        const double difference = std::fabs(static_cast<double>(found[k]) - expected[k]);
+        error = std::fmax(error, std::isfinite(difference) ? difference : HUGE_VAL);
+        magnitude = std::fmax(magnitude, std::fabs(expected[k]));
     }
-    return result;
+    error = error / magnitude / static_cast<double>(std::numeric_limits<T>::epsilon());
+    worst = std::fmax(worst, error);
+    if (error > accepted) {
+        std::printf("%s: %.3g eps of %zu bytes, accepted %d\n", name, error, sizeof(T), accepted);
+        failures++;
+    }
 }
 
-/// Two points as a function of many takes them: a column for each number.
-template <class T, std::size_t N>
-std::array<T, 2 * N> columns(const double (&first)[N], const double (&second)[N])
+/// The numbers of a point, of columns of them.
+template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][POINTS], int p)
 {
-    std::array<T, 2 * N> result{};
+    std::array<T, N> numbers{};
     for (std::size_t k = 0; k < N; k++) {
-        result[2 * k] = static_cast<T>(first[k]);
-        result[2 * k + 1] = static_cast<T>(second[k]);
+        numbers[k] = columns[k][p];
     }
-    return result;
+    return numbers;
 }
 
-/// What it gives at the second of two points.
-template <class T, std::size_t N> std::array<T, N / 2> second(const T (&both)[N])
+/// Calls a function of one point, which puts COUNT numbers into `out`, at each; and that of many, for
+/// each point and all behind it.
+#define CHECK(NAME, COUNT, ACCEPTED, ONE, MANY)                                            \
+    for (int p = 0; p < POINTS; p++) {                                                     \
+        ONE;                                                                               \
+        for (int k = 0; k < COUNT; k++) {                                                  \
+            found[k][p] = out[k];                                                          \
+        }                                                                                  \
+    }                                                                                      \
+    check(#NAME, COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0]);             \
+    for (std::size_t p = 0; p < POINTS; p++) {                                             \
+        MANY;                                                                              \
+    }                                                                                      \
+    check(#NAME "_batch", COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0])
+
+template <class T> void check_all()
 {
-    std::array<T, N / 2> result{};
-    for (std::size_t k = 0; k < N / 2; k++) {
-        result[k] = both[2 * k + 1];
+    T out[WIDEST];
+    DEFAULTS
+    for (int set = 0; set < SETS; set++) {
+        const auto field = field_::prepare(sets<T>[set]);
+        const auto &at = points<T>[set];
+        T found[WIDEST][POINTS];
+        field_::Instant<T> now[POINTS];
+        for (int p = 0; p < POINTS; p++) {
+            now[p] = field_::at_time(field, at.t[p]);
+        }
+        FUNCTIONS
     }
-    return result;
+}
+
+} // namespace
+
+int main()
+{
+    check_all<double>();
+    check_all<float>();
+    std::printf("field_: worst error %.3g eps\n", worst);
+    return failures > 0;
 }

@@ -1,3 +1,19 @@
+function most = eps_between(found, expected, precision)
+  % The largest error, in eps of the largest magnitude.
+  difference = abs(double(found(:)) - expected(:));
+  difference(~isfinite(difference)) = Inf;
+  magnitude = max([abs(expected(:)); double(realmin(precision))]);
+  most = max(difference) / magnitude / double(eps(precision));
+end
+
+function is = refused(name, most, accepted)
+  % Whether an error is not accepted, which is printed.
+  is = ~(most <= accepted);
+  if is
+    fprintf('%s: %.3g eps, accepted %d\n', name, most, accepted);
+  end
+end
+
 function values = rows(text)
   % Lines of numbers, of 16 hexadecimal digits each.
   [count, width] = size(text);

@@ -14,3 +14,5 @@ def numbers(value):
     """The components of a result."""
     components = list(value) if hasattr(value, "shape") else [value]
     return [float(sp.sympify(component).evalf(DIGITS)) for component in components]
+
+

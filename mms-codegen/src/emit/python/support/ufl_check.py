@@ -1,7 +1,7 @@
 
 
-# What stands for the columns of the samples in expressions.
-LEAVES = [ufl.variable(ufl.as_ufl(1.0)) for _ in rows(SAMPLES)[0]] if SAMPLES else []
+# What stands for the numbers of a point in expressions.
+LEAVES = [ufl.variable(ufl.as_ufl(1.0)) for _ in (rows(POINTS[0]) or [[]])[0]]
 OPERATIONS = {
     "Sum": lambda a, b: a + b,
     "Product": lambda a, b: a * b,
@@ -23,9 +23,15 @@ OPERATIONS = {
 }
 
 
-def evaluated(expression, sample):
+@functools.cache
+def expression(owner, name, *columns):
+    """What a function gives, of leaves."""
+    return getattr(owner, name)(*(LEAVES[column] for column in columns))
+
+
+def evaluated(expression, point):
     """The components of an expression, each node of which is computed once, in double precision."""
-    values = dict(zip(LEAVES, sample))
+    values = dict(zip(LEAVES, point))
     for node in unique_post_traversal(expression):
         kind = type(node).__name__
         if node in values or kind in ("MultiIndex", "Label"):
@@ -39,3 +45,5 @@ def evaluated(expression, sample):
         else:
             values[node] = float(node)
     return [float(number) for number in flat(values[expression])]
+
+
