@@ -287,6 +287,20 @@ mod tests {
     }
 
     #[test]
+    fn intervals_meet_where_they_touch() {
+        let middle = Interval::new(1.0, 2.0);
+        for (lower, upper, meets) in [
+            (0.0, 0.5, false),
+            (0.0, 1.0, true),
+            (1.5, 3.0, true),
+            (2.0, 3.0, true),
+            (2.5, 3.0, false),
+        ] {
+            assert_eq!(middle.meets(Interval::new(lower, upper)), meets, "{lower} {upper}");
+        }
+    }
+
+    #[test]
     fn what_overflows_is_bounded_on_one_side() {
         let large = Interval::new(f64::MAX, f64::MAX);
         let product = large * large;
@@ -305,6 +319,13 @@ mod tests {
         assert_eq!((beyond.lower, beyond.upper), (f64::MAX, f64::INFINITY));
         let small = Interval::from_rational(&(Rational::ONE / power));
         assert_eq!((small.lower, small.upper), (0.0, f64::from_bits(1)));
+    }
+
+    #[test]
+    fn a_quotient_that_underflows_keeps_its_sign() {
+        let (tiny, four) = (f64::from_bits(1), Interval::new(4.0, 4.0));
+        assert_eq!(Interval::new(tiny, tiny) / four, Interval::new(0.0, tiny));
+        assert_eq!(Interval::new(-tiny, -tiny) / four, Interval::new(-tiny, 0.0));
     }
 
     #[test]
