@@ -327,6 +327,36 @@ fn heavy(displacement: &str) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
+/// A parameter of the material may have the name of the field's that it is.
+#[test]
+fn no_line_says_that_a_name_is_itself() {
+    let mut namesakes = 0;
+    for document in WHOLE.iter() {
+        let arguments = &document.material.arguments;
+        namesakes += arguments.iter().filter(|line| document.is_identity(line)).count();
+        for line in text::page(document).lines() {
+            let Some((left, right)) = line.split_once(" = ") else { continue };
+            assert_ne!(left.trim(), right.trim(), "{}: {line}", document.name);
+        }
+    }
+    assert!(namesakes > 0, "a test without such a name");
+}
+
+#[test]
+fn operations_of_all_stages_are_told_and_whole_exponents_raised() {
+    for document in WHOLE.iter() {
+        let page = text::page(document);
+        for (stage, count) in document.sections.iter().flat_map(|section| &section.operations) {
+            assert!(
+                page.contains(&format!("{count} {}", stage.name())),
+                "{}: {page}",
+                document.name
+            );
+        }
+        assert!(!page.contains("^(2)"), "{}: {page}", document.name);
+    }
+}
+
 #[test]
 fn a_wall_is_broken_into_lines() {
     let terms: Vec<_> = (1..150).map(|k| format!("sin({k}*X + t)/{}", 1000 + k * k)).collect();

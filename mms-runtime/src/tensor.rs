@@ -122,6 +122,10 @@ mod tests {
             }
             let found = stretch_along_axes(&h).unwrap();
             assert!((found - u.diagonal()).amax() < 4e-15, "{aside}: {found}");
+            // A body a thousand times smaller is stretched alike; F/1024 - I has lost three digits of F.
+            let small = f / 1024.0 - Matrix::identity();
+            let smaller = stretch_along_axes(&small).unwrap() * 1024.0;
+            assert!((smaller - found).amax() < 1e-12, "{aside}: {smaller}");
         }
         assert!(stretch_along_axes(&Matrix::<f64, 2>::new(0.0, 1.0, 1.0, 0.0)).is_none());
         assert!(stretch_along_axes(&Matrix::<f64, 2>::repeat(f64::NAN)).is_none());

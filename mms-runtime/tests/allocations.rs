@@ -1,4 +1,5 @@
-//! A step allocates nothing, whether particles are sorted in it or not. One test alone, since it counts what the whole process does.
+//! A step allocates nothing, whether particles are sorted in it or not, and particles hold what they say. One test
+//! alone, since it counts what the whole process does.
 
 mod common;
 
@@ -26,11 +27,18 @@ fn allocated<S: Shape, I: Integrator>(
     for _ in 0..40 {
         solver.step::<I>().unwrap();
     }
-    (MEMORY.peak_usage() - before, MEMORY.current_usage() - before)
+    let seen = (MEMORY.peak_usage() - before, MEMORY.current_usage() - before);
+    // The memory of the particles is what they say; their number is one of whole bunches.
+    let particles = solver.particles();
+    let before = MEMORY.current_usage();
+    let copy = particles.clone();
+    let held = MEMORY.current_usage() - before;
+    assert_eq!(held, particles.bytes_per_particle() * copy.len());
+    seen
 }
 
 #[test]
-fn a_step_allocates_nothing() {
+fn a_step_allocates_nothing_and_particles_hold_what_they_say() {
     let (updated, total) = (FormulationName::Updated, FormulationName::Total);
     assert_eq!(allocated::<Ugimp, Leapfrog>(updated, Transfer::FLIP), (0, 0));
     assert_eq!(allocated::<Cpdi, Musl>(updated, Transfer::Apic), (0, 0));

@@ -21,12 +21,15 @@ struct Spoilt {
     spoilt_from: usize,
     body_force: f64,
     evaluations: AtomicUsize,
+    /// Waves are faster by this times X.
+    faster: f64,
 }
 
 impl Spoilt {
     fn domain(domain: fn(&mut Domain<f64, 1>)) -> Self {
         let evaluations = AtomicUsize::new(0);
-        Self { bar: Bar::default(), domain, spoilt_from: usize::MAX, body_force: 0.0, evaluations }
+        let (spoilt_from, body_force, faster) = (usize::MAX, 0.0, 0.0);
+        Self { bar: Bar::default(), domain, spoilt_from, body_force, evaluations, faster }
     }
 }
 
@@ -36,6 +39,7 @@ impl Material<f64, 1> for Spoilt {
     }
     fn wave_speed(&self, x: &[Vector<f64, 1>], speed: &mut [f64]) {
         self.bar.wave_speed(x, speed);
+        speed.iter_mut().zip(x).for_each(|(speed, x)| *speed *= 1.0 + self.faster * x[0]);
     }
     fn kirchhoff_stress(
         &self,
@@ -224,6 +228,10 @@ fn axes_that_are_not_periodic_are_refused() {
     assert!(refusal.to_string().starts_with("axis y cannot be periodic"), "{refusal}");
     let refusal = refused(&Wave::on_box([1.0, 0.5]), periodic(1), &8.into());
     assert_eq!(refusal, Refusal::NotPeriodic { axis: 1 });
+    // sin p = sin(q + p) at the start alone.
+    let phase = Vector::repeat((std::f64::consts::PI - 1.0) / 2.0);
+    let once = Wave { vectors: Matrix::repeat(1.0), phase, ..Wave::bar() };
+    assert_eq!(refused(&once, periodic(0), &8.into()), Refusal::NotPeriodic { axis: 0 });
 }
 
 #[test]
@@ -305,6 +313,19 @@ fn a_particle_that_leaves_the_grid_is_lost() {
     let failure = failure(run(&field, &method, 8).unwrap());
     assert!(matches!(failure.cause, Cause::Lost { .. }), "{failure}");
     assert!(failure.to_string().contains("left the grid"));
+}
+
+/// The bar is fastest at its far end.
+#[test]
+fn a_step_above_the_stable_one_is_blamed_on_the_fastest_particle() {
+    let field = Spoilt { faster: 1.0, ..Spoilt::domain(|_| ()) };
+    let fastest_wave = Some(4.0 * 1e3_f64.sqrt());
+    let setup = Setup { fastest_wave, courant: 0.6, ..Setup::default() };
+    let level = run(&field, &with(setup), 8).unwrap();
+    let last = level.particles - 1;
+    let failure = failure(level);
+    assert!(matches!(failure.cause, Cause::UnstableStep { .. }), "{failure}");
+    assert_eq!(failure.particle, Some(last));
 }
 
 /// Far above every method's largest stable Courant number.

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Affine, Bar, levels, method, methods, wave::Wave};
-use mms_runtime::integrator::{Integrator, IntegratorVisitor};
+use mms_runtime::integrator::{Integrator, IntegratorVisitor, Leapfrog};
 use mms_runtime::shape::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Shape};
 use mms_runtime::study::observed_order;
 use mms_runtime::{
@@ -48,6 +48,24 @@ fn free_flight_is_exact() {
     free_flight::<f64, 2>(2, &all);
     free_flight::<f32, 1>(8, &methods());
     free_flight::<f32, 2>(3, &methods());
+}
+
+/// A step of FLIP with a fraction is that much of a step of FLIP, and the rest one of PIC.
+#[test]
+fn flip_with_a_fraction_lies_between_flip_and_pic() {
+    let wave = Wave::stretched_bar();
+    let velocities = |transfer: Transfer| -> Vec<f64> {
+        let (updated, setup) = (FormulationName::Updated, Setup { transfer, ..Setup::default() });
+        let mut solver = Solver::<f64, 1, _, Cpgimp>::new(&wave, updated, &setup, &EIGHT).unwrap();
+        solver.step::<Leapfrog>().unwrap();
+        solver.particles().velocity.iter().map(|v| v[0]).collect()
+    };
+    let mixed = Transfer::Flip { fraction: 0.75 };
+    let [flip, pic, mixed] = [Transfer::FLIP, Transfer::Pic, mixed].map(velocities);
+    for ((flip, pic), mixed) in flip.iter().zip(&pic).zip(&mixed) {
+        assert!((flip - pic).abs() > 1e-6, "{flip} {pic}");
+        assert!((mixed - (0.75 * flip + 0.25 * pic)).abs() < 1e-15, "{flip} {pic} {mixed}");
+    }
 }
 
 /// Here every transfer, with each shape function in each formulation, and one integrator.

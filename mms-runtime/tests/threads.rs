@@ -3,7 +3,7 @@
 mod common;
 
 use common::wave::Wave;
-use mms_runtime::study::{Level, Watch};
+use mms_runtime::study::{Frame, Level, Observer, Watch, run_level};
 use mms_runtime::{
     Condition, FormulationName, IntegratorName, Method, Run, Setup, ShapeName, Solve, Transfer,
 };
@@ -39,6 +39,37 @@ fn any_number_of_threads_gives_the_same_bits() {
             }
         }
     }
+}
+
+/// The states that are to be seen.
+struct Ends(Vec<Frame>);
+
+impl Observer for Ends {
+    fn step(&mut self, _: usize, _: usize) {}
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        step == 0 || step == steps
+    }
+    fn see(&mut self, frame: &Frame) -> Result<(), String> {
+        self.0.push(frame.clone());
+        Ok(())
+    }
+}
+
+/// However particles are sorted, those of a state are in the order of their numbers: each has the X that it had.
+#[test]
+fn states_have_their_particles_in_the_first_order() {
+    let setup = Setup { end_time: Some(0.15), ..Setup::default() };
+    let method = Method { setup, ..Method::default() };
+    let mut ends = Ends(Vec::new());
+    let wave = Wave::sliding(Condition::Prescribed);
+    let level = run_level(&wave, &method, &40.into(), &mut ends).unwrap();
+    assert!(level.errors.is_ok() && ends.0.len() == 2, "{:?}", level.errors);
+    let reference = |frame: &Frame| -> Vec<f64> {
+        assert_eq!(frame.position.len(), 2 * level.particles);
+        frame.position.iter().zip(&frame.displacement).map(|(x, d)| x - d).collect()
+    };
+    let [before, after] = [reference(&ends.0[0]), reference(&ends.0[1])];
+    assert!(before.iter().zip(&after).all(|(before, after)| (before - after).abs() < 1e-15));
 }
 
 /// Errors go on falling where slabs begin.

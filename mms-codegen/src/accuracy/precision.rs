@@ -113,3 +113,21 @@ impl Digits for Double {
         (self.to_f64(), self.low())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Precision;
+
+    #[test]
+    fn half_of_the_smallest_is_nothing_and_twice_the_largest_infinite() {
+        for precision in [Precision::F32, Precision::F64, Precision::Wide] {
+            let of_type = |number: f64| match precision {
+                Precision::F32 => f64::from(number as f32),
+                Precision::F64 | Precision::Wide => number,
+            };
+            let (smallest, largest) = (precision.smallest(), precision.largest());
+            assert!(of_type(smallest) > 0.0 && of_type(smallest / 2.0) == 0.0);
+            assert!(of_type(largest).is_finite() && of_type(largest * 2.0).is_infinite());
+        }
+    }
+}

@@ -325,3 +325,37 @@ fn directions(dimension: usize) -> Grid {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Hertz bounds the ends, and Weyl what is between.
+    #[test]
+    fn eigenvalues_of_intervals_are_sharp_at_the_ends() {
+        let [one, three] = [1.0, 3.0].map(|middle| Interval::new(middle - 0.125, middle + 0.125));
+        let zero = Interval::from_f64(0.0);
+        let bounds = eigenvalues(&[one, zero, zero, three]);
+        let weyl = 0.125 * 2.0_f64.sqrt();
+        let expected = [[0.875, 1.0 + weyl], [3.0 - weyl, 3.125]];
+        for (bound, [lower, upper]) in bounds.into_iter().zip(expected) {
+            assert!((bound.lower() - lower).abs() < 1e-7, "{bound:?}");
+            assert!((bound.upper() - upper).abs() < 1e-7, "{bound:?}");
+        }
+    }
+
+    /// The rates of a C and of an F that are known exactly, by hand.
+    #[test]
+    fn rates_of_numbers_are_those_numbers() {
+        let near = |bound: f64, value: f64| (value..value * (1.0 + 1e-8)).contains(&bound);
+        // C^-1 A has the rows (1/2, 3/4) and (1/3, -1/9).
+        let [form, rate] = [[4.0, 0.0, 0.0, 9.0], [2.0, 3.0, 3.0, -1.0]].map(|m| exactly(&m));
+        let relative = f64::sqrt(1.0 / 4.0 + 2.0 * 3.0 / 4.0 / 3.0 + 1.0 / 81.0);
+        let bound = largest_relative_rate(&form, &rate, 0.1);
+        assert!(near(bound, relative), "{bound} {relative}");
+        // A F^-1 has the rows (1, 1) and (3/2, -1/3).
+        let bound = largest_rate(&exactly(&[2.0, 0.0, 0.0, 3.0]), &rate, 0.1);
+        let symmetric = f64::sqrt(1.0 + 2.0 * 1.25 * 1.25 + 1.0 / 9.0);
+        assert!(near(bound, symmetric), "{bound} {symmetric}");
+    }
+}

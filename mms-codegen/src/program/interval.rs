@@ -66,11 +66,6 @@ impl Interval {
         self.lower <= other.lower && other.upper <= self.upper
     }
 
-    /// Whether some number lies within the bounds of both.
-    pub fn meets(self, other: Interval) -> bool {
-        self.lower <= other.upper && other.lower <= self.upper
-    }
-
     /// The numbers within the bounds of both, which enclose the same value.
     pub fn meet(self, other: Interval) -> Self {
         let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
@@ -305,6 +300,13 @@ mod tests {
         assert_eq!((beyond.lower, beyond.upper), (f64::MAX, f64::INFINITY));
         let small = Interval::from_rational(&(Rational::ONE / power));
         assert_eq!((small.lower, small.upper), (0.0, f64::from_bits(1)));
+    }
+
+    #[test]
+    fn a_quotient_that_underflows_keeps_its_sign() {
+        let (tiny, four) = (f64::from_bits(1), Interval::new(4.0, 4.0));
+        assert_eq!(Interval::new(tiny, tiny) / four, Interval::new(0.0, tiny));
+        assert_eq!(Interval::new(-tiny, -tiny) / four, Interval::new(-tiny, 0.0));
     }
 
     #[test]

@@ -98,3 +98,36 @@ impl<T: Real> Surface<T> {
         if ended { width * slack } else { width * (half_support - slack) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Surface;
+    use crate::body::faces;
+    use crate::{Body, Vector};
+
+    #[test]
+    fn normals_of_all_faces_point_away_from_the_body() {
+        let plate = Body::Box {
+            lower: Vector::<f64, 2>::new(-1.0, 0.5),
+            upper: Vector::<f64, 2>::new(2.0, 0.75),
+        };
+        let sector = Body::Annulus { inner: 0.5, outer: 1.0, theta: [0.25, 1.5] };
+        for (body, inside) in [(plate, [0.0, 0.625]), (sector, [0.5, 0.5])] {
+            let inside = Vector::<f64, 2>::from(inside);
+            for face in faces(&body) {
+                let surface = Surface::new(&body, face);
+                let [foot, normal] = surface.foot(&inside);
+                let depth = (foot - inside).norm();
+                assert!(depth > 0.1 && (normal.norm() - 1.0).abs() < 1e-15, "{face}");
+                // The nearest point is straight ahead, and its own nearest one.
+                assert!((inside + normal * depth - foot).norm() < 1e-15, "{face}");
+                assert!((surface.foot(&foot)[0] - foot).norm() < 1e-15, "{face}");
+                // An image is as far on the other side, and there is none of what is not beyond.
+                let beyond = foot + normal * 0.125;
+                let image = surface.image(&beyond).expect("the point is beyond");
+                assert!((image - (foot - normal * 0.125)).norm() < 1e-15, "{face}");
+                assert!(surface.image(&inside).is_none(), "{face}");
+            }
+        }
+    }
+}

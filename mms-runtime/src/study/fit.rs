@@ -135,6 +135,9 @@ mod tests {
         assert_eq!(fit(&[]), None);
         let one_step: Vec<_> = all.iter().map(|[h, _, e]| [*h, 1.0, *e]).collect();
         assert_eq!(fit(&one_step), None);
+        // Three h and three dt are enough.
+        let three: Vec<_> = all.iter().filter(|run| run[0] > 0.02).copied().collect();
+        assert!(fit(&three).is_some_and(|found| (found.space_order - 2.0).abs() < 1e-3));
         let mut broken = all.clone();
         broken[3][2] = f64::NAN;
         assert_eq!(fit(&broken), None);

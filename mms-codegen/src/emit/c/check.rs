@@ -113,6 +113,7 @@ fn program(port: &Port<'_>) -> String {
         text = without(&text, "        const struct point", "        FUNCTIONS");
     }
     text.replace("FOUND", &found)
+        .replace("field_:", &format!("{name}:"))
         .replace("field_", &format!("{name}_"))
         .replace("    DEFAULTS\n", &defaults(port))
         .replace("        FUNCTIONS\n", &functions)
