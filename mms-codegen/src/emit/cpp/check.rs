@@ -124,12 +124,12 @@ fn call(name: &str, check: &Check<'_>) -> String {
     let (callable, accepted) = (check.callable, check.accepted_in_both());
     let (function, count) = (&callable.name, callable.components.len());
     let of = if callable.time { "now[p]" } else { "field" }.to_string();
-    let (mut one, mut many) = (vec![of.clone()], vec![of, "POINTS - p".into()]);
+    let (mut one, mut many) = (vec![of.clone()], vec![of, "p + 1".into()]);
     for (array, count) in callable.arrays() {
         one.push(format!("row(at.{array}, p).data()"));
-        many.extend((0..count).map(|k| format!("&at.{array}[{k}][p]")));
+        many.extend((0..count).map(|k| format!("at.{array}[{k}]")));
     }
-    many.extend((0..count).map(|k| format!("&found[{k}][p]")));
+    many.extend((0..count).map(|k| format!("found[{k}]")));
     let mut result = "*out = ";
     if !callable.is_scalar() {
         result = "";

@@ -167,18 +167,15 @@ fn checked(port: &Port<'_>, check: &Check<'_>) -> String {
     text
 }
 
-/// The call of the procedure for C: of all points, or of each and all behind it where they have times.
+/// The call of the procedure for C: of all points; or where they have times of each and all before it, so that what is
+/// compared is the last of them.
 fn through_c(port: &Port<'_>, callable: &Callable) -> String {
-    let (indent, from) = if callable.time { ("        ", "p:") } else { ("      ", ":") };
+    let (indent, which) = if callable.time { ("        ", ":p") } else { ("      ", ":") };
     let mut arguments = Vec::new();
     if callable.is_of_points() {
         arguments.push(
-            if callable.time {
-                "points_count + 1_c_size_t - p"
-            } else {
-                "int(points_count, c_size_t)"
-            }
-            .to_string(),
+            if callable.time { "int(p, c_size_t)" } else { "int(points_count, c_size_t)" }
+                .to_string(),
         );
     }
     if !port.parameters.is_empty() {
@@ -190,12 +187,12 @@ fn through_c(port: &Port<'_>, callable: &Callable) -> String {
     let mut columns = callable.columns(port.dimension()).into_iter().map(|it| it + 1);
     for (_, count) in callable.arrays() {
         let first = columns.by_ref().take(count).min().unwrap_or(1);
-        arguments.push(format!("at({first}:{}, {from}, set)", first + count - 1));
+        arguments.push(format!("at({first}:{}, {which}, set)", first + count - 1));
     }
-    arguments.push(format!("of_c(:, {from})"));
+    arguments.push(format!("of_c(:, {which})"));
     let call = continued(&format!("{indent}call {}_c", callable.name), &arguments, "");
     match callable.time {
-        true => format!("      do p = 1, points_count\n{call}      end do\n"),
+        true => format!("      do p = points_count, 1, -1\n{call}      end do\n"),
         false => call,
     }
 }

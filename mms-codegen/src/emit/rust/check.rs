@@ -176,7 +176,8 @@ fn call(check: &Check<'_>) -> String {
         Some(Shape::Tensor) => format!("flat({one})"),
         _ => one,
     };
-    let given: String = arrays.iter().map(|(array, _)| format!("from(&at.{array}, p), ")).collect();
+    let given: String =
+        arrays.iter().map(|(array, _)| format!("up_to(&at.{array}, p), ")).collect();
     let many = format!("{of}.{function}_batch({given}out)");
     line(function, format!("one(|p| {one})"))
         + &line(&format!("{function}_batch"), format!("many(|p, out| {many})"))

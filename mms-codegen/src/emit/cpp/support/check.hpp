@@ -30,7 +30,7 @@ template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][POI
 }
 
 /// Calls a function of one point, which puts COUNT numbers into `out`, at each; and that of many, for
-/// each point and all behind it.
+/// each point and all before it, so that what is compared is the last of them.
 #define CHECK(NAME, COUNT, ACCEPTED, ONE, MANY)                                            \
     for (int p = 0; p < POINTS; p++) {                                                     \
         ONE;                                                                               \
@@ -39,7 +39,7 @@ template <class T, std::size_t N> std::array<T, N> row(const T (&columns)[N][POI
         }                                                                                  \
     }                                                                                      \
     check(#NAME, COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0]);             \
-    for (std::size_t p = 0; p < POINTS; p++) {                                             \
+    for (std::size_t p = POINTS; p-- > 0;) {                                               \
         MANY;                                                                              \
     }                                                                                      \
     check(#NAME "_batch", COUNT * POINTS, ACCEPTED, expected_##NAME[set][0], found[0])

@@ -46,9 +46,9 @@ fn row<T: Real, const N: usize>(columns: &Columns<T, N>, p: usize) -> [T; N] {
     columns.map(|column| column[p])
 }
 
-/// The numbers of a point and of all behind it.
-fn from<T: Real, const N: usize>(columns: &Columns<T, N>, p: usize) -> [&[T]; N] {
-    columns.each_ref().map(|column| &column[p..])
+/// The numbers of a point and of all before it.
+fn up_to<T: Real, const N: usize>(columns: &Columns<T, N>, p: usize) -> [&[T]; N] {
+    columns.each_ref().map(|column| &column[..=p])
 }
 
 /// What a function of one point gives at each.
@@ -57,10 +57,10 @@ fn one<T: Real, const N: usize>(call: impl Fn(usize) -> [T; N]) -> Columns<T, N>
     core::array::from_fn(|k| rows.each_ref().map(|row| row[k]))
 }
 
-/// What a function of many points gives, called for each point and all behind it.
+/// What a function of many points gives for the last of them, called for each point and all before it.
 fn many<T: Real, const N: usize>(call: impl Fn(usize, [&mut [T]; N])) -> Columns<T, N> {
     let mut found = [[T::of(0.0); POINTS]; N];
-    (0..POINTS).for_each(|p| call(p, found.each_mut().map(|column| &mut column[p..])));
+    (0..POINTS).rev().for_each(|p| call(p, found.each_mut().map(|column| &mut column[..=p])));
     found
 }
 
