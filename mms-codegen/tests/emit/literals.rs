@@ -93,3 +93,34 @@ fn is_refused(target: &Target, wrong: &str) {
     assert_eq!(run.status.code(), Some(1), "{}: {out}", target.name);
     assert!(out.contains("displacement_gradient"), "{}: {out}", target.name);
 }
+
+#[test]
+fn check_programs_refuse_a_batch_without_its_last_point() {
+    let loops = [
+        (
+            "cpp",
+            "for (std::size_t i = 0; i < n; i++)",
+            "for (std::size_t i = 0; i + (n > 3) < n; i++)",
+        ),
+        ("rust", "for i in 0..count {", "for i in 0..count - usize::from(count > 3) {"),
+        ("fortran", "do i = 1, n", "do i = 1, merge(n - 1, n, n > 3)"),
+    ];
+    let field = field("X*t/3", Quantity::DisplacementGradient);
+    for (name, right, wrong) in loops {
+        let target = Target::find(name).expect("a target of that name");
+        if !can_build(target) {
+            continue;
+        }
+        let output = (target.emit)(&Subject::new(&field));
+        let folder = scratch(&format!("last/{name}"));
+        write(&output, &folder);
+        for file in &output.files {
+            let text = file.text.replace(right, wrong);
+            fs::write(folder.join(&file.name), text).expect("a written file");
+        }
+        let run = shell(&quick(output.verify.expect("a check program")), &folder);
+        let out = String::from_utf8_lossy(&run.stdout);
+        assert_eq!(run.status.code(), Some(1), "{name}: {out}");
+        assert!(out.contains("displacement_gradient"), "{name}: {out}");
+    }
+}
