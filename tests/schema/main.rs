@@ -7,6 +7,7 @@ mod verdict;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
 use verdict::{Kind, json_of, reader_accepts};
 
 /// Files whose mistakes of form no JSON Schema can see.
@@ -36,6 +37,31 @@ fn text(path: &Path) -> String {
 
 fn stem(path: &Path) -> String {
     path.file_stem().expect("a stem").to_string_lossy().into_owned()
+}
+
+/// The keys that a document of the schema may have, those of tables in it included.
+fn keys(schema: &Value) -> Vec<&str> {
+    let own = schema["properties"].as_object().into_iter().flatten();
+    let mut found: Vec<&str> = own.clone().map(|(key, _)| key.as_str()).collect();
+    let within = [&schema["items"], &schema["additionalProperties"]];
+    let tables = own.map(|(_, table)| table).chain(within);
+    found.extend(tables.filter(|table| table.is_object()).flat_map(keys));
+    found
+}
+
+#[test]
+fn the_guide_names_every_key() {
+    let guide = text(&root().join("docs/guide/fields.md"));
+    let (_, section) = guide.split_once("## All keys").expect("the section");
+    let (section, _) = section.split_once("\n## ").expect("the next one");
+    let is_apart = |letter: char| !(letter.is_alphanumeric() || letter == '_');
+    let words: Vec<&str> = section.split(is_apart).collect();
+    let schema = mms::schema::field();
+    let keys = keys(&schema);
+    assert!(keys.len() > 40, "{keys:?}");
+    for key in keys {
+        assert!(words.contains(&key), "docs/guide/fields.md does not name `{key}`");
+    }
 }
 
 #[test]
