@@ -107,3 +107,17 @@ fn a_field_may_be_called_like_a_function_of_its_own() {
         }
     }
 }
+
+/// Names of check programs are in no field's way.
+#[test]
+fn a_field_may_be_called_like_what_its_check_program_names() {
+    let stems =
+        ["check", "points", "sets", "worst", "failures", "found", "field", "row", "run", "f"];
+    for (index, stem) in stems.into_iter().enumerate() {
+        let field = compiled(stem, &plain());
+        let subject = Subject::new(&field);
+        for target in in_turn(index, stems.len()) {
+            prove(target, &subject, &format!("checked/{stem}"), quick);
+        }
+    }
+}

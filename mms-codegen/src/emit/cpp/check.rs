@@ -16,7 +16,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     let _ = write!(
         text,
         "#include \"{name}.hpp\"\n\n#include <array>\n#include <cmath>\n#include <cstdio>\n#include <limits>\n\n\
-         namespace {{\n\n"
+         namespace mms_check {{\nnamespace {{\n\n"
     );
     text + &tables(port) + &program(port)
 }

@@ -60,12 +60,18 @@ template <class T> void check_all()
     }
 }
 
-} // namespace
-
-int main()
+int run()
 {
     check_all<double>();
     check_all<float>();
     std::printf("field_: worst error %.3g eps\n", worst);
     return failures > 0;
+}
+
+} // namespace
+} // namespace mms_check
+
+int main()
+{
+    return mms_check::run();
 }

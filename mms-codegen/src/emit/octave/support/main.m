@@ -1,5 +1,5 @@
 
-  f = field_();
+  f = feval('field_');
   worst = 0;
   failures = 0;
   parameters = f.default_parameters();
