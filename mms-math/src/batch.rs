@@ -181,8 +181,8 @@ pub trait Source<T, const N: usize> {
 pub trait Sink<T, const N: usize> {
     /// How many points there is room for.
     fn room(&self) -> usize;
-    /// Writes the points from `start` on, as many as there is room for.
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>);
+    /// Writes the points from `start` on, as many as there is room for. Whether all that is written are numbers.
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool;
 }
 
 /// Structure of arrays: one slice for each number.
@@ -252,32 +252,51 @@ impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
     }
 }
 
-impl<T: Copy, const N: usize> Sink<T, N> for [&mut [T]; N] {
+impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
     fn room(&self) -> usize {
         one_length(self.iter().map(|column| column.len()))
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) {
+    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) -> bool {
+        let mut known = true;
         for (column, lane) in self.iter_mut().zip(block) {
-            let rest = &mut column[start..];
-            match rest.first_chunk_mut() {
-                Some(whole) => *whole = *lane,
-                None => rest.copy_from_slice(&lane[..rest.len()]),
-            }
+            // A length that the compiler knows would have it write the loop out, number by number.
+            let count = BLOCK.min(column.len() - start);
+            known &= copy_known(&lane[..count], &mut column[start..start + count]);
         }
+        known
     }
 }
 
-impl<T: Copy, const N: usize> Sink<T, N> for &mut [[T; N]] {
+impl<T: Float, const N: usize> Sink<T, N> for &mut [[T; N]] {
     fn room(&self) -> usize {
         self.len()
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) {
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
         turn_back(machine, block, &mut self[start..]);
+        block.as_flattened().iter().fold(true, |known, value| known & is_number(value))
     }
+}
+
+/// Copies values. Whether all are numbers: asked on the way, for it would take as long again afterwards.
+#[inline(always)]
+fn copy_known<T: Float>(from: &[T], to: &mut [T]) -> bool {
+    let mut known = true;
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+        known &= is_number(from);
+    }
+    known
+}
+
+/// Only not-a-number differs from itself.
+#[allow(clippy::eq_op)]
+#[inline(always)]
+fn is_number<T: Float>(value: &T) -> bool {
+    *value == *value
 }
 
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
@@ -291,22 +310,25 @@ fn turn<T: Copy, M: Machine<T>, const N: usize>(
     let points = &points[..points.len().min(BLOCK)];
     let (fours, others) = points.as_chunks::<4>();
     for (four, points) in fours.iter().enumerate() {
-        let places = 4 * four..4 * four + 4;
-        let mut first = 0;
-        while first + 4 <= N {
-            let mut rows = [machine.splat(points[0][0]); 4];
+        let numbers = points.as_flattened();
+        for first in firsts::<N>() {
+            let mut rows = [machine.splat(numbers[0]); 4];
             for k in 0..4 {
-                rows[k] = machine.four(chunk(&points[k], first));
+                let from = k * N + first;
+                rows[k] = match numbers[from..].first_chunk() {
+                    Some(row) => machine.four(row),
+                    None => machine.four(&[0, 1, 2, 3].map(|j| numbers[(from + j).min(4 * N - 1)])),
+                };
             }
             let columns = machine.transposed(rows);
-            for k in 0..4 {
-                lanes[first + k][places.clone()].copy_from_slice(&machine.numbers(columns[k]));
+            for j in 0..N.min(4) {
+                let place = &mut lanes[first + j][4 * four..4 * four + 4];
+                place.copy_from_slice(&machine.numbers(columns[j]));
             }
-            first += 4;
         }
-        for number in first..N {
+        if is_one_alone::<N>() {
             for k in 0..4 {
-                lanes[number][4 * four + k] = points[k][number];
+                lanes[N - 1][4 * four + k] = points[k][N - 1];
             }
         }
     }
@@ -330,21 +352,24 @@ fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
     let count = points.len().min(BLOCK);
     let (fours, others) = points[..count].as_chunks_mut::<4>();
     for (four, points) in fours.iter_mut().enumerate() {
-        let mut first = 0;
-        while first + 4 <= N {
-            let mut rows = [machine.splat(lanes[0][0]); 4];
-            for k in 0..4 {
-                rows[k] = machine.four(chunk(&lanes[first + k], 4 * four));
+        let numbers = points.as_flattened_mut();
+        for first in firsts::<N>() {
+            let mut columns = [machine.splat(lanes[0][0]); 4];
+            for j in 0..N.min(4) {
+                let place = lanes[first + j][4 * four..].first_chunk();
+                columns[j] = machine.four(place.expect("there are four more"));
             }
-            let columns = machine.transposed(rows);
+            let rows = machine.transposed(columns);
+            // Where a row is longer than a point, the next point is written over what is too much.
             for k in 0..4 {
-                points[k][first..first + 4].copy_from_slice(&machine.numbers(columns[k]));
+                let from = k * N + first;
+                let width = (4 * N - from).min(4);
+                numbers[from..from + width].copy_from_slice(&machine.numbers(rows[k])[..width]);
             }
-            first += 4;
         }
-        for number in first..N {
+        if is_one_alone::<N>() {
             for k in 0..4 {
-                points[k][number] = lanes[number][4 * four + k];
+                points[k][N - 1] = lanes[N - 1][4 * four + k];
             }
         }
     }
@@ -355,10 +380,15 @@ fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
     }
 }
 
-/// Four numbers from `first` on.
-#[inline(always)]
-fn chunk<T, const N: usize>(numbers: &[T; N], first: usize) -> &[T; 4] {
-    numbers[first..].first_chunk().expect("there are four more")
+/// Where the numbers of a point begin that go at a time: four by four, and the last four again where they are less.
+fn firsts<const N: usize>() -> impl Iterator<Item = usize> {
+    let together = if is_one_alone::<N>() { N - 1 } else { N };
+    (0..together).step_by(4).map(|first| first.min(N.saturating_sub(4)))
+}
+
+/// Whether one number of a point is left over: it takes less time alone.
+const fn is_one_alone<const N: usize>() -> bool {
+    N % 4 == 1
 }
 
 /// The length that all columns have.
@@ -476,10 +506,10 @@ where
         while start < self.count {
             let inputs = self.source.block(self.machine, start, &mut self.room);
             work.on_block(&inputs, &mut self.outputs);
-            if !all_known(&self.outputs) {
+            if !self.sink.store(self.machine, start, &self.outputs) {
                 (self.careful)(&inputs, &mut self.outputs);
+                self.sink.store(self.machine, start, &self.outputs);
             }
-            self.sink.store(self.machine, start, &self.outputs);
             start += BLOCK;
         }
     }
@@ -509,21 +539,6 @@ where
         let between = [[T::from_f64(0.0); BLOCK]; B];
         self.all(&mut Two { first, second, between });
     }
-}
-
-/// Whether all results are numbers.
-#[inline(always)]
-fn all_known<T: Float, const O: usize>(outputs: &Block<T, O>) -> bool {
-    let mut known = true;
-    for lane in outputs {
-        for value in lane {
-            // Only not-a-number differs from itself.
-            #[allow(clippy::eq_op)]
-            let is_number = *value == *value;
-            known &= is_number;
-        }
-    }
-    known
 }
 
 /// One block, number by number.
