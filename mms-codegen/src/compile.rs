@@ -226,12 +226,12 @@ fn phases(
     };
     let mut outputs = outputs(&mut graph, &model, &field, &derivation);
     outputs.retain(|output, _| selection.schedules(*output, &field));
+    for components in outputs.values_mut() {
+        *components = half_turns(&mut graph, components);
+    }
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
         return None;
-    }
-    for components in outputs.values_mut() {
-        *components = half_turns(&mut graph, components);
     }
     let program = schedule(&graph, &outputs);
     diagnostics.extend(unrepresentable(&field, &program));

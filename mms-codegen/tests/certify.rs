@@ -17,7 +17,7 @@ use mms_codegen::program::dual::Dual;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
-use mms_codegen::{Compiled, compile};
+use mms_codegen::{Compiled, Options, compile, compile_with};
 use proptest::prelude::*;
 
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
@@ -378,4 +378,44 @@ fn tangent(
         }
     }
     (tangent, interpreter.output(outputs[1])[0].value)
+}
+
+/// A field that its graph has no room for is refused: what was left out is no 0 that proves anything.
+#[test]
+fn a_graph_that_is_full_proves_nothing() {
+    let text = |end: &str| {
+        format!(
+            "[field]\ntitle = \"x\"\ndimension = 1\n[let]\nw = \"sin(pi*X) + X*cos(X){end}\"\n\
+             [displacement]\nu = [\"w*cos(pi*t)/20\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 0\n\
+             mu = 1\ndensity = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 2]\n\
+             [boundary]\nx_min = \"fixed\"\nx_max = \"fixed\"\n"
+        )
+    };
+    let judged = |text: &str, max_nodes: usize| {
+        let options = Options { max_nodes, ..Options::default() };
+        let load = |_: &str| Err("no files here".to_string());
+        let compiled = compile_with("x", "x.toml", text, &load, &options);
+        compiled.map(|compiled| certify(&compiled)).map_err(|failure| failure.to_string())
+    };
+    let (liar, honest) = (text(""), text(" - X*cos(1)"));
+    let whole = judged(&honest, 100_000).expect("an ample graph");
+    let [mut full, mut proved] = [0; 2];
+    for max_nodes in (100..6000).step_by(100) {
+        let refusal = judged(&liar, max_nodes).expect_err("x_max moves");
+        assert!(refusal.contains("too large") || refusal.contains("no `fixed` face"), "{refusal}");
+        match judged(&honest, max_nodes) {
+            Ok(certificate) => {
+                let proofs =
+                    certificate.claims.iter().all(|(_, finding)| *finding == Finding::Proved);
+                assert!(proofs, "{max_nodes}: {certificate:?}");
+                assert_eq!(certificate.jacobian, whole.jacobian);
+                proved += 1;
+            }
+            Err(refusal) => {
+                assert!(refusal.contains("too large"), "{max_nodes}: {refusal}");
+                full += 1;
+            }
+        }
+    }
+    assert!(full > 3 && proved > 3, "{full} {proved}");
 }

@@ -109,7 +109,7 @@ pub const DEFAULT_MAX_NODES: usize = 200_000;
 
 /// An arena of hash-consed nodes, of bounded size.
 ///
-/// Beyond the bound every operation returns 0 at once, and [`Graph::is_exhausted`] tells; what was
+/// Beyond the bound every operation returns at once what has no value, and [`Graph::is_exhausted`] tells; what was
 /// computed is then void. So no text makes a compilation long or large.
 #[derive(Clone, Debug)]
 pub struct Graph {
@@ -213,10 +213,12 @@ impl Graph {
         self.index.get(node).copied()
     }
 
-    /// What stands for everything in an exhausted graph.
+    /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
+    /// evaluates it learns nothing, and takes nothing for 0.
     fn exhaust(&mut self) -> Expr {
         self.exhausted = true;
-        Expr(0)
+        let number = self.enter(Node::Number(Rational::NEG_ONE));
+        self.enter(Node::Call(Function::Ln, vec![number]))
     }
 
     /// The node behind a handle.
@@ -245,11 +247,20 @@ impl Graph {
             return *expr;
         }
         self.size += 1 + node.children().count();
-        let id = u32::try_from(self.nodes.len())
-            .ok()
-            .filter(|_| self.nodes.is_empty() || self.size <= self.limit);
-        let Some(id) = id else { return self.exhaust() };
-        let expr = Expr(id);
+        // Handles are 32 bits wide; two are left for what stands for everything.
+        let is_full = self.size > self.limit.min(u32::MAX as usize - 2);
+        if is_full && !self.nodes.is_empty() {
+            return self.exhaust();
+        }
+        self.enter(node)
+    }
+
+    /// The handle of a node, which is made if there is none, whatever the bound.
+    fn enter(&mut self, node: Node) -> Expr {
+        if let Some(expr) = self.index.get(&node) {
+            return *expr;
+        }
+        let expr = Expr(self.nodes.len() as u32);
         let own = match node {
             Node::Symbol(symbol) => Stage::of(symbol),
             _ => Stage::Parameter,

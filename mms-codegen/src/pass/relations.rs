@@ -4,7 +4,8 @@
 //! Each relation replaces the square of one expression, no two the same one. The leading terms are
 //! thus coprime, the relations are a Groebner basis as they stand, and replacing until nothing can
 //! be replaced gives one normal form (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 2015,
-//! section 2.9).
+//! section 2.9). It ends: what replaces a square has neither that square nor one that an earlier relation
+//! replaces.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -219,19 +220,29 @@ impl Relations {
         };
         let half = Rational::from_parts(1.into(), 2u8.into());
         let root = graph.power(radicand, half);
-        let scale = Rational::ONE / &terms[index].1;
-        let mut equal = Some(Polynomial::power_of(root, 2))
-            .and_then(|square| square.plus(&Polynomial::constant(constant), &Rational::NEG_ONE));
+        let mut others = Polynomial::constant(constant);
         for (other, (_, coefficient)) in terms.iter().enumerate() {
             if let Some(square) = squares[other].filter(|_| other != index) {
                 let square = self.normal_form(Polynomial::power_of(square, 2));
-                equal = equal.and_then(|equal| equal.plus(&square?, &-coefficient.clone()));
+                let Some(sum) = square.and_then(|square| others.plus(&square, coefficient)) else {
+                    return;
+                };
+                others = sum;
             }
         }
-        let Some(equal) = equal.and_then(|equal| Polynomial::default().plus(&equal, &scale)) else {
-            return;
+        let square = |expr: Expr| Polynomial::power_of(expr, 2);
+        let coefficient = &terms[index].1;
+        // Two roots may share all their squares, as sqrt(X^2 + Y^2) and sqrt(X^2 + Y^2 + 1) do: then no square is left
+        // for the second one to replace but its own, by the first one's.
+        let (leading, equal) = if others.atoms().contains(&base) {
+            (root, others.plus(&square(base), coefficient))
+        } else {
+            let equal = square(root).plus(&others, &Rational::NEG_ONE);
+            let scale = Rational::ONE / coefficient;
+            (base, equal.and_then(|equal| Polynomial::default().plus(&equal, &scale)))
         };
-        self.squares.insert(base, equal);
+        let Some(equal) = equal else { return };
+        self.squares.insert(leading, equal);
         self.roots.insert(radicand, root);
         self.squared.extend(squares.into_iter().flatten());
     }

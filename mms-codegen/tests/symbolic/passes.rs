@@ -13,6 +13,7 @@ use mms_codegen::program::{Output, Stage};
 use mms_codegen::simplify::ways;
 use proptest::prelude::*;
 
+use super::canonical::read;
 use super::evaluation::{close, places, run, same_value, value_and_extent, values};
 use super::recipe::{any_recipe, built, recipe};
 
@@ -60,4 +61,26 @@ proptest! {
         let per_point = counts[&Stage::Point] + counts[&Stage::PointTime];
         prop_assert!(cost(&graph, &roots).per_point <= per_point);
     }
+}
+
+/// The relation of one root may leave no square for that of another to replace.
+#[test]
+fn roots_that_share_their_squares_are_reduced() -> Result<(), TestCaseError> {
+    for [first, second] in [
+        ["X^2 + Y^2", "X^2 + Y^2 + 1"],
+        ["X^2 + Y^2", "X^2 - Y^2"],
+        ["X^2 + Y^2", "X^2 + 2*Y^2"],
+        ["X^2 + 3*Y^2", "2*X^2 + 6*Y^2 + 5"],
+        ["1 + sin(X)^2 + cos(X)^2", "2 + sin(X)^2 + cos(X)^2"],
+        ["X^2 + Y^2", "t^2 + X^2 + Y^2"],
+    ] {
+        let mut graph = Graph::default();
+        let text = format!("(sqrt({first}) + 3*sqrt({second}))^4 + X^4*sqrt({second})^3");
+        let root = read(&mut graph, &text).map_err(TestCaseError::fail)?;
+        let relations = Relations::find(&mut graph, &[root]);
+        let thorough = relations.thorough().unwrap_or(relations);
+        let reduced = reduce(&mut graph, &[root], &thorough)[0];
+        same_value(&graph, root, reduced)?;
+    }
+    Ok(())
 }
