@@ -89,8 +89,10 @@ pub fn simplify(
 
 /// Whether moduli or the direction of fibres depend on X.
 fn is_graded(graph: &Graph, model: &Model) -> bool {
+    let fibre = model.fibre.iter().flatten();
     let arguments = model.arguments.iter();
     arguments
+        .chain(fibre)
         .flat_map(|argument| graph.symbols(*argument))
         .any(|symbol| matches!(symbol, Symbol::Coordinate(_)))
 }

@@ -119,6 +119,22 @@ fn motions_with_large_rotations_and_tiny_strains_hold_for_every_material() {
     hold(all);
 }
 
+/// What fibres of another direction everywhere add to Div P is as small as the stress.
+#[test]
+fn fibres_that_turn_over_the_body_hold() {
+    let of = |displacement: &str| {
+        let text = format!(
+            "[field]\ntitle = \"fibres\"\ndimension = 2\n[parameters]\namplitude = {{ value = 0.1 }}\n\
+             [displacement]\nu = [{displacement}]\n[material]\nmodel = \"transversely_isotropic\"\n\
+             lambda = 2\nmu = 3\nreinforcement = 5\nfibre = [\"cos(X)\", \"sin(X)\", 0]\ndensity = 1\n\
+             [domain]\nshape = \"box\"\nlower = [0, 0]\nupper = [1, 1]\ntime = [0, 1]\n"
+        );
+        measured(displacement, &text)
+    };
+    let motions = ["0, \"amplitude*X*Y\"", "\"amplitude*sin(X + t)\", \"amplitude*X*Y^2\""];
+    hold(motions.into_iter().flat_map(of).collect());
+}
+
 #[test]
 fn what_a_material_answers_to_a_gradient_holds() {
     let mut all = Vec::new();
