@@ -8,6 +8,7 @@
 //!   the body moves ([`traction`]).
 //! * An axis may be periodic instead ([`period`]).
 
+mod images;
 pub mod period;
 pub mod prescribed;
 pub mod surface;
@@ -88,6 +89,12 @@ impl<T: Real, const D: usize> Boundary<T, D> {
             }
         }
         Ok(boundary)
+    }
+
+    /// Finds the nodes outside that have mass, with those of the particles at present.
+    pub fn reach(&mut self, momentum: &[Nodal<T>]) {
+        self.periods.iter_mut().for_each(|period| period.reach(momentum));
+        self.walls.iter_mut().for_each(|wall| wall.reach(momentum));
     }
 
     /// Adds the images' mass and momentum, or force, to the nodes inside.

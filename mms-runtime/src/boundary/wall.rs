@@ -4,6 +4,7 @@
 //! antisymmetrically, so nodes inside receive what their images (ghost nodes) got, and ghost nodes move
 //! opposite to the nodes inside, in velocity and acceleration alike.
 
+use super::images::Images;
 use crate::defect::{Defect, on};
 use crate::nodal::{LAST, Nodal};
 use crate::{Condition, Face, Lattice, Real, Refusal};
@@ -11,8 +12,8 @@ use crate::{Condition, Face, Lattice, Real, Refusal};
 /// A wall: which nodes are on it, which are behind it, and which components it reflects.
 pub struct Wall {
     on_wall: Vec<usize>,
-    /// Pairs of a ghost node and the node inside that it is the image of.
-    images: Vec<(usize, usize)>,
+    /// Ghost nodes, and the nodes inside that they are the images of.
+    images: Images,
     /// The wall's normal.
     axis: usize,
     /// Whether the tangential components are held as well.
@@ -39,42 +40,40 @@ impl Wall {
             let cells = if upper { to - from } else { from.fract() };
             return Err(Refusal::WallBetweenNodes { face, condition, cells });
         };
-        let mut wall = Self {
-            on_wall: Vec::new(),
-            images: Vec::new(),
-            axis,
-            fixed: condition == Condition::Fixed || on(Defect::StickyRoller),
-        };
+        let (mut on_wall, mut images) = (Vec::new(), Vec::new());
         // Splines of a higher degree end at the wall, and nothing reaches past it.
         let reaches_past = lattice.degree == 1 && !on(Defect::NoGhosts);
         for node in 0..lattice.len() {
             let k = lattice.coordinates(node)[axis];
             let behind = reaches_past && if upper { k > plane } else { k < plane };
             if k == plane {
-                wall.on_wall.push(node);
+                on_wall.push(node);
             } else if behind && (2 * plane).checked_sub(k).is_some_and(|m| m < lattice.count[axis])
             {
                 let stride = lattice.stride[axis];
-                wall.images.push((node, node + 2 * plane * stride - 2 * k * stride));
+                let inside = node + 2 * plane * stride - 2 * k * stride;
+                images.push((k.abs_diff(plane) - 1, (node, inside)));
             }
         }
-        Ok(wall)
+        let fixed = condition == Condition::Fixed || on(Defect::StickyRoller);
+        Ok(Self { on_wall, images: Images::new(images), axis, fixed })
+    }
+
+    /// Finds the ghost nodes that have mass.
+    pub fn reach<T: Real>(&mut self, momentum: &[Nodal<T>]) {
+        self.images.reach(momentum);
     }
 
     /// q_inside += reflected q_ghost, for mass, momentum and force, which leaves the ghost nodes empty.
     pub fn fold<T: Real>(&self, extensive: &mut [Nodal<T>]) {
-        for &(ghost, inside) in &self.images {
-            let image = std::mem::replace(&mut extensive[ghost], Nodal::zero());
-            extensive[inside] += self.reflect(image);
-        }
+        self.images.fold(extensive, |ghost| self.reflect(ghost));
     }
 
     /// q_ghost = reflected q_inside, and 0 on the wall, for velocity and acceleration.
     pub fn mirror<T: Real>(&self, intensive: &mut [Nodal<T>]) {
-        for &(ghost, inside) in &self.images {
-            let image = self.reflect(intensive[inside]);
-            intensive[ghost] = if on(Defect::MirrorSign) { intensive[inside] } else { image };
-        }
+        self.images.copy(intensive, |inside| {
+            if on(Defect::MirrorSign) { inside } else { self.reflect(inside) }
+        });
         if on(Defect::WallReleased) {
             return;
         }

@@ -63,7 +63,10 @@ where
         self.add_to_nodes(carried)?;
         if with_mass || velocity.is_some() {
             let Self { grid, boundary, seconds, .. } = self;
-            timed(&mut seconds.grid, || boundary.fold(&mut grid.momentum));
+            timed(&mut seconds.grid, || {
+                boundary.reach(&grid.momentum);
+                boundary.fold(&mut grid.momentum);
+            });
         }
         if with_mass {
             let time = self.time();
