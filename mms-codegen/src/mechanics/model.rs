@@ -127,6 +127,7 @@ impl Model {
             reader.scope.tolerate_unknown_names();
         }
         let mut names = Names::default();
+        reader.scope.refuse(&field.refused);
         let parameters = reader.parameters(field, &mut names);
         reader.coordinates(field.dimension);
         reader.definitions(&field.lets, &mut names);

@@ -49,7 +49,9 @@ pub struct MaterialSpec {
     pub moduli: Option<Pair>,
     /// Formulas that have lost their place to a reported mistake.
     pub stray: Vec<Formula>,
-    /// Whether TOML lost part of the file: an unknown name may be a consequence of that.
+    /// Names of the language that the file would define: what uses them may mean either.
+    pub refused: Vec<String>,
+    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
     pub incomplete: bool,
 }
 
@@ -152,7 +154,7 @@ fn misspelt_keys(
     misspelt
 }
 
-/// Reads a material file. `None` only where the file is too long to be read.
+/// Reads a material file. `None` only where the file is too long to be read, or is that of a field.
 pub fn read_material(
     sources: &Sources,
     id: SourceId,
@@ -163,14 +165,20 @@ pub fn read_material(
     let mut reader = Reader::new(sources, id, &document, diagnostics);
     let root = reader.root("a material file", &document.root, MATERIAL_FILE);
     let mut names = Names::new(Keeper::Material);
-    let parameters = root
-        .get("parameters")
-        .and_then(|entry| reader.open_table(&entry, "[parameters]"))
+    let parameters = reader
+        .names(&root, "parameters")
         .map(|table| material_parameters(&table, &mut names, &mut reader));
-    let definitions = root
-        .get("let")
-        .and_then(|entry| reader.open_table(&entry, "[let]"))
-        .map(|table| lets(&table, &mut names, &mut reader));
+    if let Some((key, _)) = document.root.iter().find(|(key, _)| key.get_ref() == "field") {
+        let place = key.span();
+        let span = sources.span(id, place.start, place.end);
+        reader.report(
+            Diagnostic::error(span, "this is a field file, not a material file")
+                .label("only fields have this table")
+                .help("a material file gives its `strain_energy` under [material]"),
+        );
+        return None;
+    }
+    let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),
         title: String::new(),
@@ -181,10 +189,13 @@ pub fn read_material(
         lets: definitions.unwrap_or_default(),
         moduli: None,
         stray: Vec::new(),
-        incomplete: document.incomplete,
+        refused: Vec::new(),
+        incomplete: false,
     };
-    if let Some(entry) = reader.required_table(&root, "material") {
-        header(&entry, &mut spec, &mut reader);
+    match reader.required_table(&root, "material") {
+        Some(entry) => header(&entry, &mut spec, &mut reader),
+        // Nor is there anything to say of a file without its one necessary table.
+        None => reader.lost_names = true,
     }
     spec.stray = reader.stray;
     Some(spec)

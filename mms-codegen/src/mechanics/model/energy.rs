@@ -52,7 +52,7 @@ impl Reader<'_> {
             complete &= value.is_some();
             if known.contains(&name.value.as_str()) {
                 inner.define(&name.value, *value);
-            } else if !material.incomplete {
+            } else if !material.incomplete && !material.refused.contains(&name.value) {
                 complete = false;
                 self.unknown_argument(field, name, &known);
             }
@@ -64,7 +64,7 @@ impl Reader<'_> {
             }
             complete = false;
             inner.define(name, None);
-            if field.incomplete {
+            if field.incomplete || material.incomplete {
                 continue;
             }
             let model = &field.material.model;
@@ -76,6 +76,7 @@ impl Reader<'_> {
                     .help(format!("add `{name} = \"...\"` under [material]")),
             );
         }
+        inner.refuse(&material.refused);
         let outer = std::mem::replace(&mut self.scope, inner);
         for definition in &material.lets {
             self.scope.announce(&definition.name);
