@@ -23,10 +23,10 @@ use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
 use crate::selection::{Form, Selection};
 use crate::simplify::{simplify, twins};
-use crate::source::{SourceId, Sources};
+use crate::source::{SourceId, Sources, Span};
 use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
 use crate::suggest::did_you_mean;
-use crate::syntax;
+use crate::syntax::{self, Kind};
 use crate::units;
 use crate::variation::Variation;
 
@@ -273,13 +273,30 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
         _ => false,
     };
     program.instrs.iter().find(|instr| infinite(&instr.op))?;
-    let span = field.displacement.first().map_or(field.material.span, |formula| formula.span);
+    let (span, label) = match field.formulas().find_map(huge_number) {
+        Some(span) => (span, "too large"),
+        None => {
+            let first = field.displacement.first();
+            let span = first.map_or(field.material.span, |formula| formula.span);
+            (span, "here, or in what it uses")
+        }
+    };
     Some(
         Diagnostic::error(span, "a constant of this field is beyond the range of double precision")
-            .label("here, or in what it uses")
+            .label(label)
             .help("numbers up to 1.797e308 can be computed with: choose other units"),
     )
 }
+/// Where a formula has a number that no double precision number is near to.
+fn huge_number(formula: &Formula) -> Option<Span> {
+    let is_huge = |kind: &Kind| match kind {
+        Kind::Number(number) => number.to_f64().value().is_infinite(),
+        _ => false,
+    };
+    let ast = syntax::parse(formula, &mut Vec::new())?;
+    ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
+}
+
 
 /// The derivation of `what` filled the graph: points at the part of the file that made most of it.
 fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
