@@ -39,7 +39,8 @@ pub struct MaterialSpec {
     pub reference: Option<String>,
     /// The strain-energy density W per unit reference volume.
     pub strain_energy: Formula,
-    /// Whether W is claimed to stay the same under rotations.
+    /// Whether W stays the same under rotations: not in the small strain, and not where the file
+    /// says so.
     pub frame_indifferent: bool,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
@@ -73,6 +74,11 @@ impl MaterialSpec {
                 _ => None,
             })
         })
+    }
+
+    /// Where W uses the small strain first, which a rotation changes.
+    pub fn small_strain(&self) -> Option<Spanned<String>> {
+        self.first_use(&["eps_trace", "eps_squared"])
     }
 
     /// Whether W is a function of I4: then the field gives the direction of the fibres.
@@ -163,11 +169,6 @@ pub fn read_material(
 ) -> Option<MaterialSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
-    let root = reader.root("a material file", &document.root, MATERIAL_FILE);
-    let mut names = Names::new(Keeper::Material);
-    let parameters = reader
-        .names(&root, "parameters")
-        .map(|table| material_parameters(&table, &mut names, &mut reader));
     if let Some((key, _)) = document.root.iter().find(|(key, _)| key.get_ref() == "field") {
         let place = key.span();
         let span = sources.span(id, place.start, place.end);
@@ -178,6 +179,11 @@ pub fn read_material(
         );
         return None;
     }
+    let root = reader.root("a material file", &document.root, MATERIAL_FILE);
+    let mut names = Names::new(Keeper::Material);
+    let parameters = reader
+        .names(&root, "parameters")
+        .map(|table| material_parameters(&table, &mut names, &mut reader));
     let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),
@@ -197,7 +203,8 @@ pub fn read_material(
         // Nor is there anything to say of a file without its one necessary table.
         None => reader.lost_names = true,
     }
-    spec.stray = reader.stray;
+    (spec.stray, spec.refused) = (reader.stray, reader.refused);
+    spec.incomplete = reader.lost_names;
     Some(spec)
 }
 
@@ -208,7 +215,16 @@ fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a
     }
     spec.reference = reader.optional_string(&table, "reference");
     spec.strain_energy = reader.required_formula(&table, "strain_energy");
-    if let Some(entry) = table.get("frame_indifferent") {
-        spec.frame_indifferent = reader.boolean(&entry).unwrap_or(true);
+    let small_strain = spec.small_strain();
+    let claim = table.get("frame_indifferent");
+    let claimed = claim.as_ref().and_then(|entry| reader.boolean(entry));
+    spec.frame_indifferent = claimed.unwrap_or(true) && small_strain.is_none();
+    if let (Some(entry), Some(true), Some(strain)) = (claim, claimed, small_strain) {
+        let message = "this material is not frame-indifferent";
+        reader.report(
+            Diagnostic::error(entry.key.span, message)
+                .label(format!("a rotation changes `{}`, and W with it", strain.value))
+                .help("remove this key, or write W in I1, I2, I3, I4 and J"),
+        );
     }
 }

@@ -151,7 +151,7 @@ impl Reader<'_> {
         material: &MaterialSpec,
         fibre: Option<&[Expr]>,
     ) -> Option<Kind> {
-        let small = material.first_use(&["eps_trace", "eps_squared"]);
+        let small = material.small_strain();
         let large = material.first_use(&["I1", "I2", "I3", "J", "I4"]);
         match (small, large) {
             (Some(small), Some(large)) => {
