@@ -201,10 +201,13 @@ fn phases(
     let reported = diagnostics.len();
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
     selection.explain(sources, &field, &mut diagnostics[reported..]);
-    let mut model = model?;
-    diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
-    diagnostics.extend(rotates_unfit_material(&field, material.as_ref()));
-    let material = material.filter(|_| diagnostics.is_empty())?;
+    let (mut model, material) = (model?, material?);
+    let specs = (&field, &material);
+    diagnostics.extend(declared::check(&graph, &model, specs, &BTreeMap::new()));
+    diagnostics.extend(rotates_unfit_material(&field, &material));
+    if !diagnostics.is_empty() {
+        return None;
+    }
     options.variation.transform(&mut graph, &mut model);
     let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
@@ -252,12 +255,8 @@ fn phases(
 }
 
 /// A rotation of a material that a rotation strains.
-fn rotates_unfit_material(
-    field: &FieldSpec,
-    material: Option<&MaterialSpec>,
-) -> Option<Diagnostic> {
-    let material = material.filter(|material| !material.frame_indifferent)?;
-    let angle = field.rigid.as_ref()?.angle()?;
+fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
+    let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
     let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
     Some(
         Diagnostic::error(angle.span, message)
@@ -287,6 +286,7 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
             .help("numbers up to 1.797e308 can be computed with: choose other units"),
     )
 }
+
 /// Where a formula has a number that no double precision number is near to.
 fn huge_number(formula: &Formula) -> Option<Span> {
     let is_huge = |kind: &Kind| match kind {
@@ -296,7 +296,6 @@ fn huge_number(formula: &Formula) -> Option<Span> {
     let ast = syntax::parse(formula, &mut Vec::new())?;
     ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
 }
-
 
 /// The derivation of `what` filled the graph: points at the part of the file that made most of it.
 fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
