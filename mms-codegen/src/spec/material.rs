@@ -42,6 +42,8 @@ pub struct MaterialSpec {
     /// Whether W stays the same under rotations: not in the small strain, and not where the file
     /// says so.
     pub frame_indifferent: bool,
+    /// The key by which the file says that it does.
+    pub claims_indifference: Option<Span>,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
     /// The definitions, in order.
@@ -191,6 +193,7 @@ pub fn read_material(
         reference: None,
         strain_energy: Formula::reported(root.span),
         frame_indifferent: true,
+        claims_indifference: None,
         parameters: parameters.unwrap_or_default(),
         lets: definitions.unwrap_or_default(),
         moduli: None,
@@ -215,16 +218,8 @@ fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a
     }
     spec.reference = reader.optional_string(&table, "reference");
     spec.strain_energy = reader.required_formula(&table, "strain_energy");
-    let small_strain = spec.small_strain();
     let claim = table.get("frame_indifferent");
     let claimed = claim.as_ref().and_then(|entry| reader.boolean(entry));
-    spec.frame_indifferent = claimed.unwrap_or(true) && small_strain.is_none();
-    if let (Some(entry), Some(true), Some(strain)) = (claim, claimed, small_strain) {
-        let message = "this material is not frame-indifferent";
-        reader.report(
-            Diagnostic::error(entry.key.span, message)
-                .label(format!("a rotation changes `{}`, and W with it", strain.value))
-                .help("remove this key, or write W in I1, I2, I3, I4 and J"),
-        );
-    }
+    spec.frame_indifferent = claimed.unwrap_or(true) && spec.small_strain().is_none();
+    spec.claims_indifference = claim.filter(|_| claimed == Some(true)).map(|entry| entry.key.span);
 }

@@ -164,7 +164,17 @@ impl Reader<'_> {
                 );
                 None
             }
-            (Some(_), None) => Some(Kind::SmallStrain),
+            (Some(small), None) => {
+                if let Some(claim) = material.claims_indifference {
+                    let message = "this material is not frame-indifferent";
+                    self.diagnostics.push(
+                        Diagnostic::error(claim, message)
+                            .label(format!("a rotation changes `{}`, and W with it", small.value))
+                            .help("remove this key, or write W in I1, I2, I3, I4 and J"),
+                    );
+                }
+                Some(Kind::SmallStrain)
+            }
             (None, _) if !material.has_fibres() => Some(Kind::Isotropic),
             (None, _) => {
                 if field.material.fibre.is_none() && !field.incomplete {
