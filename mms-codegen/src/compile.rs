@@ -203,7 +203,9 @@ fn phases(
     selection.explain(sources, &field, &mut diagnostics[reported..]);
     let (mut model, material) = (model?, material?);
     let specs = (&field, &material);
+    let reported = diagnostics.len();
     diagnostics.extend(declared::check(&graph, &model, specs, &BTreeMap::new()));
+    selection.explain(sources, &field, &mut diagnostics[reported..]);
     diagnostics.extend(rotates_unfit_material(&field, &material));
     if !diagnostics.is_empty() {
         return None;

@@ -1,5 +1,5 @@
-//! Whether a material is an elastic solid in the undeformed body: W is smooth at F = I, and every
-//! wave has a real speed there. Looked at in points of the body, which is no proof.
+//! Whether a material is an elastic solid in the undeformed body: W is smooth at F = I, and no
+//! wave grows there. Looked at in points of the body, which is no proof.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ use crate::source::Span;
 const ROUNDING: f64 = 1e-60;
 
 impl Declared<'_> {
-    /// Reports a density that is singular at F = I, or else waves without a real speed.
+    /// Reports a density that is singular at F = I, or else one that is unstable there.
     pub(super) fn elasticity(&mut self, extent: &Extent<Precise>) {
         if self.smoothness(extent) {
             self.waves(extent);
@@ -80,9 +80,9 @@ impl Declared<'_> {
         false
     }
 
-    /// Reports waves of the body at F = I whose speed is not real and positive: where the acoustic
-    /// tensor Q_ik = A_iJkL n_J n_L is not positive definite (Ogden, Non-linear Elastic
-    /// Deformations, 1984, section 6.2).
+    /// Reports a material in which a wave grows at F = I, or nothing travels: where an acoustic
+    /// tensor Q_ik = A_iJkL n_J n_L has a negative eigenvalue, or all are 0 (Ogden, Non-linear
+    /// Elastic Deformations, 1984, section 6.2). A fluid has waves, though none are transverse.
     fn waves(&mut self, extent: &Extent<Precise>) {
         let (model, graph) = (self.model, &mut self.graph);
         let dimension = model.displacement.len();
@@ -91,29 +91,29 @@ impl Declared<'_> {
         let strain = Strain::new(graph, gradient, &model.kind, &Relations::default());
         let tangent = tangent(graph, model.energy, &model.kind, &strain);
         let normals = normals(&model.kind, dimension);
-        let weak = |tangent: &[Precise]| {
-            let pivot = |normal: &Vec<i32>| {
-                let (axis, pivot) = weak_pivot(acoustic(tangent, normal))?;
-                Some((normal.clone(), axis, pivot))
-            };
-            normals.iter().find_map(pivot)
-        };
         let count = model.arguments.len();
-        let found =
-            self.sought_with_arguments(extent, &tangent, |values| weak(&values[count..]).is_none());
+        let found = self
+            .sought_with_arguments(extent, &tangent, |it| fault(&it[count..], &normals).is_none());
         let Some(found) = found else { return };
-        let Some((normal, axis, modulus)) = weak(&found.values[count..]) else { return };
-        let label = match (&model.kind, axis) {
-            (Kind::Fibrous(_), _) => {
-                let normal: Vec<_> = normal.iter().map(i32::to_string).collect();
-                format!("a wave along ({}) has a modulus that is not positive", normal.join(", "))
+        let Some(fault) = fault(&found.values[count..], &normals) else { return };
+        let (message, label) = match fault {
+            Fault::Slack => {
+                ("this material has no stiffness at F = I", "all its moduli are 0".into())
             }
-            (_, 0) => format!("longitudinal waves have the modulus {}", digits(&modulus)),
-            _ => format!("transverse waves have the modulus {}", digits(&modulus)),
+            Fault::Growth(normal, axis, modulus) => {
+                let wave = match (&model.kind, axis) {
+                    (Kind::Fibrous(_), _) => {
+                        let normal: Vec<_> = normal.iter().map(i32::to_string).collect();
+                        format!("a wave along ({}) has a negative modulus", normal.join(", "))
+                    }
+                    (_, 0) => format!("longitudinal waves have the modulus {}", digits(&modulus)),
+                    _ => format!("transverse waves have the modulus {}", digits(&modulus)),
+                };
+                ("this material is unstable at F = I", wave)
+            }
         };
         let span = self.weakest_argument(&found).unwrap_or_else(|| self.density_of_energy());
-        let message = "the waves of this material have no real speed at F = I";
-        let help = "rho0 c^2 must be positive: of an isotropic solid it is mu, and lambda + 2 mu";
+        let help = "the modulus of a wave is rho0 c^2, in an isotropic solid lambda + 2 mu and mu: c must be real";
         self.refute(Diagnostic::error(span, message), &label, &found, help);
     }
 
@@ -188,21 +188,48 @@ fn acoustic(tangent: &[Precise], normal: &[i32]) -> Vec<Vec<Precise>> {
     (0..dimension).map(|i| (0..dimension).map(|k| entry(i, k)).collect()).collect()
 }
 
-/// The first pivot of a symmetric matrix that is not positive, with its row: none of a matrix that
-/// is positive definite.
-fn weak_pivot(mut matrix: Vec<Vec<Precise>>) -> Option<(usize, Precise)> {
+/// What is wrong with a stiffness.
+enum Fault {
+    /// A wave along this direction grows: the row and the pivot that show it.
+    Growth(Vec<i32>, usize, Precise),
+    /// There is none.
+    Slack,
+}
+
+/// What is wrong with dP/dF for waves along these directions, if anything is.
+fn fault(tangent: &[Precise], normals: &[Vec<i32>]) -> Option<Fault> {
+    let zero = Precise::from_f64(0.0);
+    let mut is_slack = true;
+    for normal in normals {
+        let acoustic = acoustic(tangent, normal);
+        is_slack &= acoustic.iter().flatten().all(|it| it.clone().magnitude().at_most(&zero));
+        if let Some((row, pivot)) = negative_pivot(acoustic) {
+            return Some(Fault::Growth(normal.clone(), row, pivot));
+        }
+    }
+    is_slack.then_some(Fault::Slack)
+}
+
+/// The pivot that shows that a symmetric matrix has a negative eigenvalue, with its row: it is
+/// negative, or 0 in a row that is not.
+fn negative_pivot(mut matrix: Vec<Vec<Precise>>) -> Option<(usize, Precise)> {
     let size = matrix.iter().flatten().cloned().map(Precise::magnitude);
     let largest = size.reduce(|a, b| if a.at_most(&b) { b } else { a })?;
-    let least = largest * Precise::from_f64(ROUNDING);
+    let rounding = largest * Precise::from_f64(ROUNDING);
+    let is_zero = |value: &Precise| value.clone().magnitude().at_most(&rounding);
     for row in 0..matrix.len() {
-        let pivot = matrix[row][row].clone();
-        if pivot.at_most(&least) {
-            return Some((row, pivot));
+        let (above, rest) = matrix.split_at_mut(row + 1);
+        let above = &above[row];
+        let pivot = &above[row];
+        if is_zero(pivot) && above[row..].iter().all(is_zero) {
+            continue;
         }
-        let above = matrix[row].clone();
-        for below in &mut matrix[row + 1..] {
+        if pivot.at_most(&rounding) {
+            return Some((row, pivot.clone()));
+        }
+        for below in rest {
             let factor = below[row].clone() / pivot.clone();
-            for (entry, over) in below.iter_mut().zip(&above) {
+            for (entry, over) in below.iter_mut().zip(above) {
                 *entry = entry.clone() - factor.clone() * over.clone();
             }
         }
