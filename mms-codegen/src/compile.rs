@@ -23,10 +23,10 @@ use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
 use crate::selection::{Form, Selection};
 use crate::simplify::{simplify, twins};
-use crate::source::{SourceId, Sources};
+use crate::source::{SourceId, Sources, Span};
 use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
 use crate::suggest::did_you_mean;
-use crate::syntax;
+use crate::syntax::{self, Kind};
 use crate::units;
 use crate::variation::Variation;
 
@@ -201,10 +201,15 @@ fn phases(
     let reported = diagnostics.len();
     let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
     selection.explain(sources, &field, &mut diagnostics[reported..]);
-    let mut model = model?;
-    diagnostics.extend(declared::check(&graph, &model, &field, &BTreeMap::new()));
-    diagnostics.extend(rotates_unfit_material(&field, material.as_ref()));
-    let material = material.filter(|_| diagnostics.is_empty())?;
+    let (mut model, material) = (model?, material?);
+    let specs = (&field, &material);
+    let reported = diagnostics.len();
+    diagnostics.extend(declared::check(&graph, &model, specs, &BTreeMap::new()));
+    selection.explain(sources, &field, &mut diagnostics[reported..]);
+    diagnostics.extend(rotates_unfit_material(&field, &material));
+    if !diagnostics.is_empty() {
+        return None;
+    }
     options.variation.transform(&mut graph, &mut model);
     let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
         .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
@@ -252,12 +257,8 @@ fn phases(
 }
 
 /// A rotation of a material that a rotation strains.
-fn rotates_unfit_material(
-    field: &FieldSpec,
-    material: Option<&MaterialSpec>,
-) -> Option<Diagnostic> {
-    let material = material.filter(|material| !material.frame_indifferent)?;
-    let angle = field.rigid.as_ref()?.angle()?;
+fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
+    let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
     let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
     Some(
         Diagnostic::error(angle.span, message)
@@ -273,12 +274,29 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
         _ => false,
     };
     program.instrs.iter().find(|instr| infinite(&instr.op))?;
-    let span = field.displacement.first().map_or(field.material.span, |formula| formula.span);
+    let (span, label) = match field.formulas().find_map(huge_number) {
+        Some(span) => (span, "too large"),
+        None => {
+            let first = field.displacement.first();
+            let span = first.map_or(field.material.span, |formula| formula.span);
+            (span, "here, or in what it uses")
+        }
+    };
     Some(
         Diagnostic::error(span, "a constant of this field is beyond the range of double precision")
-            .label("here, or in what it uses")
+            .label(label)
             .help("numbers up to 1.797e308 can be computed with: choose other units"),
     )
+}
+
+/// Where a formula has a number that no double precision number is near to.
+fn huge_number(formula: &Formula) -> Option<Span> {
+    let is_huge = |kind: &Kind| match kind {
+        Kind::Number(number) => number.to_f64().value().is_infinite(),
+        _ => false,
+    };
+    let ast = syntax::parse(formula, &mut Vec::new())?;
+    ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
 }
 
 /// The derivation of `what` filled the graph: points at the part of the file that made most of it.

@@ -16,7 +16,7 @@ use mms_codegen::source::Sources;
 use mms_codegen::spec::read_material;
 use mms_codegen::syntax::parse;
 use mms_codegen::twin::Twin;
-use mms_codegen::{compile, compile_with};
+use mms_codegen::{Options, compile, compile_with};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/fail")
@@ -90,13 +90,15 @@ fn place(path: &str, line: usize) -> String {
     format!("{}:{line}", &path[start..])
 }
 
+/// A field that is right.
+const FIELD: &str = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { value = 1 }\n\
+                     [displacement]\nu = [\"(a - 1)*X\"]\n[material]\nmodel = \"neo_hookean\"\n\
+                     lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\n\
+                     lower = [0]\nupper = [1]\ntime = [0, 1]\n";
+
 /// What `--set`, `--freeze` and `--rigid` can do wrong: a name that is unknown, one that is given
 /// twice, a stretch of 0, which J is divided by, and a second rigid motion.
 fn wrong_selections() -> Vec<Failure> {
-    let text = "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = { value = 1 }\n\
-                [displacement]\nu = [\"(a - 1)*X\"]\n[material]\nmodel = \"neo_hookean\"\n\
-                lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\n\
-                lower = [0]\nupper = [1]\ntime = [0, 1]\n";
     let set = |value: &str| vec![("a".to_string(), value.to_string())];
     let freeze = |names: &[&str]| Freeze::Only(names.iter().map(|name| name.to_string()).collect());
     let selections = [
@@ -109,11 +111,18 @@ fn wrong_selections() -> Vec<Failure> {
         compile_with("x", "x.toml", text, &load, &selection.into()).expect_err("a mistake")
     };
     let mut failures: Vec<_> =
-        selections.into_iter().map(|selection| compile(text, selection)).collect();
-    let moving = format!("{text}[rigid]\ntranslation = [\"t\"]\n");
+        selections.into_iter().map(|selection| compile(FIELD, selection)).collect();
+    let moving = format!("{FIELD}[rigid]\ntranslation = [\"t\"]\n");
     let twin = Selection { twin: Twin::Standard, ..Selection::default() };
     failures.push(compile(&moving, twin));
     failures
+}
+
+/// Why a field that is right does not compile within so many nodes, if it does not.
+fn bounded(max_nodes: usize) -> Option<Failure> {
+    let options = Options { max_nodes, ..Options::default() };
+    let load = |_: &str| Err("no files here".to_string());
+    compile_with("x", "x.toml", FIELD, &load, &options).err()
 }
 
 #[test]
@@ -139,8 +148,8 @@ fn every_message_of_the_compiler_has_a_wrong_file() {
         assert_eq!(found.message, "the value is not a rational number");
         place(found.site.file(), found.site.line() as usize)
     }));
-    // Nor has a selection.
-    for failure in wrong_selections() {
+    // Nor has a selection, or a bound.
+    for failure in wrong_selections().into_iter().chain(bounded(1)) {
         provoked.extend(
             failure
                 .diagnostics
@@ -188,6 +197,21 @@ fn each_wrong_file_gets_its_message() {
         failures.len(),
         failures.join("\n")
     );
+}
+
+/// Whatever step a bound stops, and however early, the message says so.
+#[test]
+fn a_graph_that_is_too_small_is_always_said_to_be() {
+    for limit in (1..40).chain((40..4000).step_by(61)) {
+        let Some(failure) = bounded(limit) else { continue };
+        let said = failure.diagnostics.iter().any(|found| found.message.contains("too large"));
+        assert!(said, "{limit} nodes: {failure}");
+        assert!(
+            failure.to_string().contains(&format!("the bound is {limit} of both")),
+            "{failure}"
+        );
+    }
+    assert!(bounded(1).is_some() && bounded(200_000).is_none());
 }
 
 #[test]

@@ -231,6 +231,17 @@ fn energy_stays_the_same_under_rotations_unless_a_material_says_otherwise() {
     assert_eq!(others.map(|spec| spec.name).collect::<Vec<_>>(), ["linear_elastic"]);
 }
 
+/// It has no transverse waves, and is no less of a material.
+#[test]
+fn a_fluid_is_a_material() {
+    for dimension in 1..=3 {
+        let fluid = field(dimension, "neo_hookean", "lambda = 1\nmu = 0");
+        let rest = vec![precise(0.0); dimension * dimension];
+        let speed = response(&fluid, Response::WaveSpeed, &rest).remove(0);
+        assert_eq!(speed.to_f64(), (1.0_f64 / 2.25).sqrt());
+    }
+}
+
 #[test]
 fn the_undeformed_body_is_free_of_stress_and_of_energy() {
     for (spec, compiled) in FIELDS.iter() {

@@ -315,6 +315,8 @@ fn settings_that_leave_no_body_no_time_or_no_mass_are_refused() {
         ("length=0", "the box is empty along X"),
         ("length=-1", "the time window is empty"),
         ("young=-1", "this bound is not a real number"),
+        ("young=-1", "this material is unstable at F = I"),
+        ("young=0", "this material has no stiffness at F = I"),
         ("rho0=-5", "this is -5"),
     ] {
         for command in ["eval bar_1d --at 0.3 --time 0", "study bar_1d --cells 8,16"] {

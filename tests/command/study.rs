@@ -300,23 +300,11 @@ fn a_study_whose_every_level_stops_exits_1() {
 
 #[test]
 fn a_study_whose_every_level_is_refused_exits_3() {
-    // A time window that is one for every modulus: else the settings are refused before the study.
     let folder = Folder::new();
-    let window = "\"2*length/c\"";
-    assert!(BAR.contains(window), "the bar's time window has changed");
-    let text = BAR.replace(window, "\"duration\"");
-    let duration = "[parameters]\nduration = { value = 0.06, unit = \"s\" }\n";
-    folder.write("bar.toml", &text.replacen("[parameters]", duration, 1));
-    let cases = [
-        ("--cells 1000000000000", "use fewer cells"),
-        ("--cells 8,16 --set young=0", "the wave speed is 0"),
-        ("--cells 8,16 --set young=-1", "the wave speed is NaN"),
-    ];
-    for (arguments, reason) in cases {
-        let run = folder.mms(&format!("study bar.toml {arguments}")).exits(3);
-        run.complains("not started: ").complains(reason).prints_nothing();
-        run.complains("the study of `bar` cannot be started");
-    }
+    folder.write("bar.toml", BAR);
+    let run = folder.mms("study bar.toml --cells 1000000000000").exits(3);
+    run.complains("not started: ").complains("use fewer cells").prints_nothing();
+    run.complains("the study of `bar` cannot be started");
     assert!(!folder.path("target").exists(), "nothing is written about a study that never ran");
 }
 

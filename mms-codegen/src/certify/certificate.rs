@@ -113,6 +113,10 @@ impl Certificate {
             Finite::Proved => {}
             // Where J is not proved, neither is what it divides.
             Finite::Unproved(..) if !matches!(self.jacobian, Jacobian::Positive(_)) => {}
+            // Nor is matter that is turned inside out a state of any material.
+            Finite::Undefined(quantity, _)
+                if *quantity > Quantity::Jacobian
+                    && matches!(self.jacobian, Jacobian::Inverted(..)) => {}
             Finite::Undefined(quantity, witness) => {
                 objections.push(message::undefined(compiled, *quantity, witness));
             }

@@ -1,6 +1,7 @@
 //! What a field declares about its parameters, its body, its time window and its material, in
 //! numbers: with the defaults when it is compiled, and with the values that a user sets.
 
+mod elasticity;
 mod material;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,7 +19,7 @@ use crate::program::interpret::Interpreter;
 use crate::program::precise::Precise;
 use crate::program::schedule::schedule;
 use crate::source::Span;
-use crate::spec::{self, Face, FieldSpec, Formula};
+use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec};
 
 /// Messages say no more than so many values of parameters.
 const MAX_SHOWN: usize = 6;
@@ -26,10 +27,11 @@ const MAX_SHOWN: usize = 6;
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// Whether a compiled field allows these values of its parameters, by position: each within its
-/// range, a body and a time window that are not empty, a positive density. The failure points to
-/// what the file says.
+/// range, a body and a time window that are not empty, a positive density, an elastic material. The
+/// failure points to what the file says.
 pub fn accepts(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<(), Failure> {
-    let diagnostics = check(&compiled.graph, &compiled.model, &compiled.field, set);
+    let diagnostics =
+        check(&compiled.graph, &compiled.model, (&compiled.field, &compiled.material), set);
     if diagnostics.is_empty() {
         return Ok(());
     }
@@ -41,7 +43,7 @@ pub fn accepts(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<(
 pub fn check(
     graph: &Graph,
     model: &Model,
-    field: &FieldSpec,
+    (field, material): (&FieldSpec, &MaterialSpec),
     set: &BTreeMap<usize, Rational>,
 ) -> Vec<Diagnostic> {
     if field.incomplete || graph.is_exhausted() {
@@ -51,7 +53,8 @@ pub fn check(
     graph.make_room();
     let values = parameter_values(&mut graph, model, set);
     let parameters = evaluate(&graph, &[], &values);
-    let mut declared = Declared { graph, model, field, parameters, diagnostics: Vec::new() };
+    let mut declared =
+        Declared { graph, model, field, material, parameters, diagnostics: Vec::new() };
     // What is computed from a parameter without a value has none either.
     if declared.parameters_exist() {
         declared.ranges();
@@ -86,6 +89,7 @@ struct Declared<'a> {
     graph: Graph,
     model: &'a Model,
     field: &'a FieldSpec,
+    material: &'a MaterialSpec,
     parameters: Vec<Precise>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -156,6 +160,10 @@ impl<'a> Declared<'a> {
             self.density(&extent);
             self.fibre(&extent);
             self.poisson(&extent);
+            // Moduli may be made of a ratio that is wrong.
+            if self.diagnostics.len() == reported {
+                self.elasticity(&extent);
+            }
         }
         let time = self.bounds(self.field.domain.time.each_ref(), self.model.domain.time);
         if let Some([first, last]) = time {

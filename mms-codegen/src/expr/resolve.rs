@@ -21,7 +21,7 @@ pub struct Scope {
     names: BTreeMap<String, Expr>,
     /// Names whose definitions stand further down, with those definitions.
     later: BTreeMap<String, Span>,
-    /// Names whose definitions failed: using them is a consequence, not a mistake.
+    /// Names whose definitions failed or were refused: using them is a consequence, not a mistake.
     failed: BTreeSet<String>,
     /// Names that exist elsewhere in the language, with the reason why they do not here.
     unavailable: BTreeMap<String, String>,
@@ -43,6 +43,11 @@ impl Scope {
                 self.failed.insert(name.into());
             }
         }
+    }
+
+    /// Makes names of the language that a file would define mean nothing.
+    pub fn refuse(&mut self, names: &[String]) {
+        self.failed.extend(names.iter().cloned());
     }
 
     /// Announces a name that is defined further down.
@@ -174,11 +179,11 @@ impl Resolver<'_> {
     }
 
     fn name(&mut self, name: &str, span: Span) -> Option<Expr> {
-        if let Some(expr) = self.scope.names.get(name) {
-            return Some(*expr);
-        }
         if self.scope.failed.contains(name) {
             return None;
+        }
+        if let Some(expr) = self.scope.names.get(name) {
+            return Some(*expr);
         }
         if let Some(definition) = self.scope.later.get(name) {
             return self.report(forward_reference(name, span, *definition));

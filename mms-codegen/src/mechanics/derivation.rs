@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::kinematics::{Motion, Route, Strain, half_angles};
-use super::material::Law;
+use super::material::{self, Law};
 use super::misread;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
@@ -249,9 +249,8 @@ fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, 
 
 /// The components of [`Response::Tangent`].
 pub fn tangent(graph: &mut Graph, model: &Model) -> Result<Vec<Expr>, TooLarge> {
-    let law = Law::new(graph, model.energy, &model.kind);
     let strain = supplied(graph, model);
-    let tangent = law.tangent(graph, &strain);
+    let tangent = material::tangent(graph, model.energy, &model.kind, &strain);
     within_bound(graph, "tangent of the stress")?;
     Ok(tangent)
 }

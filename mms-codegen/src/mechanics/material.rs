@@ -87,49 +87,6 @@ impl Law {
         }
     }
 
-    /// dP_iJ/dF_kL, in the order of the indices i, J, k, L, the last one fastest. With the
-    /// invariants I_a and their derivatives G_a = dI_a/dF it is
-    ///
-    /// ```text
-    /// dP_iJ/dF_kL = W_ab (G_a)_iJ (G_b)_kL + W_a d(G_a)_iJ/dF_kL
-    /// ```
-    pub fn tangent(&self, graph: &mut Graph, strain: &Strain) -> Vec<Expr> {
-        let (symbols, gradients): (Vec<Symbol>, Vec<_>) = match &self.stress {
-            Stress::Finite(_) => finite::gradients(graph, strain),
-            Stress::SmallStrain(_) => small_strain::gradients(graph, strain),
-        }
-        .into_iter()
-        .unzip();
-        let slopes = symbols.iter().map(|a| differentiate(graph, &[self.energy], *a)[0]);
-        let slopes: Vec<Expr> = slopes.collect();
-        let first = at(graph, strain, &slopes);
-        let second: Vec<Vec<Expr>> = symbols
-            .iter()
-            .map(|b| {
-                let curvatures = differentiate(graph, &slopes, *b);
-                at(graph, strain, &curvatures)
-            })
-            .collect();
-        let dimension = strain.gradient.dimension();
-        let components = dimension * dimension;
-        (0..components * components)
-            .map(|place| {
-                let (row, column) = (place / components, place % components);
-                let mut terms = Vec::new();
-                for (a, gradient) in gradients.iter().enumerate() {
-                    terms.push((graph.mul(first[a], gradient.slopes[place]), Rational::ONE));
-                    let by_row = gradient.value.components()[row];
-                    for (b, other) in gradients.iter().enumerate() {
-                        let factors = [second[b][a], by_row, other.value.components()[column]];
-                        let term = graph.product(factors.map(|factor| (factor, Rational::ONE)));
-                        terms.push((term, Rational::ONE));
-                    }
-                }
-                graph.sum(terms)
-            })
-            .collect()
-    }
-
     /// rho0 times the square of the speed of the fastest wave at F = I: n.Q(n) n of the acoustic
     /// tensor Q, for a longitudinal wave along n.
     ///
@@ -160,6 +117,49 @@ impl Law {
         let zero = graph.number(0);
         substitute(graph, &slope, &BTreeMap::from([(stretch, zero)]))[0]
     }
+}
+
+/// dP_iJ/dF_kL of a density of that kind at a strain, in the order of the indices i, J, k, L, the
+/// last one fastest. With the invariants I_a and their derivatives G_a = dI_a/dF it is
+///
+/// ```text
+/// dP_iJ/dF_kL = W_ab (G_a)_iJ (G_b)_kL + W_a d(G_a)_iJ/dF_kL
+/// ```
+pub fn tangent(graph: &mut Graph, energy: Expr, kind: &Kind, strain: &Strain) -> Vec<Expr> {
+    let (symbols, gradients): (Vec<Symbol>, Vec<_>) = match kind {
+        Kind::Isotropic | Kind::Fibrous(_) => finite::gradients(graph, strain),
+        Kind::SmallStrain => small_strain::gradients(graph, strain),
+    }
+    .into_iter()
+    .unzip();
+    let slopes = symbols.iter().map(|a| differentiate(graph, &[energy], *a)[0]);
+    let slopes: Vec<Expr> = slopes.collect();
+    let first = at(graph, strain, &slopes);
+    let second: Vec<Vec<Expr>> = symbols
+        .iter()
+        .map(|b| {
+            let curvatures = differentiate(graph, &slopes, *b);
+            at(graph, strain, &curvatures)
+        })
+        .collect();
+    let dimension = strain.gradient.dimension();
+    let components = dimension * dimension;
+    (0..components * components)
+        .map(|place| {
+            let (row, column) = (place / components, place % components);
+            let mut terms = Vec::new();
+            for (a, gradient) in gradients.iter().enumerate() {
+                terms.push((graph.mul(first[a], gradient.slopes[place]), Rational::ONE));
+                let by_row = gradient.value.components()[row];
+                for (b, other) in gradients.iter().enumerate() {
+                    let factors = [second[b][a], by_row, other.value.components()[column]];
+                    let term = graph.product(factors.map(|factor| (factor, Rational::ONE)));
+                    terms.push((term, Rational::ONE));
+                }
+            }
+            graph.sum(terms)
+        })
+        .collect()
 }
 
 fn half() -> Rational {

@@ -122,10 +122,12 @@ impl Model {
         material: Option<&MaterialSpec>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Model> {
+        let reported = diagnostics.len();
         let mut reader = Reader { graph, diagnostics, scope: Scope::default() };
         if field.incomplete {
             reader.scope.tolerate_unknown_names();
         }
+        reader.scope.refuse(&field.refused);
         let mut names = Names::default();
         let parameters = reader.parameters(field, &mut names);
         reader.coordinates(field.dimension);
@@ -143,6 +145,7 @@ impl Model {
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
         reader.variations(field);
+        reader.within_bound(field, reported);
         Some(Model {
             parameters: parameters?,
             names,
@@ -384,6 +387,18 @@ impl Reader<'_> {
         for stray in &field.stray {
             syntax::parse(stray, self.diagnostics);
         }
+    }
+
+    /// Reports a graph that was full before any formula was to blame for it.
+    fn within_bound(&mut self, field: &FieldSpec, reported: usize) {
+        if !self.graph.is_exhausted() || self.diagnostics.len() > reported {
+            return;
+        }
+        let first = field.displacement.first();
+        let span = first.map_or(field.material.span, |formula| formula.span);
+        let diagnostic = Diagnostic::error(span, "the formulas of this field are too large");
+        let help = self.graph.exhaustion();
+        self.diagnostics.push(Diagnostic { help, ..diagnostic.label("with what they use") });
     }
 
     fn check(&mut self, check: &spec::CheckSpec) -> Option<Check> {

@@ -12,6 +12,10 @@ use crate::expr::{Expr, Graph, Node, Rational, is_negative};
 /// Bases with their exponents.
 type Powers = Vec<(Expr, Rational)>;
 
+/// How often factors are taken out of one sum. Each time after the first, a sum that was a factor has
+/// opened; sums that nest deeper than this keep the rest of what they share.
+const DEPTH: usize = 64;
+
 /// `roots` with common factors taken out of every sum below them.
 pub fn factor(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
@@ -24,7 +28,8 @@ fn factor_sum(graph: &mut Graph, expr: Expr) -> Expr {
     let mut outer = Vec::new();
     let mut inner = expr;
     // Terms that were apart may meet inside and have factors in common again.
-    while let Some((common, rest)) = take_common(graph, inner) {
+    for _ in 0..DEPTH {
+        let Some((common, rest)) = take_common(graph, inner) else { break };
         outer.extend(common);
         inner = rest;
     }
@@ -97,9 +102,12 @@ fn take_common_of(
     Ok((common.into_iter().collect(), rest))
 }
 
+/// The powers that can be taken out of a term: not those of 0, which nothing divides away.
 fn powers(graph: &Graph, term: Expr) -> BTreeMap<Expr, Rational> {
     match graph.node(term) {
-        Node::Product(factors) => factors.iter().cloned().collect(),
+        Node::Product(factors) => {
+            factors.iter().filter(|(base, _)| !graph.is_zero(*base)).cloned().collect()
+        }
         _ => BTreeMap::from([(term, Rational::ONE)]),
     }
 }

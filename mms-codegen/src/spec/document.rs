@@ -51,8 +51,16 @@ impl<'a> Document<'a> {
         slips.sort_by_key(|slip| slip.span.start);
         let incomplete =
             errors.len() > MAX_ERRORS || slips.iter().any(|slip| slip.kind == Kind::Lossy);
-        let damage = slips.iter().filter(|slip| !slip.is_duplicate()).map(Slip::place).collect();
-        diagnostics.extend(explained(sources, id, &slips));
+        let is_open = |error: &Error| {
+            ["unclosed array,", "unclosed inline table,"]
+                .iter()
+                .any(|open| error.message().starts_with(open))
+        };
+        let open = errors.iter().any(is_open).then(|| brackets::unclosed(text)).flatten();
+        let damaged = slips.iter().filter(|slip| !slip.is_duplicate()).map(Slip::place);
+        // What an open bracket takes in has lost its place in the tree.
+        let damage = damaged.chain(open.map(|open| open..text.len())).collect();
+        diagnostics.extend(explained(sources, id, &slips, open));
         Some(Document { root, damage, incomplete })
     }
 }
@@ -126,15 +134,14 @@ fn is_in_value(root: &DeTable<'_>, place: &Range<usize>) -> bool {
     false
 }
 
-/// One diagnostic for each slip, none for its consequences.
-fn explained(sources: &Sources, id: SourceId, slips: &[Slip]) -> Vec<Diagnostic> {
+/// One diagnostic for each slip and for the bracket that is open, none for their consequences.
+fn explained(
+    sources: &Sources,
+    id: SourceId,
+    slips: &[Slip],
+    open: Option<usize>,
+) -> Vec<Diagnostic> {
     let text = sources.get(id).text.as_str();
-    let is_open = |slip: &Slip| {
-        ["unclosed array,", "unclosed inline table,"]
-            .iter()
-            .any(|open| slip.message.starts_with(open))
-    };
-    let open = if slips.iter().any(is_open) { brackets::unclosed(text) } else { None };
     let mut told: Vec<&Slip> = Vec::new();
     for slip in slips {
         let is_behind_open = open.is_some_and(|open| slip.span.start > open);

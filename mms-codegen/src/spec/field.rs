@@ -51,7 +51,9 @@ pub struct FieldSpec {
     /// Formulas that have lost their place to a reported mistake, such as a component too many.
     /// Nothing follows from them, but their syntax can be checked.
     pub stray: Vec<Formula>,
-    /// Whether TOML lost part of the file: an unknown name may be a consequence of that.
+    /// Names of the language that the file would define: what uses them may mean either.
+    pub refused: Vec<String>,
+    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
     pub incomplete: bool,
 }
 
@@ -99,10 +101,12 @@ pub fn read_field(
     let root = reader.root("a field file", &document.root, FIELD_FILE);
     let header = header(&root, &mut reader);
     let mut names = Names::new(Keeper::Field);
-    let parameters = open(&root, "parameters", &mut reader)
+    let parameters = reader
+        .names(&root, "parameters")
         .map(|table| parameters(&table, &mut names, &mut reader))
         .unwrap_or_default();
-    let lets = open(&root, "let", &mut reader)
+    let lets = reader
+        .names(&root, "let")
         .map(|table| lets(&table, &mut names, &mut reader))
         .unwrap_or_default();
     let entry = displacement_entry(&root, &mut reader);
@@ -140,15 +144,10 @@ pub fn read_field(
         studies: evidence.studies,
         extremes: evidence.extremes,
         rigid: place.rigid,
+        incomplete: reader.lost_names,
         stray: reader.stray,
-        incomplete: document.incomplete,
+        refused: reader.refused,
     })
-}
-
-/// A table of the user's own names, where there is one.
-fn open<'a>(root: &Table<'a>, key: &str, reader: &mut Reader<'a>) -> Option<Table<'a>> {
-    let entry = root.get(key)?;
-    reader.open_table(&entry, &format!("[{key}]"))
 }
 
 /// `[field]`.

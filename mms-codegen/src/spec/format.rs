@@ -327,7 +327,7 @@ pub const MATERIAL_HEADER: &[Key] = &[
     optional(
         "frame_indifferent",
         Holds::Flag,
-        "Whether W stays the same under rotations; true by default.",
+        "Whether W stays the same under rotations; it does by default, unless it is written in the small strain.",
     ),
 ];
 

@@ -39,8 +39,11 @@ pub struct MaterialSpec {
     pub reference: Option<String>,
     /// The strain-energy density W per unit reference volume.
     pub strain_energy: Formula,
-    /// Whether W is claimed to stay the same under rotations.
+    /// Whether W stays the same under rotations: not in the small strain, and not where the file
+    /// says so.
     pub frame_indifferent: bool,
+    /// The key by which the file says that it does.
+    pub claims_indifference: Option<Span>,
     /// The parameters.
     pub parameters: Vec<MaterialParameter>,
     /// The definitions, in order.
@@ -49,7 +52,9 @@ pub struct MaterialSpec {
     pub moduli: Option<Pair>,
     /// Formulas that have lost their place to a reported mistake.
     pub stray: Vec<Formula>,
-    /// Whether TOML lost part of the file: an unknown name may be a consequence of that.
+    /// Names of the language that the file would define: what uses them may mean either.
+    pub refused: Vec<String>,
+    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
     pub incomplete: bool,
 }
 
@@ -71,6 +76,11 @@ impl MaterialSpec {
                 _ => None,
             })
         })
+    }
+
+    /// Where W uses the small strain first, which a rotation changes.
+    pub fn small_strain(&self) -> Option<Spanned<String>> {
+        self.first_use(&["eps_trace", "eps_squared"])
     }
 
     /// Whether W is a function of I4: then the field gives the direction of the fibres.
@@ -152,7 +162,7 @@ fn misspelt_keys(
     misspelt
 }
 
-/// Reads a material file. `None` only where the file is too long to be read.
+/// Reads a material file. `None` only where the file is too long to be read, or is that of a field.
 pub fn read_material(
     sources: &Sources,
     id: SourceId,
@@ -161,32 +171,43 @@ pub fn read_material(
 ) -> Option<MaterialSpec> {
     let document = Document::parse(sources, id, diagnostics)?;
     let mut reader = Reader::new(sources, id, &document, diagnostics);
+    if let Some((key, _)) = document.root.iter().find(|(key, _)| key.get_ref() == "field") {
+        let place = key.span();
+        let span = sources.span(id, place.start, place.end);
+        reader.report(
+            Diagnostic::error(span, "this is a field file, not a material file")
+                .label("only fields have this table")
+                .help("a material file gives its `strain_energy` under [material]"),
+        );
+        return None;
+    }
     let root = reader.root("a material file", &document.root, MATERIAL_FILE);
     let mut names = Names::new(Keeper::Material);
-    let parameters = root
-        .get("parameters")
-        .and_then(|entry| reader.open_table(&entry, "[parameters]"))
+    let parameters = reader
+        .names(&root, "parameters")
         .map(|table| material_parameters(&table, &mut names, &mut reader));
-    let definitions = root
-        .get("let")
-        .and_then(|entry| reader.open_table(&entry, "[let]"))
-        .map(|table| lets(&table, &mut names, &mut reader));
+    let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),
         title: String::new(),
         reference: None,
         strain_energy: Formula::reported(root.span),
         frame_indifferent: true,
+        claims_indifference: None,
         parameters: parameters.unwrap_or_default(),
         lets: definitions.unwrap_or_default(),
         moduli: None,
         stray: Vec::new(),
-        incomplete: document.incomplete,
+        refused: Vec::new(),
+        incomplete: false,
     };
-    if let Some(entry) = reader.required_table(&root, "material") {
-        header(&entry, &mut spec, &mut reader);
+    match reader.required_table(&root, "material") {
+        Some(entry) => header(&entry, &mut spec, &mut reader),
+        // Nor is there anything to say of a file without its one necessary table.
+        None => reader.lost_names = true,
     }
-    spec.stray = reader.stray;
+    (spec.stray, spec.refused) = (reader.stray, reader.refused);
+    spec.incomplete = reader.lost_names;
     Some(spec)
 }
 
@@ -197,7 +218,8 @@ fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a
     }
     spec.reference = reader.optional_string(&table, "reference");
     spec.strain_energy = reader.required_formula(&table, "strain_energy");
-    if let Some(entry) = table.get("frame_indifferent") {
-        spec.frame_indifferent = reader.boolean(&entry).unwrap_or(true);
-    }
+    let claim = table.get("frame_indifferent");
+    let claimed = claim.as_ref().and_then(|entry| reader.boolean(entry));
+    spec.frame_indifferent = claimed.unwrap_or(true) && spec.small_strain().is_none();
+    spec.claims_indifference = claim.filter(|_| claimed == Some(true)).map(|entry| entry.key.span);
 }

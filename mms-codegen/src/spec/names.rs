@@ -84,6 +84,9 @@ impl Names {
                 true
             }
             Some(diagnostic) => {
+                if reserved(&name.value, self.keeper).is_some() {
+                    reader.refused.push(name.value.clone());
+                }
                 reader.report(diagnostic);
                 false
             }

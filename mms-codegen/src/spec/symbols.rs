@@ -51,6 +51,8 @@ pub(super) fn lets<'a>(
 ) -> Vec<LetSpec> {
     let mut lets = Vec::new();
     for Entry { key, value } in &table.entries {
+        // The header of another table in place of a formula takes the definitions below it.
+        reader.lost_names |= value.get_ref().is_table();
         let value = reader.formula(&key.value, value);
         if names.define(key, reader) {
             lets.push(LetSpec { name: key.clone(), value });

@@ -56,6 +56,10 @@ pub(super) struct Reader<'a> {
     /// Formulas that have lost their place in the file's meaning to a reported mistake, such as a
     /// component too many. Their own syntax is still worth checking.
     pub stray: Vec<Formula>,
+    /// Whether a table of names could not be read as one: a name may be defined in it.
+    pub lost_names: bool,
+    /// Names of the language that the file would define as well.
+    pub refused: Vec<String>,
     damage: &'a [std::ops::Range<usize>],
     incomplete: bool,
     diagnostics: &'a mut Vec<Diagnostic>,
@@ -71,8 +75,17 @@ impl<'a> Reader<'a> {
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
         let (damage, incomplete) = (document.damage.as_slice(), document.incomplete);
-        let stray = Vec::new();
-        Reader { sources, id, stray, damage, incomplete, diagnostics, reported: 0 }
+        Reader {
+            sources,
+            id,
+            stray: Vec::new(),
+            lost_names: incomplete,
+            refused: Vec::new(),
+            damage,
+            incomplete,
+            diagnostics,
+            reported: 0,
+        }
     }
 
     /// Adds a diagnostic.
@@ -137,6 +150,14 @@ impl<'a> Reader<'a> {
                 None
             }
         }
+    }
+
+    /// A table of the user's own names, where there is one.
+    pub fn names(&mut self, root: &Table<'a>, key: &str) -> Option<Table<'a>> {
+        let entry = root.get(key)?;
+        let table = self.open_table(&entry, &format!("[{key}]"));
+        self.lost_names |= table.is_none();
+        table
     }
 
     /// The tables under `[[name]]`.

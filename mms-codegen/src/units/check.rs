@@ -86,6 +86,7 @@ impl Checker<'_> {
             for (name, dimension) in &known {
                 self.formulas.define(name, Some(Measure::of(dimension.clone())));
             }
+            self.refuse(&material.refused);
             self.definitions(&material.lets);
             let energy = [&material.strain_energy];
             let message = "the strain-energy density must be an energy per volume";
@@ -106,6 +107,7 @@ impl Checker<'_> {
             self.parameter(parameter, unit.as_ref());
         }
         self.coordinates(field.dimension);
+        self.refuse(&field.refused);
         self.definitions(&field.lets);
         let message = "the displacement must be a length";
         self.expect(&field.displacement, Dimension::length(), message, None);
@@ -129,6 +131,11 @@ impl Checker<'_> {
             self.formulas.define(name, Some(Measure::of(Dimension::length())));
         }
         self.formulas.define("t", Some(Measure::of(Dimension::time())));
+    }
+
+    /// Names that a file would define and may not: nothing is known of what they measure.
+    fn refuse(&mut self, names: &[String]) {
+        names.iter().for_each(|name| self.formulas.define(name, None));
     }
 
     /// A formula as parsed; its mistakes of syntax are reported elsewhere.

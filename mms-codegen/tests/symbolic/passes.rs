@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use mms_codegen::expr::Graph;
+use mms_codegen::expr::{Graph, Rational, Symbol};
 use mms_codegen::pass::expand::expand;
 use mms_codegen::pass::factor::factor;
 use mms_codegen::pass::nest::nest;
@@ -16,6 +16,18 @@ use proptest::prelude::*;
 use super::canonical::read;
 use super::evaluation::{close, places, run, same_value, value_and_extent, values};
 use super::recipe::{any_recipe, built, recipe};
+
+/// Whatever is taken out of a division by zero, it stays one.
+#[test]
+fn nothing_is_taken_out_of_divisions_by_zero() {
+    let mut graph = Graph::default();
+    let zero = graph.number(0);
+    let x = graph.symbol(Symbol::Time);
+    let terms = [-1, -2].map(|power| (graph.power(zero, power), Rational::ONE));
+    let sum = graph.sum(terms);
+    let root = graph.mul(x, sum);
+    assert_eq!(factor(&mut graph, &[root, sum]), [root, sum]);
+}
 
 proptest! {
     #[test]

@@ -21,12 +21,23 @@ use crate::source::Span;
 /// At how many points of the body a material is looked at, beside the corners.
 pub const POINTS: usize = 128;
 
-/// A value that is not what it must be, and the point where it is not.
-struct Counterexample {
-    expr: Expr,
-    value: Precise,
-    /// Empty where the value is the same everywhere.
+/// Values that are not what they must be, and the point where they are not.
+pub(super) struct Counterexample {
+    exprs: Vec<Expr>,
+    /// What they are there.
+    pub values: Vec<Precise>,
+    /// Empty where the values are the same everywhere.
     point: Vec<Precise>,
+}
+
+impl Counterexample {
+    /// The first value, in a sentence.
+    fn says(&self, is: &str) -> String {
+        match &self.values[0] {
+            value if value.is_defined() => format!("{is} {}", digits(value)),
+            _ => "this is not defined".to_string(),
+        }
+    }
 }
 
 impl Declared<'_> {
@@ -38,11 +49,11 @@ impl Declared<'_> {
             return;
         }
         let zero = Precise::from_f64(0.0);
-        if let Some(found) = self.sought(extent, density, |value| !value.at_most(&zero)) {
+        if let Some(found) = self.sought(extent, &[density], |values| !values[0].at_most(&zero)) {
             let span = self.field.material.density.span;
             let help = "the body force is per unit mass: b = a - Div P/rho0";
             let diagnostic = Diagnostic::error(span, "the density must be positive");
-            self.refute(diagnostic, "this is", &found, help);
+            self.refute(diagnostic, &found.says("this is"), &found, help);
         }
     }
 
@@ -64,15 +75,16 @@ impl Declared<'_> {
         let length = graph.power(square, Rational::from_parts(1.into(), 2u8.into()));
         let [one, rounding] = [1.0, 1e-60].map(Precise::from_f64);
         let is_unit =
-            |value: &Precise| (value.clone() - one.clone()).magnitude().at_most(&rounding);
-        if let Some(found) = self.sought(extent, length, is_unit)
+            |values: &[Precise]| (values[0].clone() - one.clone()).magnitude().at_most(&rounding);
+        if let Some(found) = self.sought(extent, &[length], is_unit)
             && let [first, .., last] = formulas.as_slice()
         {
             let span = Span { end: last.span.end, ..first.span };
             let divisor = self.graph.print(length, &self.model.names);
             let help = format!("divide each component by `{divisor}`");
             let message = "the direction of the fibres must have the length 1";
-            self.refute(Diagnostic::error(span, message), "its length is", &found, &help);
+            let label = found.says("its length is");
+            self.refute(Diagnostic::error(span, message), &label, &found, &help);
         }
     }
 
@@ -84,14 +96,11 @@ impl Declared<'_> {
         let mut arguments = self.field.material.arguments.iter();
         let Some((_, formula)) = arguments.find(|(name, _)| name.value == "nu") else { return };
         let [least, greatest] = [-1.0, 0.5].map(Precise::from_f64);
-        let is_right = |value: &Precise| !value.at_most(&least) && !greatest.at_most(value);
-        if let Some(found) = self.sought(extent, ratio, is_right) {
-            self.refute(
-                Diagnostic::error(formula.span, POISSON),
-                "this is",
-                &found,
-                INCOMPRESSIBLE,
-            );
+        let is_right =
+            |values: &[Precise]| !values[0].at_most(&least) && !greatest.at_most(&values[0]);
+        if let Some(found) = self.sought(extent, &[ratio], is_right) {
+            let diagnostic = Diagnostic::error(formula.span, POISSON);
+            self.refute(diagnostic, &found.says("this is"), &found, INCOMPRESSIBLE);
         }
     }
 
@@ -101,42 +110,45 @@ impl Declared<'_> {
         is_number || self.graph.symbols(expr).contains(&Symbol::Time)
     }
 
-    /// Looks for a point where a value is not defined, or not what it must be.
-    fn sought(
+    /// Looks for a point where values are not defined, or not what they must be.
+    pub(super) fn sought(
         &self,
         extent: &Extent<Precise>,
-        expr: Expr,
-        is_right: impl Fn(&Precise) -> bool,
+        exprs: &[Expr],
+        is_right: impl Fn(&[Precise]) -> bool,
     ) -> Option<Counterexample> {
         let output = Output::Expected(0);
-        let program = schedule(&self.graph, &BTreeMap::from([(output, vec![expr])]));
+        let program = schedule(&self.graph, &BTreeMap::from([(output, exprs.to_vec())]));
         let mut interpreter = Interpreter::new(&program, &self.parameters);
         let plan = interpreter.plan(&[output]);
-        let symbols = self.graph.symbols(expr);
-        let varies = symbols.iter().any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
+        let mut symbols = exprs.iter().flat_map(|expr| self.graph.symbols(*expr));
+        let varies = symbols.any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
         let count = if varies { usize::MAX } else { 1 };
         points(extent).take(count).find_map(|point| {
             interpreter.set_point(&plan, Point::at(&point));
-            let value = interpreter.output(output).remove(0);
-            let is_right = value.is_defined() && is_right(&value);
+            let values = interpreter.output(output);
+            let is_right = values.iter().all(Precise::is_defined) && is_right(&values);
             let point = if varies { point } else { Vec::new() };
-            (!is_right).then_some(Counterexample { expr, value, point })
+            (!is_right).then(|| Counterexample { exprs: exprs.to_vec(), values, point })
         })
     }
 
-    /// Reports a value that is not what it must be, and where.
-    fn refute(&mut self, diagnostic: Diagnostic, is: &str, found: &Counterexample, help: &str) {
-        let mut label = match found.value.is_defined() {
-            true => format!("{is} {}", digits(&found.value)),
-            false => "this is not defined".to_string(),
-        };
+    /// Reports values that are not what they must be, and where.
+    pub(super) fn refute(
+        &mut self,
+        diagnostic: Diagnostic,
+        label: &str,
+        found: &Counterexample,
+        help: &str,
+    ) {
+        let mut label = label.to_string();
         if !found.point.is_empty() {
             let coordinates = AXES.iter().zip(&found.point);
             let place: Vec<_> =
                 coordinates.map(|(axis, value)| format!("{axis} = {}", digits(value))).collect();
             label.push_str(&format!(" at {}", place.join(", ")));
         }
-        let diagnostic = self.with_parameters(diagnostic.label(label), &[found.expr]);
+        let diagnostic = self.with_parameters(diagnostic.label(label), &found.exprs);
         self.report(diagnostic.help(help));
     }
 }

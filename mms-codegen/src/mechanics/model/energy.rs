@@ -52,7 +52,7 @@ impl Reader<'_> {
             complete &= value.is_some();
             if known.contains(&name.value.as_str()) {
                 inner.define(&name.value, *value);
-            } else if !material.incomplete {
+            } else if !material.incomplete && !material.refused.contains(&name.value) {
                 complete = false;
                 self.unknown_argument(field, name, &known);
             }
@@ -64,7 +64,7 @@ impl Reader<'_> {
             }
             complete = false;
             inner.define(name, None);
-            if field.incomplete {
+            if field.incomplete || material.incomplete {
                 continue;
             }
             let model = &field.material.model;
@@ -76,6 +76,7 @@ impl Reader<'_> {
                     .help(format!("add `{name} = \"...\"` under [material]")),
             );
         }
+        inner.refuse(&material.refused);
         let outer = std::mem::replace(&mut self.scope, inner);
         for definition in &material.lets {
             self.scope.announce(&definition.name);
@@ -150,7 +151,7 @@ impl Reader<'_> {
         material: &MaterialSpec,
         fibre: Option<&[Expr]>,
     ) -> Option<Kind> {
-        let small = material.first_use(&["eps_trace", "eps_squared"]);
+        let small = material.small_strain();
         let large = material.first_use(&["I1", "I2", "I3", "J", "I4"]);
         match (small, large) {
             (Some(small), Some(large)) => {
@@ -163,7 +164,17 @@ impl Reader<'_> {
                 );
                 None
             }
-            (Some(_), None) => Some(Kind::SmallStrain),
+            (Some(small), None) => {
+                if let Some(claim) = material.claims_indifference {
+                    let message = "this material is not frame-indifferent";
+                    self.diagnostics.push(
+                        Diagnostic::error(claim, message)
+                            .label(format!("a rotation changes `{}`, and W with it", small.value))
+                            .help("remove this key, or write W in I1, I2, I3, I4 and J"),
+                    );
+                }
+                Some(Kind::SmallStrain)
+            }
             (None, _) if !material.has_fibres() => Some(Kind::Isotropic),
             (None, _) => {
                 if field.material.fibre.is_none() && !field.incomplete {
