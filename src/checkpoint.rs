@@ -12,6 +12,7 @@ use crc32fast::Hasher;
 use mms_runtime::study::Checkpoint;
 use serde::{Deserialize, Serialize};
 
+use crate::report::file::{folder, is_stream};
 use crate::report::write_with;
 
 /// What the first key of every file says.
@@ -124,12 +125,14 @@ impl Keeper {
     /// A folder that cannot be written to.
     pub fn new(path: &Path, every: usize, head: Head) -> anyhow::Result<Self> {
         // Said before any work is done.
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        tempfile::tempfile_in(folder.unwrap_or(Path::new(".")))
-            .with_context(|| format!("`--checkpoint {}`: cannot write there", path.display()))?;
         if path.is_dir() {
             bail!("`--checkpoint {}`: expected a file, and it is a folder", path.display());
         }
+        if is_stream(path) {
+            bail!("`--checkpoint {}`: expected a plain file, to go on from", path.display());
+        }
+        tempfile::tempfile_in(folder(path))
+            .with_context(|| format!("`--checkpoint {}`: cannot write there", path.display()))?;
         Ok(Self { path: path.to_owned(), every, head })
     }
 

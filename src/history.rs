@@ -1,12 +1,14 @@
 //! What every step of a run led to, as a CSV file.
 //!
-//! Rows are kept until a checkpoint or the end, and the file is replaced as a whole then.
+//! Rows are kept until a checkpoint or the end, and the file is replaced as a whole then. What is no plain file, as a FIFO,
+//! gets them at the end alone.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use mms_runtime::study::{Balance, Record};
 
+use crate::report::file::is_stream;
 use crate::report::write_whole;
 
 /// The names of components.
@@ -28,7 +30,8 @@ impl History {
     pub fn new(path: &Path, dimension: usize, step: usize) -> anyhow::Result<Self> {
         let history = Self { path: path.to_owned(), rows: vec![names(dimension)] };
         if step == 0 {
-            history.write().with_context(|| format!("`--history {}`", path.display()))?;
+            // Said before any work is done.
+            history.keep().with_context(|| format!("`--history {}`", path.display()))?;
             return Ok(history);
         }
         history.from(step)
@@ -43,6 +46,9 @@ impl History {
                  the file that the run wrote, or none"
             )
         };
+        if is_stream(&self.path) {
+            bail!(lacks());
+        }
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .from_path(&self.path)
@@ -85,6 +91,14 @@ impl History {
             .into_iter()
             .for_each(push);
         self.rows.push(row);
+    }
+
+    /// Writes the rows so far, unless what was written could not be replaced.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn keep(&self) -> anyhow::Result<()> {
+        if is_stream(&self.path) { Ok(()) } else { self.write() }
     }
 
     /// Writes all rows.

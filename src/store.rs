@@ -77,7 +77,14 @@ impl Store {
         for entry in entries {
             let path = entry.with_context(|| format!("cannot read `{shown}`"))?.path();
             let is_result = path.extension().is_some_and(|extension| extension == "json");
-            if is_result && let Entry::SetAside(what) = store.read::<Value>(&path, None)? {
+            if !is_result || path.is_dir() {
+                continue;
+            }
+            // What has been renamed is said even if the next file cannot be read.
+            let found = store
+                .read::<Value>(&path, None)
+                .map_err(|error| set_aside.iter().cloned().fold(error, anyhow::Error::context))?;
+            if let Entry::SetAside(what) = found {
                 set_aside.push(what);
             }
         }
@@ -314,11 +321,14 @@ mod tests {
         let (folder, _) = store();
         fs::write(folder.path().join("notes.txt"), "mine").unwrap();
         fs::write(folder.path().join("notes.json"), "{}").unwrap();
+        fs::create_dir(folder.path().join("old.json")).unwrap();
         let (_, set_aside) = Store::open(folder.path()).unwrap();
         assert_eq!(set_aside.len(), 1, "{set_aside:?}");
         assert!(set_aside[0].contains("notes.json"));
         let names = names(folder.path());
-        assert!(names.contains(&"notes.txt".into()) && names.contains(&"notes.json.aside1".into()));
+        for name in ["notes.txt", "notes.json.aside1", "old.json"] {
+            assert!(names.contains(&name.into()), "{name}");
+        }
     }
 
     #[test]

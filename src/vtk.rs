@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use mms_runtime::study::Frame;
@@ -28,17 +28,26 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Into a folder, which is made if it is not there; files begin with `name`. A run that goes on has `written`
-    /// some before.
+    /// Into a folder, which is made if it is not there; files begin with `name`. A run that goes on from a `step` has
+    /// `written` some before.
     ///
     /// # Errors
-    /// A folder that cannot be made or written to.
+    /// A folder that cannot be made or written to, or that lacks those states.
     pub fn new(
         folder: &Path,
         name: &str,
         frames: usize,
+        step: usize,
         written: Vec<(f64, String)>,
     ) -> anyhow::Result<Self> {
+        let are_there = written.iter().all(|(_, file)| folder.join(file).is_file());
+        if step > 0 && (written.is_empty() || !are_there) {
+            bail!(
+                "`--vtk {}`: it does not hold the states before the checkpoint; name the folder that the run wrote \
+                 to, or none",
+                folder.display()
+            );
+        }
         let wrong = || format!("`--vtk {}`: cannot write there", folder.display());
         std::fs::create_dir_all(folder).with_context(wrong)?;
         let writer = Self {

@@ -151,7 +151,9 @@ pub enum Refusal {
     },
     /// The scene does not fit in memory.
     #[error(
-        "the scene has {count:e} {what}, more than the {limit:e} this solver takes; use fewer cells"
+        "the scene has {} {what}, more than the {limit:e} this solver takes; {}",
+        if count.is_finite() { format!("{count:e}") } else { "over 1e308".to_owned() },
+        fewer(what)
     )]
     TooLarge {
         /// `particles`, `grid nodes` or `steps`.
@@ -161,6 +163,15 @@ pub enum Refusal {
         /// How many are taken.
         limit: f64,
     },
+}
+
+/// What makes a scene smaller.
+fn fewer(what: &str) -> &'static str {
+    match what {
+        "steps" => "use a larger Courant number or time step, or an earlier end",
+        "particles" => "use fewer cells, or fewer particles per cell",
+        _ => "use fewer cells",
+    }
 }
 
 /// Three digits of a positive number, rounded down.

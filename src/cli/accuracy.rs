@@ -12,7 +12,7 @@ use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, Options};
 
 use super::input::{Motion, Text, precision, quantities, settings};
-use super::{Outcome, print, print_json, this_command};
+use super::{Outcome, print, print_json, say, this_command};
 use crate::report::accuracy::Report;
 use crate::report::provenance::Input;
 use crate::workbench::{Module, Time, Way, Workbench, time};
@@ -28,7 +28,7 @@ use crate::workbench::{Module, Time, Way, Workbench, time};
 /// --regime, --precision and --points shorten that.
 ///
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
-/// declared, and at displacements down to 1e-12 of the size.
+/// declared, and at displacements down to 1e-12 of the size; and if nothing can be measured as declared.
 #[derive(Args)]
 #[command(after_help = listed())]
 pub struct Accuracy {
@@ -96,9 +96,9 @@ impl Accuracy {
             regimes: self.regimes(&compiled)?,
             points: self.points as usize,
         };
-        let say = |regime: &str| anstream::eprintln!("{}: {regime}", text.name());
+        let begun = |regime: &str| say(format_args!("{}: {regime}", text.name()));
         let compile = |options: &Options| text.compile(options);
-        let accuracy = measure(&compile, &request, say).map_err(refused)?;
+        let accuracy = measure(&compile, &request, begun).map_err(refused)?;
         let times = match self.time || self.output.is_some() {
             true => timed(&text, &request),
             false => None,
@@ -114,7 +114,7 @@ impl Accuracy {
         };
         if let Some(folder) = &self.output {
             for path in report.write(folder)? {
-                anstream::eprintln!("{path}");
+                say(path);
             }
         }
         if self.json {
@@ -122,7 +122,7 @@ impl Accuracy {
         } else {
             print(&report.table(self.all))?;
         }
-        let held = report.broken().is_empty();
+        let held = report.broken().is_empty() && !report.is_unmeasured();
         Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })
     }
 
@@ -163,7 +163,7 @@ fn wanted<T: PartialEq, const N: usize>(all: [T; N], given: &[T]) -> Vec<T> {
 
 /// The times of the forms; `None`, with a word on stderr, where nothing can be timed.
 fn timed(text: &Text, request: &Request) -> Option<Vec<(Form, Time)>> {
-    anstream::eprintln!("{}: compiling and timing the emitted code", text.name());
+    say(format_args!("{}: compiling and timing the emitted code", text.name()));
     let compiled = |form: Form| {
         let mut options = Options { form, ..request.options.clone() };
         options.selection.quantities = Some(request.quantities.iter().copied().collect());
@@ -191,7 +191,7 @@ fn timed(text: &Text, request: &Request) -> Option<Vec<(Form, Time)>> {
                 .collect(),
         ),
         Err(error) => {
-            anstream::eprintln!("no times: {error:#}");
+            say(format_args!("no times: {error:#}"));
             None
         }
     }

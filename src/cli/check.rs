@@ -11,11 +11,12 @@ use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS,
 use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::{Diagnostic, render_styled};
+use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_codegen::source::Sources;
 use serde_json::{Value, json};
 
-use super::input::{Variant, read};
-use super::{Outcome, print, print_json};
+use super::input::{Variant, read, settings};
+use super::{Outcome, print, print_json, say};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
@@ -30,6 +31,10 @@ pub struct Check {
     /// Field files.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
+    /// Fix a parameter at a value: a number, or a formula in the parameters above it. What holds is then proved for it
+    /// alone, not for the parameter's range; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
     /// Print one JSON document.
@@ -39,13 +44,19 @@ pub struct Check {
 
 impl Check {
     pub fn run(self) -> anyhow::Result<Outcome> {
+        let options = self.variant.options(self.selection()?);
         let mut worst = Outcome::AsExpected;
         let mut documents = Vec::new();
         for file in &self.files {
             let shown = file.display().to_string();
-            let (outcome, document) = match read(file, &self.variant) {
+            let (outcome, document) = match read(file, &options) {
                 Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
-                Ok(Err(failure)) => self.report_failure(&shown, &failure)?,
+                Ok(Err(mut failure)) => {
+                    // What is frozen here is what is set, and its mistakes are said of that.
+                    let entry = |it: &Diagnostic| options.selection.entry(it.span);
+                    failure.diagnostics.retain(|it| !matches!(entry(it), Some(Entry::Freeze(_))));
+                    self.report_failure(&shown, &failure)?
+                }
                 Err(error) => self.report_unreadable(&shown, &error),
             };
             documents.push(document);
@@ -60,9 +71,19 @@ impl Check {
         Ok(worst)
     }
 
+    /// All of the field, with what is set as constants.
+    fn selection(&self) -> anyhow::Result<Selection> {
+        let set = settings(&self.set)?;
+        let freeze = match set.is_empty() {
+            true => Freeze::Nothing,
+            false => Freeze::Only(set.iter().map(|(name, _)| name.clone()).collect()),
+        };
+        Ok(Selection { set, freeze, ..Selection::default() })
+    }
+
     fn report_unreadable(&self, path: &str, error: &anyhow::Error) -> (Outcome, Value) {
         if !self.json {
-            anstream::eprintln!("error: {error:#}");
+            say(format_args!("error: {error:#}"));
         }
         let diagnostic = json!({ "path": path, "message": format!("{error:#}") });
         (Outcome::BadInput, json!({ "file": path, "diagnostics": [diagnostic] }))
@@ -70,7 +91,7 @@ impl Check {
 
     fn report_failure(&self, path: &str, failure: &Failure) -> anyhow::Result<(Outcome, Value)> {
         if !self.json {
-            anstream::eprintln!("{}", failure.styled());
+            say(failure.styled());
             print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
         }
         let diagnostics: Vec<_> =
@@ -88,7 +109,7 @@ impl Check {
         let refuted = !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
         if !self.json {
             if !objections.is_empty() {
-                anstream::eprintln!("{}", render_styled(&compiled.sources, &objections));
+                say(render_styled(&compiled.sources, &objections));
             }
             let proofs = proof::text(&certificate);
             print(&text(path, compiled, proofs, &gaps, &comparisons))?;
@@ -218,8 +239,12 @@ fn describe(compiled: &Compiled, comparison: &Comparison, found: &Difference) ->
         true => "undefined".to_string(),
         false => format!("{value:e}"),
     };
+    let apart = match found.derived == found.expected {
+        true => ", which differ behind the 16th digit",
+        false => "",
+    };
     format!(
-        "    {place}: component {} at X = {:?}, t = {:e}: derived {}, closed form {}",
+        "    {place}: component {} at X = {:?}, t = {:e}: derived {}, closed form {}{apart}",
         found.component + 1,
         found.coordinates,
         found.time,

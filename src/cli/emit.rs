@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use self::folder::{State, compare, quoted, write};
 use super::input::{Input, Variant, quantities, settings};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, say};
 use crate::gallery::FIELDS;
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
@@ -105,7 +105,7 @@ impl Emit {
             (false, _) => {}
         }
         if outcome == Outcome::Refuted {
-            anstream::eprintln!("write them anew: {}", command_without_check());
+            say(format_args!("write them anew: {}", command_without_check()));
         }
         Ok(outcome)
     }
@@ -185,7 +185,7 @@ impl Delivered {
             }
         }
         if let Some(line) = &self.verify {
-            anstream::eprintln!("to check the build: {line}");
+            say(format_args!("to check the build: {line}"));
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
 use super::method::{Arithmetic, MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json, this_command};
+use super::{Outcome, print, print_json, say, this_command};
 use crate::extremes::rows::{Row, rows};
 use crate::extremes::stable;
 use crate::extremes::subject::Subject;
@@ -27,7 +27,8 @@ use crate::tradeoff::setting::Setting;
 /// Tiny motions and nearly inverted ones, nearly incompressible material, stiff and soft units, one cell and millions, one
 /// particle per cell and a thousand, Courant numbers from 0.01 to past the stable one, a million steps, a body far
 /// from the origin, single precision. Bounds are relative to the error of the field as declared, with the method's options.
-/// A field that cannot be put at an extreme says why.
+/// A field that cannot be put at an extreme says why, and a grid in space that is too coarse for a material that is nearly
+/// inverted is `unresolved`: a cell of it may hold a thousand times the material, and nothing bounds its error.
 ///
 /// Then the largest stable Courant number of each shape function, formulation, transfer and integrator, by bisection, beside
 /// that of von Neumann's analysis of the interior.
@@ -69,17 +70,19 @@ impl Extremes {
         let usual = Division::Uniform(usual_cells(dimension));
         let seen = declared.run(&method, usual, arithmetic.precision, &mut progress.of(usual))?;
         let declared_error = match seen {
-            Seen::Ended { l2, cell_size, .. } if l2 > 0.0 => Declared { l2, cell_size },
+            Seen::Ended { l2, cell_size, least_jacobian, .. } if l2 > 0.0 => {
+                Declared { l2, cell_size, least_jacobian }
+            }
             Seen::Ended { .. } => bail!(
                 "the method makes no error on `{}`, so that there is nothing to compare with: choose another one",
                 declared.input.name
             ),
             Seen::Stopped { reason, .. } | Seen::LeftOut { reason } => {
                 progress.finish();
-                anstream::eprintln!(
+                say(format_args!(
                     "error: `{}` does not run as declared: {reason}",
                     declared.input.name
-                );
+                ));
                 return Ok(Outcome::RunFailed);
             }
         };

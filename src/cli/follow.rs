@@ -62,7 +62,7 @@ impl Followers<'_> {
     fn try_to_keep(&mut self, checkpoint: &dyn Checkpoint) -> anyhow::Result<()> {
         let Some(keeper) = &mut self.keeper else { return Ok(()) };
         // Never behind the checkpoint.
-        self.history.as_ref().map_or(Ok(()), History::write)?;
+        self.history.as_ref().map_or(Ok(()), History::keep)?;
         keeper.keep(checkpoint, self.vtk.as_ref().map_or(&[], Writer::written))
     }
 }

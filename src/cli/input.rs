@@ -123,8 +123,8 @@ pub struct Input {
     pub entry: Option<&'static Entry>,
     /// What the user named.
     given: String,
-    /// The motion on top.
-    twin: Twin,
+    /// How it was compiled.
+    options: Options,
 }
 
 impl Input {
@@ -163,13 +163,14 @@ impl Input {
             compiled: Arc::new(compiled),
             entry,
             given: field.to_owned(),
-            twin: options.selection.twin.clone(),
+            options: options.clone(),
         }
     }
 
     /// What a result of the field, with some settings, is of.
     pub fn provenance(&self, settings: &[String]) -> provenance::Input {
-        provenance::Input::new(&self.given, &self.twin, settings, &self.compiled)
+        let twin = &self.options.selection.twin;
+        provenance::Input::new(&self.given, twin, settings, &self.compiled)
     }
 
     /// The compiled field, where it is of the gallery, and the interpreted one otherwise; with the parameters
@@ -224,14 +225,35 @@ impl Input {
             }
         }
         if !set.is_empty() {
-            accepts(&self.compiled, &set).map_err(|failure| {
-                let settings: Vec<_> =
-                    settings.iter().map(|setting| format!("`--set {setting}`")).collect();
-                anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
-            })?;
+            accepts(&self.compiled, &set).map_err(|failure| not_allowed(settings, &failure))?;
         }
         Ok(set)
     }
+
+    /// Refuses settings with which the field contradicts itself, as with J <= 0 somewhere, as far as a compilation with
+    /// them sees that.
+    ///
+    /// # Errors
+    /// Such settings, and those that are none.
+    pub fn hold(&self, settings: &[String]) -> anyhow::Result<()> {
+        if self.settings(settings)?.is_empty() {
+            return Ok(());
+        }
+        let selection = Selection {
+            quantities: Some([Quantity::Jacobian].into()),
+            set: self::settings(settings)?,
+            ..self.options.selection.clone()
+        };
+        let options = Options { selection, ..self.options.clone() };
+        let compiled = Text::find(&self.given)?.compile_as(compile_with, &options);
+        compiled.map(drop).map_err(|failure| not_allowed(settings, &failure))
+    }
+}
+
+/// What is wrong with settings, at its place in the field file.
+fn not_allowed(settings: &[String], failure: &Failure) -> Error {
+    let settings: Vec<_> = settings.iter().map(|setting| format!("`--set {setting}`")).collect();
+    anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
 }
 
 /// The field of the gallery of that name.
@@ -358,6 +380,6 @@ pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
 
 /// Reads a field file and derives what follows from it, whether or not it is what it claims to be:
 /// an error if it cannot be read, a failure if it is wrong.
-pub fn read(path: &Path, variant: &Variant) -> anyhow::Result<Result<Compiled, Failure>> {
-    Ok(Text::read(path)?.compile(&variant.options(Selection::default())))
+pub fn read(path: &Path, options: &Options) -> anyhow::Result<Result<Compiled, Failure>> {
+    Ok(Text::read(path)?.compile(options))
 }

@@ -74,39 +74,39 @@ pub struct MethodOptions {
     #[arg(long, default_value_t = Transfer::FLIP)]
     pub transfer: Transfer,
     /// The part of flip, from 0 to 1; the rest is pic.
-    #[arg(long, value_name = "PART")]
+    #[arg(long, value_name = "PART", value_parser = part)]
     flip_fraction: Option<f64>,
     /// Particles per cell along each axis, as in 2 or 3x2.
     #[arg(long, value_name = "N[xN..]", default_value = "2")]
     particles_per_cell: Division,
     /// How to lay out particles: cartesian, or fitted to the faces of an annulus; by default fitted
-    /// there.
+    /// there. In a box both are the same.
     #[arg(long)]
     fill: Option<Fill>,
     /// Move each particle at random by up to this part of half its domain, from 0 to 1.
-    #[arg(long, value_name = "PART", default_value_t = 0.0)]
+    #[arg(long, value_name = "PART", default_value_t = 0.0, value_parser = part)]
     jitter: f64,
     /// What the random numbers follow from.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     /// Move the grid against the body by this part of a cell, from 0 to 1; one for all axes or one for
     /// each.
-    #[arg(long, value_name = "PART[,..]", value_delimiter = ',')]
+    #[arg(long, value_name = "PART[,..]", value_delimiter = ',', value_parser = part)]
     offset: Vec<f64>,
     /// The axes along which the body repeats itself: x, y, z.
     #[arg(long, value_name = "AXIS[,..]", value_delimiter = ',')]
     periodic: Vec<Axis>,
     /// time_step * c0 / shortest edge of a cell, c0 being the fastest wave speed at F = I.
-    #[arg(long, default_value_t = 0.4)]
+    #[arg(long, default_value_t = 0.4, value_parser = positive)]
     courant: f64,
     /// The time step, shortened to fill the time window, instead of that of the Courant number.
-    #[arg(long, value_name = "DT", conflicts_with = "courant")]
+    #[arg(long, value_name = "DT", conflicts_with = "courant", value_parser = positive)]
     time_step: Option<f64>,
     /// Run with a time step above the stable one, in which a wave may cross a cell.
     #[arg(long)]
     pub allow_unstable: bool,
     /// When to end, instead of at the end of the field's time window.
-    #[arg(long = "time", value_name = "T")]
+    #[arg(long = "time", value_name = "T", value_parser = finite)]
     end_time: Option<f64>,
     /// How many threads work on one run; by default as many as there are processors. Results do not
     /// depend on it.
@@ -114,6 +114,30 @@ pub struct MethodOptions {
     threads: Option<u16>,
     #[command(flatten)]
     pub arithmetic: Arithmetic,
+}
+
+/// Reads a number within some bounds; `expected` says which.
+fn number(
+    text: &str,
+    expected: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<f64, &'static str> {
+    text.trim().parse().ok().filter(|&value| holds(value)).ok_or(expected)
+}
+
+/// Reads a number that is neither infinite nor NaN.
+pub fn finite(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a finite number", f64::is_finite)
+}
+
+/// Reads a number above 0.
+pub fn positive(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a positive number", |value| value > 0.0 && value.is_finite())
+}
+
+/// Reads a part of a whole.
+fn part(text: &str) -> Result<f64, &'static str> {
+    number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))
 }
 
 /// How many threads run at the same time here.
@@ -154,6 +178,7 @@ impl MethodOptions {
 
     /// The method for a field with some parameters set, its time step held to the stable one.
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
+        input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
         method.setup.memory = Some(memory());
         if !self.allow_unstable {
@@ -164,24 +189,9 @@ impl MethodOptions {
 
     /// The method, or what of it cannot be for a body of this dimension.
     pub fn method(&self, dimension: usize) -> anyhow::Result<Method> {
-        let positive = |option: &str, value: f64| match value > 0.0 && value.is_finite() {
-            true => Ok(()),
-            false => bail!("`{option} {value}`: expected a positive number"),
-        };
-        positive("--courant", self.courant)?;
-        self.time_step.map_or(Ok(()), |step| positive("--time-step", step))?;
-        let within = |option: &str, value: f64| match (0.0..=1.0).contains(&value) {
-            true => Ok(()),
-            false => bail!("`{option} {value}`: expected a number from 0 to 1"),
-        };
-        within("--jitter", self.jitter)?;
-        self.offset.iter().try_for_each(|&part| within("--offset", part))?;
         let transfer = match (self.transfer, self.flip_fraction) {
             (transfer, None) => transfer,
-            (Transfer::Flip { .. }, Some(fraction)) => {
-                within("--flip-fraction", fraction)?;
-                Transfer::Flip { fraction }
-            }
+            (Transfer::Flip { .. }, Some(fraction)) => Transfer::Flip { fraction },
             (other, Some(_)) => {
                 bail!(
                     "`--flip-fraction` is a part of flip, and the transfer is {other}: leave one out"

@@ -25,7 +25,7 @@ mod verify;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::provenance::{Input, Provenance};
 
@@ -79,7 +79,7 @@ enum Outcome {
 pub fn run() -> ExitCode {
     let outcome = answer().unwrap_or_else(|error| {
         let style = anstyle::AnsiColor::Red.on_default().bold();
-        anstream::eprintln!("{style}error{style:#}: {error:#}");
+        say(format_args!("{style}error{style:#}: {error:#}"));
         Outcome::BadInput
     });
     ExitCode::from(match outcome {
@@ -93,7 +93,11 @@ pub fn run() -> ExitCode {
 /// Does what the command line asks for.
 fn answer() -> anyhow::Result<Outcome> {
     let arguments = saved::expand(std::env::args_os())?;
-    match Arguments::parse_from(arguments).command {
+    let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
+    let matches = command.clone().get_matches_from(arguments);
+    let parsed = Arguments::from_arg_matches(&matches)
+        .unwrap_or_else(|error| error.format(&mut command).exit());
+    match parsed.command {
         None => study::main_job(),
         Some(Command::List(list)) => list.run(),
         Some(Command::Show(show)) => show.run(),
@@ -110,6 +114,13 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::New(new)) => new.run(),
         Some(Command::Schema(schema)) => schema.run(),
     }
+}
+
+/// Lets the value of an option begin with a sign, as in `--jitter -1`: what is wrong with it is said of it, then, and not
+/// of an unknown option `-1`.
+fn with_signs(argument: Arg) -> Arg {
+    let takes_one = !argument.is_positional() && argument.get_action().takes_values();
+    if takes_one { argument.allow_negative_numbers(true) } else { argument }
 }
 
 /// What this command line makes of an input.
@@ -133,6 +144,12 @@ fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
 /// Prints one JSON document.
 fn print_json(document: &impl serde::Serialize) -> anyhow::Result<()> {
     print(&serde_json::to_string_pretty(document)?)
+}
+
+/// Says a line on stderr. Where it cannot be written, the work goes on without it.
+pub(crate) fn say(line: impl std::fmt::Display) {
+    use std::io::Write as _;
+    let _ = writeln!(anstream::stderr().lock(), "{line}");
 }
 
 /// Prints a text to stdout. A reader that stopped reading is not an error of ours.

@@ -6,6 +6,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_runtime::Division;
 use mms_runtime::study::Observer;
 
+use super::say;
+
 /// A bar on a terminal, a line per run elsewhere.
 pub struct Progress {
     bar: ProgressBar,
@@ -32,7 +34,7 @@ impl Progress {
     }
 
     pub fn say(&self, line: &str) {
-        self.bar.suspend(|| anstream::eprintln!("{line}"));
+        self.bar.suspend(|| say(line));
     }
 
     pub fn finish(&self) {
@@ -57,7 +59,7 @@ impl Observer for OfRun<'_> {
         let all = self.bar.length().unwrap_or_default();
         self.bar.set_position(all / steps as u64 * step as u64);
         if step == steps && self.bar.is_hidden() {
-            anstream::eprintln!("{} cells: {steps} steps done", self.cells);
+            say(format_args!("{} cells: {steps} steps done", self.cells));
         }
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 
-use super::{Outcome, print};
+use super::{Outcome, print, say};
 use crate::gallery::{self, FIELDS};
 use crate::page::{self, Page, Verdicts};
 use crate::report::{write_files, write_whole};
@@ -47,7 +47,7 @@ impl Report {
     fn results(&self, folder: &Path) -> anyhow::Result<Verdicts> {
         let page = Page::read(folder)?;
         for line in page.set_aside() {
-            anstream::eprintln!("not on the page: {line}");
+            say(format_args!("not on the page: {line}"));
         }
         let path = self.output.clone().unwrap_or_else(|| folder.join("report.html"));
         write_whole(&path, &page.html())
@@ -63,7 +63,7 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
     let write = |name: &str, page: String| write_files(folder, name, [("html", page)]);
     let mut fields = Vec::new();
     for (entry, field) in FIELDS.iter().zip(gallery::fields()) {
-        anstream::eprintln!("{}", entry.name);
+        say(entry.name);
         let page = page::gallery::page(entry)?;
         write(entry.name, page.html())?;
         fields.push((field, page.verdicts()));

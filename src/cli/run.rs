@@ -11,7 +11,7 @@ use super::follow::{Followers, Interrupted};
 use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, say};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
 use crate::report::provenance::Provenance;
@@ -91,7 +91,7 @@ impl Run {
         let run = match run {
             Ok(run) => run,
             Err(refusal) => {
-                anstream::eprintln!("error: `{}` cannot be run: {refusal}", input.name);
+                say(format_args!("error: `{}` cannot be run: {refusal}", input.name));
                 return Ok(Outcome::RunFailed);
             }
         };
@@ -118,7 +118,7 @@ impl Run {
             }
         }
         if let Err(failure) = &report.run.level.errors {
-            anstream::eprintln!("error: {failure}");
+            say(format_args!("error: {failure}"));
         }
         Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
     }
@@ -146,7 +146,7 @@ impl Run {
         let (step, states) = before.map_or_else(Default::default, |head| (head.step, head.states));
         let name = input.name.trim_start_matches('.');
         let vtk = self.vtk.as_deref();
-        let vtk = vtk.map(|folder| Writer::new(folder, name, self.frames as usize, states));
+        let vtk = vtk.map(|folder| Writer::new(folder, name, self.frames as usize, step, states));
         let vtk = vtk.transpose()?;
         let dimension = input.compiled.field.dimension;
         let history =

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 
 use anyhow::{Context as _, anyhow, bail};
-use clap::Args;
+use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
 use mms_codegen::source::Sources;
@@ -15,7 +15,7 @@ use toml::de::{DeTable, DeValue};
 use super::study::Study;
 
 /// The arguments of a command line, with those of a study file in front of the others. What is also given on
-/// the command line is not taken from the file; parameters are set by both.
+/// the command line is not taken from the file, nor what that excludes; parameters are set by both.
 pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<OsString>> {
     let mut arguments: Vec<OsString> = arguments.collect();
     if arguments.get(1).is_none_or(|command| command != "study") {
@@ -35,9 +35,66 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
     let shown = path.to_string_lossy().into_owned();
     let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{shown}`"))?;
     let own = &arguments[2..];
-    let given = |name: &str| own.iter().filter_map(|it| it.to_str()).any(|it| is_option(it, name));
-    let saved = read(&shown, &text, given)?;
+    let saved = read(&shown, &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())
+}
+
+/// The options of the command line, and what they leave of a file.
+struct Given {
+    command: Command,
+    /// The names of options.
+    options: Vec<String>,
+    /// The parameters that are set.
+    parameters: Vec<String>,
+}
+
+impl Given {
+    fn new(arguments: &[OsString]) -> Self {
+        let command = Study::augment_args(Command::new("study"));
+        let words: Vec<&str> = arguments.iter().filter_map(|it| it.to_str()).collect();
+        let is_given = |option: &Arg| {
+            let short = option.get_short().map(|letter| format!("-{letter}"));
+            let long = option.get_long().unwrap_or_default();
+            words.iter().any(|word| {
+                is_option(word, long) || short.as_ref().is_some_and(|it| word.starts_with(it))
+            })
+        };
+        let options = command.get_opts().filter(|option| is_given(option));
+        let options = options.filter_map(|it| it.get_long()).map(str::to_owned).collect();
+        let settings = words.iter().enumerate().filter_map(|(at, word)| match *word {
+            "--set" => words.get(at + 1).copied(),
+            other => other.strip_prefix("--set="),
+        });
+        let parameters = settings.filter_map(|it| it.split_once('='));
+        let parameters = parameters.map(|(name, _)| name.trim().to_owned()).collect();
+        Self { command, options, parameters }
+    }
+
+    /// Whether an option of a file is that of the command line, or excluded by one of these.
+    fn replaces(&self, name: &str) -> bool {
+        let option = |name: &str| self.command.get_opts().find(|it| it.get_long() == Some(name));
+        let excludes = |one: &Arg, other: &Arg| {
+            self.command.get_arg_conflicts_with(one).iter().any(|it| it.get_id() == other.get_id())
+        };
+        let Some(saved) = option(name) else { return false };
+        self.options.iter().filter_map(|given| option(given)).any(|given| {
+            let same = given.get_id() == saved.get_id();
+            same && name != "set" || excludes(given, saved) || excludes(saved, given)
+        })
+    }
+
+    /// The arguments of one key; otherwise what the command says of them.
+    fn check(&self, name: &str, arguments: Vec<OsString>) -> Result<Vec<OsString>, String> {
+        let command: &[&str] = if name == "field" { &["study"] } else { &["study", "field"] };
+        let all = command.iter().map(OsString::from).chain(arguments.iter().cloned());
+        let Err(error) = self.command.clone().try_get_matches_from(all) else {
+            return Ok(arguments);
+        };
+        let said = error.render().to_string();
+        let said = said.strip_prefix("error: ").unwrap_or(&said);
+        let said = said.split("\n\n").next().unwrap_or_default();
+        Err(said.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
 }
 
 /// Whether an argument is the option of this name.
@@ -47,9 +104,8 @@ fn is_option(argument: &str, name: &str) -> bool {
 }
 
 /// The arguments that a study file stands for, but for the options that are given.
-fn read(path: &str, text: &str, given: impl Fn(&str) -> bool) -> anyhow::Result<Vec<OsString>> {
-    let command = Study::augment_args(clap::Command::new("study"));
-    let options: Vec<&str> = command.get_arguments().filter_map(|it| it.get_long()).collect();
+fn read(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString>> {
+    let options: Vec<&str> = given.command.get_opts().filter_map(|it| it.get_long()).collect();
     let known = || options.iter().copied().filter(|name| *name != "study").chain(["field"]);
     let mut sources = Sources::default();
     let source = sources.add(path, text);
@@ -72,13 +128,18 @@ fn read(path: &str, text: &str, given: impl Fn(&str) -> bool) -> anyhow::Result<
             };
             let message = format!("`{}` is no option of a study", key.get_ref());
             diagnostics.push(Diagnostic::error(span, message).label("unknown").help(help));
-        } else if given(&name) && name != "set" {
-            continue;
-        } else if let Err(expected) = append(&mut arguments, &name, value) {
-            let place = value.span();
-            let span = sources.span(source, place.start, place.end);
-            let message = format!("`{}`: expected {expected}", key.get_ref());
-            diagnostics.push(Diagnostic::error(span, message).label("found this"));
+        } else if !given.replaces(&name) {
+            let words = words(&name, value, &given.parameters);
+            let words = words.map_err(|expected| format!("expected {expected}"));
+            match words.and_then(|words| given.check(&name, words)) {
+                Ok(words) => arguments.extend(words),
+                Err(what) => {
+                    let place = value.span();
+                    let span = sources.span(source, place.start, place.end);
+                    let message = format!("`{}`: {what}", key.get_ref());
+                    diagnostics.push(Diagnostic::error(span, message).label("found this"));
+                }
+            }
         }
     }
     if !diagnostics.is_empty() {
@@ -88,18 +149,20 @@ fn read(path: &str, text: &str, given: impl Fn(&str) -> bool) -> anyhow::Result<
     Ok(arguments)
 }
 
-/// One key as arguments; otherwise what it takes.
-fn append(
-    arguments: &mut Vec<OsString>,
+/// One key as arguments, without the parameters that are set already; otherwise what it takes.
+fn words(
     name: &str,
     value: &Spanned<DeValue<'_>>,
-) -> Result<(), &'static str> {
+    set: &[String],
+) -> Result<Vec<OsString>, &'static str> {
     let option = format!("--{name}=");
+    let mut arguments: Vec<OsString> = Vec::new();
     match (name, value.get_ref()) {
         ("field", DeValue::String(field)) => arguments.push(field.as_ref().into()),
         ("field", _) => return Err("the name of a field or a path to one, in quotes"),
         ("set", DeValue::Table(table)) => {
-            for (parameter, value) in table {
+            let left = table.iter().filter(|(name, _)| !set.iter().any(|it| it == name.get_ref()));
+            for (parameter, value) in left {
                 let value = word(value).ok_or("numbers")?;
                 arguments.push(format!("{option}{}={value}", parameter.get_ref()).into());
             }
@@ -114,7 +177,7 @@ fn append(
         }
         _ => arguments.push((option + &word(value).ok_or("a number, or a word in quotes")?).into()),
     }
-    Ok(())
+    Ok(arguments)
 }
 
 /// A number as it is written, or a text.

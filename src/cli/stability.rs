@@ -13,6 +13,7 @@ use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_runtime::{FormulationName, Method};
 
 use super::input::Input;
+use super::say;
 
 /// At how many points c0 is sampled.
 const POINTS: usize = 16;
@@ -46,10 +47,10 @@ pub fn fastest_wave_with(
     };
     let fastest = wave_speed(&input.compiled, set, frame, asked);
     if fastest.is_none() {
-        anstream::eprintln!(
+        say(format_args!(
             "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
             input.name
-        );
+        ));
     }
     fastest
 }

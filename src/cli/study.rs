@@ -14,10 +14,10 @@ use mms_runtime::study::{
 use mms_runtime::{Division, Method, Run, Verdict};
 
 use super::input::{Input, Motion};
-use super::method::{MethodOptions, Precision};
+use super::method::{MethodOptions, Precision, finite, positive};
 use super::methods::Methods;
 use super::progress::Progress;
-use super::{Outcome, output_folder, print, print_json, this_command};
+use super::{Outcome, output_folder, print, print_json, say, this_command};
 use crate::report::provenance::Provenance;
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
 use crate::scene::{Scene, Solvable};
@@ -63,11 +63,11 @@ pub struct Study {
     methods: Methods,
     /// The order to judge against. By default that of the field's [[study]] entry for the method,
     /// else 2.
-    #[arg(long, value_name = "P")]
+    #[arg(long, value_name = "P", value_parser = finite)]
     expected_order: Option<f64>,
     /// The error constant C of l2 = C h^P, or C dt^P in time, on the finest level, to hold the verdict to as well,
     /// within 1 %: a defect may leave the order and change the constant. Without it the order alone is judged.
-    #[arg(long, value_name = "C")]
+    #[arg(long, value_name = "C", value_parser = positive)]
     expected_constant: Option<f64>,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
@@ -130,11 +130,11 @@ impl Periods {
             return;
         }
         let numbers = numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        anstream::eprintln!(
+        say(format_args!(
             "note: stopped in period {numbers} of {}; where finer grids and smaller steps do not get further, errors \
              that grow from period to period have outgrown the motion: ask for fewer periods, or set a smaller motion",
             self.last
-        );
+        ));
     }
 }
 
@@ -159,7 +159,7 @@ impl Study {
         let provenance = this_command("study", input.provenance(&self.set))?;
         let studies = self.reports(&cases, &provenance)?;
         if !studies.iter().any(Report::is_started) {
-            anstream::eprintln!("error: the study of `{}` cannot be started", input.name);
+            say(format_args!("error: the study of `{}` cannot be started", input.name));
             return Ok(Outcome::RunFailed);
         }
         let report = Comparison { studies, provenance };
@@ -210,7 +210,7 @@ impl Study {
         let mut reports = Vec::new();
         for case in cases {
             if cases.len() > 1 {
-                anstream::eprintln!("{}", method::line(&case.method, case.options.arithmetic));
+                say(method::line(&case.method, case.options.arithmetic));
             }
             reports.push(self.report(case, provenance.clone())?);
         }
@@ -315,13 +315,6 @@ impl Study {
         if self.refine != Refinement::Time && self.levels.is_some() {
             bail!("`--levels`: the levels of a study in space are given by `--cells`");
         }
-        if self.expected_order.is_some_and(|order| !order.is_finite()) {
-            bail!("`--expected-order`: expected a finite number");
-        }
-        if self.expected_constant.is_some_and(|constant| !(constant > 0.0 && constant.is_finite()))
-        {
-            bail!("`--expected-constant`: expected a positive number");
-        }
         if self.expected_constant.is_some() && self.methods.each().len() > 1 {
             bail!("`--expected-constant`: each method has a constant of its own; give one method");
         }
@@ -359,9 +352,7 @@ impl Study {
         });
         let found = self.fit.then(|| fit(&errors.collect::<Vec<_>>())).flatten();
         if self.fit && found.is_none() {
-            anstream::eprintln!(
-                "note: nothing fits the errors of these runs; give three grids or more"
-            );
+            say("note: nothing fits the errors of these runs; give three grids or more");
         }
         (levels, found)
     }

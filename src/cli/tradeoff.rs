@@ -7,7 +7,8 @@ use clap::Args;
 use mms_codegen::selection::Form;
 
 use super::input::{Input, Motion, Variant};
-use super::{Outcome, print, print_json, this_command};
+use super::method::positive;
+use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
 use crate::scene::usual_cells;
@@ -31,17 +32,17 @@ pub struct Tradeoff {
     #[arg(required_unless_present = "page")]
     field: Option<String>,
     /// The largest error to be met at the least cost; by default that of `mms run` without options.
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", value_parser = positive)]
     target_linf: Option<f64>,
     /// The time in which to have the least error.
-    #[arg(long, value_name = "S", conflicts_with = "target_linf")]
+    #[arg(long, value_name = "S", conflicts_with = "target_linf", value_parser = positive)]
     budget_seconds: Option<f64>,
     /// What is to be small: seconds are particle-steps times what one takes with the method here; particle-steps
     /// and memory decide in the same way on every machine.
     #[arg(long, value_enum, default_value_t)]
     cost: Cost,
     /// Begin no run that is predicted to take more particle-steps.
-    #[arg(long, value_name = "N", default_value_t = 1e8)]
+    #[arg(long, value_name = "N", default_value_t = 1e8, value_parser = positive)]
     most_work: f64,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
@@ -67,26 +68,18 @@ pub struct Tradeoff {
 
 impl Tradeoff {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let positive = |option: &str, value: Option<f64>| match value {
-            Some(value) if !(value > 0.0 && value.is_finite()) => {
-                bail!("`{option} {value}`: expected a positive number")
-            }
-            _ => Ok(()),
-        };
-        positive("--target-linf", self.target_linf)?;
-        positive("--budget-seconds", self.budget_seconds)?;
-        positive("--most-work", Some(self.most_work))?;
         if self.budget_seconds.is_some() && self.cost != Cost::Seconds {
             bail!("`--budget-seconds`: seconds are what is spent; leave out `--cost`");
         }
         let (store, set_aside) = Store::open(&self.store)?;
-        set_aside.iter().for_each(|what| anstream::eprintln!("warning: {what}"));
+        set_aside.iter().for_each(|what| say(format_args!("warning: {what}")));
         let mut trials = Trials::new(store)?;
         if self.page {
             return self.print_page(&mut trials);
         }
         let Some(field) = &self.field else { bail!("no field") };
         let input = self.input(field)?;
+        input.hold(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), &input.name)?;
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let goal = match (self.target_linf, self.budget_seconds) {

@@ -15,7 +15,7 @@ use mms_codegen::suggest::did_you_mean;
 use serde_json::Value;
 
 use super::input::Input;
-use super::{Outcome, print, print_json, this_command};
+use super::{Outcome, print, print_json, say, this_command};
 use crate::gallery::FIELDS;
 use crate::report::{pretty, provenance, write_files};
 use crate::rows::Named as _;
@@ -114,7 +114,7 @@ impl Verify {
     ) -> anyhow::Result<()> {
         if let Some(folder) = &self.output {
             for path in write_files(folder, name, [("json", pretty(document)?)])? {
-                anstream::eprintln!("{path}");
+                say(path);
             }
         }
         match (self.json, self.page) {
@@ -254,11 +254,11 @@ impl Watcher for Progress {
         if self.bar.is_hidden() {
             let end = outcome.failure().unwrap_or_else(|| "done".into());
             let left = self.bar.eta().as_secs();
-            anstream::eprintln!("{count}, about {left} s left: {}: {end}", job.command);
+            say(format_args!("{count}, about {left} s left: {}: {end}", job.command));
         }
     }
 
     fn set_aside(&self, what: &str) {
-        self.bar.suspend(|| anstream::eprintln!("warning: {what}"));
+        self.bar.suspend(|| say(format_args!("warning: {what}")));
     }
 }

@@ -12,7 +12,7 @@ use mms_codegen::selection::Form;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection};
 use mms_runtime::study::{Observer, Watch};
-use mms_runtime::{Division, Method};
+use mms_runtime::{Division, FormulationName, Method};
 
 use super::rows::Row;
 use super::theory::Elasticity;
@@ -22,7 +22,7 @@ use crate::cli::method::Precision;
 use crate::cli::stability::{fastest_wave_with, sound};
 use crate::scene::{Scene, Solvable, usual_cells};
 
-/// At how many points and times the largest displacement is looked for.
+/// At how many points and times the largest displacement and the least J are looked for.
 const POINTS: usize = 256;
 
 /// A field at an extreme.
@@ -35,6 +35,8 @@ pub struct Subject {
     pub settings: String,
     /// The largest displacement.
     pub size: f64,
+    /// The least J.
+    least_jacobian: f64,
     /// The longest edge of the body, or its diameter.
     edge: f64,
     /// When its time window begins and ends.
@@ -91,8 +93,8 @@ impl Subject {
                 .fold(0.0, |edge: f64, (lower, upper)| edge.max(upper - lower)),
             Extent::Annulus([_, outer], _) => 2.0 * outer,
         };
-        let size = largest_displacement(compiled, &parameters);
-        Subject { input, set, settings, size, edge, window }
+        let (size, least_jacobian) = motion(compiled, &parameters);
+        Subject { input, set, settings, size, least_jacobian, edge, window }
     }
 
     /// The method of a row.
@@ -186,6 +188,10 @@ impl Subject {
                 l2: errors.l2 / self.size,
                 round_off: details.round_off / self.size,
                 cell_size: run.level.cell_size / self.edge,
+                least_jacobian: match method.formulation {
+                    FormulationName::Updated => self.least_jacobian,
+                    FormulationName::Total => 1.0,
+                },
             },
             (Err(failure), _) => Seen::Stopped {
                 diagnosis: Diagnosis::of_cause(&failure.cause),
@@ -217,14 +223,17 @@ fn first_line(error: &anyhow::Error) -> String {
     line.unwrap_or_default().to_owned()
 }
 
-fn largest_displacement(compiled: &Compiled, parameters: &[f64]) -> f64 {
-    let output = Output::Quantity(Quantity::Displacement);
+/// The largest displacement and the least J, at some points and times.
+fn motion(compiled: &Compiled, parameters: &[f64]) -> (f64, f64) {
+    let [u, jacobian] = [Quantity::Displacement, Quantity::Jacobian].map(Output::Quantity);
     let mut interpreter = Interpreter::new(&compiled.program, parameters);
-    let plan = interpreter.plan(&[output]);
-    let sizes = samples(compiled, parameters, POINTS).into_iter().map(|sample| {
+    let plan = interpreter.plan(&[u, jacobian]);
+    let (mut size, mut least) = (0.0_f64, f64::INFINITY);
+    for sample in samples(compiled, parameters, POINTS) {
         interpreter.set_time(&sample.time);
         interpreter.set_point(&plan, Point::at(&sample.coordinates));
-        interpreter.output(output).iter().map(|u| u * u).sum::<f64>().sqrt()
-    });
-    sizes.fold(0.0, f64::max)
+        size = size.max(interpreter.output(u).iter().map(|u| u * u).sum::<f64>().sqrt());
+        least = least.min(interpreter.output(jacobian)[0]);
+    }
+    (size, least)
 }

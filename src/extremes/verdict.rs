@@ -82,6 +82,8 @@ pub enum Seen {
         round_off: f64,
         /// h over the body's longest edge.
         cell_size: f64,
+        /// The least J of the field, where the grid is in space; 1, where it moves with the material.
+        least_jacobian: f64,
     },
     /// It did not.
     Stopped {
@@ -104,6 +106,8 @@ pub struct Declared {
     pub l2: f64,
     /// h over the body's longest edge.
     pub cell_size: f64,
+    /// The least J of the field, as of a run.
+    pub least_jacobian: f64,
 }
 
 /// How a row ends.
@@ -113,6 +117,9 @@ pub enum Verdict {
     WithinBound,
     /// It stops, as it may.
     Stops,
+    /// It is beyond its bound, on a grid in space whose cells hold so much material, where J is small, that their error may
+    /// be as large as the motion: nothing bounds it.
+    Unresolved,
     /// It is beyond its bound, and does not say so.
     BeyondBound,
     /// It stops for a reason that is not among those expected.
@@ -129,6 +136,7 @@ impl Verdict {
         match self {
             Verdict::WithinBound => "within bound",
             Verdict::Stops => "stops",
+            Verdict::Unresolved => "unresolved",
             Verdict::BeyondBound => "beyond bound",
             Verdict::WrongDiagnosis => "wrong diagnosis",
             Verdict::DoesNotStop => "does not stop",
@@ -138,7 +146,7 @@ impl Verdict {
 
     /// Whether it is what theory says.
     pub fn is_expected(self) -> bool {
-        matches!(self, Verdict::WithinBound | Verdict::Stops | Verdict::LeftOut)
+        !matches!(self, Verdict::BeyondBound | Verdict::WrongDiagnosis | Verdict::DoesNotStop)
     }
 }
 
@@ -151,16 +159,26 @@ pub fn bound(row: &Row, declared: Declared, cell_size: f64, round_off: f64) -> O
     row.l2.map(|factor| factor * declared.l2 * coarser.powi(2) + NOISE * round_off)
 }
 
+/// Whether a bound of the error says nothing, since it is that of the motion or more: for cells in space of `h` hold as
+/// much material as cells of h/J hold where J = 1, and errors are those of these cells, squared.
+fn is_vacuous(bound: f64, declared: Declared, least_jacobian: f64) -> bool {
+    let crowded = (declared.least_jacobian / least_jacobian).max(1.0);
+    crowded > 1.0 && bound * crowded.powi(2) >= 1.0
+}
+
 /// The verdict on what is seen.
 pub fn judge(row: &Row, declared: Declared, seen: &Seen) -> Verdict {
     match seen {
         Seen::LeftOut { .. } => Verdict::LeftOut,
         Seen::Stopped { diagnosis, .. } if row.stops.contains(diagnosis) => Verdict::Stops,
         Seen::Stopped { .. } => Verdict::WrongDiagnosis,
-        Seen::Ended { l2, round_off, cell_size } => {
+        Seen::Ended { l2, round_off, cell_size, least_jacobian } => {
             match bound(row, declared, *cell_size, *round_off) {
                 None => Verdict::DoesNotStop,
                 Some(bound) if *l2 <= bound => Verdict::WithinBound,
+                Some(bound) if l2.is_finite() && is_vacuous(bound, declared, *least_jacobian) => {
+                    Verdict::Unresolved
+                }
                 Some(_) => Verdict::BeyondBound,
             }
         }
@@ -177,13 +195,24 @@ mod tests {
 
     #[test]
     fn a_row_is_within_its_bound_or_stops_as_expected() {
-        let declared = Declared { l2: 1e-3, cell_size: 0.1 };
-        let ended = |l2: f64| Seen::Ended { l2, round_off: 1e-6, cell_size: 0.1 };
+        let declared = Declared { l2: 1e-3, cell_size: 0.1, least_jacobian: 0.5 };
+        let crowded = |l2: f64, least_jacobian| Seen::Ended {
+            l2,
+            round_off: 1e-6,
+            cell_size: 0.1,
+            least_jacobian,
+        };
+        let ended = |l2: f64| crowded(l2, 0.5);
         let bounded = row("l2 = 2\nstops = [\"lost\"]");
         assert_eq!(judge(&bounded, declared, &ended(2e-3)), Verdict::WithinBound);
         assert_eq!(judge(&bounded, declared, &ended(2.1e-3)), Verdict::BeyondBound);
         assert_eq!(judge(&bounded, declared, &ended(f64::NAN)), Verdict::BeyondBound);
-        let coarse = Seen::Ended { l2: 7e-3, round_off: 0.0, cell_size: 0.2 };
+        // Cells that hold thirty times the material may err as much as there is; those with ten times may not.
+        assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 30.0)), Verdict::Unresolved);
+        assert_eq!(judge(&bounded, declared, &crowded(1e-3, 0.5 / 30.0)), Verdict::WithinBound);
+        assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 10.0)), Verdict::BeyondBound);
+        assert_eq!(judge(&bounded, declared, &crowded(f64::NAN, 1e-3)), Verdict::BeyondBound);
+        let coarse = Seen::Ended { l2: 7e-3, round_off: 0.0, cell_size: 0.2, least_jacobian: 0.5 };
         assert_eq!(judge(&bounded, declared, &coarse), Verdict::WithinBound);
         let stopped = |diagnosis| Seen::Stopped { diagnosis, reason: String::new() };
         assert_eq!(judge(&bounded, declared, &stopped(Diagnosis::Lost)), Verdict::Stops);

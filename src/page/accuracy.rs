@@ -39,6 +39,7 @@ struct Row {
 #[derive(Deserialize)]
 struct LeftOut {
     regime: String,
+    quantity: Option<String>,
     precision: Option<String>,
     reason: String,
 }
@@ -86,7 +87,7 @@ impl Section for Accuracy {
                 details {
                     summary { "Left out" }
                     ul { @for it in &self.left_out {
-                        li { (it.regime) @if let Some(precision) = &it.precision { " in " (precision) } ": " (it.reason) }
+                        li { (it.regime) @if let Some(quantity) = &it.quantity { ", " (quantity) } @if let Some(precision) = &it.precision { " in " (precision) } ": " (it.reason) }
                     } }
                 }
             }

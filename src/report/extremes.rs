@@ -224,7 +224,7 @@ impl Report {
             let reason = match &row.seen {
                 Seen::LeftOut { reason } => reason,
                 Seen::Stopped { reason, .. } if !row.verdict.is_expected() => reason,
-                Seen::Ended { .. } if !row.verdict.is_expected() => &row.row.theory,
+                Seen::Ended { .. } if row.verdict != Verdict::WithinBound => &row.row.theory,
                 _ => continue,
             };
             text += &format!("\n{}: {}: {reason}", row.row.name, row.verdict.name());

@@ -3,6 +3,7 @@
 pub mod accuracy;
 mod comparison;
 pub(crate) mod extremes;
+pub(crate) mod file;
 pub(crate) mod front;
 pub(crate) mod method;
 mod phase;
@@ -16,8 +17,8 @@ pub use comparison::Comparison;
 pub use phase::Phases;
 pub use study::{Refused, Study};
 
-use std::fs::File;
-use std::io::Write as _;
+pub(crate) use file::{write_whole, write_with};
+
 use std::path::Path;
 
 use anyhow::Context as _;
@@ -46,31 +47,6 @@ pub(crate) fn write_files<const N: usize>(
 /// A document as the content of a file.
 pub(crate) fn pretty(document: &Value) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(document)? + "\n")
-}
-
-/// Never leaves half a file under its final name.
-pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
-    write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
-}
-
-/// The same, with whatever is written.
-pub(crate) fn write_with(
-    path: &Path,
-    write: impl FnOnce(&mut File) -> anyhow::Result<()>,
-) -> anyhow::Result<()> {
-    let mut file = builder().tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
-    write(file.as_file_mut())?;
-    file.persist(path)?;
-    Ok(())
-}
-
-/// A temporary file is private by default; these are results, as open as any other file.
-fn builder() -> tempfile::Builder<'static, 'static> {
-    #[cfg_attr(not(unix), allow(unused_mut))]
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
 }
 
 /// A table without lines.

@@ -86,6 +86,48 @@ fn what_cannot_be_made_is_left_out_with_the_reason() {
     assert!(stdout.contains("left out: jacobian_1e-3: J lies between"), "{stdout}");
 }
 
+/// Div P of this shear is 0, since its u is the real part of an analytic function, which no formula shows.
+const HARMONIC: &str = r#"
+[field]
+title = "t"
+dimension = 3
+[parameters]
+rho0 = { value = 1000 }
+amplitude = { value = 0.1 }
+[displacement]
+u = ["0", "0", "amplitude*sqrt(sqrt(X^2 + Y^2))*sin(atan2(Y, X)/2)"]
+[material]
+model = "neo_hookean"
+lambda = "6e5"
+mu = "4e5"
+density = "rho0"
+[domain]
+shape = "box"
+lower = [1, 1, 0]
+upper = [2, 2, 1]
+time = [0, 1]
+"#;
+
+#[test]
+fn a_quantity_that_cannot_be_measured_hides_no_other() {
+    let folder = Folder::new();
+    folder.write("harmonic.toml", HARMONIC);
+    let command = "accuracy harmonic.toml --regime declared --precision f64 --points 8 --json";
+    let document = folder.mms(&format!("{command} --quantity u,div_p,P")).exits(0).json();
+    let named = |list: &str| -> Vec<String> {
+        let list = document[list].as_array().expect("a list").iter();
+        list.map(|it| it["quantity"].as_str().expect("a name").to_owned()).collect()
+    };
+    let [u, stress] = ["displacement", "first_piola_kirchhoff"];
+    assert_eq!(named("rows"), [u, u, stress, stress]);
+    assert_eq!(document["left_out"].as_array().map(Vec::len), Some(1));
+    let left_out = &document["left_out"][0];
+    assert!(left_out["reason"].as_str().is_some_and(|it| it.contains("1233 digits")), "{left_out}");
+    // A promise of which nothing was looked at is not kept.
+    let command = command.replace("--json", "--quantity div_p");
+    folder.mms(&command).exits(1).prints("nothing was measured of the field as declared");
+}
+
 #[test]
 fn names_that_do_not_exist_are_refused_with_those_that_do() {
     let folder = Folder::new();

@@ -40,6 +40,31 @@ fn the_sign_printed_on_the_slides_is_refuted_with_exit_1() {
     assert!(checks[0]["difference"]["derived"].is_number(), "{checks}");
 }
 
+/// Digits that are the same show no difference.
+#[test]
+fn a_difference_behind_the_digits_that_are_shown_is_said() {
+    let close =
+        "[[check]]\nquantity = \"u\"\nequals = [\"X*(2*length - X)/length^2*A*(1 + 1e-19)\"]\n";
+    let folder = Folder::new();
+    folder.write("bar.toml", &format!("{BAR}\n{close}"));
+    folder.mms("check bar.toml").exits(1).prints("which differ behind the 16th digit");
+}
+
+/// Of a parameter that is set, its range is not looked at.
+#[test]
+fn what_is_set_is_what_is_checked() {
+    let amplitude = "amplitude = { value = 0.2,";
+    let folder = changed(amplitude, "amplitude = { value = 0.2, range = [0.1, 0.7],");
+    let inside_out = "the field turns matter inside out";
+    folder.mms("check bar.toml").exits(1).complains("J = det F is not");
+    folder.mms("check bar.toml --set amplitude=0.3").exits(0).prints("J > 0: 0.4");
+    folder.mms("check bar.toml --set amplitude=0.6").exits(1).complains(inside_out);
+    let outside = folder.mms("check bar.toml --set amplitude=0.8").exits(2);
+    outside.complains("outside its range");
+    folder.mms("check bar.toml --set amplitude").exits(2).complains("expected name=value");
+    folder.mms("check bar.toml --set amplitud=1").exits(2).prints("1 mistake(s)");
+}
+
 #[test]
 fn a_mistake_exits_2_at_its_own_line_and_column() {
     let folder = changed("cos(c*pi*t/length)", "cos(c*pi*t/lenght)");

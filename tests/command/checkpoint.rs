@@ -165,7 +165,7 @@ fn a_checkpoint_of_another_run_is_refused_by_the_command_that_wrote_it() {
             .complains("`mms run bar_1d --cells 8 --checkpoint kept --every 7`");
     }
     // Neither threads nor what is written belong to the run.
-    folder.mms("run bar_1d --cells 8 --resume kept --threads 2 --vtk states").exits(0);
+    folder.mms("run bar_1d --cells 8 --resume kept --threads 2 --output out").exits(0);
     folder.mms("run bar_1d --cells 8 --resume missing").exits(2).complains("missing");
     folder.mms("run bar_1d --cells 8 --every 3").exits(2);
 }
@@ -193,6 +193,22 @@ fn what_cannot_be_written_is_refused_at_once() {
     kept(&folder);
     folder.mms(wrong).exits(2).complains("does not hold the");
     assert_eq!(folder.read("file"), "", "left as it was");
+}
+
+/// A list of the states behind the checkpoint alone would look like one of the whole run.
+#[test]
+fn states_go_on_only_where_those_before_are() {
+    let folder = Folder::new();
+    kept(&folder);
+    let resumed = "run bar_1d --cells 8 --resume kept --vtk";
+    let lacks = "does not hold the states before the checkpoint";
+    folder.mms(&format!("{resumed} states")).exits(2).complains(lacks);
+    assert!(!folder.path("states").exists());
+    folder.mms("run bar_1d --cells 8 --checkpoint kept --every 7 --vtk states").exits(0);
+    folder.mms(&format!("{resumed} others")).exits(2).complains(lacks);
+    let list = folder.read("states/bar_1d.pvd");
+    folder.mms(&format!("{resumed} states")).exits(0);
+    assert_eq!(folder.read("states/bar_1d.pvd"), list);
 }
 
 /// As on a disk that is full: the run says what it could not write, and the last checkpoint stays.

@@ -59,6 +59,26 @@ fn every_row_of_the_bar_is_as_theory_expects() {
     }
 }
 
+/// A cell in space may hold a thousand times the material of a bar that is pressed in its middle: no bound is claimed of such
+/// a grid. One that moves with the material follows the same motion in second order.
+#[test]
+fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coarse() {
+    let folder = Folder::new();
+    let verdicts = |field: &str| {
+        let command = format!("extremes {field} --quick --json --row inversion");
+        let document = folder.mms(&command).exits(0).json();
+        let verdicts = document["rows"].as_array().expect("rows").iter();
+        verdicts.map(|row| row["verdict"].as_str().expect("a word").to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(verdicts("periodic_bar"), ["unresolved"; 2]);
+    let study = "study periodic_bar --set amplitude=0.1575 --cells 16,32,64";
+    folder.mms(study).exits(1);
+    folder.mms(&format!("{study} --formulation total --shape linear --courant 0.013")).exits(0);
+    assert_eq!(verdicts("bar_1d"), ["within bound"; 2]);
+    // Its J is least at a corner of body and time window, where no random point lies.
+    assert!(verdicts("axis_aligned_1d").iter().all(|verdict| verdict != "left out"));
+}
+
 /// In the interior of an endless grid theory and bisection agree; faces may be less stable.
 #[test]
 fn the_largest_stable_courant_number_is_that_of_theory() {

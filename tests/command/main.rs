@@ -7,6 +7,7 @@ mod checkpoint;
 mod emit;
 mod eval;
 mod extremes;
+mod files;
 mod form;
 mod main_job;
 mod material;

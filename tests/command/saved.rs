@@ -40,6 +40,11 @@ fn mistakes_of_a_study_file_are_named_at_their_places() {
         ("field = 1", "scene.toml:1:9", "the name of a field"),
         ("study = \"other.toml\"", "scene.toml:1:1", "no option of a study"),
         ("field = \"bar_1d\"\nshape = ", "scene.toml:2", "mistakes"),
+        ("jitter = 0.1\ncells = [8, \"x\"]", "scene.toml:2:9", "expected a number from 1"),
+        ("field = \"bar_1d\"\njitter = -1", "scene.toml:2:10", "expected a number from 0 to 1"),
+        ("field = \"bar_1d\"\nprecision = \"f16\"", "scene.toml:2:13", "possible values: f32, f64"),
+        ("field = \"bar_1d\"\nshape = \"cpgmp\"", "scene.toml:2:9", "known are: linear"),
+        ("field = \"bar_1d\"\njson = 3", "scene.toml:2:8", "unexpected value '3'"),
     ];
     for (text, place, message) in cases {
         let folder = Folder::new();
@@ -47,6 +52,30 @@ fn mistakes_of_a_study_file_are_named_at_their_places() {
         let run = folder.mms("study --study scene.toml").exits(2);
         run.complains(place).complains(message).prints_nothing();
     }
+}
+
+/// Also in what excludes, or overrides, what the file says.
+#[test]
+fn the_command_line_goes_first() {
+    let folder = Folder::new();
+    let scene = "field = \"bar_1d\"\ncells = [8, 16]\ntime_step = 1e-4\njson = true\noutput = \"a\"\n\
+                 set = { young = 1e3, length = 2 }\n";
+    folder.write("scene.toml", scene);
+    let own = "study --study scene.toml --courant 0.25 --set young=2e3 --set=amplitude=0.1 -o b";
+    let found = folder.mms(own).exits(0).json();
+    let command = "study bar_1d --cells 8,16 --json --courant 0.25 --set young=2e3 --set length=2 --set amplitude=0.1";
+    let expected = folder.mms(command).exits(0).json();
+    for key in ["method", "levels"] {
+        let strip = |document: &serde_json::Value| {
+            let mut part = document[key].clone();
+            for level in part.as_array_mut().into_iter().flatten() {
+                level["seconds"].take();
+            }
+            part
+        };
+        assert_eq!(strip(&found), strip(&expected), "{key}");
+    }
+    assert!(folder.path("b/convergence.json").is_file() && !folder.path("a").exists());
 }
 
 #[test]
@@ -58,5 +87,5 @@ fn a_study_file_that_is_not_there_or_lacks_a_field_exits_2() {
     folder.mms("study --study scene.toml").exits(2).complains("<FIELD>");
     folder.mms("study bar_1d --study scene.toml").exits(0);
     folder.write("scene.toml", "cells = [8, \"x\"]\n");
-    folder.mms("study bar_1d --study scene.toml").exits(2).complains("--cells");
+    folder.mms("study bar_1d --study scene.toml").exits(2).complains("scene.toml:1:9");
 }

@@ -150,7 +150,10 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
     let cases = [
         ("tradeoff", "FIELD"),
         ("tradeoff bar", "no field `bar`"),
-        ("tradeoff bar_1d --target-linf 0", "`--target-linf 0`: expected a positive number"),
+        (
+            "tradeoff bar_1d --target-linf 0",
+            "invalid value '0' for '--target-linf <E>': expected a positive number",
+        ),
         ("tradeoff bar_1d --budget-seconds nan", "expected a positive number"),
         ("tradeoff bar_1d --budget-seconds 1 --target-linf 1", "cannot be used with"),
         ("tradeoff bar_1d --budget-seconds 1 --cost memory", "leave out `--cost`"),

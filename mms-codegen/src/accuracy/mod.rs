@@ -23,6 +23,7 @@ pub use errors::Errors;
 use errors::Tally;
 pub use points::{Input, Place, inputs};
 pub use precision::{Digits, Precision};
+use probe::Search;
 use regime::{Case, REGIMES, Regime};
 pub use subject::Compile;
 use subject::{Subject, first_line};
@@ -45,6 +46,10 @@ const CHECKED: usize = 4;
 
 /// To how many bits of the largest value of a quantity two references must agree.
 const SETTLED: i32 = 136;
+
+/// Why a quantity is not measured.
+const UNSETTLED: &str = "1233 digits do not tell what the true values are, as where they are 0 by a cancellation that \
+                         no formula shows";
 
 /// What is to be measured.
 #[derive(Clone, Debug)]
@@ -91,11 +96,13 @@ pub struct Row {
     pub errors: Errors,
 }
 
-/// A regime that could not be made.
+/// A regime that could not be made, or a quantity that could not be measured in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
     /// Its name.
     pub regime: String,
+    /// The quantity, where others were measured.
+    pub quantity: Option<Quantity>,
     /// The precision, where it is made in others.
     pub precision: Option<Precision>,
     /// Why.
@@ -123,7 +130,7 @@ pub struct Varied {
 /// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.
 pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
     let subject = Subject::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
-    let case = regime.case(&subject, SEARCHED)?;
+    let case = regime.case(&subject, Search::Everywhere)?;
     let values = case.values(Precision::F64);
     let variation = match case.variation {
         Variation::Shifted => Variation::Moved,
@@ -157,7 +164,9 @@ pub fn measure(
     for (name, maker) in shared.chain(own).filter(|(name, _)| wanted(name)) {
         progress(name);
         let case = match maker {
-            Maker::Shared(regime) => regime.case(&subject, request.points.max(SEARCHED)),
+            Maker::Shared(regime) => {
+                regime.case(&subject, Search::Points(request.points.max(SEARCHED)))
+            }
             Maker::Own(index) => Ok(Case::extreme(index)),
         };
         accuracy.add(name, case, &subject, request);
@@ -179,26 +188,33 @@ impl Accuracy {
         subject: &Subject,
         request: &Request,
     ) {
-        let mut leave_out = |precision: Option<Precision>, reason: String| {
-            self.left_out.push(LeftOut { regime: name.into(), precision, reason });
+        let mut leave_out = |quantity, precision, reason: String| {
+            self.left_out.push(LeftOut { regime: name.into(), quantity, precision, reason });
         };
         let made = case.and_then(|case| Made::new(case, subject, request));
         let made = match made {
             Ok(made) => made,
-            Err(reason) => return leave_out(None, reason),
+            Err(reason) => return leave_out(None, None, reason),
         };
         let mut rows = Vec::new();
-        for (precision, errors) in request.precisions.iter().zip(made.all_errors(request)) {
-            match errors {
-                Ok(errors) => rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
-                    regime: name.into(),
-                    quantity,
-                    precision: *precision,
-                    form,
-                    errors,
-                })),
-                Err(reason) => leave_out(Some(*precision), reason),
+        for (precision, found) in request.precisions.iter().zip(made.all_errors(request)) {
+            let Found { errors, unsettled } = match found {
+                Ok(found) => found,
+                Err(reason) => {
+                    leave_out(None, Some(*precision), reason);
+                    continue;
+                }
+            };
+            for quantity in unsettled {
+                leave_out(Some(quantity), Some(*precision), UNSETTLED.into());
             }
+            rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
+                regime: name.into(),
+                quantity,
+                precision: *precision,
+                form,
+                errors,
+            }));
         }
         // Stable, so that forms and precisions stay in the order of the request.
         rows.sort_by_key(|row| row.quantity);
@@ -206,8 +222,13 @@ impl Accuracy {
     }
 }
 
-/// The errors of each quantity and form in one precision; otherwise why there are none.
-type Found = Result<Vec<(Quantity, Form, Errors)>, String>;
+/// What is measured in one precision.
+struct Found {
+    /// The errors of each quantity and form.
+    errors: Vec<(Quantity, Form, Errors)>,
+    /// The quantities whose true values are not known.
+    unsettled: Vec<Quantity>,
+}
 
 /// A regime of a field, compiled.
 struct Made {
@@ -225,7 +246,7 @@ impl Made {
     }
 
     /// The errors in each precision, side by side.
-    fn all_errors(&self, request: &Request) -> Vec<Found> {
+    fn all_errors(&self, request: &Request) -> Vec<Result<Found, String>> {
         thread::scope(|scope| {
             let start = |precision: &Precision| match precision {
                 Precision::F32 => scope.spawn(|| self.errors::<f32>(request)),
@@ -238,11 +259,8 @@ impl Made {
         })
     }
 
-    /// The errors of each quantity and form in a precision.
-    fn errors<T: Digits>(
-        &self,
-        request: &Request,
-    ) -> Result<Vec<(Quantity, Form, Errors)>, String> {
+    /// The errors of each quantity and form in a precision; otherwise why there are none.
+    fn errors<T: Digits>(&self, request: &Request) -> Result<Found, String> {
         let set = self.case.values(T::PRECISION);
         if self.case.variation == Variation::Nothing {
             accepts(&self.reference, &set).map_err(|failure| first_line(&failure))?;
@@ -256,25 +274,19 @@ impl Made {
         if inputs.is_empty() {
             return Err("0 is neither in the body nor in the time window".into());
         }
-        let run = Run { made: self, quantities: &request.quantities, parameters, inputs };
+        let run = Run { made: self, parameters, inputs };
+        let mut found = Found { errors: Vec::new(), unsettled: request.quantities.clone() };
         // So many bits that more change nothing. The largest numbers have 1024 before the point.
-        if run.is_settled::<256, 1536>() {
-            return run.compare::<256>();
-        }
-        if run.is_settled::<1536, 4096>() {
-            return run.compare::<1536>();
-        }
-        if run.is_settled::<4096, 8192>() {
-            return run.compare::<4096>();
-        }
-        Err("1233 digits do not tell what the true values are".into())
+        run.settle::<256, 1536>(&mut found)?;
+        run.settle::<1536, 4096>(&mut found)?;
+        run.settle::<4096, 8192>(&mut found)?;
+        Ok(found)
     }
 }
 
 /// The inputs of a regime in a precision.
 struct Run<'a, T> {
     made: &'a Made,
-    quantities: &'a [Quantity],
     parameters: Vec<T>,
     inputs: Vec<Input<T>>,
 }
@@ -300,20 +312,37 @@ impl<'a, T: crate::program::interpret::Number> Evaluation<'a, T> {
 }
 
 impl<T: Digits> Run<'_, T> {
-    fn outputs(&self) -> Vec<Output> {
-        let jacobian = Output::Quantity(Quantity::Jacobian);
-        self.quantities.iter().map(|it| Output::Quantity(*it)).chain([jacobian]).collect()
+    /// Adds the errors of those quantities for which references of different digits agree.
+    fn settle<const BITS: usize, const MORE: usize>(
+        &self,
+        found: &mut Found,
+    ) -> Result<(), String> {
+        if found.unsettled.is_empty() {
+            return Ok(());
+        }
+        let mut settled = self.agreeing::<BITS, MORE>(&found.unsettled);
+        // J says which points count, as the last of the outputs.
+        let counts = settled.pop() == Some(true) || self.made.case.least_jacobian.is_none();
+        let mut settled = settled.into_iter().map(|it| it && counts);
+        let (settled, unsettled): (Vec<_>, Vec<_>) =
+            found.unsettled.iter().partition(|_| settled.next() == Some(true));
+        if !settled.is_empty() {
+            found.errors.extend(self.compare::<BITS>(&settled)?);
+        }
+        found.unsettled = unsettled;
+        Ok(())
     }
 
-    fn reference<const BITS: usize>(&self) -> Evaluation<'_, Binary<BITS>> {
-        Evaluation::new(&self.made.reference, &precisely(&self.parameters), &self.outputs())
+    fn reference<const BITS: usize>(&self, outputs: &[Output]) -> Evaluation<'_, Binary<BITS>> {
+        Evaluation::new(&self.made.reference, &precisely(&self.parameters), outputs)
     }
 
-    /// Whether references of different digits agree where they are looked at.
-    fn is_settled<const BITS: usize, const MORE: usize>(&self) -> bool {
-        let (mut some, mut more) = (self.reference::<BITS>(), self.reference::<MORE>());
+    /// Whether references of different digits agree where they are looked at: of each quantity, and of J.
+    fn agreeing<const BITS: usize, const MORE: usize>(&self, quantities: &[Quantity]) -> Vec<bool> {
+        let outputs = outputs(quantities);
+        let (mut some, mut more) =
+            (self.reference::<BITS>(&outputs), self.reference::<MORE>(&outputs));
         let step = self.inputs.len().div_ceil(CHECKED);
-        let outputs = self.outputs();
         let mut agreements: Vec<_> = outputs.iter().map(|_| Agreement::<MORE>::default()).collect();
         for input in self.inputs.iter().step_by(step) {
             some.set(&precise_input(input));
@@ -325,17 +354,21 @@ impl<T: Digits> Run<'_, T> {
                 }
             }
         }
-        agreements.iter().all(Agreement::is_close)
+        agreements.iter().map(Agreement::is_close).collect()
     }
 
-    fn compare<const BITS: usize>(&self) -> Found {
-        let outputs = self.outputs();
-        let mut reference = self.reference::<BITS>();
+    /// The errors of some quantities in each form; otherwise why there are none.
+    fn compare<const BITS: usize>(
+        &self,
+        quantities: &[Quantity],
+    ) -> Result<Vec<(Quantity, Form, Errors)>, String> {
+        let outputs = outputs(quantities);
+        let mut reference = self.reference::<BITS>(&outputs);
         let forms = self.made.forms.iter();
         let mut evaluations: Vec<_> = forms
             .map(|(_, compiled)| Evaluation::new(compiled, &self.parameters, &outputs))
             .collect();
-        let tallies = || self.quantities.iter().map(|_| Tally::<BITS>::new(T::PRECISION));
+        let tallies = || quantities.iter().map(|_| Tally::<BITS>::new(T::PRECISION));
         let mut tallies: Vec<Vec<_>> = evaluations.iter().map(|_| tallies().collect()).collect();
         let mut counted = 0;
         for input in &self.inputs {
@@ -345,7 +378,7 @@ impl<T: Digits> Run<'_, T> {
             }
             counted += 1;
             evaluations.iter_mut().for_each(|evaluation| evaluation.set(input));
-            for (place, output) in outputs[..self.quantities.len()].iter().enumerate() {
+            for (place, output) in outputs[..quantities.len()].iter().enumerate() {
                 let expected = reference.interpreter.output(*output);
                 for (evaluation, tallies) in evaluations.iter().zip(&mut tallies) {
                     let found = evaluation.interpreter.output(*output);
@@ -362,7 +395,7 @@ impl<T: Digits> Run<'_, T> {
         let errors = named.flat_map(|((form, _), tallies)| {
             let of =
                 |(quantity, tally): (&Quantity, Tally<BITS>)| (*quantity, *form, tally.finish());
-            self.quantities.iter().zip(tallies).map(of).collect::<Vec<_>>()
+            quantities.iter().zip(tallies).map(of).collect::<Vec<_>>()
         });
         Ok(errors.collect())
     }
@@ -373,6 +406,11 @@ impl<T: Digits> Run<'_, T> {
         let jacobian = reference.interpreter.output(Output::Quantity(Quantity::Jacobian));
         jacobian.iter().all(|jacobian| Binary::from_f64(least).at_most(jacobian))
     }
+}
+
+/// What is evaluated for some quantities: these, and J.
+fn outputs(quantities: &[Quantity]) -> Vec<Output> {
+    quantities.iter().chain([&Quantity::Jacobian]).map(|it| Output::Quantity(*it)).collect()
 }
 
 fn precisely<T: Digits, const BITS: usize>(values: &[T]) -> Vec<Binary<BITS>> {

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::points::{Input, Place, exact, inputs};
+use crate::certify::sample::{Extent, domain, spread};
 use crate::compile::Compiled;
 use crate::expr::Rational;
 use crate::program::interpret::{Interpreter, Point};
@@ -101,24 +102,123 @@ fn largest_displacement(compiled: &Compiled, set: &BTreeMap<usize, Rational>) ->
     largest
 }
 
-/// The least and the greatest J at points and times.
-fn jacobians(
-    compiled: &Compiled,
-    points: &[Input<f64>],
-    set: &BTreeMap<usize, Rational>,
-) -> [f64; 2] {
-    let output = Output::Quantity(Quantity::Jacobian);
-    let mut interpreter = Interpreter::new(&compiled.program, &compiled.parameters::<f64>(set));
-    let plan = interpreter.plan(&[output]);
-    let mut range = [f64::INFINITY, f64::NEG_INFINITY];
-    for input in points {
-        interpreter.set_time(&input.time);
-        interpreter.set_point(&plan, Point::at(&input.coordinates));
-        for jacobian in interpreter.output(output) {
-            range = [range[0].min(jacobian), range[1].max(jacobian)];
+/// Where J is looked for.
+#[derive(Clone, Copy, Debug)]
+pub enum Search {
+    /// At so many points of the body and the time window, where errors are measured.
+    Points(usize),
+    /// In all of the body and the time window.
+    Everywhere,
+}
+
+/// How many points of all of the body are looked at first.
+const SPREAD: usize = 256;
+
+/// To what part of the body's edges and the time window an extremum of J is searched.
+const FINEST: f64 = 1e-9;
+
+/// J of a field with some parameters.
+struct Jacobian<'a> {
+    interpreter: Interpreter<'a, f64>,
+    plan: Vec<bool>,
+    extent: Extent<f64>,
+    window: [f64; 2],
+}
+
+impl<'a> Jacobian<'a> {
+    const OUTPUT: Output = Output::Quantity(Quantity::Jacobian);
+
+    fn new(compiled: &'a Compiled, set: &BTreeMap<usize, Rational>) -> Self {
+        let parameters = compiled.parameters::<f64>(set);
+        let interpreter = Interpreter::new(&compiled.program, &parameters);
+        let plan = interpreter.plan(&[Self::OUTPUT]);
+        let (extent, window) = domain(compiled, &parameters);
+        Jacobian { interpreter, plan, extent, window }
+    }
+
+    fn at(&mut self, coordinates: &[f64], time: f64) -> f64 {
+        self.interpreter.set_time(&time);
+        self.interpreter.set_point(&self.plan, Point::at(coordinates));
+        self.interpreter.output(Self::OUTPUT)[0]
+    }
+
+    /// J where so large parts of the body's edges and of the time window are passed.
+    fn at_fractions(&mut self, fractions: &[f64]) -> f64 {
+        let (time, place) = fractions.split_last().unwrap_or((&0.0, &[]));
+        let [first, last] = self.window;
+        let coordinates = self.extent.point(place);
+        self.at(&coordinates, first + (last - first) * time)
+    }
+
+    /// The least of `sign` J: from the best of many places on by compass search (Hooke, Jeeves, J. ACM 8 (1961)
+    /// 212-229).
+    fn least_everywhere(&mut self, sign: f64, places: &[Vec<f64>]) -> f64 {
+        let (mut best, mut place) = (f64::INFINITY, Vec::new());
+        for fractions in places {
+            let value = sign * self.at_fractions(fractions);
+            if value < best {
+                (best, place) = (value, fractions.clone());
+            }
+        }
+        let mut step = 0.125;
+        while step > FINEST {
+            let before = best;
+            for axis in 0..place.len() {
+                for direction in [-step, step] {
+                    let mut moved = place.clone();
+                    moved[axis] = (moved[axis] + direction).clamp(0.0, 1.0);
+                    let value = sign * self.at_fractions(&moved);
+                    if value < best {
+                        (best, place) = (value, moved);
+                    }
+                }
+            }
+            if best == before {
+                step /= 2.0;
+            }
+        }
+        best
+    }
+}
+
+/// Where J is looked at.
+enum Points {
+    /// At these.
+    Some(Vec<Input<f64>>),
+    /// From these on, as parts of the body's edges and of the time window.
+    From(Vec<Vec<f64>>),
+}
+
+impl Points {
+    fn new(compiled: &Compiled, search: Search) -> Self {
+        let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+        match search {
+            Search::Points(count) => {
+                Points::Some(inputs(compiled, &parameters, Place::Body, count))
+            }
+            Search::Everywhere => {
+                let axes = domain(compiled, &parameters).0.dimension() + 1;
+                let parts = |index| spread(index, axes).iter().map(nearest).collect();
+                Points::From((1..=SPREAD).map(parts).collect())
+            }
         }
     }
-    range
+
+    /// The least of `sign` J.
+    fn least(&self, compiled: &Compiled, set: &BTreeMap<usize, Rational>, sign: f64) -> f64 {
+        let mut jacobian = Jacobian::new(compiled, set);
+        match self {
+            Points::Some(points) => points
+                .iter()
+                .map(|input| sign * jacobian.at(&input.coordinates, input.time))
+                .fold(f64::INFINITY, f64::min),
+            Points::From(places) => jacobian.least_everywhere(sign, places),
+        }
+    }
+}
+
+fn nearest(number: &Rational) -> f64 {
+    number.to_f64().value()
 }
 
 /// The value of an amplitude of least magnitude at which the least J is `target`, if that is less
@@ -127,20 +227,18 @@ pub fn amplitude_for_jacobian(
     compiled: &Compiled,
     amplitude: &Amplitude,
     target: f64,
-    count: usize,
+    search: Search,
 ) -> Result<f64, String> {
-    let points =
-        inputs(compiled, &compiled.parameters::<f64>(&BTreeMap::new()), Place::Body, count);
-    let range = |value: f64| jacobians(compiled, &points, &set(amplitude.parameter, value));
-    let is_beyond = |value: f64| match (target < 1.0, range(value)) {
-        (true, [least, _]) => least < target,
-        (false, [_, greatest]) => greatest > target,
-    };
+    let points = Points::new(compiled, search);
+    let least =
+        |value: f64, sign: f64| points.least(compiled, &set(amplitude.parameter, value), sign);
+    let sign = if target < 1.0 { 1.0 } else { -1.0 };
+    let is_beyond = |value: f64| least(value, sign) < sign * target;
     let sizes = (0..2 * DOUBLINGS).map(|step| step as f64 - DOUBLINGS as f64);
     let mut tried = sizes.flat_map(|power| [1.0, -1.0].map(|sign| sign * 2f64.powf(power)));
     let found = tried.find(|factor| is_beyond(factor * amplitude.value));
     let Some(factor) = found else {
-        let [least, greatest] = range(amplitude.value);
+        let [least, greatest] = [1.0, -1.0].map(|sign| sign * least(amplitude.value, sign));
         return Err(format!(
             "J lies between {least:.3} and {greatest:.3} by default, and no amplitude makes it {target:e}"
         ));

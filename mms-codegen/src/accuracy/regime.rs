@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::points::{LATE, Place, exact, size};
 use super::precision::Precision;
-use super::probe::{Amplitude, amplitude_for_jacobian, set};
+use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
 use super::subject::Subject;
 use crate::compile::Compiled;
 use crate::expr::Rational;
@@ -122,7 +122,7 @@ impl Case {
 
 impl Regime {
     /// How the regime is made for a field; otherwise why it cannot be.
-    pub(super) fn case(&self, subject: &Subject, count: usize) -> Result<Case, String> {
+    pub(super) fn case(&self, subject: &Subject, search: Search) -> Result<Case, String> {
         let plain = Case::plain();
         Ok(match self.kind {
             Kind::Declared => plain,
@@ -156,7 +156,7 @@ impl Regime {
             }
             Kind::Jacobian(target) => {
                 let case = with_amplitude(subject, |field, amplitude| {
-                    let value = amplitude_for_jacobian(field, amplitude, target, count)?;
+                    let value = amplitude_for_jacobian(field, amplitude, target, search)?;
                     Ok(Setting::Values(set(amplitude.parameter, value)))
                 })?;
                 // Where a large amplitude turns the body inside out it is no motion.

@@ -6,7 +6,7 @@ use std::num::NonZero;
 use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::super::{Outcome, this_command};
+use super::super::{Outcome, say, this_command};
 use super::{Verify, input};
 use crate::store::{Store, program};
 use crate::verify::defects::report::{Report, Showing};
@@ -108,9 +108,7 @@ impl Progress {
         if self.bar.is_hidden() {
             let (at, all) = (self.bar.position(), self.bar.length().unwrap_or_default());
             let left = self.bar.eta().as_secs();
-            anstream::eprintln!(
-                "{at} of {all} defects, about {left} s left: {name}: caught by {by}"
-            );
+            say(format_args!("{at} of {all} defects, about {left} s left: {name}: caught by {by}"));
         }
     }
 }
@@ -125,6 +123,6 @@ impl Watcher for Progress {
     }
 
     fn set_aside(&self, what: &str) {
-        self.bar.suspend(|| anstream::eprintln!("warning: {what}"));
+        self.bar.suspend(|| say(format_args!("warning: {what}")));
     }
 }

@@ -49,6 +49,14 @@ impl Report {
         self.accuracy.rows.iter().filter(|row| within_bound(row) == Some(false)).collect()
     }
 
+    /// Whether nothing was measured of the field as declared, although that was wanted.
+    pub fn is_unmeasured(&self) -> bool {
+        let [declared, ..] = PROMISED;
+        let Accuracy { rows, left_out } = &self.accuracy;
+        left_out.iter().any(|it| it.regime == declared)
+            && !rows.iter().any(|row| row.regime == declared)
+    }
+
     /// What the emitted code of a row takes.
     fn time(&self, quantity: Quantity, precision: Precision, form: Form) -> Option<f64> {
         let same = |(of, time): &&(Form, Time)| {
@@ -81,6 +89,7 @@ impl Report {
         let left_out = self.accuracy.left_out.iter().map(|it| {
             json!({
                 "regime": it.regime,
+                "quantity": it.quantity.map(Quantity::name),
                 "precision": it.precision.map(Precision::name),
                 "reason": it.reason,
             })
@@ -157,9 +166,16 @@ impl Report {
         let mut text =
             format!("{}, {} points, errors in eps\n\n{table}\n", self.field, self.points);
         for left_out in &self.accuracy.left_out {
+            let quantity = left_out.quantity.map_or(String::new(), |it| format!(", {}", it.name()));
             let precision =
                 left_out.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
-            text += &format!("\nleft out: {}{precision}: {}", left_out.regime, left_out.reason);
+            text += &format!(
+                "\nleft out: {}{quantity}{precision}: {}",
+                left_out.regime, left_out.reason
+            );
+        }
+        if self.is_unmeasured() {
+            text += "\nnothing was measured of the field as declared";
         }
         for row in self.broken() {
             text += &format!(

@@ -1,0 +1,93 @@
+//! Where results go: links, permissions, what is no plain file, and a stderr that takes nothing.
+#![cfg(unix)]
+
+use std::fs::{self, File, Permissions};
+use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
+use std::process::{Command, Stdio};
+use std::thread;
+
+use super::mms::Folder;
+
+/// The run whose history is written; eight cells take forty steps.
+const RUN: &str = "run bar_1d --cells 8";
+
+/// The names of a history, and forty steps.
+const LINES: usize = 41;
+
+#[test]
+fn a_link_stays_and_the_file_behind_it_keeps_its_permissions() {
+    let folder = Folder::new();
+    folder.write("data/old.csv", "old");
+    let private = Permissions::from_mode(0o600);
+    fs::set_permissions(folder.path("data/old.csv"), private).expect("permissions");
+    for (link, target) in [("there.csv", "data/old.csv"), ("nowhere.csv", "data/new.csv")] {
+        symlink(target, folder.path(link)).expect("a link");
+        folder.mms(&format!("{RUN} --history {link}")).exits(0);
+        assert!(folder.path(link).is_symlink(), "{link}");
+        assert_eq!(folder.read(target).lines().count(), LINES);
+    }
+    let mode = |name: &str| fs::metadata(folder.path(name)).expect("a file").permissions().mode();
+    assert_eq!(mode("data/old.csv") & 0o777, 0o600);
+    assert_ne!(mode("data/new.csv") & 0o777, 0o600, "results are as open as other files");
+    assert_eq!(fs::read_dir(folder.path("data")).expect("a folder").count(), 2);
+}
+
+/// It gets all of the history, once, and stays.
+#[test]
+fn what_is_no_plain_file_is_written_to() {
+    let folder = Folder::new();
+    let fifo = folder.path("fifo");
+    assert!(Command::new("mkfifo").arg(&fifo).status().expect("mkfifo").success());
+    folder.mms(&format!("{RUN} --checkpoint fifo")).exits(2).complains("expected a plain file");
+    let reader = thread::spawn({
+        let fifo = fifo.clone();
+        move || fs::read_to_string(fifo).expect("a text")
+    });
+    folder.mms(&format!("{RUN} --history fifo --checkpoint kept --every 7")).exits(0);
+    let read = reader.join().expect("the reader ends");
+    assert_eq!(read.lines().count(), LINES);
+    assert!(read.starts_with("step,time,"), "{read}");
+    assert!(fs::metadata(&fifo).expect("a file").file_type().is_fifo());
+    let resumed = folder.mms(&format!("{RUN} --resume kept --history fifo")).exits(2);
+    resumed.complains("does not hold the 35 steps");
+
+    let printed = folder.mms(&format!("{RUN} --history /dev/stdout")).exits(0).stdout;
+    assert!(printed.starts_with("step,time,") && printed.contains("8 cells"), "{printed}");
+    // Also where stdout is a plain file, whose content it does not replace.
+    let out = File::options().create(true).append(true).open(folder.path("out")).expect("a file");
+    let status = Command::new(env!("CARGO_BIN_EXE_mms"))
+        .args(format!("{RUN} --history /dev/stdout").split_whitespace())
+        .stdout(out)
+        .status();
+    assert!(status.expect("the program starts").success());
+    let found = folder.read("out");
+    assert!(printed.lines().take(LINES).eq(found.lines().take(LINES)), "{found}");
+    assert_eq!(found.lines().count(), printed.lines().count());
+}
+
+/// What cannot be said is lost, and nothing else.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_stderr_stops_nothing() {
+    let folder = Folder::with_bar("bar.toml");
+    let broken = "[field]\ntitle = 3\n";
+    folder.write("wrong.toml", broken);
+    let cases = [
+        ("check wrong.toml", 2),
+        ("run bar_1d --cells 8 --output out", 0),
+        ("run nothing", 2),
+        ("study bar_1d --cells 4,8,16 --output out", 0),
+    ];
+    for (arguments, code) in cases {
+        let full = File::options().write(true).open("/dev/full").expect("a device");
+        let status = Command::new(env!("CARGO_BIN_EXE_mms"))
+            .args(arguments.split_whitespace())
+            .current_dir(folder.path(""))
+            .stdout(Stdio::null())
+            .stderr(full)
+            .status()
+            .expect("the program starts");
+        assert_eq!(status.code(), Some(code), "{arguments}");
+    }
+    assert!(folder.path("out/run.json").is_file() && folder.path("out/convergence.json").is_file());
+}
