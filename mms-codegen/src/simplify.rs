@@ -90,7 +90,6 @@ pub fn simplify(
             coarse.filter(lost).map(|(quantity, _)| *quantity).collect()
         }
     };
-    if std::env::var("DBG").is_ok() { eprintln!("lost {lost:?}"); for q in [Quantity::DivP, Quantity::DisplacementGradient, Quantity::GreenLagrange] { if wanted(q) { if let Some(a) = amplitude { for e in &quantities[&q] { eprintln!("{q:?} {} {:?}", graph.print(*e, &model.names), a.keep(graph, &[*e])); } } } } }
     if !lost.is_empty() {
         let route = Route::Settled(amplitude);
         let settled = graph.attempt(|graph| derive(graph, model, &relations, route));
@@ -184,14 +183,12 @@ fn cheapest_of<K: Ord + Copy>(
     for (key, components) in forms.first().into_iter().flatten() {
         let range = position..position + components.len();
         position = range.end;
-        let mut costs = BTreeMap::<&[Expr], (bool, Cost)>::new();
-        let loses = |graph: &Graph, way: &[Expr]| {
-            amplitude.is_some_and(|amplitude| !amplitude.keep(graph, way))
-        };
-        let cheapest = written
-            .iter()
-            .map(|way| &way[range.clone()])
-            .min_by_key(|way| *costs.entry(way).or_insert_with(|| (loses(graph, way), cost(graph, way))));
+        let mut costs = BTreeMap::<&[Expr], Cost>::new();
+        let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
+        ways.sort_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
+        ways.dedup();
+        let keeps = |way: &&[Expr]| amplitude.is_none_or(|it| it.keep_first(graph, way));
+        let cheapest = ways.iter().copied().find(keeps).or(ways.first().copied());
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
     best

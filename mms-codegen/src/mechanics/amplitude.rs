@@ -35,6 +35,8 @@ pub struct Amplitude {
     /// Places of the body, and places anywhere, where it is 0.
     body: Vec<Place>,
     anywhere: Vec<Place>,
+    /// Corners of the body, its middle and those of its faces, where it has its default.
+    edges: Vec<Place>,
 }
 
 /// Values of the parameters, of X and of t.
@@ -59,6 +61,7 @@ impl Amplitude {
             let symbol = Symbol::Parameter(*index);
             of_motion.contains(&symbol) && !of_body.contains(&symbol)
         });
+        let edges = edges(graph, model, &defaults);
         let moves = |places: &[Place]| {
             let values = evaluate(graph, &model.displacement, places);
             model.displacement.iter().any(|u| !vanishes(&values[u]))
@@ -73,7 +76,8 @@ impl Amplitude {
             let body = places(graph, model, &parameters);
             let anywhere = anywhere(&parameters, index);
             let symbol = Symbol::Parameter(index);
-            (!moves(&body)).then_some(Amplitude { symbol, body, anywhere })
+            let edges = edges.clone();
+            (!moves(&body)).then_some(Amplitude { symbol, body, anywhere, edges })
         })
     }
 
@@ -104,7 +108,16 @@ impl Amplitude {
             }
             mended = replace(graph, &mended, &changes);
         }
-        mended
+        // A quotient may have no value at an edge where the whole has one.
+        if self.has_values(graph, settled, &mended) { mended } else { settled.to_vec() }
+    }
+
+    /// Whether `after` have values wherever `before` have.
+    fn has_values(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        let values = evaluate(graph, &[before, after].concat(), &self.edges);
+        let finite = |expr: &Expr| values[expr].iter().map(|value| value.to_f64().is_finite());
+        let pairs = || before.iter().zip(after);
+        pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
     }
 
     /// What expressions that vanish with the amplitude are more than without it.
@@ -217,6 +230,34 @@ fn bounds(model: &Model) -> Vec<Expr> {
 
 /// Places of the body.
 fn places(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+    // The first points of the sequence have simple fractions, where X may be Y.
+    let fractions: Vec<[Double; 4]> = (101..101 + PLACES).map(halton).collect();
+    places_at(graph, model, parameters, &fractions)
+}
+
+/// Its corners, its middle and those of its edges and faces, at the first time and halfway.
+fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+    let dimension = model.displacement.len();
+    let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
+    let of_index = |index: usize| {
+        let fraction = |axis: usize| match axis {
+            3 => ends[index % 2],
+            _ if axis < dimension => ends[index / 3usize.pow(axis as u32) % 3],
+            _ => ends[0],
+        };
+        [0, 1, 2, 3].map(fraction)
+    };
+    let fractions: Vec<[Double; 4]> = (0..3usize.pow(dimension as u32)).map(of_index).collect();
+    places_at(graph, model, parameters, &fractions)
+}
+
+/// The places at these fractions of the way through the body and the time window.
+fn places_at(
+    graph: &Graph,
+    model: &Model,
+    parameters: &[Double],
+    fractions: &[[Double; 4]],
+) -> Vec<Place> {
     let nowhere = Place {
         parameters: parameters.to_vec(),
         coordinates: Vec::new(),
@@ -232,16 +273,12 @@ fn places(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
         }
     };
     let [first, last] = [0, 1].map(|end: usize| of(&model.domain.time[end]));
-    let place = |index: usize| {
-        let fractions: [Double; 4] = halton(index);
-        Place {
-            parameters: parameters.to_vec(),
-            coordinates: extent.point(&fractions),
-            time: first + (last - first) * fractions[3],
-        }
+    let place = |fractions: &[Double; 4]| Place {
+        parameters: parameters.to_vec(),
+        coordinates: extent.point(fractions),
+        time: first + (last - first) * fractions[3],
     };
-    // The first points of the sequence have simple fractions.
-    (5..5 + PLACES).map(place).collect()
+    fractions.iter().map(place).collect()
 }
 
 /// Places with parameters of their default size and of any sign, but for the amplitude.
