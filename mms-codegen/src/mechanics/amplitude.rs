@@ -289,7 +289,8 @@ fn anywhere(parameters: &[Double], amplitude: usize) -> Vec<Place> {
         let mut signed = fractions.iter().map(|fraction| {
             Double::from_rational(&(fraction * Rational::from(4) - Rational::from(2)))
         });
-        let size = |value: &Double| if value.to_f64() == 0.0 { Double::from_f64(1.0) } else { *value };
+        let size =
+            |value: &Double| if value.to_f64() == 0.0 { Double::from_f64(1.0) } else { *value };
         let mut parameters: Vec<Double> = parameters
             .iter()
             .zip(&mut signed)

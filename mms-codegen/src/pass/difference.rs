@@ -42,7 +42,8 @@ pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Opti
         let term = split.term(graph, expr);
         split.known.insert(expr, term);
     }
-    let parts = |root: &Expr| split.known[root].map(|term| Parts { limit: term.limit, rest: term.rest });
+    let parts =
+        |root: &Expr| split.known[root].map(|term| Parts { limit: term.limit, rest: term.rest });
     roots.iter().map(parts).collect()
 }
 
