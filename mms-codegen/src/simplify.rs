@@ -84,7 +84,7 @@ pub fn simplify(
         Form::Stable => {
             let coarse = quantities.iter().filter(|(it, _)| !is_fine(**it) && wanted(**it));
             let lost = |(_, components): &(&Quantity, &Vec<Expr>)| {
-                let loses = |amplitude: &Amplitude| !amplitude.keep_first(graph, components);
+                let loses = |amplitude: &Amplitude| !amplitude.keeps(graph, components);
                 is_graded || amplitude.is_some_and(loses)
             };
             coarse.filter(lost).map(|(quantity, _)| *quantity).collect()
@@ -187,7 +187,7 @@ fn cheapest_of<K: Ord + Copy>(
         let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
         ways.sort_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
         ways.dedup();
-        let keeps = |way: &&[Expr]| amplitude.is_none_or(|it| it.keep_first(graph, way));
+        let keeps = |way: &&[Expr]| amplitude.is_none_or(|it| it.keeps(graph, way));
         let cheapest = ways.iter().copied().find(keeps).or(ways.first().copied());
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }

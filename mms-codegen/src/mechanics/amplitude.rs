@@ -1,7 +1,7 @@
 //! The parameter with which a motion vanishes, and which expressions lose digits where it is small.
 //!
 //! An expression that vanishes with the amplitude keeps its digits if no part of it is a difference
-//! of what does not: see [`Amplitude::keep`]. What does not is replaced by [`difference`].
+//! of what does not: see [`Amplitude::keeps`]. What does not is replaced by [`difference`].
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -134,14 +134,8 @@ impl Amplitude {
 
     /// Whether all of these keep their digits where the amplitude is small: each is not small with it,
     /// or it is made by sums of what is, by products with what keeps them, and by functions of what
-    /// keeps them.
-    pub fn keep(&self, graph: &Graph, roots: &[Expr]) -> bool {
-        let keeps = self.kept(graph, roots).keeps;
-        roots.iter().all(|root| keeps[root] == Keeps::All)
-    }
-
-    /// The same as far as terms of the first order do.
-    pub fn keep_first(&self, graph: &Graph, roots: &[Expr]) -> bool {
+    /// keeps them. Of a product it is enough that one small factor does.
+    pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
         roots.iter().all(|root| keeps[root] != Keeps::None)
     }

@@ -202,7 +202,7 @@ fn powers(graph: &mut Graph, [a, b]: [Expr; 2], count: u32) -> Expr {
     let [first, second] = [a, b].map(|it| graph.power(it, half));
     let sum = graph.add(first, second);
     let even = graph.mul(of_half, sum);
-    if count % 2 == 0 {
+    if count.is_multiple_of(2) {
         return even;
     }
     // a^(2 n + 1) - b^(2 n + 1) = (a^(2 n) - b^(2 n)) a + b^(2 n) (a - b).

@@ -32,8 +32,7 @@ fn written(graph: &mut Graph) -> Vec<Expr> {
     written.push(graph.call(Function::Powf, &[sum, sum]));
     let product = [written[0], written[5]];
     written.push(graph.mul(product[0], product[1]));
-    for (numerator, denominator) in [(3, 1u8), (6, 1), (-1, 1), (-4, 1), (1, 2), (-5, 3), (7, 20)]
-    {
+    for (numerator, denominator) in [(3, 1u8), (6, 1), (-1, 1), (-4, 1), (1, 2), (-5, 3), (7, 20)] {
         let exponent = Rational::from_parts(numerator.into(), u32::from(denominator).into());
         written.push(graph.power(sum, exponent));
     }
