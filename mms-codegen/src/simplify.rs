@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::amplitude::Amplitude;
 use crate::mechanics::derivation::derive_settled;
 use crate::mechanics::kinematics::Route;
 use crate::mechanics::rigid::RigidMotion;
@@ -38,7 +39,7 @@ pub fn simplify(
     // Relations that are used early keep the motion short, and all that follows from it.
     let used = if relations.is_empty() { vec![&unrelated] } else { vec![&unrelated, &relations] };
     let mut derivations = vec![plain.quantities.clone()];
-    let mut derive_more = |graph: &mut Graph, route: Route, used: &[&Relations]| {
+    let mut derive_more = |graph: &mut Graph, route: Route<'_>, used: &[&Relations]| {
         for relations in used {
             let derived = graph.attempt(|graph| derive(graph, model, relations, route));
             derivations.extend(derived.and_then(Result::ok).map(|derived| derived.quantities));
@@ -56,29 +57,46 @@ pub fn simplify(
     };
     let mut quantities = plain.quantities.clone();
     quantities.extend(cheapest(graph, of(&derivations, false), &relations));
-    let settled = graph.attempt(|graph| derive_settled(graph, model, &relations));
+    let amplitude = Amplitude::find(graph, model);
+    let amplitude = amplitude.as_ref();
+    let settled = graph.attempt(|graph| derive_settled(graph, model, &relations, amplitude));
     quantities.extend(match (form, settled) {
         (Form::Fast, _) => cheapest(graph, of(&derivations, true), &relations),
         // To multiply out what was settled would undo it, modulo the relations of whole angles alone
         // it does not: they do not occur in what is small.
         (Form::Stable, Some(Ok(Some(settled)))) => {
             let forms = of(&[settled], true);
-            cheapest_of(graph, &forms, |graph, components| {
+            let rewrite = |graph: &mut Graph, components: Vec<Expr>| {
                 let mut ways = kept_apart(graph, components.clone());
                 if !relations.is_empty() {
                     ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
                 }
                 ways
-            })
+            };
+            cheapest_of(graph, &forms, rewrite, amplitude)
         }
         (Form::Stable, _) => cheapest(graph, of(&derivations[..of_gradient], true), &relations),
     });
-    if form == Form::Stable && is_graded(graph, model) {
-        // The part of Div P that is due to gradients of the moduli is as small as the stress is.
-        let settled = graph.attempt(|graph| derive(graph, model, &relations, Route::Settled));
-        if let Some(Ok(settled)) = settled {
-            let forms = of(&[settled.quantities], false);
-            quantities.extend(cheapest_of(graph, &forms, kept_apart));
+    // The part of Div P that is due to gradients of the moduli is as small as the stress is.
+    let is_graded = is_graded(graph, model);
+    let lost: Vec<Quantity> = match form {
+        Form::Fast => Vec::new(),
+        Form::Stable => {
+            let coarse = quantities.iter().filter(|(it, _)| !is_fine(**it) && wanted(**it));
+            let lost = |(_, components): &(&Quantity, &Vec<Expr>)| {
+                let loses = |amplitude: &Amplitude| !amplitude.keeps(graph, components);
+                is_graded || amplitude.is_some_and(loses)
+            };
+            coarse.filter(lost).map(|(quantity, _)| *quantity).collect()
+        }
+    };
+    if !lost.is_empty() {
+        let route = Route::Settled(amplitude);
+        let settled = graph.attempt(|graph| derive(graph, model, &relations, route));
+        if let Some(Ok(mut settled)) = settled {
+            settled.quantities.retain(|quantity, _| lost.contains(quantity));
+            let forms = [settled.quantities];
+            quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
         }
     }
     Derivation {
@@ -146,14 +164,16 @@ fn cheapest<K: Ord + Copy>(
     forms: Vec<BTreeMap<K, Vec<Expr>>>,
     relations: &Relations,
 ) -> BTreeMap<K, Vec<Expr>> {
-    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations))
+    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations), None)
 }
 
-/// The same of what `rewrite` makes of each form.
+/// The same of what `rewrite` makes of each form; those first that keep their digits at a small
+/// amplitude.
 fn cheapest_of<K: Ord + Copy>(
     graph: &mut Graph,
     forms: &[BTreeMap<K, Vec<Expr>>],
     rewrite: impl Fn(&mut Graph, Vec<Expr>) -> Vec<Vec<Expr>>,
+    amplitude: Option<&Amplitude>,
 ) -> BTreeMap<K, Vec<Expr>> {
     let mut written = Vec::new();
     for form in forms {
@@ -166,10 +186,11 @@ fn cheapest_of<K: Ord + Copy>(
         let range = position..position + components.len();
         position = range.end;
         let mut costs = BTreeMap::<&[Expr], Cost>::new();
-        let cheapest = written
-            .iter()
-            .map(|way| &way[range.clone()])
-            .min_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
+        let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
+        ways.sort_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
+        ways.dedup();
+        let keeps = |way: &&[Expr]| amplitude.is_none_or(|it| it.keeps(graph, way));
+        let cheapest = ways.iter().copied().find(keeps).or(ways.first().copied());
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
     best

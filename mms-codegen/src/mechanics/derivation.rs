@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::kinematics::{Motion, Route, Strain, half_angles};
+use super::amplitude::Amplitude;
+use super::kinematics::{Motion, Route, Strain, half_angles, mended};
 use super::material::{self, Law};
 use super::misread;
 use super::model::Model;
@@ -50,7 +51,7 @@ pub fn derive(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    route: Route,
+    route: Route<'_>,
 ) -> Result<Derivation, TooLarge> {
     let law = Law::new(graph, model.energy, &model.kind);
     within_bound(graph, "stress of the material")?;
@@ -59,7 +60,7 @@ pub fn derive(
     let mut quantities = kinematic_quantities(graph, &motion);
     quantities.extend(strain_quantities(graph, &motion.strain));
     let energy = match route {
-        Route::Gradient | Route::Settled => law.energy(graph, &motion.strain),
+        Route::Gradient | Route::Settled(_) => law.energy(graph, &motion.strain),
         Route::Deformation => law.typed_energy(graph, &motion.strain),
     };
     quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, Kirchhoff::Left));
@@ -79,6 +80,7 @@ pub fn derive_settled(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
+    amplitude: Option<&Amplitude>,
 ) -> Result<Option<BTreeMap<Quantity, Vec<Expr>>>, TooLarge> {
     let dimension = model.displacement.len();
     let plain = factor(graph, &model.displacement);
@@ -89,9 +91,13 @@ pub fn derive_settled(
     let components = factor(graph, &components);
     let gradient = Tensor::from_components(dimension, components);
     let displacement = settle(graph, &plain);
+    let displacement = mended(graph, amplitude, &plain, &displacement);
     let halves = half_angles(graph, &plain, &gradient);
-    let strain = Strain::settled(graph, gradient.clone(), &model.kind, [relations, &halves]);
-    let as_it_was = settle(graph, gradient.components()) == gradient.components();
+    let of = [relations, &halves];
+    let strain = Strain::settled(graph, gradient.clone(), &model.kind, of, amplitude);
+    let settled = settle(graph, gradient.components());
+    let settled = mended(graph, amplitude, gradient.components(), &settled);
+    let as_it_was = settled == gradient.components();
     within_bound(graph, "strain")?;
     if !halves.has_angles() && displacement == plain && as_it_was {
         return Ok(None);

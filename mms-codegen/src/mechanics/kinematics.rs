@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::amplitude::Amplitude;
 use super::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
@@ -35,14 +36,14 @@ pub struct Strain {
 }
 
 /// What a strain is computed from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Route {
+#[derive(Clone, Copy, Debug)]
+pub enum Route<'a> {
     /// H: what is small with H is computed without cancellation.
     Gradient,
     /// F: in fewer operations, and with errors of the size of eps.
     Deformation,
     /// H, with all that cancels at small strains taken apart: see [`Strain::settled`].
-    Settled,
+    Settled(Option<&'a Amplitude>),
 }
 
 /// The relations of half the angles that a displacement turns by, in whose sine H is small: those
@@ -103,21 +104,29 @@ impl Strain {
         gradient: Tensor,
         kind: &Kind,
         [whole, relations]: [&Relations; 2],
+        amplitude: Option<&Amplitude>,
     ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         // F and its inverse are of the size of 1.
         let plain = gradient.reduce(graph, whole);
         let deformation = identity.add(graph, &plain);
-        let gradient = gradient.settle(graph, relations);
+        let mend = |graph: &mut Graph, plain: &Tensor| {
+            let settled = plain.settle(graph, relations);
+            settled.mend(graph, plain, amplitude)
+        };
+        let gradient = mend(graph, &gradient);
         let transposed = gradient.transpose();
         let symmetric = gradient.add(graph, &transposed);
         let square = transposed.mul(graph, &gradient);
-        let right = symmetric.add(graph, &square).settle(graph, relations);
+        let right = symmetric.add(graph, &square);
+        let right = mend(graph, &right);
         let square = gradient.mul(graph, &transposed);
-        let left = symmetric.add(graph, &square).settle(graph, relations);
-        let volume = gradient.determinant_less_one(graph);
-        let volume = reduce(graph, &[volume], relations);
-        let volume = settle(graph, &volume)[0];
+        let left = symmetric.add(graph, &square);
+        let left = mend(graph, &left);
+        let plain = gradient.determinant_less_one(graph);
+        let volume = reduce(graph, &[plain], relations);
+        let volume = settle(graph, &volume);
+        let volume = mended(graph, amplitude, &[plain], &volume)[0];
         // Rotations cancel in C - I and in j, but not in what is made of H.
         let excess = match relations.is_empty() {
             true => excess_of_gradient(graph, &gradient),
@@ -277,7 +286,7 @@ impl Motion {
         displacement: &[Expr],
         kind: &Kind,
         relations: &Relations,
-        route: Route,
+        route: Route<'_>,
     ) -> Self {
         let dimension = displacement.len();
         let displacement = factor(graph, displacement);
@@ -295,19 +304,27 @@ impl Motion {
                     .collect();
                 Tensor::from_fn(dimension, |j, k| second[k][j])
             })
-            .collect();
+            .collect::<Vec<Tensor>>();
         let strain = match route {
             Route::Gradient => Strain::new(graph, gradient, kind, relations),
             Route::Deformation => Strain::direct(graph, gradient, kind, relations),
-            Route::Settled => {
+            Route::Settled(amplitude) => {
                 let halves = half_angles(graph, &displacement, &gradient);
-                Strain::settled(graph, gradient, kind, [relations, &halves])
+                Strain::settled(graph, gradient, kind, [relations, &halves], amplitude)
             }
         };
         let fibre_gradient = match kind {
             Kind::Fibrous(direction) => Some(gradient_of(graph, direction)),
             Kind::Isotropic | Kind::SmallStrain => None,
         };
+        let amplitude = match route {
+            Route::Settled(amplitude) => amplitude,
+            Route::Gradient | Route::Deformation => None,
+        };
+        let [velocity, acceleration] =
+            [velocity, acceleration].map(|rate| mended(graph, amplitude, &rate, &rate));
+        let second_gradient: Vec<Tensor> =
+            second_gradient.iter().map(|second| second.mend(graph, second, amplitude)).collect();
         let mut motion = Motion {
             displacement,
             velocity,
@@ -318,7 +335,7 @@ impl Motion {
             invariant_gradients: BTreeMap::new(),
             fibre_gradient,
         };
-        if !relations.is_empty() && route != Route::Settled {
+        if !relations.is_empty() && !matches!(route, Route::Settled(_)) {
             motion.differentiate_invariants(graph, relations);
         } else if *kind == Kind::SmallStrain {
             motion.contract_small_strain(graph);
@@ -432,6 +449,16 @@ fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
     let columns: Vec<Vec<Expr>> =
         (0..vector.len()).map(|axis| derivative(graph, vector, Symbol::Coordinate(axis))).collect();
     Tensor::from_fn(vector.len(), |row, column| columns[column][row])
+}
+
+/// See [`Amplitude::mend`].
+pub(super) fn mended(
+    graph: &mut Graph,
+    amplitude: Option<&Amplitude>,
+    plain: &[Expr],
+    settled: &[Expr],
+) -> Vec<Expr> {
+    amplitude.map_or_else(|| settled.to_vec(), |amplitude| amplitude.mend(graph, plain, settled))
 }
 
 fn derivative(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {

@@ -5,6 +5,7 @@
 //! material. Everything is written in the displacement gradient H = F - I, because strains formed
 //! from F lose eps/strain.
 
+pub mod amplitude;
 pub mod boundary;
 pub mod derivation;
 mod expansion;

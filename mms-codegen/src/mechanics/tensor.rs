@@ -1,5 +1,7 @@
 //! Small square matrices of expressions.
 
+use super::amplitude::Amplitude;
+use super::kinematics::mended;
 use crate::expr::{Expr, Graph, Rational};
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;
@@ -62,6 +64,17 @@ impl Tensor {
         let halved = relations.halve(graph, &self.components);
         let reduced = reduce(graph, &halved, relations);
         Self::from_components(self.dimension, settle(graph, &reduced))
+    }
+
+    /// The same matrix, where it keeps its digits, else what does: see [`Amplitude::mend`].
+    pub(super) fn mend(
+        &self,
+        graph: &mut Graph,
+        plain: &Tensor,
+        amplitude: Option<&Amplitude>,
+    ) -> Self {
+        let mended = mended(graph, amplitude, &plain.components, &self.components);
+        Self::from_components(self.dimension, mended)
     }
 
     /// `A + B`.

@@ -2,6 +2,7 @@
 //! first; none recurses.
 
 pub mod absorb;
+pub mod difference;
 pub mod differentiate;
 pub mod expand;
 pub mod factor;

@@ -4,6 +4,7 @@
 
 mod canonical;
 mod derivatives;
+mod differences;
 mod evaluation;
 mod intervals;
 mod passes;

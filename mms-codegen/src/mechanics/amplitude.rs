@@ -1,0 +1,366 @@
+//! The parameter with which a motion vanishes, and which expressions lose digits where it is small.
+//!
+//! An expression that vanishes with the amplitude keeps its digits if no part of it is a difference
+//! of what does not: see [`Amplitude::keeps`]. What does not is replaced by [`difference`].
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mms_math::{Double, Scalar as _};
+
+use super::model::{Body, Model};
+use crate::certify::sample::{Extent, halton, spread};
+use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::pass::difference::{Parts, difference};
+use crate::pass::factor::factor;
+use crate::pass::substitute::replace;
+use crate::program::interpret::{Number as _, binary, unary};
+
+/// At how many places of the body u is looked at.
+const PLACES: usize = 2;
+
+/// At how many places, anywhere, an identity is looked at, and how many of them must have a value.
+const ANYWHERE: usize = 24;
+const ENOUGH: usize = 6;
+
+/// How many orders in the amplitude may cancel.
+const ORDERS: usize = 3;
+
+/// A sum is 0 where it is less than that of its terms, of 31 digits.
+const CANCELLED: f64 = 1e-24;
+
+/// A parameter with which u vanishes at every X and t.
+#[derive(Clone, Debug)]
+pub struct Amplitude {
+    symbol: Symbol,
+    /// Places of the body, and places anywhere, where it is 0.
+    body: Vec<Place>,
+    anywhere: Vec<Place>,
+    /// Corners of the body, its middle and those of its faces, where it has its default.
+    edges: Vec<Place>,
+}
+
+/// Values of the parameters, of X and of t.
+#[derive(Clone, Debug)]
+struct Place {
+    parameters: Vec<Double>,
+    coordinates: Vec<Double>,
+    time: Double,
+}
+
+impl Amplitude {
+    /// The first parameter with which u vanishes at the defaults of the others. The body does not
+    /// depend on it.
+    pub fn find(graph: &Graph, model: &Model) -> Option<Amplitude> {
+        let defaults = defaults(graph, model);
+        let bounds = bounds(model);
+        let of_body: BTreeSet<Symbol> =
+            bounds.iter().flat_map(|bound| graph.symbols(*bound)).collect();
+        let of_motion: BTreeSet<Symbol> =
+            model.displacement.iter().flat_map(|u| graph.symbols(*u)).collect();
+        let candidates = (0..defaults.len()).filter(|index| {
+            let symbol = Symbol::Parameter(*index);
+            of_motion.contains(&symbol) && !of_body.contains(&symbol)
+        });
+        let edges = edges(graph, model, &defaults);
+        let moves = |places: &[Place]| {
+            let values = evaluate(graph, &model.displacement, places);
+            model.displacement.iter().any(|u| !vanishes(&values[u]))
+        };
+        let of_defaults = places(graph, model, &defaults);
+        if !moves(&of_defaults) {
+            return None;
+        }
+        candidates.into_iter().find_map(|index| {
+            let mut parameters = defaults.clone();
+            parameters[index] = Double::from_f64(0.0);
+            let body = places(graph, model, &parameters);
+            let anywhere = anywhere(&parameters, index);
+            let symbol = Symbol::Parameter(index);
+            let edges = edges.clone();
+            (!moves(&body)).then_some(Amplitude { symbol, body, anywhere, edges })
+        })
+    }
+
+    /// `settled`, where that keeps its digits, else what is more exact: `plain`, of the same values,
+    /// less what it is without an amplitude, where that is 0.
+    pub fn mend(&self, graph: &mut Graph, plain: &[Expr], settled: &[Expr]) -> Vec<Expr> {
+        let keeps = self.kept(graph, settled).keeps;
+        let lost = |index: &usize| keeps[&settled[*index]] != Keeps::All;
+        let lost: Vec<usize> = (0..settled.len()).filter(lost).collect();
+        let mut mended = settled.to_vec();
+        if lost.is_empty() {
+            return mended;
+        }
+        let lossy: Vec<Expr> = lost.iter().map(|index| plain[*index]).collect();
+        for (index, apart) in lost.into_iter().zip(self.apart(graph, &lossy)) {
+            mended[index] = apart.unwrap_or(mended[index]);
+        }
+        // Terms of the first order may cancel and leave those of the next.
+        for _ in 0..ORDERS {
+            mended = factor(graph, &mended);
+            let Kept { lossy, .. } = self.kept(graph, &mended);
+            let inner: Vec<Expr> = lossy.into_iter().filter(|it| !mended.contains(it)).collect();
+            let apart = self.apart(graph, &inner);
+            let changes = inner.into_iter().zip(apart).filter_map(|(it, made)| Some((it, made?)));
+            let changes: BTreeMap<Expr, Expr> = changes.filter(|(it, made)| it != made).collect();
+            if changes.is_empty() {
+                break;
+            }
+            mended = replace(graph, &mended, &changes);
+        }
+        // A quotient may have no value at an edge where the whole has one.
+        if self.has_values(graph, settled, &mended) { mended } else { settled.to_vec() }
+    }
+
+    /// Whether `after` have values wherever `before` have.
+    fn has_values(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        let values = evaluate(graph, &[before, after].concat(), &self.edges);
+        let finite = |expr: &Expr| values[expr].iter().map(|value| value.to_f64().is_finite());
+        let pairs = || before.iter().zip(after);
+        pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
+    }
+
+    /// What expressions that vanish with the amplitude are more than without it.
+    fn apart(&self, graph: &mut Graph, exprs: &[Expr]) -> Vec<Option<Expr>> {
+        let parts = difference(graph, exprs, self.symbol);
+        let limits: Vec<Expr> = parts.iter().flatten().map(|parts| parts.limit).collect();
+        let nothing = evaluate(graph, &limits, &self.anywhere);
+        let mut apart = |Parts { limit, rest }: Parts| match is_identity(&nothing[&limit]) {
+            true => rest,
+            false => graph.add(limit, rest),
+        };
+        parts.into_iter().map(|parts| parts.map(&mut apart)).collect()
+    }
+
+    /// Whether all of these keep their digits where the amplitude is small: each is not small with it,
+    /// or it is made by sums of what is, by products with what keeps them, and by functions of what
+    /// keeps them. Of a product it is enough that one small factor does.
+    pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
+        let keeps = self.kept(graph, roots).keeps;
+        roots.iter().all(|root| keeps[root] != Keeps::None)
+    }
+
+    fn kept(&self, graph: &Graph, roots: &[Expr]) -> Kept {
+        let values = evaluate(graph, roots, &self.body);
+        let mut kept = Kept { keeps: BTreeMap::new(), lossy: Vec::new() };
+        for (expr, at) in &values {
+            let of = |child: &Expr| vanishes(&values[child]).then(|| kept.keeps[child]);
+            let node = graph.node(*expr);
+            let keeps = match node {
+                _ if !vanishes(at) => Keeps::All,
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => Keeps::All,
+                Node::Sum(constant, terms) => {
+                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(Keeps::None));
+                    let least = terms.min().unwrap_or(Keeps::All);
+                    if constant.is_zero() { least } else { Keeps::None }
+                }
+                // The error of a factor is multiplied by what the others are.
+                Node::Product(factors) => {
+                    let small = || factors.iter().filter_map(|(base, _)| of(base));
+                    match small().min() {
+                        Some(Keeps::None) if small().max() > Some(Keeps::None) => Keeps::First,
+                        least => least.unwrap_or(Keeps::All),
+                    }
+                }
+                Node::Call(_, arguments) => {
+                    arguments.iter().filter_map(of).max().unwrap_or(Keeps::None)
+                }
+            };
+            if keeps == Keeps::None && matches!(node, Node::Sum(..)) {
+                kept.lossy.push(*expr);
+            }
+            kept.keeps.insert(*expr, keeps);
+        }
+        kept
+    }
+}
+
+/// How well an expression that is small with the amplitude keeps its digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Keeps {
+    /// Its error is of the size of what cancels in it.
+    None,
+    /// So is that of a factor of it, and another factor is small.
+    First,
+    /// No part of it cancels.
+    All,
+}
+
+/// Of all that expressions are made of, how well it keeps its digits, and which sums do not.
+struct Kept {
+    keeps: BTreeMap<Expr, Keeps>,
+    lossy: Vec<Expr>,
+}
+
+/// 0 wherever there is a value.
+fn vanishes(values: &[Double]) -> bool {
+    let mut finite = values.iter().filter(|value| value.to_f64().is_finite()).peekable();
+    finite.peek().is_some() && finite.all(|value| value.to_f64() == 0.0)
+}
+
+/// 0 at enough places for any signs of the parameters and of X.
+fn is_identity(values: &[Double]) -> bool {
+    let finite = values.iter().filter(|value| value.to_f64().is_finite()).count();
+    finite >= ENOUGH && vanishes(values)
+}
+
+fn defaults(graph: &Graph, model: &Model) -> Vec<Double> {
+    let mut place =
+        Place { parameters: Vec::new(), coordinates: Vec::new(), time: Double::from_f64(0.0) };
+    for parameter in &model.parameters {
+        let value = value(graph, parameter.default, &place);
+        place.parameters.push(value);
+    }
+    place.parameters
+}
+
+fn bounds(model: &Model) -> Vec<Expr> {
+    let of_body = match &model.domain.body {
+        Body::Box { lower, upper } => [&lower[..], upper].concat(),
+        Body::Annulus { inner, outer, theta } => vec![*inner, *outer, theta[0], theta[1]],
+    };
+    [&of_body[..], &model.domain.time].concat()
+}
+
+/// Places of the body.
+fn places(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+    // The first points of the sequence have simple fractions, where X may be Y.
+    let fractions: Vec<[Double; 4]> = (101..101 + PLACES).map(halton).collect();
+    places_at(graph, model, parameters, &fractions)
+}
+
+/// Its corners, its middle and those of its edges and faces, at the first time and halfway.
+fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+    let dimension = model.displacement.len();
+    let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
+    let of_index = |index: usize| {
+        let fraction = |axis: usize| match axis {
+            3 => ends[index % 2],
+            _ if axis < dimension => ends[index / 3usize.pow(axis as u32) % 3],
+            _ => ends[0],
+        };
+        [0, 1, 2, 3].map(fraction)
+    };
+    let fractions: Vec<[Double; 4]> = (0..3usize.pow(dimension as u32)).map(of_index).collect();
+    places_at(graph, model, parameters, &fractions)
+}
+
+/// The places at these fractions of the way through the body and the time window.
+fn places_at(
+    graph: &Graph,
+    model: &Model,
+    parameters: &[Double],
+    fractions: &[[Double; 4]],
+) -> Vec<Place> {
+    let nowhere = Place {
+        parameters: parameters.to_vec(),
+        coordinates: Vec::new(),
+        time: Double::from_f64(0.0),
+    };
+    let of = |bound: &Expr| value(graph, *bound, &nowhere);
+    let extent = match &model.domain.body {
+        Body::Box { lower, upper } => {
+            Extent::Box([lower, upper].map(|corner| corner.iter().map(of).collect()))
+        }
+        Body::Annulus { inner, outer, theta } => {
+            Extent::Annulus([inner, outer].map(of), [&theta[0], &theta[1]].map(of))
+        }
+    };
+    let [first, last] = [0, 1].map(|end: usize| of(&model.domain.time[end]));
+    let place = |fractions: &[Double; 4]| Place {
+        parameters: parameters.to_vec(),
+        coordinates: extent.point(fractions),
+        time: first + (last - first) * fractions[3],
+    };
+    fractions.iter().map(place).collect()
+}
+
+/// Places with parameters of their default size and of any sign, but for the amplitude.
+fn anywhere(parameters: &[Double], amplitude: usize) -> Vec<Place> {
+    let place = |index: usize| {
+        let count = parameters.len() + 4;
+        let fractions = spread(index, count);
+        let mut signed = fractions.iter().map(|fraction| {
+            Double::from_rational(&(fraction * Rational::from(4) - Rational::from(2)))
+        });
+        let size =
+            |value: &Double| if value.to_f64() == 0.0 { Double::from_f64(1.0) } else { *value };
+        let mut parameters: Vec<Double> = parameters
+            .iter()
+            .zip(&mut signed)
+            .map(|(value, factor)| size(value) * factor)
+            .collect();
+        parameters[amplitude] = Double::from_f64(0.0);
+        let coordinates = signed.by_ref().take(3).collect();
+        let time = signed.next().unwrap_or(Double::from_f64(0.5));
+        Place { parameters, coordinates, time }
+    };
+    (101..101 + ANYWHERE).map(place).collect()
+}
+
+fn value(graph: &Graph, expr: Expr, place: &Place) -> Double {
+    evaluate(graph, &[expr], std::slice::from_ref(place))[&expr][0]
+}
+
+/// The values of everything that `roots` are made of; what cancels is 0.
+fn evaluate(graph: &Graph, roots: &[Expr], places: &[Place]) -> BTreeMap<Expr, Vec<Double>> {
+    let mut values = BTreeMap::<Expr, Vec<Double>>::new();
+    for expr in graph.reachable(roots) {
+        let at = |(index, place)| at(graph.node(expr), |child| values[&child][index], place);
+        let of_places = places.iter().enumerate().map(at).collect();
+        values.insert(expr, of_places);
+    }
+    values
+}
+
+fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Double {
+    let zero = Double::from_f64(0.0);
+    let without = |value: Double, scale: f64| {
+        if value.to_f64().abs() <= CANCELLED * scale { zero } else { value }
+    };
+    match node {
+        Node::Number(number) => Double::from_rational(number),
+        Node::Pi => Double::pi(),
+        Node::Symbol(Symbol::Parameter(index)) => place.parameters[*index],
+        Node::Symbol(Symbol::Time) => place.time,
+        Node::Symbol(Symbol::Coordinate(axis)) => place.coordinates[*axis],
+        // A normal, or what is not in a motion.
+        Node::Symbol(_) => Double::from_f64(0.6),
+        Node::Sum(constant, terms) => {
+            let constant = Double::from_rational(constant);
+            let mut scale = constant.to_f64().abs();
+            let sum = terms.iter().fold(constant, |sum, (term, coefficient)| {
+                let term = of(*term) * Double::from_rational(coefficient);
+                scale = scale.max(term.to_f64().abs());
+                sum + term
+            });
+            without(sum, scale)
+        }
+        Node::Product(factors) => factors
+            .iter()
+            .map(|(base, exponent)| power(of(*base), exponent))
+            .fold(Double::from_f64(1.0), |product, factor| product * factor),
+        Node::Call(function @ (Function::Atan2 | Function::Powf), arguments) => {
+            binary(*function, of(arguments[0]), of(arguments[1]))
+        }
+        // The sine of a rounded pi is not 0.
+        Node::Call(function, arguments) => without(unary(*function, of(arguments[0])), 1e-4),
+    }
+}
+
+fn power(base: Double, exponent: &Rational) -> Double {
+    let one = Double::from_f64(1.0);
+    let whole = i32::try_from(exponent.numerator().clone()).ok().filter(|_| exponent.is_int());
+    let Some(count) = whole else {
+        let is_zero = base.to_f64() == 0.0 && *exponent > Rational::ZERO;
+        return if is_zero { base } else { base.powf(Double::from_rational(exponent)) };
+    };
+    let mut power = one;
+    for bit in (0..u32::BITS - count.unsigned_abs().leading_zeros()).rev() {
+        power = power * power;
+        if count.unsigned_abs() >> bit & 1 == 1 {
+            power = power * base;
+        }
+    }
+    if count < 0 { one / power } else { power }
+}
