@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn states_are_equally_far_apart_and_include_the_last() {
         let folder = tempfile::tempdir().unwrap();
-        let writer = Writer::new(folder.path(), "run", 4, Vec::new()).unwrap();
+        let writer = Writer::new(folder.path(), "run", 4, 0, Vec::new()).unwrap();
         let wanted = |steps| -> Vec<usize> {
             (0..=steps).filter(|&step| writer.wants(step, steps)).collect()
         };

@@ -63,10 +63,14 @@ pub(crate) fn write_with(
     Ok(())
 }
 
-/// The place that a path leads to, a file or none. Links in circles have been refused before.
+/// How many links lead on from each other before they are taken for a circle, as systems do.
+const MOST_LINKS: usize = 40;
+
+/// The place that a path leads to, a file or none. Links in circles are followed for a while.
 fn without_links(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
-    while let Ok(next) = fs::read_link(&path) {
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&path) else { break };
         path = path.parent().unwrap_or(Path::new("")).join(next);
     }
     path

@@ -131,9 +131,10 @@ fn show_prints_one_thing_at_a_time() {
 #[test]
 fn a_script_needs_points_where_the_field_is_defined() {
     let folder = Folder::with_bar("bar.toml");
-    // A modulus, and so W, that is not defined in the bar.
-    let text = folder.read("bar.toml").replace("\"young/2\"", "\"young*sqrt(X/length - 2)\"");
-    let text = text.replace("x_max = \"free\"", "x_max = \"traction\"");
+    // A motion that is not defined in the bar.
+    let motion = "X*(2*length - X)/length^2 * A";
+    let text = folder.read("bar.toml").replace(motion, "A*sqrt(X/length - 2)");
+    let text = text.replace("\"fixed\"", "\"prescribed\"").replace("\"free\"", "\"traction\"");
     folder.write("bar.toml", &text);
     let run = folder.mms("show bar.toml --script sympy").exits(2);
     run.complains("nothing to compare").prints_nothing();

@@ -124,6 +124,8 @@ pub struct Graph {
     size: usize,
     limit: usize,
     exhausted: bool,
+    /// Nodes that were made before the graph was exhausted.
+    made: usize,
 }
 
 impl Default for Graph {
@@ -144,6 +146,7 @@ impl Graph {
             size: 0,
             limit,
             exhausted: false,
+            made: 0,
         };
         graph.intern(Node::Number(Rational::ZERO));
         graph
@@ -176,7 +179,7 @@ impl Graph {
                 "exact numbers become too long in it: use fewer digits or lower powers".into(),
             ];
         }
-        let (nodes, operands) = (self.nodes.len(), self.size - self.nodes.len());
+        let (nodes, operands) = (self.made, self.size - self.made);
         vec![
             format!(
                 "{nodes} nodes with {operands} operands were made; the bound is {} of both",
@@ -216,7 +219,9 @@ impl Graph {
     /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
     /// evaluates it learns nothing, and takes nothing for 0.
     fn exhaust(&mut self) -> Expr {
-        self.exhausted = true;
+        if !self.exhausted {
+            (self.exhausted, self.made) = (true, self.nodes.len());
+        }
         let number = self.enter(Node::Number(Rational::NEG_ONE));
         self.enter(Node::Call(Function::Ln, vec![number]))
     }
