@@ -386,7 +386,7 @@ fn emitted_and_interpreted<K: Kernel>() {
     }
 }
 
-type Points = [mms_codegen::certify::sample::Sample<f64>];
+type Points = [mms_codegen::sample::Sample<f64>];
 
 fn agree_in_double<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Quantity) {
     let parameters = compiled.parameters::<f64>(&Default::default());

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use mms::gallery::{Entry, FIELDS};
-use mms_codegen::certify::sample::{Sample, samples};
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::program::{Bound, Output};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{Sample, samples};
 use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection};
 use mms_runtime::math::Scalar as _;

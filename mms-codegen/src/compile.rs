@@ -33,6 +33,11 @@ use crate::variation::Variation;
 /// The materials that come with the crate: stem and text.
 pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
 
+/// The stem and the text of the material of that stem that comes with the crate.
+pub(crate) fn shipped(stem: &str) -> Option<&'static (&'static str, &'static str)> {
+    MATERIALS.iter().find(|(shipped, _)| *shipped == stem)
+}
+
 /// Reads the file of a material such as `./mine.toml`, given as the field file writes it.
 pub type Loader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
@@ -337,7 +342,7 @@ fn find_material(
         // The missing model has been reported.
         return None;
     }
-    if let Some((stem, text)) = MATERIALS.iter().find(|(stem, _)| stem == shown) {
+    if let Some((stem, text)) = shipped(shown) {
         return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
     }
     if shown.ends_with(".toml") {
@@ -471,9 +476,8 @@ impl Compiled {
     /// Path and text of the material's file, where it is the user's own.
     pub fn own_material(&self) -> Option<(&str, &str)> {
         let model = self.field.material.model.value.as_str();
-        let shipped = MATERIALS.iter().any(|(stem, _)| *stem == model);
         let source = self.material.strain_energy.span.source;
-        (!shipped).then(|| (model, self.sources.get(source).text.as_str()))
+        shipped(model).is_none().then(|| (model, self.sources.get(source).text.as_str()))
     }
 
     /// dP/dF as a function of a displacement gradient, as [`Response::Tangent`]: a program of its

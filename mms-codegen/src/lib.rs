@@ -23,6 +23,7 @@ pub mod pass;
 pub mod period;
 pub mod program;
 pub mod quantity;
+pub mod sample;
 pub mod selection;
 pub mod show;
 pub mod simplify;

@@ -57,7 +57,11 @@ pub fn simplify(
     };
     let mut quantities = plain.quantities.clone();
     quantities.extend(cheapest(graph, of(&derivations, false), &relations));
-    let amplitude = Amplitude::find(graph, model);
+    // The fast form loses digits at small amplitudes anyway.
+    let amplitude = match form {
+        Form::Stable => Amplitude::find(graph, model),
+        Form::Fast => None,
+    };
     let amplitude = amplitude.as_ref();
     let settled = graph.attempt(|graph| derive_settled(graph, model, &relations, amplitude));
     quantities.extend(match (form, settled) {

@@ -10,13 +10,13 @@ use mms_codegen::certify::claims::Finding;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::{Frame, Rates};
-use mms_codegen::certify::sample::{domain, samples};
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::Output;
 use mms_codegen::program::dual::Dual;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{domain, samples};
 use mms_codegen::{Compiled, Options, compile, compile_with};
 use proptest::prelude::*;
 

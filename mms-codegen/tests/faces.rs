@@ -1,12 +1,12 @@
 //! What is given on the faces of a body: normals by geometry, u and P N by the quantities.
 
-use mms_codegen::certify::sample::{Sample, halton};
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::interpret::{Interpreter, Number as _, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::program::{Output, Program};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{Sample, halton};
 use mms_codegen::spec::Face;
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;

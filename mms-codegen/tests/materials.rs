@@ -3,7 +3,6 @@
 
 use std::sync::LazyLock;
 
-use mms_codegen::certify::sample::{halton, samples};
 use mms_codegen::compile::MATERIALS;
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::Response;
@@ -12,6 +11,7 @@ use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::program::{Output, Program};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{halton, samples};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{MaterialSpec, read_material};
 use mms_codegen::{Compiled, compile};

@@ -1,12 +1,12 @@
 //! Stress, its divergence and the body force of fields and materials of every kind, against
 //! central differences of W and of P in 77 digits: a route without symbolic differentiation.
 
-use mms_codegen::certify::sample::samples;
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::samples;
 use mms_codegen::visibility::{Span, Status, Term, Visibility};
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;

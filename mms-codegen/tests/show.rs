@@ -5,7 +5,6 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use mms_codegen::certify::sample::samples;
 use mms_codegen::expr::resolve::Scope;
 use mms_codegen::expr::{Expr, Graph, Rational, Symbol};
 use mms_codegen::program::interpret::{Interpreter, Point};
@@ -13,6 +12,7 @@ use mms_codegen::program::precise::Precise;
 use mms_codegen::program::schedule::schedule;
 use mms_codegen::program::{Output, Program};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::samples;
 use mms_codegen::show::language::Language;
 use mms_codegen::show::{Document, Line, latex, mathml, text};
 use mms_codegen::source::Sources;

@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         Ok(boundary)
     }
 
-    /// Finds the nodes outside that have mass, with those of the particles at present.
+    /// Finds how far beyond its faces a body gives nodes mass, before any is folded.
     pub fn reach(&mut self, momentum: &[Nodal<T>]) {
         self.periods.iter_mut().for_each(|period| period.reach(momentum));
         self.walls.iter_mut().for_each(|wall| wall.reach(momentum));

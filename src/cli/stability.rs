@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::wave_speed;
 use mms_codegen::certify::rates::Frame;
-use mms_codegen::certify::sample::samples;
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
+use mms_codegen::sample::samples;
 use mms_runtime::{FormulationName, Method};
 
 use super::input::Input;

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
-use mms_codegen::certify::sample::domain;
 use mms_codegen::period::period;
+use mms_codegen::sample::domain;
 use mms_runtime::study::{
     Fit, Phase, Phases, Refinement, Series, TOLERANCE, Watch, differences, fit,
 };

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use mms_codegen::accuracy::{Varied, regime, vary};
-use mms_codegen::certify::sample::{Extent, domain, samples};
 use mms_codegen::expr::Rational;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{Extent, domain, samples};
 use mms_codegen::selection::Form;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection};

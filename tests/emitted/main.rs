@@ -6,10 +6,10 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use mms_codegen::certify::sample::samples;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::samples;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
 

@@ -5,8 +5,8 @@ use std::sync::{LazyLock, OnceLock};
 
 use mms::gallery::FIELDS;
 use mms_codegen::Compiled;
-use mms_codegen::certify::sample::{Sample, samples};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{Sample, samples};
 use mms_runtime::math::Real;
 
 /// The generated functions of one field.

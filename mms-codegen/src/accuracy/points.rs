@@ -3,9 +3,9 @@
 //! They are random, and the same in every run. One in four lies on a face or close to one.
 
 use super::precision::Digits;
-use crate::certify::sample::{Extent, domain};
 use crate::compile::Compiled;
 use crate::expr::Rational;
+use crate::sample::{Extent, domain};
 
 /// Where points lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

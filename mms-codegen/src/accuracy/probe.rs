@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::points::{Input, Place, exact, inputs};
-use crate::certify::sample::{Extent, domain, spread};
 use crate::compile::Compiled;
 use crate::expr::Rational;
 use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Precise;
 use crate::program::{Bound, Output};
 use crate::quantity::Quantity;
+use crate::sample::{Extent, domain, spread};
 
 /// How many points show what a parameter does.
 const POINTS: usize = 64;

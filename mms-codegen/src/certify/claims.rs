@@ -6,7 +6,6 @@ use mms_math::Scalar as _;
 use super::chart::{Chart, straightened};
 use super::enclosure::Formulas;
 use super::motion::gradient;
-use super::sample::spread;
 use super::search::{Measure, largest};
 use super::witness::Witness;
 use crate::compile::Compiled;
@@ -22,6 +21,7 @@ use crate::program::interpret::Number as _;
 use crate::program::interval::Interval;
 use crate::program::precise::Precise;
 use crate::quantity::Quantity;
+use crate::sample::spread;
 use crate::spec::{BoundarySpec, Claim, Face};
 
 /// At how many points of a face a claim is evaluated in 77 digits.

@@ -1,13 +1,13 @@
 //! Each `[[check]]` of a file: a closed form from paper against the derived quantity, in
 //! arbitrary precision.
 
-use super::sample::{Sample, samples};
 use crate::compile::Compiled;
 use crate::expr::Rational;
 use crate::program::interpret::{Interpreter, Number as _, Point};
 use crate::program::precise::Precise;
 use crate::program::{Output, Program};
 use crate::quantity::Quantity;
+use crate::sample::{Sample, samples};
 use crate::source::Span;
 
 /// At how many points of the domain a closed form is compared.

@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 
 use mms_math::Scalar as _;
 
-use super::sample::Extent;
 use crate::compile::{Compiled, Failure, parameter_values};
 use crate::diagnostic::{Diagnostic, MAX_RENDERED};
 use crate::expr::{Expr, Graph, Rational, Symbol};
@@ -18,6 +17,7 @@ use crate::program::Output;
 use crate::program::interpret::Interpreter;
 use crate::program::precise::Precise;
 use crate::program::schedule::schedule;
+use crate::sample::Extent;
 use crate::source::Span;
 use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec};
 

@@ -13,7 +13,6 @@ pub mod matrix;
 pub mod message;
 pub mod motion;
 pub mod rates;
-pub mod sample;
 pub mod search;
 pub mod tangent;
 pub mod witness;

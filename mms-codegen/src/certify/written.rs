@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 
 use mms_math::Scalar as _;
 
-use super::sample::{Sample, samples};
 use crate::compile::Compiled;
 use crate::expr::Function;
 use crate::program::interpret::{Number as _, binary, unary};
 use crate::program::precise::Precise;
+use crate::sample::{Sample, samples};
 use crate::source::Span;
 use crate::spec::names::COORDINATES;
 use crate::spec::{Formula, RigidSpec};

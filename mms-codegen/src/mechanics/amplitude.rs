@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use mms_math::{Double, Scalar as _};
 
 use super::model::{Body, Model};
-use crate::certify::sample::{Extent, halton, spread};
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use crate::pass::difference::{Parts, difference};
 use crate::pass::factor::factor;
 use crate::pass::substitute::replace;
 use crate::program::interpret::{Number as _, binary, unary};
+use crate::sample::{Extent, halton, spread};
 
 /// At how many places of the body u is looked at.
 const PLACES: usize = 2;
@@ -173,6 +173,16 @@ impl Amplitude {
         }
         kept
     }
+}
+
+/// `settled`, mended where a motion has an amplitude: see [`Amplitude::mend`].
+pub(super) fn mended(
+    graph: &mut Graph,
+    amplitude: Option<&Amplitude>,
+    plain: &[Expr],
+    settled: &[Expr],
+) -> Vec<Expr> {
+    amplitude.map_or_else(|| settled.to_vec(), |amplitude| amplitude.mend(graph, plain, settled))
 }
 
 /// How well an expression that is small with the amplitude keeps its digits.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::amplitude::Amplitude;
-use super::kinematics::{Motion, Route, Strain, half_angles, mended};
+use super::amplitude::{Amplitude, mended};
+use super::kinematics::{Motion, Route, Strain, half_angles};
 use super::material::{self, Law};
 use super::misread;
 use super::model::Model;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::amplitude::Amplitude;
+use super::amplitude::{Amplitude, mended};
 use super::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
@@ -449,16 +449,6 @@ fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
     let columns: Vec<Vec<Expr>> =
         (0..vector.len()).map(|axis| derivative(graph, vector, Symbol::Coordinate(axis))).collect();
     Tensor::from_fn(vector.len(), |row, column| columns[column][row])
-}
-
-/// See [`Amplitude::mend`].
-pub(super) fn mended(
-    graph: &mut Graph,
-    amplitude: Option<&Amplitude>,
-    plain: &[Expr],
-    settled: &[Expr],
-) -> Vec<Expr> {
-    amplitude.map_or_else(|| settled.to_vec(), |amplitude| amplitude.mend(graph, plain, settled))
 }
 
 fn derivative(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Expr> {

@@ -1,7 +1,6 @@
 //! Small square matrices of expressions.
 
-use super::amplitude::Amplitude;
-use super::kinematics::mended;
+use super::amplitude::{Amplitude, mended};
 use crate::expr::{Expr, Graph, Rational};
 use crate::pass::reduce::reduce;
 use crate::pass::relations::Relations;

@@ -12,7 +12,6 @@ use std::collections::BTreeMap;
 
 use mms_math::Scalar as _;
 
-use crate::certify::sample::{Sample, samples};
 use crate::compile::Compiled;
 use crate::expr::{Expr, Graph};
 use crate::mechanics::{Response, TooLarge};
@@ -20,6 +19,7 @@ use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Precise;
 use crate::program::schedule::schedule_plainly;
 use crate::program::{Bound, Output};
+use crate::sample::{Sample, samples};
 pub use term::Term;
 
 use scale::Sizes;

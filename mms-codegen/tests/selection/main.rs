@@ -4,12 +4,12 @@ mod refusals;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mms_codegen::certify::sample::samples;
 use mms_codegen::emit::rust_mms_math as rust;
 use mms_codegen::expr::Rational;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::samples;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile, compile_with};
 

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use mms_codegen::Compiled;
-use mms_codegen::certify::sample::{halton, samples};
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::Response;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::program::{Output, Program};
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{halton, samples};
 use mms_math::Scalar as _;
 
 /// How many points and times.

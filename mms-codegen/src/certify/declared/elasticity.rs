@@ -7,8 +7,7 @@ use mms_math::Scalar as _;
 
 use super::material::Counterexample;
 use super::{Declared, digits};
-use crate::certify::sample::Extent;
-use crate::compile::MATERIALS;
+use crate::compile::shipped;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::invariant::{INVARIANTS, Kind};
@@ -19,6 +18,7 @@ use crate::pass::differentiate::differentiate;
 use crate::pass::relations::Relations;
 use crate::pass::substitute::substitute;
 use crate::program::precise::Precise;
+use crate::sample::Extent;
 use crate::source::Span;
 
 /// What is of this size beside the entries of a matrix is 0 but for rounding.
@@ -145,8 +145,7 @@ impl Declared<'_> {
     /// Where W is written: the field's own choice, if it is that of a shipped material.
     fn density_of_energy(&self) -> Span {
         let model = &self.field.material.model;
-        let is_shipped = MATERIALS.iter().any(|(stem, _)| *stem == model.value);
-        if is_shipped { model.span } else { self.material.strain_energy.span }
+        if shipped(&model.value).is_some() { model.span } else { self.material.strain_energy.span }
     }
 }
 

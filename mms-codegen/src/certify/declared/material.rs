@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::{AXES, Declared, digits};
-use crate::certify::sample::{Extent, halton};
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Rational, Symbol};
 use crate::mechanics::model::energy::{INCOMPRESSIBLE, POISSON};
@@ -16,6 +15,7 @@ use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Precise;
 use crate::program::schedule::schedule;
+use crate::sample::{Extent, halton};
 use crate::source::Span;
 
 /// At how many points of the body a material is looked at, beside the corners.

@@ -11,13 +11,13 @@ use super::Port;
 use crate::accuracy::Digits;
 use crate::accuracy::probe::Amplitude;
 use crate::certify::declared::accepts;
-use crate::certify::sample::{domain, halton};
 use crate::compile::{Compiled, constant};
 use crate::expr::{Rational, Symbol};
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Precise;
 use crate::quantity::Quantity;
+use crate::sample::{domain, halton};
 
 /// The largest error of a function that a check program accepts, in eps of the largest magnitude
 /// of its values over the points of one set of parameters. It is what the stable form promises.

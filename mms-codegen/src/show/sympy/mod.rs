@@ -3,11 +3,11 @@
 
 mod python;
 
-use crate::certify::sample::{Sample, samples};
 use crate::compile::Compiled;
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::quantity::Quantity;
+use crate::sample::{Sample, samples};
 use crate::spec::{Formula, RigidSpec, Rotation};
 use crate::syntax;
 
