@@ -10,6 +10,7 @@
 
 use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};
+use crate::structures::{put_columns, take_columns};
 use crate::{Lane, Real};
 
 /// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
@@ -300,7 +301,7 @@ fn is_number<T: Float>(value: &T) -> bool {
 }
 
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
-/// are no more. Four numbers of four points go at a time; the compiler would take them one by one, all over the memory.
+/// are no more.
 #[inline(always)]
 fn turn<T: Copy, M: Machine<T>, const N: usize>(
     machine: M,
@@ -310,26 +311,11 @@ fn turn<T: Copy, M: Machine<T>, const N: usize>(
     let points = &points[..points.len().min(BLOCK)];
     let (fours, others) = points.as_chunks::<4>();
     for (four, points) in fours.iter().enumerate() {
-        let numbers = points.as_flattened();
-        for first in firsts::<N>() {
-            let mut rows = [machine.splat(numbers[0]); 4];
-            for k in 0..4 {
-                let from = k * N + first;
-                rows[k] = match numbers[from..].first_chunk() {
-                    Some(row) => machine.four(row),
-                    None => machine.four(&[0, 1, 2, 3].map(|j| numbers[(from + j).min(4 * N - 1)])),
-                };
-            }
-            let columns = machine.transposed(rows);
-            for j in 0..N.min(4) {
-                let place = &mut lanes[first + j][4 * four..4 * four + 4];
-                place.copy_from_slice(&machine.numbers(columns[j]));
-            }
-        }
-        if is_one_alone::<N>() {
-            for k in 0..4 {
-                lanes[N - 1][4 * four + k] = points[k][N - 1];
-            }
+        let mut columns = [machine.splat(points[0][0]); N];
+        take_columns(machine, points.as_flattened(), &mut columns);
+        for number in 0..N {
+            let place = &mut lanes[number][4 * four..4 * four + 4];
+            place.copy_from_slice(&machine.numbers(columns[number]));
         }
     }
     for (point, place) in others.iter().zip(4 * fours.len()..) {
@@ -352,43 +338,18 @@ fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
     let count = points.len().min(BLOCK);
     let (fours, others) = points[..count].as_chunks_mut::<4>();
     for (four, points) in fours.iter_mut().enumerate() {
-        let numbers = points.as_flattened_mut();
-        for first in firsts::<N>() {
-            let mut columns = [machine.splat(lanes[0][0]); 4];
-            for j in 0..N.min(4) {
-                let place = lanes[first + j][4 * four..].first_chunk();
-                columns[j] = machine.four(place.expect("there are four more"));
-            }
-            let rows = machine.transposed(columns);
-            // Where a row is longer than a point, the next point is written over what is too much.
-            for k in 0..4 {
-                let from = k * N + first;
-                let width = (4 * N - from).min(4);
-                numbers[from..from + width].copy_from_slice(&machine.numbers(rows[k])[..width]);
-            }
+        let mut columns = [machine.splat(lanes[0][0]); N];
+        for number in 0..N {
+            let place = lanes[number][4 * four..].first_chunk();
+            columns[number] = machine.four(place.expect("there are four more"));
         }
-        if is_one_alone::<N>() {
-            for k in 0..4 {
-                points[k][N - 1] = lanes[N - 1][4 * four + k];
-            }
-        }
+        put_columns(machine, &columns, points.as_flattened_mut());
     }
     for (point, place) in others.iter_mut().zip(4 * fours.len()..) {
         for number in 0..N {
             point[number] = lanes[number][place];
         }
     }
-}
-
-/// Where the numbers of a point begin that go at a time: four by four, and the last four again where they are less.
-fn firsts<const N: usize>() -> impl Iterator<Item = usize> {
-    let together = if is_one_alone::<N>() { N - 1 } else { N };
-    (0..together).step_by(4).map(|first| first.min(N.saturating_sub(4)))
-}
-
-/// Whether one number of a point is left over: it takes less time alone.
-const fn is_one_alone<const N: usize>() -> bool {
-    N % 4 == 1
 }
 
 /// The length that all columns have.

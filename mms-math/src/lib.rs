@@ -27,6 +27,8 @@ mod lane;
 pub mod machine;
 #[cfg(feature = "std")]
 mod quick;
+#[cfg(feature = "std")]
+pub mod structures;
 
 pub use double::Double;
 #[cfg(feature = "std")]

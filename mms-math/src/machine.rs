@@ -50,6 +50,12 @@ pub trait Machine<T>: Copy {
     /// The first numbers of all four, then the second ones, and so on.
     fn transposed(self, rows: [Self::Four; 4]) -> [Self::Four; 4];
 
+    /// The first numbers of four pairs, two of which are in each row, and the second ones.
+    fn unzipped(self, rows: [Self::Four; 2]) -> [Self::Four; 2];
+
+    /// Four pairs of a first and a second number, two in each row.
+    fn zipped(self, columns: [Self::Four; 2]) -> [Self::Four; 2];
+
     /// Has this value brought near, for it is soon needed.
     fn fetch<V>(self, value: &V);
 }
@@ -157,6 +163,16 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
+                fn unzipped(self, [a, b]: [[$float; 4]; 2]) -> [[$float; 4]; 2] {
+                    [[a[0], a[2], b[0], b[2]], [a[1], a[3], b[1], b[3]]]
+                }
+
+                #[inline(always)]
+                fn zipped(self, [a, b]: [[$float; 4]; 2]) -> [[$float; 4]; 2] {
+                    [[a[0], b[0], a[1], b[1]], [a[2], b[2], a[3], b[3]]]
+                }
+
+                #[inline(always)]
                 fn fetch<V>(self, _: &V) {}
             }
         )*
@@ -181,7 +197,7 @@ macro_rules! registers {
             four $load:ident, splat $splat:ident, numbers $store:ident, plus $plus:ident, minus $minus:ident,
             times $times:ident, times_plus $times_plus:ident, over $over:ident, least $least:ident,
             greatest $greatest:ident, floor $floor:ident, compare $compare:ident, signs $signs:ident,
-            whole $whole:ident, transposed $transposed:ident
+            whole $whole:ident, transposed $transposed:ident, unzipped $unzipped:ident, zipped $zipped:ident
         })*
     ) => {
         $(
@@ -269,6 +285,16 @@ macro_rules! registers {
                 }
 
                 #[inline(always)]
+                fn unzipped(self, [a, b]: [Self::Four; 2]) -> [Self::Four; 2] {
+                    unsafe { $unzipped(a, b) }
+                }
+
+                #[inline(always)]
+                fn zipped(self, [a, b]: [Self::Four; 2]) -> [Self::Four; 2] {
+                    unsafe { $zipped(a, b) }
+                }
+
+                #[inline(always)]
                 fn fetch<V>(self, value: &V) {
                     use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
                     unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
@@ -284,13 +310,15 @@ registers! {
         four _mm_loadu_ps, splat _mm_set1_ps, numbers _mm_storeu_ps, plus _mm_add_ps, minus _mm_sub_ps,
         times _mm_mul_ps, times_plus _mm_fmadd_ps, over _mm_div_ps, least _mm_min_ps,
         greatest _mm_max_ps, floor _mm_floor_ps, compare _mm_cmp_ps, signs _mm_movemask_ps,
-        whole _mm_cvttps_epi32, transposed transposed_singles
+        whole _mm_cvttps_epi32, transposed transposed_singles,
+        unzipped unzipped_singles, zipped zipped_singles
     }
     f64: __m256d {
         four _mm256_loadu_pd, splat _mm256_set1_pd, numbers _mm256_storeu_pd, plus _mm256_add_pd, minus _mm256_sub_pd,
         times _mm256_mul_pd, times_plus _mm256_fmadd_pd, over _mm256_div_pd, least _mm256_min_pd,
         greatest _mm256_max_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, signs _mm256_movemask_pd,
-        whole _mm256_cvttpd_epi32, transposed transposed_doubles
+        whole _mm256_cvttpd_epi32, transposed transposed_doubles,
+        unzipped unzipped_doubles, zipped zipped_doubles
     }
 }
 
@@ -342,6 +370,65 @@ unsafe fn transposed_singles(
     }
 }
 
+/// Safety: the processor has AVX.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn unzipped_doubles(
+    a: core::arch::x86_64::__m256d,
+    b: core::arch::x86_64::__m256d,
+) -> [core::arch::x86_64::__m256d; 2] {
+    use core::arch::x86_64::{_mm256_permute2f128_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd};
+    unsafe {
+        // The pairs 0 and 2, then 1 and 3.
+        let even = _mm256_permute2f128_pd::<0x20>(a, b);
+        let odd = _mm256_permute2f128_pd::<0x31>(a, b);
+        [_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)]
+    }
+}
+
+/// Safety: the processor has AVX.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn zipped_doubles(
+    a: core::arch::x86_64::__m256d,
+    b: core::arch::x86_64::__m256d,
+) -> [core::arch::x86_64::__m256d; 2] {
+    use core::arch::x86_64::{_mm256_permute2f128_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd};
+    unsafe {
+        let (even, odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+        [
+            _mm256_permute2f128_pd::<0x20>(even, odd),
+            _mm256_permute2f128_pd::<0x31>(even, odd),
+        ]
+    }
+}
+
+/// Safety: the processor has SSE, as all of them have.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn unzipped_singles(
+    a: core::arch::x86_64::__m128,
+    b: core::arch::x86_64::__m128,
+) -> [core::arch::x86_64::__m128; 2] {
+    use core::arch::x86_64::_mm_shuffle_ps;
+    unsafe { [_mm_shuffle_ps::<0b10_00_10_00>(a, b), _mm_shuffle_ps::<0b11_01_11_01>(a, b)] }
+}
+
+/// Safety: likewise.
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code)]
+#[inline(always)]
+unsafe fn zipped_singles(
+    a: core::arch::x86_64::__m128,
+    b: core::arch::x86_64::__m128,
+) -> [core::arch::x86_64::__m128; 2] {
+    use core::arch::x86_64::{_mm_unpackhi_ps, _mm_unpacklo_ps};
+    unsafe { [_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b)] }
+}
+
 #[cfg(test)]
 mod tests {
     use std::format;
@@ -369,6 +456,8 @@ mod tests {
                 machine.floor(a),
             ];
             all.extend(machine.transposed([a, b, c, d]));
+            all.extend(machine.unzipped([a, b]));
+            all.extend(machine.zipped([a, b]));
             let mut all: Vec<_> = all.into_iter().map(|four| machine.numbers(four)).collect();
             all.push(machine.whole(machine.floor(c)).map(|number| T::from_f64(number.into())));
             let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| machine.all_at_most(a, b));

@@ -46,16 +46,19 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         initial: &[Vector<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
     ) -> Result<(), Cause> {
-        let mut half_width = *initial;
+        let mut stretched;
+        let mut half_width = initial;
         if FOLLOWS && !on(Defect::HalfWidthKept) {
+            stretched = *initial;
             for p in 0..BUNCH {
                 let stretch =
                     stretch_along_axes(&displacement_gradient[p]).ok_or(Cause::FlatDomain)?;
-                half_width[p].component_mul_assign(&stretch);
+                stretched[p].component_mul_assign(&stretch);
             }
+            half_width = &stretched;
         }
         let half = machine.splat(T::ratio(1, 2));
-        let mut in_cells = components(machine, &half_width);
+        let mut in_cells = components(machine, half_width);
         let mut usual = true;
         for a in 0..D {
             in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
@@ -63,7 +66,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
                 && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells[a]);
         }
         if !usual {
-            return place_wide(machine, stencil, lattice, position, &half_width);
+            return place_wide(machine, stencil, lattice, position, half_width);
         }
         stencil.begin::<NEAREST>(lattice, true);
         let mut fits = true;

@@ -1,6 +1,8 @@
 //! Vectors and matrices of four particles, component by component: a particle in each lane.
 
+use bytemuck::{cast_slice, cast_slice_mut};
 use mms_math::machine::Machine;
+use mms_math::structures::{put_columns, take_columns};
 
 use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Vector};
@@ -11,27 +13,28 @@ pub fn components<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     vectors: &[Vector<T, D>; BUNCH],
 ) -> [M::Four; D] {
-    let [a, b, c, d] = vectors;
     let mut components = [machine.splat(T::zero()); D];
-    for i in 0..D {
-        components[i] = machine.four(&[a[i], b[i], c[i], d[i]]);
-    }
+    take_columns(machine, cast_slice(vectors), &mut components);
     components
 }
 
-/// The vectors with these components.
+/// Gives four vectors these components.
 #[inline(always)]
+pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    vectors: &mut [Vector<T, D>; BUNCH],
+    components: [M::Four; D],
+) {
+    put_columns(machine, &components, cast_slice_mut(vectors));
+}
+
+/// The vectors with these components.
 pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     components: [M::Four; D],
 ) -> [Vector<T, D>; BUNCH] {
     let mut vectors = [Vector::zeros(); BUNCH];
-    for i in 0..D {
-        let numbers = machine.numbers(components[i]);
-        for p in 0..BUNCH {
-            vectors[p][i] = numbers[p];
-        }
-    }
+    set_components(machine, &mut vectors, components);
     vectors
 }
 
@@ -41,33 +44,19 @@ pub fn columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     matrices: &[Matrix<T, D>; BUNCH],
 ) -> [[M::Four; D]; D] {
-    let [a, b, c, d] = matrices;
     let mut columns = [[machine.splat(T::zero()); D]; D];
-    for j in 0..D {
-        for i in 0..D {
-            let at = (i, j);
-            columns[j][i] = machine.four(&[a[at], b[at], c[at], d[at]]);
-        }
-    }
+    take_columns(machine, cast_slice(matrices), columns.as_flattened_mut());
     columns
 }
 
-/// The matrices with these columns.
+/// Gives four matrices these columns.
 #[inline(always)]
-pub fn matrices<T: Real, M: Machine<T>, const D: usize>(
+pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
+    matrices: &mut [Matrix<T, D>; BUNCH],
     columns: [[M::Four; D]; D],
-) -> [Matrix<T, D>; BUNCH] {
-    let mut matrices = [Matrix::zeros(); BUNCH];
-    for j in 0..D {
-        for i in 0..D {
-            let numbers = machine.numbers(columns[j][i]);
-            for p in 0..BUNCH {
-                matrices[p][(i, j)] = numbers[p];
-            }
-        }
-    }
-    matrices
+) {
+    put_columns(machine, columns.as_flattened(), cast_slice_mut(matrices));
 }
 
 /// The determinants of four matrices with these columns; D = 1, 2, 3.

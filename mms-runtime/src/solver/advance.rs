@@ -6,7 +6,7 @@ use mms_math::machine::{Fused, Machine, Plain};
 use super::misread;
 use super::scene::Scene;
 use crate::defect::{Defect, on};
-use crate::lanes::{columns, components, determinants, matrices, vectors};
+use crate::lanes::{columns, components, determinants, set_columns, set_components};
 use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::shape::Shape;
@@ -104,14 +104,14 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         let mapped = stencil.collect(machine, scene.lattice, wanted, velocity);
         if let Some(kick) = steps.velocity {
             let next = self.kicked(machine, kick, mapped.value, particles, k, stencil);
-            particles.velocity[k] = vectors(machine, next);
+            set_components(machine, &mut particles.velocity[k], next);
             for a in 0..D {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
             if scene.transfer == Transfer::Apic {
                 let affine = if S::DEGREE == 1 { mapped.gradient } else { mapped.slopes };
                 let affine = misread::affine(machine, affine, S::DEGREE);
-                particles.affine[k] = matrices(machine, affine);
+                set_columns(machine, &mut particles.affine[k], affine);
             }
         }
         if let Some(time_step) = steps.position {
@@ -122,14 +122,14 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
                 next[a] = machine.times_plus(machine.splat(time_step), carrier[a], next[a]);
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
-            particles.displacement[k] = vectors(machine, next);
+            set_components(machine, &mut particles.displacement[k], next);
         }
         let Some(time_step) = steps.deformation else { return true };
         let h = columns(machine, &particles.displacement_gradient[k]);
         let gradient = misread::velocity_gradient(machine, mapped.gradient);
         let moves = scene.moves && !on(Defect::ReferenceGradient);
         let mut next = deformed(machine, h, gradient, time_step, moves);
-        particles.displacement_gradient[k] = matrices(machine, next);
+        set_columns(machine, &mut particles.displacement_gradient[k], next);
         for j in 0..D {
             for i in 0..D {
                 *rest = machine.times_plus(next[j][i], zero, *rest);
@@ -257,7 +257,7 @@ impl<T: Real, const D: usize, S: Shape> Residual<'_, '_, T, D, S> {
             for a in 0..D {
                 left[a] = machine.minus(left[a], represented[a]);
             }
-            particles.residual[k] = vectors(machine, left);
+            set_components(machine, &mut particles.residual[k], left);
         }
         Ok(true)
     }
