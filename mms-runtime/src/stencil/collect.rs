@@ -22,6 +22,7 @@ pub(super) struct Summed<F, const D: usize, const K: usize> {
 }
 
 /// The weights, and the asides, of the nodes along an axis.
+#[derive(Clone, Copy)]
 struct Axis<F, const W: usize, const K: usize> {
     weight: [F; W],
     asides: [[F; W]; K],
@@ -36,41 +37,52 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     /// All sums over `W` nodes along every axis: those of particles that share their nodes together.
     #[inline(always)]
     pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Four, D, K> {
-        // -0 changes no sum, and is not written by a call as 0 is, for which all registers would be given up.
         let nothing = machine.splat(-T::zero());
         let mut summed = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+        let along = self.axis::<M, W>(machine, 0);
+        if self.stencil.is_shared() {
+            self.add(machine, &along, self.stencil.first[0], &mut summed);
+            return summed;
+        }
         let firsts = self.stencil.first;
-        let shared = self.stencil.is_shared();
         // A bit of every particle whose nodes have not been seen.
         let mut left = (1_u32 << BUNCH) - 1;
         while left != 0 {
             let first = firsts[left.trailing_zeros() as usize % BUNCH];
-            let mut along = self.axis::<M, W>(machine, 0);
-            if shared {
-                left = 0;
-            } else {
-                let mut share = [T::zero(); BUNCH];
-                for p in 0..BUNCH {
-                    if firsts[p] == first {
-                        share[p] = T::one();
-                        left &= !(1 << p);
-                    }
-                }
-                // Every product has a factor of the first axis: those of others are 0.
-                let share = machine.four(&share);
-                for k in 0..W {
-                    along.weight[k] = machine.times(along.weight[k], share);
-                    for aside in &mut along.asides {
-                        aside[k] = machine.times(aside[k], share);
-                    }
+            let mut share = [T::zero(); BUNCH];
+            for p in 0..BUNCH {
+                if firsts[p] == first {
+                    share[p] = T::one();
+                    left &= !(1 << p);
                 }
             }
-            let rows = self.rows::<W>(first as usize);
-            for c in 0..D {
-                self.component(machine, &along, &rows, c, &mut summed);
+            // Every product has a factor of the first axis: those of others are 0.
+            let share = machine.four(&share);
+            let mut own = along;
+            for k in 0..W {
+                own.weight[k] = machine.times(own.weight[k], share);
+                for aside in &mut own.asides {
+                    aside[k] = machine.times(aside[k], share);
+                }
             }
+            self.add(machine, &own, first, &mut summed);
         }
         summed
+    }
+
+    /// Adds what comes of the nodes from `first` on.
+    #[inline(always)]
+    fn add<M: Machine<T>, const W: usize>(
+        &self,
+        machine: M,
+        along: &Axis<M::Four, W, K>,
+        first: u32,
+        summed: &mut Summed<M::Four, D, K>,
+    ) {
+        let rows = self.rows::<W>(first as usize);
+        for c in 0..D {
+            self.component(machine, along, &rows, c, summed);
+        }
     }
 
     #[inline(always)]
@@ -107,7 +119,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
         c: usize,
         summed: &mut Summed<M::Four, D, K>,
     ) {
-        let zero = machine.splat(T::zero());
+        // A product is added to -0 without an addition.
+        let zero = machine.splat(-T::zero());
         let mut before = [[zero; 3]; K];
         for s in 0..K {
             for a in 0..D {
