@@ -398,10 +398,7 @@ unsafe fn zipped_doubles(
     use core::arch::x86_64::{_mm256_permute2f128_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd};
     unsafe {
         let (even, odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-        [
-            _mm256_permute2f128_pd::<0x20>(even, odd),
-            _mm256_permute2f128_pd::<0x31>(even, odd),
-        ]
+        [_mm256_permute2f128_pd::<0x20>(even, odd), _mm256_permute2f128_pd::<0x31>(even, odd)]
     }
 }
 

@@ -88,3 +88,65 @@ const fn together(n: usize) -> usize {
 fn four<T>(numbers: &[T], from: usize) -> &[T; 4] {
     numbers[from..].first_chunk().expect("four numbers")
 }
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::{put_columns, take_columns};
+    use crate::batch::Float;
+    use crate::dispatch::{Work, best};
+    use crate::machine::{Fused, Machine, Plain};
+
+    /// The columns of four structures of `N` numbers: they are 0, 1, 2, .. and so on; and what they make again.
+    struct ThereAndBack<const N: usize>;
+
+    impl<const N: usize> ThereAndBack<N> {
+        fn by<T: Float, M: Machine<T>>(machine: M) {
+            let numbers: Vec<T> = (0..4 * N + 1).map(|k| T::from_f64(k as f64)).collect();
+            let mut columns = [machine.splat(T::from_f64(-1.0)); N];
+            take_columns(machine, &numbers, &mut columns);
+            for (number, column) in columns.iter().enumerate() {
+                let expected = [0, 1, 2, 3].map(|p| numbers[p * N + number]);
+                assert!(machine.numbers(*column) == expected, "{number} of {N}");
+            }
+            let mut back = numbers.clone();
+            back[..4 * N].fill(T::from_f64(-1.0));
+            put_columns(machine, &columns, &mut back);
+            assert!(back == numbers, "{N}");
+        }
+    }
+
+    impl<const N: usize> Work for ThereAndBack<N> {
+        type Output = ();
+
+        fn fused(self, machine: Fused) {
+            Self::by::<f32, _>(machine);
+            Self::by::<f64, _>(machine);
+        }
+
+        fn plain(self, machine: Plain) {
+            Self::by::<f32, _>(machine);
+            Self::by::<f64, _>(machine);
+        }
+    }
+
+    fn every<const N: usize>() {
+        best(ThereAndBack::<N>);
+        ThereAndBack::<N>.plain(Plain);
+    }
+
+    #[test]
+    fn structures_are_turned_there_and_back() {
+        every::<1>();
+        every::<2>();
+        every::<3>();
+        every::<4>();
+        every::<5>();
+        every::<6>();
+        every::<7>();
+        every::<8>();
+        every::<9>();
+        every::<10>();
+    }
+}
