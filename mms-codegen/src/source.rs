@@ -1,5 +1,8 @@
 //! Texts and places in them.
 
+use std::path::Path;
+use std::{fs, io};
+
 /// A text with the path that messages show for it.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -7,6 +10,22 @@ pub struct Source {
     pub path: String,
     /// The whole text.
     pub text: String,
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// The file cannot be read; or it is not text in UTF-8, and where.
+pub fn read(path: &Path) -> io::Result<String> {
+    String::from_utf8(fs::read(path)?).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let before = String::from_utf8_lossy(before);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        let place = format!("line {line}, column {column}");
+        let message = format!("{place}: expected text in UTF-8; save the file in that encoding");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
 }
 
 /// Which of the [`Sources`] a place is in.

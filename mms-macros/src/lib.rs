@@ -3,11 +3,11 @@
 mod request;
 
 use std::env;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use mms_codegen::compile::Failure;
 use mms_codegen::emit::rust_mms_math::{module, module_named};
+use mms_codegen::source;
 use mms_codegen::{Options, compile_with};
 use proc_macro::TokenStream;
 use quote::quote;
@@ -140,5 +140,5 @@ fn message(rendered: &str) -> String {
 }
 
 fn read(path: &Path) -> std::result::Result<String, String> {
-    fs::read_to_string(path).map_err(|error| error.to_string())
+    source::read(path).map_err(|error| error.to_string())
 }

@@ -1,7 +1,6 @@
 //! What every command takes: a field, and settings of its parameters.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -15,6 +14,7 @@ use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::program::interpret::Number;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
+use mms_codegen::source;
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
 use mms_codegen::variation::Variation;
@@ -301,7 +301,7 @@ impl Text {
 
     fn read(path: &Path) -> anyhow::Result<Self> {
         let shown = path.display().to_string();
-        let text = fs::read_to_string(path).with_context(|| format!("cannot read `{shown}`"))?;
+        let text = source::read(path).with_context(|| format!("cannot read `{shown}`"))?;
         let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Text { name, shown, text, origin: Origin::Folder(folder) })
@@ -328,7 +328,7 @@ impl Text {
         let load = |material: &str| match &self.origin {
             Origin::Gallery(entry) => entry.own_material(),
             Origin::Folder(folder) => {
-                fs::read_to_string(folder.join(material)).map_err(|error| error.to_string())
+                source::read(&folder.join(material)).map_err(|error| error.to_string())
             }
         };
         compile(&self.name, &self.shown, &self.text, &load, options)

@@ -1,13 +1,12 @@
 //! A saved scene: `mms study --study FILE.toml`, whose keys are the options of the command.
 
 use std::ffi::OsString;
-use std::fs;
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
-use mms_codegen::source::Sources;
+use mms_codegen::source::{self, Sources};
 use mms_codegen::suggest::did_you_mean;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -33,7 +32,7 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
         bail!("`--study` is given twice");
     }
     let shown = path.to_string_lossy().into_owned();
-    let text = fs::read_to_string(&path).with_context(|| format!("cannot read `{shown}`"))?;
+    let text = source::read(path.as_ref()).with_context(|| format!("cannot read `{shown}`"))?;
     let own = &arguments[2..];
     let saved = read(&shown, &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())

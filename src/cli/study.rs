@@ -404,9 +404,8 @@ impl Study {
     /// The order to judge against, and how far from it is still as expected.
     fn expectation(&self, input: &Input, method: &MethodOptions) -> (f64, f64) {
         let entry = input.compiled.field.studies.iter().find(|entry| {
-            entry.shape == method.shape.name()
-                && entry.integrator == method.integrator.name()
-                && entry.formulation.as_deref().unwrap_or("updated") == method.formulation.name()
+            let (shape, integrator) = (method.shape.name(), method.integrator.name());
+            entry.is_of(shape, integrator, method.formulation.name())
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
         (order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))

@@ -266,3 +266,17 @@ fn the_macro_refuses_a_file_with_the_same_text() {
     }
     assert!(count >= 4, "{count} files");
 }
+
+#[test]
+fn a_file_that_is_no_text_is_refused_where_it_is_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let field = folder.path().join("odd.toml");
+    fs::write(&field, b"[field]\n# na\xc3\xafve \xff\n").expect("a file");
+    let check = Command::new(env!("CARGO_BIN_EXE_mms"))
+        .args([Path::new("check"), &field])
+        .output()
+        .expect("the program starts");
+    assert_eq!(check.status.code(), Some(2));
+    let said = String::from_utf8(check.stderr).expect("UTF-8");
+    assert!(said.contains("odd.toml`: line 2, column 9: expected text in UTF-8"), "{said}");
+}

@@ -60,7 +60,8 @@ fn every_row_of_the_bar_is_as_theory_expects() {
 }
 
 /// A cell in space may hold a thousand times the material of a bar that is pressed in its middle: no bound is claimed of such
-/// a grid. One that moves with the material follows the same motion in second order.
+/// a grid, and whether the bar turns inside out is up to rounding (of Courant numbers from 0.395 to 0.405, at every other
+/// one). A grid that moves with the material follows the same motion in second order.
 #[test]
 fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coarse() {
     let folder = Folder::new();
@@ -70,7 +71,8 @@ fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coar
         let verdicts = document["rows"].as_array().expect("rows").iter();
         verdicts.map(|row| row["verdict"].as_str().expect("a word").to_owned()).collect::<Vec<_>>()
     };
-    assert_eq!(verdicts("periodic_bar"), ["unresolved"; 2]);
+    let coarse = verdicts("periodic_bar");
+    assert!(coarse.iter().all(|it| ["unresolved", "stops"].contains(&it.as_str())), "{coarse:?}");
     let study = "study periodic_bar --set amplitude=0.1575 --cells 16,32,64";
     folder.mms(study).exits(1);
     folder.mms(&format!("{study} --formulation total --shape linear --courant 0.013")).exits(0);

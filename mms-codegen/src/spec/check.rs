@@ -5,6 +5,7 @@ use super::names::Names;
 use super::symbols::{LetSpec, lets};
 use super::table::{Reader, Table, list};
 use super::value::{plural, unknown_word};
+use crate::accuracy::regime;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
@@ -105,6 +106,9 @@ pub(super) fn extremes<'a>(
         };
         if extremes.iter().any(|earlier| earlier.name.value == name.value) {
             let message = format!("the extreme {} is defined twice", quoted(&name.value));
+            reader.report(Diagnostic::error(name.span, message).label("give it another name"));
+        } else if regime::find(&name.value).is_some() {
+            let message = format!("{} is a regime of every field", quoted(&name.value));
             reader.report(Diagnostic::error(name.span, message).label("give it another name"));
         }
         extremes.push(ExtremeSpec { name, set, span: table.span });

@@ -10,7 +10,7 @@ use super::formula::Formula;
 use super::material::{MaterialUse, material_use};
 use super::names::{Keeper, Names};
 use super::rigid::{RigidSpec, rigid};
-use super::study::{StudySpec, study};
+use super::study::{StudySpec, studies};
 use super::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use super::table::{Entry, Reader, Table};
 use crate::diagnostic::Diagnostic;
@@ -244,14 +244,14 @@ impl Evidence {
             Some(entry) => reader.tables(&entry, keys),
             None => Vec::new(),
         };
-        let (checks, studies, extreme) =
+        let (checks, study, extreme) =
             (tables("check", CHECK), tables("study", STUDY), tables("extreme", EXTREME));
         Evidence {
             checks: checks
                 .iter()
                 .filter_map(|table| check(table, dimension, names, reader))
                 .collect(),
-            studies: studies.iter().map(|table| study(table, reader)).collect(),
+            studies: studies(&study, reader),
             extremes: extremes(&extreme, parameters, reader),
         }
     }

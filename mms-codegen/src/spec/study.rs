@@ -61,13 +61,47 @@ pub struct StudySpec {
     pub span: Span,
 }
 
+impl StudySpec {
+    /// Whether its order is that of a method.
+    pub fn is_of(&self, shape: &str, integrator: &str, formulation: &str) -> bool {
+        self.shape == shape && self.integrator == integrator && self.formulation() == formulation
+    }
+
+    fn formulation(&self) -> &str {
+        self.formulation.as_deref().unwrap_or(DEFAULT_FORMULATION)
+    }
+}
+
 /// What the command does where a study leaves a choice open.
 const DEFAULT_SHAPE: &str = "cpgimp";
 const DEFAULT_INTEGRATOR: &str = "leapfrog";
+const DEFAULT_FORMULATION: &str = "updated";
 const DEFAULT_ORDER: f64 = 2.0;
 
+/// Reads every `[[study]]`.
+pub(super) fn studies<'a>(tables: &[Table<'a>], reader: &mut Reader<'a>) -> Vec<StudySpec> {
+    let mut studies: Vec<StudySpec> = Vec::new();
+    for table in tables {
+        let study = study(table, reader);
+        let StudySpec { shape, integrator, .. } = &study;
+        let earlier =
+            studies.iter().find(|earlier| earlier.is_of(shape, integrator, study.formulation()));
+        if let Some(earlier) = earlier
+            && (earlier.order, earlier.tolerance) != (study.order, study.tolerance)
+        {
+            let method = format!("`{shape}` with `{integrator}`");
+            let message = format!("another study gives {method} another order or tolerance");
+            let found =
+                Diagnostic::error(table.span, message).label("the first one counts for both");
+            reader.report(found.help("give both the same order and tolerance"));
+        }
+        studies.push(study);
+    }
+    studies
+}
+
 /// Reads one `[[study]]`.
-pub(super) fn study<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> StudySpec {
+fn study<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> StudySpec {
     let mut word = |key: &str, what: &str, words: &[&str]| {
         let entry = table.get(key)?;
         reader.word(&entry, what, words).map(|word| word.value)
