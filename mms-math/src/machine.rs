@@ -38,6 +38,9 @@ pub trait Machine<T>: Copy {
     /// a where it is greater than b, else b: so b where one is not a number.
     fn greatest(self, a: Self::Four, b: Self::Four) -> Self::Four;
 
+    /// The square roots.
+    fn root(self, a: Self::Four) -> Self::Four;
+
     /// The greatest whole numbers that are not greater than these.
     fn floor(self, a: Self::Four) -> Self::Four;
 
@@ -142,6 +145,11 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
+                fn root(self, a: [$float; 4]) -> [$float; 4] {
+                    a.map($float::sqrt)
+                }
+
+                #[inline(always)]
                 fn floor(self, a: [$float; 4]) -> [$float; 4] {
                     a.map($float::floor)
                 }
@@ -196,7 +204,7 @@ macro_rules! registers {
         $($float:ident: $register:ident {
             four $load:ident, splat $splat:ident, numbers $store:ident, plus $plus:ident, minus $minus:ident,
             times $times:ident, times_plus $times_plus:ident, over $over:ident, least $least:ident,
-            greatest $greatest:ident, floor $floor:ident, compare $compare:ident, signs $signs:ident,
+            greatest $greatest:ident, root $root:ident, floor $floor:ident, compare $compare:ident, signs $signs:ident,
             whole $whole:ident, transposed $transposed:ident, unzipped $unzipped:ident, zipped $zipped:ident
         })*
     ) => {
@@ -259,6 +267,11 @@ macro_rules! registers {
                 }
 
                 #[inline(always)]
+                fn root(self, a: Self::Four) -> Self::Four {
+                    unsafe { core::arch::x86_64::$root(a) }
+                }
+
+                #[inline(always)]
                 fn floor(self, a: Self::Four) -> Self::Four {
                     unsafe { core::arch::x86_64::$floor(a) }
                 }
@@ -309,14 +322,14 @@ registers! {
     f32: __m128 {
         four _mm_loadu_ps, splat _mm_set1_ps, numbers _mm_storeu_ps, plus _mm_add_ps, minus _mm_sub_ps,
         times _mm_mul_ps, times_plus _mm_fmadd_ps, over _mm_div_ps, least _mm_min_ps,
-        greatest _mm_max_ps, floor _mm_floor_ps, compare _mm_cmp_ps, signs _mm_movemask_ps,
+        greatest _mm_max_ps, root _mm_sqrt_ps, floor _mm_floor_ps, compare _mm_cmp_ps, signs _mm_movemask_ps,
         whole _mm_cvttps_epi32, transposed transposed_singles,
         unzipped unzipped_singles, zipped zipped_singles
     }
     f64: __m256d {
         four _mm256_loadu_pd, splat _mm256_set1_pd, numbers _mm256_storeu_pd, plus _mm256_add_pd, minus _mm256_sub_pd,
         times _mm256_mul_pd, times_plus _mm256_fmadd_pd, over _mm256_div_pd, least _mm256_min_pd,
-        greatest _mm256_max_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, signs _mm256_movemask_pd,
+        greatest _mm256_max_pd, root _mm256_sqrt_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, signs _mm256_movemask_pd,
         whole _mm256_cvttpd_epi32, transposed transposed_doubles,
         unzipped unzipped_doubles, zipped zipped_doubles
     }
@@ -451,6 +464,7 @@ mod tests {
                 machine.least(a, b),
                 machine.greatest(a, b),
                 machine.floor(a),
+                machine.root(machine.times(b, b)),
             ];
             all.extend(machine.transposed([a, b, c, d]));
             all.extend(machine.unzipped([a, b]));

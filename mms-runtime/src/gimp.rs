@@ -10,11 +10,11 @@ use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
 use crate::defect::{Defect, on};
-use crate::lanes::components;
+use crate::lanes::{columns, components, stretches, vectors};
 use crate::shape::{Shape, lost};
 use crate::spline;
 use crate::stencil::{BUNCH, Tensor};
-use crate::tensor::{determinant, stretch_along_axes};
+use crate::tensor::{determinant, is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours.
@@ -46,19 +46,19 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         initial: &[Vector<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
     ) -> Result<(), Cause> {
-        let mut stretched;
-        let mut half_width = initial;
-        if FOLLOWS && !on(Defect::HalfWidthKept) {
-            stretched = *initial;
-            for p in 0..BUNCH {
-                let stretch =
-                    stretch_along_axes(&displacement_gradient[p]).ok_or(Cause::FlatDomain)?;
-                stretched[p].component_mul_assign(&stretch);
-            }
-            half_width = &stretched;
-        }
         let half = machine.splat(T::ratio(1, 2));
-        let mut in_cells = components(machine, half_width);
+        let mut half_width = components(machine, initial);
+        if FOLLOWS && !on(Defect::HalfWidthKept) {
+            let mut f = columns(machine, displacement_gradient);
+            for a in 0..D {
+                f[a][a] = machine.plus(f[a][a], machine.splat(T::one()));
+            }
+            let stretch = stretches(machine, &f);
+            for a in 0..D {
+                half_width[a] = machine.times(half_width[a], stretch[a]);
+            }
+        }
+        let mut in_cells = half_width;
         let mut usual = true;
         for a in 0..D {
             in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
@@ -66,7 +66,11 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
                 && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells[a]);
         }
         if !usual {
-            return place_wide(machine, stencil, lattice, position, half_width);
+            let half_width = vectors(machine, half_width);
+            if FOLLOWS && !half_width.iter().all(is_finite) {
+                return Err(Cause::FlatDomain);
+            }
+            return place_wide(machine, stencil, lattice, position, &half_width);
         }
         stencil.begin::<NEAREST>(lattice, true);
         let mut fits = true;

@@ -65,20 +65,148 @@ pub fn determinants<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     columns: &[[M::Four; D]; D],
 ) -> M::Four {
+    dot(machine, &columns[0], &cofactors(machine, columns)[0])
+}
+
+/// The columns of the cofactor matrices, J F^-T for F; D = 1, 2, 3.
+#[inline(always)]
+pub fn cofactors<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    columns: &[[M::Four; D]; D],
+) -> [[M::Four; D]; D] {
     const { assert!(D >= 1 && D <= 3, "one to three dimensions") };
+    let mut cofactors = [[machine.splat(T::one()); D]; D];
     let f = |i: usize, j: usize| columns[j % D][i % D];
-    let minor = |rows: [usize; 2], [j, k]: [usize; 2]| {
-        let other = machine.times(f(rows[0], k), f(rows[1], j));
-        let product = machine.times(f(rows[0], j), f(rows[1], k));
-        machine.minus(product, other)
-    };
-    match D {
-        1 => f(0, 0),
-        2 => minor([0, 1], [0, 1]),
-        _ => {
-            let others = machine.times(f(0, 1), minor([1, 2], [0, 2]));
-            let first = machine.minus(machine.times(f(0, 0), minor([1, 2], [1, 2])), others);
-            machine.times_plus(f(0, 2), minor([1, 2], [0, 1]), first)
+    for j in 0..D {
+        for i in 0..D {
+            if D == 2 {
+                let other = f(i + 1, j + 1);
+                let negative = machine.minus(machine.splat(T::zero()), other);
+                cofactors[j][i] = if i == j { other } else { negative };
+            }
+            if D == 3 {
+                let product = machine.times(f(i + 2, j + 1), f(i + 1, j + 2));
+                let other = machine.times(f(i + 1, j + 1), f(i + 2, j + 2));
+                cofactors[j][i] = machine.minus(other, product);
+            }
         }
+    }
+    cofactors
+}
+
+/// a . b.
+#[inline(always)]
+fn dot<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    a: &[M::Four; D],
+    b: &[M::Four; D],
+) -> M::Four {
+    let mut sum = machine.times(a[0], b[0]);
+    for i in 1..D {
+        sum = machine.times_plus(a[i], b[i], sum);
+    }
+    sum
+}
+
+/// How many iterations find a rotation; each doubles the digits.
+const POLAR_ITERATIONS: usize = 20;
+
+/// The diagonals of the right stretch tensors U of F = R U with these columns; not finite where an F is singular or
+/// not finite.
+///
+/// U^2 = C = F^T F. Where C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
+/// less than round-off: the stretch of a diagonal F is exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
+/// (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)).
+#[inline(always)]
+pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    f: &[[M::Four; D]; D],
+) -> [M::Four; D] {
+    let round_off = machine.splat(T::default_epsilon());
+    let mut stretches = [machine.splat(T::zero()); D];
+    let mut straight = true;
+    for a in 0..D {
+        stretches[a] = dot(machine, &f[a], &f[a]);
+        for b in 0..a {
+            let aside = dot(machine, &f[a], &f[b]);
+            let squares = machine.times(stretches[a], stretches[b]);
+            let aside = machine.times(aside, aside);
+            straight &= machine.all_at_most(aside, machine.times(round_off, squares));
+        }
+    }
+    if straight {
+        for a in 0..D {
+            stretches[a] = machine.root(stretches[a]);
+        }
+        return stretches;
+    }
+    let mut rotation = *f;
+    for _ in 0..POLAR_ITERATIONS {
+        let inverse = cofactors(machine, &rotation);
+        let twice = dot(machine, &rotation[0], &inverse[0]);
+        let half = machine.splat(T::ratio(1, 2));
+        let per_twice = machine.over(half, twice);
+        let mut change = machine.splat(T::zero());
+        for j in 0..D {
+            for i in 0..D {
+                let next = machine.times(half, rotation[j][i]);
+                let next = machine.times_plus(inverse[j][i], per_twice, next);
+                let apart = machine.minus(next, rotation[j][i]);
+                change = machine.greatest(change, machine.times(apart, apart));
+                rotation[j][i] = next;
+            }
+        }
+        // What is left is the square of that.
+        if machine.all_at_most(change, round_off) {
+            break;
+        }
+    }
+    for a in 0..D {
+        stretches[a] = dot(machine, &rotation[a], &f[a]);
+    }
+    stretches
+}
+
+#[cfg(test)]
+mod tests {
+    use mms_math::machine::Plain;
+
+    use super::{columns, stretches};
+    use crate::stencil::BUNCH;
+    use crate::tensor::deformation_gradient;
+    use crate::{Matrix, Vector};
+
+    fn stretch<const D: usize>(f: &Matrix<f64, D>) -> Vector<f64, D> {
+        let found = stretches::<f64, _, D>(Plain, &columns(Plain, &[*f; BUNCH]));
+        Vector::from_fn(|a, _| found[a][0])
+    }
+
+    #[test]
+    fn stretches_are_roots() {
+        // U by the iteration of Denman and Beavers (1976), whatever is beside the diagonal.
+        for aside in [1.0, 1e-3, 1e-7, 1e-9, 1e-20] {
+            let h = Matrix::<f64, 3>::new(0.2, 1.5, -0.3, -0.9, 0.4, 0.1, 0.2, 0.0, -0.2);
+            let h = h.map_with_location(|i, j, value| if i == j { value } else { value * aside });
+            let f = deformation_gradient(&h);
+            let (mut u, mut inverse) = (f.tr_mul(&f), Matrix::<f64, 3>::identity());
+            for _ in 0..20 {
+                let [next, other] = [inverse, u].map(|m| m.try_inverse().unwrap());
+                (u, inverse) = ((u + next) * 0.5, (inverse + other) * 0.5);
+            }
+            let found = stretch(&f);
+            assert!((found - u.diagonal()).amax() < 4e-15, "{aside}: {found}");
+            // A body a thousand times smaller is stretched alike.
+            let smaller = stretch(&(f / 1024.0)) * 1024.0;
+            assert!((smaller - found).amax() < 4e-15, "{aside}: {smaller}");
+        }
+        let sheared = Matrix::<f64, 2>::new(1.5, 0.25, 0.0, 0.5);
+        // U = (C + J)/sqrt(tr C + 2 J) in the plane.
+        let c = sheared.tr_mul(&sheared);
+        let root = (c.trace() + 2.0 * 0.75).sqrt();
+        let exact = c.diagonal().map(|square| (square + 0.75) / root);
+        assert!((stretch(&sheared) - exact).amax() < 4e-16);
+        assert_eq!(stretch(&Matrix::<f64, 1>::new(0.3)), Vector::<f64, 1>::new(0.3));
+        assert!(!stretch(&Matrix::<f64, 2>::repeat(1.0)).amax().is_finite());
+        assert!(!stretch(&Matrix::<f64, 2>::repeat(f64::NAN))[0].is_finite());
     }
 }

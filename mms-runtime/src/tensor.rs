@@ -41,45 +41,6 @@ pub fn cofactor<T: Real, const D: usize>(
     Some(inverse.transpose() * jacobian(displacement_gradient))
 }
 
-/// How many iterations find a rotation; each doubles the digits.
-const POLAR_ITERATIONS: usize = 20;
-
-/// The diagonal of the right stretch tensor U of F = I + H = R U, or `None` where F is singular or not finite.
-///
-/// U^2 = C = F^T F. Where C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
-/// less than round-off. Otherwise R is the limit of (R + R^-T)/2 from R = F (Higham, "Computing the polar
-/// decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)). A diagonal F is its own stretch.
-pub fn stretch_along_axes<T: Real, const D: usize>(
-    displacement_gradient: &Matrix<T, D>,
-) -> Option<Vector<T, D>> {
-    let f = deformation_gradient(displacement_gradient);
-    if f == Matrix::from_diagonal(&f.diagonal()) {
-        return Some(f.diagonal());
-    }
-    let c = f.tr_mul(&f);
-    let squares = c.diagonal();
-    let mut aside = T::zero();
-    for a in 0..D {
-        for b in 0..a {
-            aside = aside.max(c[(a, b)] * c[(a, b)] / (squares[a] * squares[b]));
-        }
-    }
-    if aside <= T::default_epsilon() {
-        return Some(squares.map(nalgebra::ComplexField::sqrt)).filter(is_finite);
-    }
-    let mut rotation = f;
-    for _ in 0..POLAR_ITERATIONS {
-        let next = (rotation + rotation.try_inverse()?.transpose()) * T::ratio(1, 2);
-        let change = (next - rotation).amax();
-        rotation = next;
-        // What is left is the square of that.
-        if change * change <= T::default_epsilon() {
-            break;
-        }
-    }
-    Some(rotation.tr_mul(&f).diagonal()).filter(is_finite)
-}
-
 /// Whether every component is finite.
 pub fn is_finite<T: Real, const D: usize>(vector: &Vector<T, D>) -> bool {
     vector.iter().all(|component| component.is_finite())
@@ -106,29 +67,6 @@ mod tests {
         let h = Matrix::<f64, 3>::new(1.0, 2.0, 0.5, -1.0, 3.0, 4.0, 2.0, 0.0, 1.0);
         let exact = (Matrix::<f64, 3>::identity() + h).determinant();
         assert!((jacobian(&h) - exact).abs() < 1e-13);
-    }
-
-    #[test]
-    fn stretches_are_roots() {
-        // U by the iteration of Denman and Beavers (1976), whatever is beside the diagonal.
-        for aside in [1.0, 1e-3, 1e-7, 1e-9, 1e-20] {
-            let h = Matrix::<f64, 3>::new(0.2, 1.5, -0.3, -0.9, 0.4, 0.1, 0.2, 0.0, -0.2);
-            let h = h.map_with_location(|i, j, value| if i == j { value } else { value * aside });
-            let f = deformation_gradient(&h);
-            let (mut u, mut inverse) = (f.tr_mul(&f), Matrix::<f64, 3>::identity());
-            for _ in 0..20 {
-                let [next, other] = [inverse, u].map(|m| m.try_inverse().unwrap());
-                (u, inverse) = ((u + next) * 0.5, (inverse + other) * 0.5);
-            }
-            let found = stretch_along_axes(&h).unwrap();
-            assert!((found - u.diagonal()).amax() < 4e-15, "{aside}: {found}");
-            // A body a thousand times smaller is stretched alike; F/1024 - I has lost three digits of F.
-            let small = f / 1024.0 - Matrix::identity();
-            let smaller = stretch_along_axes(&small).unwrap() * 1024.0;
-            assert!((smaller - found).amax() < 1e-12, "{aside}: {smaller}");
-        }
-        assert!(stretch_along_axes(&Matrix::<f64, 2>::new(0.0, 1.0, 1.0, 0.0)).is_none());
-        assert!(stretch_along_axes(&Matrix::<f64, 2>::repeat(f64::NAN)).is_none());
     }
 
     #[test]

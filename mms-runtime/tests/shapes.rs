@@ -502,7 +502,9 @@ fn a_domain_that_does_not_fit_has_no_stencil() {
         let cause = ShapeName::Ugimp.visit(Placed(stretched(half, 0.0)));
         assert!(matches!(cause, Some(Cause::HalfWidth { .. })), "{half}: {cause:?}");
     }
-    for h in [-1.0, -1.5, 3.0] {
+    // An inverted domain is as long as its mirror image; J > 0 is asked of the state.
+    assert!(ShapeName::Cpgimp.visit(Placed(stretched(0.25, -1.5))).is_none());
+    for h in [-1.0, 3.0] {
         let cause = ShapeName::Cpgimp.visit(Placed(stretched(0.25, h)));
         assert!(matches!(cause, Some(Cause::HalfWidth { .. })), "{h}: {cause:?}");
         assert!(ShapeName::Ugimp.visit(Placed(stretched(0.25, h))).is_none());
