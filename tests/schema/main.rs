@@ -13,6 +13,7 @@ use verdict::{Kind, json_of, reader_accepts};
 /// Files whose mistakes of form no JSON Schema can see.
 const BEYOND: &[(&str, &str)] = &[
     ("duplicate_name", "parameters and definitions share one set of names"),
+    ("study_orders", "studies of one method are compared"),
     ("extreme", "a set names parameters of the same file, and names of extremes differ"),
 ];
 
