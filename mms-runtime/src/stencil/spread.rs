@@ -88,20 +88,13 @@ where
                 }
                 let first = first[from] as usize + k1 * stride(1) + k2 * stride(2);
                 for (k0, node) in nodes.row(first, W).iter_mut().enumerate() {
-                    // What the node has comes last: nobody waits for it, nor it for others.
-                    let mut sum = machine.times(one(&weight[0][k0], 0), row[0]);
-                    for p in 1..P {
+                    let mut sum = machine.four(&node.0);
+                    for p in 0..P {
                         sum = machine.times_plus(one(&weight[0][k0], p), row[p], sum);
-                    }
-                    if SLOPES {
-                        let mut slopes = machine.times(one(&aside[0][k0], 0), row_slope[0]);
-                        for p in 1..P {
-                            slopes =
-                                machine.times_plus(one(&aside[0][k0], p), row_slope[p], slopes);
+                        if SLOPES {
+                            sum = machine.times_plus(one(&aside[0][k0], p), row_slope[p], sum);
                         }
-                        sum = machine.plus(sum, slopes);
                     }
-                    let sum = machine.plus(machine.four(&node.0), sum);
                     *node = Nodal(machine.numbers(sum));
                 }
             }
