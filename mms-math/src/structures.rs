@@ -30,9 +30,7 @@ pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: 
             };
         }
         let some = machine.transposed(rows);
-        for j in 0..n.min(4) {
-            columns[first + j] = some[j];
-        }
+        columns[first..first + n.min(4)].copy_from_slice(&some[..n.min(4)]);
     }
     if together(n) < n {
         let last = |k: usize| numbers[k * n + n - 1];
@@ -58,9 +56,7 @@ pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Four], numb
     for first in (0..together(n)).step_by(4) {
         let first = first.min(n.saturating_sub(4));
         let mut some = [columns[first]; 4];
-        for j in 1..n.min(4) {
-            some[j] = columns[first + j];
-        }
+        some[..n.min(4)].copy_from_slice(&columns[first..first + n.min(4)]);
         let rows = machine.transposed(some);
         // Where a row is longer than a structure, the next one is written over what is too much.
         for k in 0..4 {
