@@ -19,6 +19,8 @@ type Slots = [usize; 2];
 
 /// Sine and cosine of an angle: one reduction, two polynomials.
 const SINE_AND_COSINE: Slots = [27, 24];
+/// The same where nothing is taken off the angle.
+const NEAR_ZERO: Slots = [20, 13];
 /// The same in half turns.
 const OF_HALF_TURNS: Slots = [21, 15];
 /// The logarithm.
@@ -32,8 +34,8 @@ pub struct Tally {
     slots: Cell<usize>,
     /// Whether something was done that no table has.
     uncounted: Cell<bool>,
-    /// What has its sine and cosine already, in half turns or not.
-    angles: RefCell<Vec<(f64, bool)>>,
+    /// What has its sine and cosine already, and by which functions.
+    angles: RefCell<Vec<(f64, Slots)>>,
 }
 
 impl Tally {
@@ -59,12 +61,11 @@ impl Tally {
     }
 
     /// A sine or a cosine; the second one of an angle is there.
-    fn turn(&self, angle: f64, in_half_turns: bool) {
+    fn turn(&self, angle: f64, slots: Slots) {
         let mut angles = self.angles.borrow_mut();
-        if !angles.contains(&(angle, in_half_turns)) {
-            angles.push((angle, in_half_turns));
-            let table = if in_half_turns { OF_HALF_TURNS } else { SINE_AND_COSINE };
-            self.add(table[self.format]);
+        if !angles.contains(&(angle, slots)) {
+            angles.push((angle, slots));
+            self.add(slots[self.format]);
         }
     }
 }
@@ -90,8 +91,8 @@ impl<'a> Counted<'a> {
         Counted { value, ..self }
     }
 
-    fn turned(self, in_half_turns: bool, value: f64) -> Self {
-        self.tally.inspect(|tally| tally.turn(self.value, in_half_turns));
+    fn turned(self, slots: Slots, value: f64) -> Self {
+        self.tally.inspect(|tally| tally.turn(self.value, slots));
         Counted { value, ..self }
     }
 }
@@ -155,16 +156,22 @@ impl Scalar for Counted<'_> {
         self.of(LN, self.value.ln())
     }
     fn sin(self) -> Self {
-        self.turned(false, self.value.sin())
+        self.turned(SINE_AND_COSINE, self.value.sin())
     }
     fn cos(self) -> Self {
-        self.turned(false, self.value.cos())
+        self.turned(SINE_AND_COSINE, self.value.cos())
+    }
+    fn sin_near_zero(self) -> Self {
+        self.turned(NEAR_ZERO, self.value.sin())
+    }
+    fn cos_near_zero(self) -> Self {
+        self.turned(NEAR_ZERO, self.value.cos())
     }
     fn sin_pi(self) -> Self {
-        self.turned(true, Scalar::sin_pi(self.value))
+        self.turned(OF_HALF_TURNS, Scalar::sin_pi(self.value))
     }
     fn cos_pi(self) -> Self {
-        self.turned(true, Scalar::cos_pi(self.value))
+        self.turned(OF_HALF_TURNS, Scalar::cos_pi(self.value))
     }
     not_counted! {
         cbrt() exp() exp_m1() ln_1p() tan() sinh() cosh() tanh() asin() acos() atan()

@@ -115,7 +115,8 @@ of a build; what is not called takes no time anyway.",
         pairs: &[frozen(BAR), frozen(VORTEX), frozen(SHEAR)],
         conclusion: "\
 What only parameters determine is folded, and its code is gone: that is most of what is saved. A loop
-over many points has these numbers ready in either case, and gains little or nothing. Nor is it sure to
+over many points has these numbers ready in either case, and gains little or nothing; but the angle of
+`generalized_vortex` is then proved to be less than a quarter turn, and needs no reduction. Nor is it sure to
 get shorter: in `twisted_column`, `sheared_block_2d`, `self_weight_column` and `quiet_boundary_2d`
 numbers that are multiplied out hide what terms have in common, and a few more operations depend on X.",
     },

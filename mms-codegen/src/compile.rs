@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::certify::certificate::contradictions;
-use crate::certify::declared;
+use crate::certify::{declared, near_zero};
 use crate::culprit::culprit;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
@@ -239,6 +239,7 @@ fn phases(
     for components in outputs.values_mut() {
         *components = half_turns(&mut graph, components);
     }
+    near_zero(&mut graph, &field, &model, &mut outputs);
     if graph.is_exhausted() {
         diagnostics.push(too_large(&field, &graph, "simplified form"));
         return None;

@@ -38,6 +38,13 @@ macro_rules! scalar {
                 // Unknown are numbers so large that nothing cancels, and those without a value.
                 known(Lane::<_, false>(self).ln_1p_rest(), || self - $float::ln_1p(self))
             }
+            // Not inlined: it would make programs longer than the call of a plain sine does.
+            fn sin_near_zero(self) -> Self {
+                known(Lane::<_, false>(self).sin_near_zero(), || rarely(Scalar::sin, self))
+            }
+            fn cos_near_zero(self) -> Self {
+                known(Lane::<_, false>(self).cos_near_zero(), || rarely(Scalar::cos, self))
+            }
             #[inline]
             fn sin_pi(self) -> Self {
                 known(Lane::<_, false>(self).sin_pi(), || Lane::<_, false>(self % 2.0).sin_pi().0)
@@ -77,4 +84,11 @@ scalar!(
 #[inline(always)]
 fn known<T: Float>(quick: Lane<T, false>, careful: impl FnOnce() -> T) -> T {
     if quick.0.is_nan() { careful() } else { quick.0 }
+}
+
+/// A function that is not to be inlined where it is seldom called.
+#[cold]
+#[inline(never)]
+fn rarely<T>(function: fn(T) -> T, x: T) -> T {
+    function(x)
 }

@@ -16,8 +16,8 @@ use crate::quick::{exponential, inverse, logarithm, power, trigonometric};
 #[repr(transparent)]
 pub struct Lane<T, const FUSED: bool>(pub T);
 
-/// The largest magnitude that [`Lane::sin_near_zero`] and [`Lane::cos_near_zero`] take: just less
-/// than a quarter turn.
+/// The largest magnitude of which a [`Lane`] knows [`Scalar::sin_near_zero`] and [`Scalar::cos_near_zero`]: just
+/// less than a quarter turn.
 pub const NEAR_ZERO: f64 = 1.57;
 
 macro_rules! operators {
@@ -41,21 +41,6 @@ impl<T: Float, const FUSED: bool> Neg for Lane<T, FUSED> {
     #[inline(always)]
     fn neg(self) -> Self {
         Lane(-self.0)
-    }
-}
-
-impl<T: Float, const FUSED: bool> Lane<T, FUSED> {
-    /// The sine for |self| <= [`NEAR_ZERO`], else not a number. At most 1.7 ulp.
-    #[inline(always)]
-    pub fn sin_near_zero(self) -> Self {
-        trigonometric::sin_near_zero(self, T::of(NEAR_ZERO))
-    }
-
-    /// The cosine for |self| <= [`NEAR_ZERO`], else not a number. Its error is less than
-    /// f64's or f32's epsilon, also near its zero: at most 0.9 of that.
-    #[inline(always)]
-    pub fn cos_near_zero(self) -> Self {
-        trigonometric::cos_near_zero(self, T::of(NEAR_ZERO))
     }
 }
 
@@ -113,6 +98,6 @@ scalar! {
     power: cbrt;
     exponential: exp exp_m1 sinh cosh tanh;
     logarithm: ln ln_1p ln_1p_rest;
-    trigonometric: sin cos tan sin_pi cos_pi;
+    trigonometric: sin cos sin_near_zero cos_near_zero sin_pi cos_pi tan;
     inverse: asin acos atan;
 }

@@ -101,6 +101,15 @@ pub trait Scalar:
     fn sin(self) -> Self;
     /// The cosine of an angle in radians.
     fn cos(self) -> Self;
+    /// The sine of an angle in radians that is expected to be less than a quarter turn: there an
+    /// implementation may leave out the reduction, and elsewhere it is right nevertheless.
+    fn sin_near_zero(self) -> Self {
+        self.sin()
+    }
+    /// The cosine of such an angle.
+    fn cos_near_zero(self) -> Self {
+        self.cos()
+    }
     /// The sine of an angle in half turns, sin(pi self): whole turns are taken off without error.
     fn sin_pi(self) -> Self {
         (Self::pi() * self).sin()

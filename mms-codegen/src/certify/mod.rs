@@ -1,5 +1,6 @@
 //! What a field file claims, tested against what follows from it.
 
+mod angles;
 pub mod certificate;
 pub mod chart;
 pub mod claims;
@@ -17,3 +18,5 @@ pub mod search;
 pub mod tangent;
 pub mod witness;
 pub mod written;
+
+pub(crate) use angles::near_zero;

@@ -356,12 +356,17 @@ fn value_at_zero(function: Function) -> Option<i32> {
         | Function::Ln1pRest
         | Function::SinPi
         | Function::Sin
+        | Function::SinNearZero
         | Function::Tan
         | Function::Sinh
         | Function::Tanh
         | Function::Asin
         | Function::Atan => Some(0),
-        Function::Exp | Function::Cos | Function::CosPi | Function::Cosh => Some(1),
+        Function::Exp
+        | Function::Cos
+        | Function::CosNearZero
+        | Function::CosPi
+        | Function::Cosh => Some(1),
         Function::Sqrt | Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
     }
 }

@@ -35,6 +35,8 @@ functions! {
     Ln1pRest "ln_1p_rest" 1 "x - ln(1 + x).",
     Sin "sin" 1 "The sine.",
     Cos "cos" 1 "The cosine.",
+    SinNearZero "sin_near_zero" 1 "The sine of an angle that is proved to be less than a quarter turn.",
+    CosNearZero "cos_near_zero" 1 "The cosine of such an angle.",
     SinPi "sin_pi" 1 "sin(pi x).",
     CosPi "cos_pi" 1 "cos(pi x).",
     Tan "tan" 1 "The tangent.",
@@ -46,4 +48,15 @@ functions! {
     Atan "atan" 1 "The inverse tangent.",
     Atan2 "atan2" 2 "The angle of the point (x, y), called as atan2(y, x).",
     Powf "powf" 2 "A positive base to any power.",
+}
+
+impl Function {
+    /// The same function for whoever expects nothing of its argument.
+    pub fn of_any_argument(self) -> Self {
+        match self {
+            Function::SinNearZero => Function::Sin,
+            Function::CosNearZero => Function::Cos,
+            other => other,
+        }
+    }
 }

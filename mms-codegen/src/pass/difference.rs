@@ -289,6 +289,8 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
         | Function::Sqrt
         | Function::SinPi
         | Function::CosPi
+        | Function::SinNearZero
+        | Function::CosNearZero
         | Function::Ln1pRest => graph.sub(whole, limit),
     };
     Some(Term { limit, rest, whole })

@@ -155,6 +155,11 @@ fn partial(
             let sine = graph.call(Function::SinPi, &[x]);
             times_pi(graph, sine, -1)
         }
+        Function::SinNearZero => graph.call(Function::CosNearZero, &[x]),
+        Function::CosNearZero => {
+            let sin = graph.call(Function::SinNearZero, &[x]);
+            graph.scale(sin, -1)
+        }
         Function::Sin => graph.call(Function::Cos, &[x]),
         Function::Cos => {
             let sin = graph.call(Function::Sin, &[x]);

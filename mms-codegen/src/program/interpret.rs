@@ -187,6 +187,8 @@ pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
         Function::Ln1pRest => x.ln_1p_rest(),
         Function::Sin => x.sin(),
         Function::Cos => x.cos(),
+        Function::SinNearZero => x.sin_near_zero(),
+        Function::CosNearZero => x.cos_near_zero(),
         Function::SinPi => x.sin_pi(),
         Function::CosPi => x.cos_pi(),
         Function::Tan => x.tan(),

@@ -229,6 +229,8 @@ fn command(function: Function) -> String {
         | Function::ExpM1
         | Function::Ln1p
         | Function::Ln1pRest
+        | Function::SinNearZero
+        | Function::CosNearZero
         | Function::SinPi
         | Function::CosPi
         | Function::Atan2

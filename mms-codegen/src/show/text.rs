@@ -240,6 +240,8 @@ pub(super) fn word(function: Function) -> &'static str {
         Function::Ln1pRest => "ln_1p_rest",
         Function::Sin => "sin",
         Function::Cos => "cos",
+        Function::SinNearZero => "sin_near_zero",
+        Function::CosNearZero => "cos_near_zero",
         Function::SinPi => "sin_pi",
         Function::CosPi => "cos_pi",
         Function::Tan => "tan",

@@ -267,6 +267,8 @@ impl Writer<'_> {
             | Function::Ln1pRest
             | Function::Sin
             | Function::Cos
+            | Function::SinNearZero
+            | Function::CosNearZero
             | Function::SinPi
             | Function::CosPi
             | Function::Tan

@@ -332,6 +332,10 @@ fn near_zero_no_reduction_is_needed() {
         assert!(Lane::<_, false>(x).sin_near_zero().0.is_nan());
         assert!(Lane::<_, true>(x).cos_near_zero().0.is_nan());
     }
+    for x in [NEAR_ZERO + 1e-6, -2.0, 1e5, 1e300] {
+        let careful = [Scalar::sin(x), Scalar::cos(x)];
+        assert_eq!([Scalar::sin_near_zero(x), Scalar::cos_near_zero(x)], careful, "{x}");
+    }
 }
 
 #[test]

@@ -182,6 +182,8 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::Ln1pRest => a.ln_1p_rest(),
                 Function::Sin => a.sin(),
                 Function::Cos => a.cos(),
+                Function::SinNearZero => a.sin_near_zero(),
+                Function::CosNearZero => a.cos_near_zero(),
                 Function::SinPi => a.sin_pi(),
                 Function::CosPi => a.cos_pi(),
                 Function::Tan => a.tan(),

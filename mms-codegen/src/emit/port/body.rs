@@ -60,7 +60,11 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
         Function::Ln1p => Some("log1p"),
         Function::ExpM1 => Some("expm1"),
         Function::Powf => Some("pow"),
-        Function::Ln1pRest | Function::SinPi | Function::CosPi => None,
+        Function::Ln1pRest
+        | Function::SinNearZero
+        | Function::CosNearZero
+        | Function::SinPi
+        | Function::CosPi => None,
         Function::Sqrt
         | Function::Cbrt
         | Function::Exp

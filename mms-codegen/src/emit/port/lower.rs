@@ -1,6 +1,8 @@
 //! Functions that a language lacks, in those that it has: without a branch, and without a difference
 //! that algebra takes for 0, since some languages rearrange what they read.
 
+use std::borrow::Cow;
+
 use crate::expr::{Function, Rational};
 use crate::program::{Instr, Op, Program, Stage, Value};
 
@@ -31,6 +33,19 @@ pub fn lowered(program: &Program, has: &[Function]) -> Program {
     let values = |values: &Vec<Value>| values.iter().map(|it| renamed[it.index()]).collect();
     let outputs = program.outputs.iter().map(|(output, it)| (*output, values(it))).collect();
     Program { instrs: lowering.instrs, outputs }
+}
+
+/// A program in which nothing is expected of an angle: other languages' functions have no use for it.
+pub fn of_any_angle(program: &Program) -> Cow<'_, Program> {
+    let mut program = Cow::Borrowed(program);
+    for index in 0..program.instrs.len() {
+        if let Op::Unary(function, angle) = program.instrs[index].op
+            && function != function.of_any_argument()
+        {
+            program.to_mut().instrs[index].op = Op::Unary(function.of_any_argument(), angle);
+        }
+    }
+    program
 }
 
 struct Lowering<'a> {
@@ -80,6 +95,7 @@ impl Lowering<'_> {
     }
 
     fn call(&mut self, function: Function, x: Value) -> Value {
+        let function = function.of_any_argument();
         if self.has.contains(&function) {
             return self.push(Op::Unary(function, x));
         }
@@ -146,6 +162,7 @@ impl Lowering<'_> {
             | Function::Sin
             | Function::Cos
             | Function::Tan => unreachable!("every language has {}", function.name()),
+            Function::SinNearZero | Function::CosNearZero => unreachable!("angles may be any"),
             Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
         }
     }

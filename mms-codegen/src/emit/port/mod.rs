@@ -55,7 +55,7 @@ pub struct Port<'a> {
 impl<'a> Port<'a> {
     /// The field under the rules of a language.
     pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
-        Self::of(subject, rules, Cow::Borrowed(&subject.compiled.program))
+        Self::of(subject, rules, lower::of_any_angle(&subject.compiled.program))
     }
 
     /// The same for a language that computes everything in one precision, with functions that it has.

@@ -15,6 +15,9 @@ use crate::program::Stage;
 /// their length and not with its square.
 const MAX_OPERANDS: usize = 32;
 
+/// How many sums within each other a coefficient goes into.
+const SCALED_SUMS: usize = 4;
+
 /// Greater powers are left to the power function.
 const MAX_EXPONENT: i32 = 1 << 24;
 
@@ -67,6 +70,15 @@ pub(super) enum Grouping {
     Joint,
 }
 
+/// How far the coefficient of a term goes into it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scaling {
+    /// To a factor that is known before X is.
+    Factors,
+    /// To such a factor in every term of a sum, too: 2 X (a Y + b) is X (2 a Y + 2 b).
+    Sums,
+}
+
 /// Hash-consed n-ary operations.
 #[derive(Clone, Debug)]
 pub(super) struct Flat {
@@ -75,13 +87,19 @@ pub(super) struct Flat {
     /// Only ever looked up, never iterated.
     index: FxHashMap<Form, Item>,
     grouping: Grouping,
+    scaling: Scaling,
 }
 
 impl Flat {
     /// The operations of `roots`, and the item of each root.
-    pub(super) fn new(graph: &Graph, roots: &[Expr], grouping: Grouping) -> (Self, Vec<Item>) {
-        let mut flat =
-            Flat { forms: Vec::new(), stages: Vec::new(), index: FxHashMap::default(), grouping };
+    pub(super) fn new(
+        graph: &Graph,
+        roots: &[Expr],
+        grouping: Grouping,
+        scaling: Scaling,
+    ) -> (Self, Vec<Item>) {
+        let (forms, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
+        let mut flat = Flat { forms, stages, index, grouping, scaling };
         let mut items = BTreeMap::<Expr, Item>::new();
         for expr in graph.reachable(roots) {
             let item = flat.flatten(graph.node(expr), &items);
@@ -162,18 +180,52 @@ impl Flat {
         if *coefficient == one || *coefficient == minus_one {
             return plain;
         }
-        let Form::Product(factors) = self.form(term) else { return plain };
-        let mut factors = factors.clone();
-        let stage = self.stage(term);
-        let Some(early) = factors.iter().position(|(item, exponent)| {
-            *exponent == 1 && self.stage(*item) < stage.min(Stage::Point)
-        }) else {
-            return plain;
-        };
         let sign = if is_negative(coefficient) { minus_one } else { one };
-        let number = self.constant(coefficient * &sign);
-        factors[early].0 = self.product(vec![(number, 1), factors[early]]);
-        (self.product(factors), sign)
+        match self.times(term, &(coefficient * &sign), SCALED_SUMS) {
+            Some(scaled) => (scaled, sign),
+            None => plain,
+        }
+    }
+
+    /// A product or a sum times a number, where that takes no operation that depends on X. `sums` is how many
+    /// sums within each other the number may go into.
+    fn times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
+        let Form::Product(mut factors) = self.form(item).clone() else {
+            return self.sum_times(item, number, sums);
+        };
+        let late = self.stage(item).min(Stage::Point);
+        let mut bases: Vec<&mut Item> =
+            factors.iter_mut().filter_map(|(base, power)| (*power == 1).then_some(base)).collect();
+        let early = bases.iter().position(|base| self.stage(**base) < late);
+        let (place, scaled) = match early {
+            Some(place) => (place, self.multiple(*bases[place], number)),
+            None => bases
+                .iter()
+                .enumerate()
+                .find_map(|(place, base)| Some((place, self.sum_times(**base, number, sums)?)))?,
+        };
+        *bases[place] = scaled;
+        Some(self.product(factors))
+    }
+
+    /// A sum times a number, every term of which takes it.
+    fn sum_times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
+        if self.scaling == Scaling::Factors || sums == 0 || self.stage(item) < Stage::Point {
+            return None;
+        }
+        let Form::Sum(mut terms) = self.form(item).clone() else { return None };
+        for (term, _) in &mut terms {
+            *term = match self.stage(*term) < Stage::Point {
+                true => self.multiple(*term, number),
+                false => self.times(*term, number, sums - 1)?,
+            };
+        }
+        Some(self.sum(terms))
+    }
+
+    fn multiple(&mut self, item: Item, number: &Rational) -> Item {
+        let number = self.constant(number.clone());
+        self.product(vec![(number, 1), (item, 1)])
     }
 
     /// Adds the factors of a power: halves are square roots, other fractions power functions.

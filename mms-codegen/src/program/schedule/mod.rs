@@ -11,7 +11,7 @@ mod share;
 
 use std::collections::BTreeMap;
 
-use flat::{Flat, Grouping};
+use flat::{Flat, Grouping, Item, Scaling};
 use lower::Builder;
 
 use super::{Instr, Output, Program, Stage, Value};
@@ -33,7 +33,7 @@ pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program
     let outputs = outputs
         .iter()
         .map(|(output, components)| {
-            let (flat, roots) = cheapest(graph, components);
+            let (flat, roots) = scaled(graph, components, cheapest(graph, components));
             (*output, builder.lower(&flat, &roots))
         })
         .collect();
@@ -46,23 +46,30 @@ pub fn schedule_plainly(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) ->
     let outputs = outputs
         .iter()
         .map(|(output, components)| {
-            let (flat, roots) = Flat::new(graph, components, Grouping::Staged);
+            let (flat, roots) = Flat::new(graph, components, Grouping::Staged, Scaling::Factors);
             (*output, builder.lower(&flat, &roots))
         })
         .collect();
     in_stage_order(Program { instrs: builder.instrs, outputs })
 }
 
-/// What the components of one output cost.
+/// How many operations at a point must be saved before numbers are moved into sums: an output has less in common
+/// with others then.
+const WORTH_SCALING: usize = 2;
+
+/// How many operations that are done once may save one at every point.
+const ONCE_FOR_EVERY_POINT: usize = 8;
+
+/// What the components of one output cost, at most: see [`scaled`].
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     let (flat, roots) = cheapest(graph, components);
     cost_of(&flat, &roots)
 }
 
 /// The cheapest way to compute `components`; of equals, the first.
-fn cheapest(graph: &Graph, components: &[Expr]) -> (Flat, Vec<flat::Item>) {
-    let staged = Flat::new(graph, components, Grouping::Staged);
-    let joint = Flat::new(graph, components, Grouping::Joint);
+fn cheapest(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
+    let staged = Flat::new(graph, components, Grouping::Staged, Scaling::Factors);
+    let joint = Flat::new(graph, components, Grouping::Joint, Scaling::Factors);
     let distinct = joint.0.forms != staged.0.forms;
     let plain = staged.clone();
     let mut ways = vec![staged];
@@ -72,7 +79,23 @@ fn cheapest(graph: &Graph, components: &[Expr]) -> (Flat, Vec<flat::Item>) {
     ways.into_iter().min_by_key(|(flat, roots)| cost_of(flat, roots)).expect("there are ways")
 }
 
-fn cost_of(flat: &Flat, roots: &[flat::Item]) -> Cost {
+/// The same way, or one with numbers moved into sums, where that saves operations at a point. It seldom does,
+/// so it is tried of what is emitted, and not of all that is compared.
+fn scaled(
+    graph: &Graph,
+    components: &[Expr],
+    (flat, roots): (Flat, Vec<Item>),
+) -> (Flat, Vec<Item>) {
+    let mut scaled = Flat::new(graph, components, Grouping::Staged, Scaling::Sums);
+    share::share(&mut scaled.0);
+    let (cost, other) = (cost_of(&flat, &roots), cost_of(&scaled.0, &scaled.1));
+    let saved = cost.per_point.saturating_sub(other.per_point);
+    let is_worth_it =
+        saved >= WORTH_SCALING && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
+    if is_worth_it { scaled } else { (flat, roots) }
+}
+
+fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
     let mut builder = Builder::default();
     builder.lower(flat, roots);
     let counted = builder.instrs.iter().filter(|instr| instr.op.is_counted());
