@@ -60,7 +60,7 @@ const WORTH_SCALING: usize = 2;
 /// How many operations that are done once may save one at every point.
 const ONCE_FOR_EVERY_POINT: usize = 8;
 
-/// What the components of one output cost, at most: see [`scaled`].
+/// What the components of one output cost, at most: numbers may still move into sums.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     let (flat, roots) = cheapest(graph, components);
     cost_of(&flat, &roots)
