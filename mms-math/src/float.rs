@@ -40,10 +40,10 @@ macro_rules! scalar {
             }
             // Not inlined: it would make programs longer than the call of a plain sine does.
             fn sin_near_zero(self) -> Self {
-                known(Lane::<_, false>(self).sin_near_zero(), || rarely(Scalar::sin, self))
+                known(Lane::<_, false>(self).sin_near_zero(), || Scalar::sin(self))
             }
             fn cos_near_zero(self) -> Self {
-                known(Lane::<_, false>(self).cos_near_zero(), || rarely(Scalar::cos, self))
+                known(Lane::<_, false>(self).cos_near_zero(), || Scalar::cos(self))
             }
             #[inline]
             fn sin_pi(self) -> Self {
@@ -84,11 +84,4 @@ scalar!(
 #[inline(always)]
 fn known<T: Float>(quick: Lane<T, false>, careful: impl FnOnce() -> T) -> T {
     if quick.0.is_nan() { careful() } else { quick.0 }
-}
-
-/// A function that is not to be inlined where it is seldom called.
-#[cold]
-#[inline(never)]
-fn rarely<T>(function: fn(T) -> T, x: T) -> T {
-    function(x)
 }

@@ -114,8 +114,8 @@ const POLAR_ITERATIONS: usize = 20;
 /// The diagonals of the right stretch tensors U of F = R U with these columns; not finite where an F is singular or
 /// not finite.
 ///
-/// U^2 = C = F^T F. Where C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
-/// less than round-off: the stretch of a diagonal F is exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
+/// U^2 = C = F^T F. Where every C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
+/// less than round-off: the stretches of four diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
 /// (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)).
 #[inline(always)]
 pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
@@ -205,6 +205,9 @@ mod tests {
         let root = (c.trace() + 2.0 * 0.75).sqrt();
         let exact = c.diagonal().map(|square| (square + 0.75) / root);
         assert!((stretch(&sheared) - exact).amax() < 4e-16);
+        // Half a turn stretches nothing.
+        let turned = Matrix::<f64, 3>::from_diagonal(&Vector::from([-1.0, -1.0, 1.0]));
+        assert_eq!(stretch(&turned), Vector::repeat(1.0));
         assert_eq!(stretch(&Matrix::<f64, 1>::new(0.3)), Vector::<f64, 1>::new(0.3));
         assert!(!stretch(&Matrix::<f64, 2>::repeat(1.0)).amax().is_finite());
         assert!(!stretch(&Matrix::<f64, 2>::repeat(f64::NAN))[0].is_finite());

@@ -72,6 +72,7 @@ fn a_nearly_inverted_body_is_within_its_bound_or_the_grid_is_said_to_be_too_coar
         verdicts.map(|row| row["verdict"].as_str().expect("a word").to_owned()).collect::<Vec<_>>()
     };
     let coarse = verdicts("periodic_bar");
+    assert_eq!(coarse.len(), 2);
     assert!(coarse.iter().all(|it| ["unresolved", "stops"].contains(&it.as_str())), "{coarse:?}");
     let study = "study periodic_bar --set amplitude=0.1575 --cells 16,32,64";
     folder.mms(study).exits(1);

@@ -57,15 +57,9 @@ pub fn near_zero(
 
 /// The angles at points of the body that depend on nothing without bounds.
 fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> BTreeSet<Expr> {
-    let is_bounded = |expr: Expr| {
-        graph.symbols(expr).into_iter().all(|symbol| match symbol {
-            Symbol::Parameter(index) => model.parameters[index].range.is_some(),
-            Symbol::Time | Symbol::Coordinate(_) => true,
-            Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => false,
-        })
-    };
+    let is_bounded = |expr: Expr| is_bounded(graph, model, expr);
     let mut bounds = face::bounds(&model.domain.body).into_iter().flatten();
-    if !bounds.all(is_bounded) || !model.domain.time.iter().all(|bound| is_bounded(*bound)) {
+    if !bounds.all(is_bounded) || !model.domain.time.into_iter().all(is_bounded) {
         return BTreeSet::new();
     }
     let angle = |expr: Expr| match graph.node(expr) {
@@ -75,6 +69,17 @@ fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> BTreeSet<Expr> {
     let at_points = |angle: &Expr| graph.stage(*angle) >= Stage::Point;
     let angles = graph.reachable(roots).into_iter().filter_map(angle);
     angles.filter(at_points).filter(|angle| is_bounded(*angle)).collect()
+}
+
+/// Whether the domain and the ranges of parameters bound everything that an expression depends on.
+fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
+    graph.symbols(expr).into_iter().all(|symbol| match symbol {
+        Symbol::Parameter(index) => model.parameters[index]
+            .range
+            .is_some_and(|range| range.into_iter().all(|bound| is_bounded(graph, model, bound))),
+        Symbol::Time | Symbol::Coordinate(_) => true,
+        Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => false,
+    })
 }
 
 fn is_small(graph: &mut Graph, chart: &Chart, angle: Expr) -> bool {

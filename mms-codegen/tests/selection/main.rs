@@ -5,9 +5,9 @@ mod refusals;
 use std::collections::{BTreeMap, BTreeSet};
 
 use mms_codegen::emit::rust_mms_math as rust;
-use mms_codegen::expr::Rational;
+use mms_codegen::expr::{Function, Rational};
 use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::{Output, Stage};
+use mms_codegen::program::{Op, Output, Stage};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::sample::samples;
 use mms_codegen::selection::{Freeze, Selection};
@@ -270,7 +270,6 @@ fn with_all_parameters_frozen_nothing_depends_on_any() {
     let everything = compiled(&moving(), &selection(&[], &[], &["*"]));
     let of_parameters = everything.program.instrs.iter().filter(|instr| {
         use mms_codegen::expr::Symbol;
-        use mms_codegen::program::Op;
         matches!(instr.op, Op::Input(Symbol::Parameter(_)))
     });
     assert_eq!(of_parameters.count(), 0);
@@ -316,4 +315,44 @@ fn subsets_are_not_dearer_than_the_whole() {
             |compiled: &Compiled| -> usize { compiled.program.operations(&outputs).values().sum() };
         assert!(sum(&part) <= sum(&all), "{pair:?}");
     }
+}
+
+/// Which of the functions of angles the program calls.
+fn functions_of_angles(compiled: &Compiled) -> BTreeSet<Function> {
+    let angles = [Function::Sin, Function::Cos, Function::SinNearZero, Function::CosNearZero];
+    let called = compiled.program.instrs.iter().filter_map(|instr| match instr.op {
+        Op::Unary(function, _) if instr.stage >= Stage::Point => Some(function),
+        _ => None,
+    });
+    called.filter(|function| angles.contains(function)).collect()
+}
+
+#[test]
+fn nothing_is_taken_off_an_angle_that_is_proved_small() {
+    let (any, near_zero) = (
+        BTreeSet::from([Function::Sin, Function::Cos]),
+        BTreeSet::from([Function::SinNearZero, Function::CosNearZero]),
+    );
+    // The angle grows to `size`, which may be set to anything unless it is frozen or has a range.
+    let text = FIELD.replace("size*X*(1 - X)*TIME", "sin(size*X^2*t)/10");
+    let free = compiled(&text, &Selection::default());
+    assert_eq!(functions_of_angles(&free), any);
+    for (size, expected) in [("1.49", &near_zero), ("1.51", &any)] {
+        let frozen = compiled(&text, &selection(&[], &[("size", size)], &["size"]));
+        assert_eq!(functions_of_angles(&frozen), *expected, "{size}");
+    }
+    for (range, expected) in
+        [("[0, 1.49]", &near_zero), ("[-1.51, 0.2]", &any), ("[0, \"mu/1e6\"]", &any)]
+    {
+        let ranged = text.replace("\"1/10\"", &format!("0.1, range = {range}"));
+        let ranged = compiled(&ranged, &Selection::default());
+        assert_eq!(functions_of_angles(&ranged), *expected, "{range}");
+        let [found, of_free] =
+            [&ranged, &free].map(|of| values(of, Quantity::BodyForce, &BTreeMap::new()));
+        assert_same(&found, &of_free, range);
+    }
+    // A window that ends later lets the angle grow.
+    let later = text.replace("time  = [0, 1]", "time  = [0, 40]");
+    let later = compiled(&later, &selection(&[], &[], &["size"]));
+    assert_eq!(functions_of_angles(&later), any);
 }

@@ -129,3 +129,46 @@ fn in_stage_order(program: Program) -> Program {
             .collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+    use crate::program::interpret::{Interpreter, Point};
+
+    /// 256 X (a X + t Y) and 256 Y (a Y + t X); `bare` of them without a.
+    fn components(graph: &mut Graph, bare: bool) -> Vec<Expr> {
+        let a = graph.symbol(Symbol::Parameter(0));
+        let t = graph.symbol(Symbol::Time);
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let mut component = |x: Expr, y: Expr| {
+            let first = if bare { x } else { graph.mul(a, x) };
+            let second = graph.mul(t, y);
+            let sum = graph.add(first, second);
+            let product = graph.mul(x, sum);
+            graph.scale(product, 256)
+        };
+        vec![component(x, y), component(y, x)]
+    }
+
+    fn scheduled(bare: bool) -> (usize, Vec<f64>) {
+        let mut graph = Graph::default();
+        let components = components(&mut graph, bare);
+        let output = Output::Expected(0);
+        let program = schedule(&graph, &BTreeMap::from([(output, components)]));
+        let operations = program.operations(&[output]);
+        let mut interpreter = Interpreter::new(&program, &[0.75]);
+        interpreter.set_time(&0.5);
+        interpreter.set_point(&interpreter.plan(&[output]), Point::at(&[1.5, -0.25]));
+        let at_point = operations[&Stage::Point] + operations[&Stage::PointTime];
+        (at_point, interpreter.output(output))
+    }
+
+    #[test]
+    fn numbers_move_into_sums_where_that_costs_nothing_at_a_point() {
+        // Each: two products, a sum and X times it. What else there is depends on no X.
+        assert_eq!(scheduled(false), (8, vec![384.0, -36.0]));
+        // A term without an early factor leaves 256 at the point.
+        assert_eq!(scheduled(true).0, 8);
+    }
+}
