@@ -206,8 +206,8 @@ mod tests {
         let exact = c.diagonal().map(|square| (square + 0.75) / root);
         assert!((stretch(&sheared) - exact).amax() < 4e-16);
         // Half a turn stretches nothing.
-        let turned = Matrix::<f64, 3>::from_diagonal(&Vector::from([-1.0, -1.0, 1.0]));
-        assert_eq!(stretch(&turned), Vector::repeat(1.0));
+        let turned = Matrix::from_diagonal(&Vector::<f64, 3>::new(-1.0, -1.0, 1.0));
+        assert_eq!(stretch(&turned), Vector::<f64, 3>::repeat(1.0));
         assert_eq!(stretch(&Matrix::<f64, 1>::new(0.3)), Vector::<f64, 1>::new(0.3));
         assert!(!stretch(&Matrix::<f64, 2>::repeat(1.0)).amax().is_finite());
         assert!(!stretch(&Matrix::<f64, 2>::repeat(f64::NAN))[0].is_finite());
