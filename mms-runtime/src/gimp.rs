@@ -72,7 +72,8 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
             return place_wide(machine, stencil, lattice, position, &half_width);
         }
-        stencil.begin::<NEAREST>(lattice, true);
+        // Weights that do not sum to 1 are not those of nodes one cell apart.
+        stencil.begin::<NEAREST>(lattice, !on(Defect::ShortSupport));
         let mut fits = true;
         for a in 0..D {
             let cells = lattice.cells_along(machine, a, position[a]);

@@ -82,11 +82,10 @@ impl<'a, T> Window<'a, T> {
         Window { start: self.start, nodes: self.nodes }
     }
 
-    /// So many nodes from this one on.
+    /// `W` nodes from this one on.
     #[inline(always)]
-    pub fn row(&mut self, first: usize, width: usize) -> &mut [Nodal<T>] {
-        let first = first - self.start;
-        &mut self.nodes[first..first + width]
+    pub fn row<const W: usize>(&mut self, first: usize) -> &mut [Nodal<T>; W] {
+        self.nodes[first - self.start..].first_chunk_mut().expect("a row of nodes")
     }
 
     /// Those before a node, and those from it on.

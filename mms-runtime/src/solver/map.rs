@@ -18,8 +18,9 @@ use crate::stencil::{ALL, BUNCH, Members, Sloped, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Matrix, Real, Vector};
 
-/// Particles whose stresses are computed together; what is known of them stays in the first cache.
-const PART: usize = 128;
+/// Particles whose stresses are computed together: so many that it is nothing to ask what time it is, and so few that
+/// their stresses stay near.
+const PART: usize = 256;
 
 /// What is added to the nodes.
 #[derive(Clone, Copy)]

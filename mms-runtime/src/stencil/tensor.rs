@@ -34,7 +34,7 @@ pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
     /// How many nodes along each axis have a weight, at most: N or LEAST.
     width: usize,
     /// Whether all nodes are one cell apart.
-    even: bool,
+    pub(super) even: bool,
 }
 
 impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, LEAST, N> {
