@@ -10,107 +10,81 @@ use super::{ALL, BUNCH, Members, Sloped};
 use crate::Real;
 use crate::nodal::{Nodal, Window};
 
-/// What is added to the nodes.
-pub(super) struct Spread<'a, T, F, const D: usize, const LEAST: usize, const N: usize> {
+/// What is added to the nodes, with slopes or without.
+pub(super) struct Spread<
+    'a,
+    M: Machine<T>,
+    T: Real,
+    const D: usize,
+    const LEAST: usize,
+    const N: usize,
+    const SLOPES: bool,
+> {
+    pub machine: M,
     pub stencil: &'a Tensor<T, D, LEAST, N>,
     /// What the slopes are multiplied by, in place of weights, along their axis.
     pub aside: &'a Along<T, D, N>,
-    pub carried: &'a Sloped<F, D>,
+    pub carried: &'a Sloped<M::Four, D>,
     pub members: Members,
 }
 
-impl<T, F, const D: usize, const LEAST: usize, const N: usize> Spread<'_, T, F, D, LEAST, N>
-where
-    T: Real,
-    F: Copy,
+impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize, const SLOPES: bool>
+    Spread<'_, M, T, D, LEAST, N, SLOPES>
 {
     /// Adds to `W` nodes along every axis: for all four particles together where they share their nodes, else for
     /// one after the other.
     #[inline(always)]
-    pub fn add<M: Machine<T, Four = F>, const SLOPES: bool, const W: usize>(
-        &self,
-        machine: M,
-        mut nodes: Window<'_, T>,
-    ) {
-        let usual = W != 3 || self.stencil.even;
-        if self.members == ALL && self.stencil.is_shared() && usual {
-            if W == 3 {
-                self.of::<M, SLOPES, W, BUNCH, true>(machine, 0, nodes);
-            } else {
-                self.of::<M, SLOPES, W, BUNCH, false>(machine, 0, nodes);
-            }
+    pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
+        let together = self.members == ALL && self.stencil.is_shared();
+        if W == 3 && together && self.stencil.even {
+            self.of::<W, BUNCH, true>(0, nodes);
+        } else if W != 3 && together {
+            self.of::<W, BUNCH, false>(0, nodes);
         } else {
             let [from, to] = self.members;
             for p in from..to {
-                self.of::<M, SLOPES, W, 1, false>(machine, p, nodes.reborrow());
+                self.of::<W, 1, false>(p, nodes.reborrow());
             }
         }
     }
 
-    /// Adds for `P` particles from `from` on; whether the middle nodes take the `REST`.
+    /// Adds for `P` particles from `from` on; whether the middle ones of three nodes take the `REST`.
     #[inline(always)]
-    fn of<
-        M: Machine<T, Four = F>,
-        const SLOPES: bool,
-        const W: usize,
-        const P: usize,
-        const REST: bool,
-    >(
+    fn of<const W: usize, const P: usize, const REST: bool>(
         &self,
-        machine: M,
         from: usize,
         mut nodes: Window<'_, T>,
     ) {
-        let Tensor { first, stride, .. } = self.stencil;
+        let Self { machine, stencil: Tensor { first, stride, .. }, .. } = *self;
         for k2 in 0..if D > 2 { W } else { 1 } {
-            let plane = self.plane::<M, SLOPES, P>(machine, from, k2);
+            let plane = self.plane::<P>(from, k2);
             let first = first[from] as usize + if D > 2 { k2 * stride[2 % D] } else { 0 };
             if D == 1 {
-                let sums = self.sums::<M, SLOPES, W, P, REST>(machine, from, &plane);
+                let sums = self.sums::<W, P, REST>(from, &plane);
                 add(machine, nodes.row(first), &sums);
-                continue;
-            }
-            if !REST {
+            } else if REST {
+                let mut rest = self.sums::<W, P, REST>(from, &plane);
+                let before = self.sums::<W, P, REST>(from, &self.row(from, 0, &plane));
+                add(machine, nodes.row(first), &before);
+                let after = self.sums::<W, P, REST>(from, &self.row(from, 2, &plane));
+                add(machine, nodes.row(first + 2 * stride[1 % D]), &after);
+                for k0 in 0..W {
+                    rest[k0] = machine.minus(machine.minus(rest[k0], before[k0]), after[k0]);
+                }
+                add(machine, nodes.row(first + stride[1 % D]), &rest);
+            } else {
                 for k1 in 0..W {
-                    let sums = self.sums::<M, SLOPES, W, P, REST>(
-                        machine,
-                        from,
-                        &self.row::<M, SLOPES, P>(machine, from, k1, &plane),
-                    );
+                    let sums = self.sums::<W, P, REST>(from, &self.row(from, k1, &plane));
                     add(machine, nodes.row(first + k1 * stride[1 % D]), &sums);
                 }
-                continue;
             }
-            let all = self.sums::<M, SLOPES, W, P, REST>(machine, from, &plane);
-            let before = self.sums::<M, SLOPES, W, P, REST>(
-                machine,
-                from,
-                &self.row::<M, SLOPES, P>(machine, from, 0, &plane),
-            );
-            add(machine, nodes.row(first), &before);
-            let after = self.sums::<M, SLOPES, W, P, REST>(
-                machine,
-                from,
-                &self.row::<M, SLOPES, P>(machine, from, 2, &plane),
-            );
-            add(machine, nodes.row(first + 2 * stride[1 % D]), &after);
-            let mut rest = all;
-            for k0 in 0..W {
-                rest[k0] = machine.minus(machine.minus(all[k0], before[k0]), after[k0]);
-            }
-            add(machine, nodes.row(first + stride[1 % D]), &rest);
         }
     }
 
     /// What a plane takes.
     #[inline(always)]
-    fn plane<M: Machine<T, Four = F>, const SLOPES: bool, const P: usize>(
-        &self,
-        machine: M,
-        from: usize,
-        k2: usize,
-    ) -> Taken<F, P> {
-        let Self { stencil: Tensor { weight, .. }, aside, carried, .. } = self;
+    fn plane<const P: usize>(&self, from: usize, k2: usize) -> Taken<M::Four, P> {
+        let Self { machine, stencil: Tensor { weight, .. }, aside, carried, .. } = *self;
         let zero = machine.splat(T::zero());
         let mut plane = Taken { value: [zero; P], slopes: [[zero; 2]; P] };
         for p in 0..P {
@@ -125,23 +99,23 @@ where
                 if SLOPES {
                     let s2 = machine.splat(aside[2 % D][k2][from + p]);
                     plane.value[p] = machine.times_plus(s2, slopes[2 % D], plane.value[p]);
-                    plane.slopes[p] = [machine.times(w2, slopes[0]), machine.times(w2, slopes[1])];
+                    plane.slopes[p] =
+                        [machine.times(w2, slopes[0]), machine.times(w2, slopes[1 % D])];
                 }
             }
         }
         plane
     }
 
-    /// What a row of the plane takes.
+    /// What a row of a plane takes.
     #[inline(always)]
-    fn row<M: Machine<T, Four = F>, const SLOPES: bool, const P: usize>(
+    fn row<const P: usize>(
         &self,
-        machine: M,
         from: usize,
         k1: usize,
-        plane: &Taken<F, P>,
-    ) -> Taken<F, P> {
-        let Self { stencil: Tensor { weight, .. }, aside, .. } = self;
+        plane: &Taken<M::Four, P>,
+    ) -> Taken<M::Four, P> {
+        let Self { machine, stencil: Tensor { weight, .. }, aside, .. } = *self;
         let mut row = *plane;
         for p in 0..P {
             let w1 = machine.splat(weight[1 % D][k1][from + p]);
@@ -157,31 +131,24 @@ where
 
     /// The sums that the nodes of a row take.
     #[inline(always)]
-    fn sums<
-        M: Machine<T, Four = F>,
-        const SLOPES: bool,
-        const W: usize,
-        const P: usize,
-        const REST: bool,
-    >(
+    fn sums<const W: usize, const P: usize, const REST: bool>(
         &self,
-        machine: M,
         from: usize,
-        row: &Taken<F, P>,
-    ) -> [F; W] {
+        row: &Taken<M::Four, P>,
+    ) -> [M::Four; W] {
+        let machine = self.machine;
         // A product is added to -0 without an addition.
         let mut sums = [machine.splat(-T::zero()); W];
         for p in 0..P {
-            let (value, slope) = (row.value[p], row.slopes[p][0]);
+            let taken = [row.value[p], row.slopes[p][0]];
             if REST {
-                sums[0] = self.node::<M, SLOPES>(machine, [from + p, 0], [value, slope], sums[0]);
-                sums[2] = self.node::<M, SLOPES>(machine, [from + p, 2], [value, slope], sums[2]);
-                sums[1] = machine.plus(sums[1], value);
+                sums[0] = self.node([from + p, 0], taken, sums[0]);
+                sums[2] = self.node([from + p, 2], taken, sums[2]);
+                sums[1] = machine.plus(sums[1], taken[0]);
                 continue;
             }
             for k0 in 0..W {
-                sums[k0] =
-                    self.node::<M, SLOPES>(machine, [from + p, k0], [value, slope], sums[k0]);
+                sums[k0] = self.node([from + p, k0], taken, sums[k0]);
             }
         }
         if REST {
@@ -192,14 +159,8 @@ where
 
     /// The sum, and what one node of a row takes of one particle.
     #[inline(always)]
-    fn node<M: Machine<T, Four = F>, const SLOPES: bool>(
-        &self,
-        machine: M,
-        [p, k0]: [usize; 2],
-        [value, slope]: [F; 2],
-        sum: F,
-    ) -> F {
-        let Self { stencil: Tensor { weight, .. }, aside, .. } = self;
+    fn node(&self, [p, k0]: [usize; 2], [value, slope]: [M::Four; 2], sum: M::Four) -> M::Four {
+        let Self { machine, stencil: Tensor { weight, .. }, aside, .. } = *self;
         let sum = machine.times_plus(machine.splat(weight[0][k0][p]), value, sum);
         if !SLOPES {
             return sum;

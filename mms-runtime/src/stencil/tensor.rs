@@ -180,11 +180,13 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let spread = Spread { stencil: self, aside, carried, members };
+        let stencil = self;
+        let spread =
+            Spread::<M, T, D, LEAST, N, SLOPES> { machine, stencil, aside, carried, members };
         if LEAST < N && self.width == LEAST {
-            spread.add::<M, SLOPES, LEAST>(machine, nodes);
+            spread.add::<LEAST>(nodes);
         } else {
-            spread.add::<M, SLOPES, N>(machine, nodes);
+            spread.add::<N>(nodes);
         }
     }
 
