@@ -14,8 +14,7 @@ use survive::survive;
 static ALLOCATOR: PeakAlloc = PeakAlloc;
 
 /// What a compilation may hold at once. The graph holds at most 200,000 nodes and operands of some
-/// 100 bytes each, twice (the second time as the keys of its index); the programs and the texts
-/// that are made of it take as much again.
+/// 100 bytes each; the programs and the texts that are made of it take several times as much.
 const BOUND: usize = 128 << 20;
 
 /// What completes a field of one dimension.
@@ -69,7 +68,7 @@ fn no_text_takes_more_memory_than_the_bound() {
 
 /// The text that takes the most.
 #[test]
-#[ignore = "takes half a minute: .ci/run runs it"]
+#[ignore = "takes a minute: .ci/run runs it"]
 fn long_numbers_take_no_more_memory_than_the_bound() {
     let long = "9".repeat(900);
     let sum = repeated(900, |k| format!("{long}.{k}*sin({k}*X) + "));

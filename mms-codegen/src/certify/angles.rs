@@ -37,11 +37,10 @@ pub fn near_zero(
     if candidates.is_empty() {
         return;
     }
-    let mut room = graph.clone();
-    room.make_room();
-    let chart = Chart::new(&mut room, field, model, None);
-    let is_small = |angle: &Expr| is_small(&mut room, &chart, *angle);
-    let small: BTreeSet<Expr> = candidates.into_iter().filter(is_small).collect();
+    let small: BTreeSet<Expr> = graph.aside(|graph| {
+        let chart = Chart::new(graph, field, model, None);
+        candidates.into_iter().filter(|angle| is_small(graph, &chart, *angle)).collect()
+    });
     for components in outputs.values_mut() {
         *components = rebuild(graph, components, |graph, node| match node {
             Node::Call(Function::Sin, angle) if small.contains(&angle[0]) => {

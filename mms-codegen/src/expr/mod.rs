@@ -10,13 +10,15 @@ pub mod print;
 pub mod resolve;
 
 use std::collections::BTreeSet;
+use std::hash::BuildHasher;
 
 use dashu_int::Sign;
 pub use dashu_ratio::RBig as Rational;
 pub use function::Function;
+use hashbrown::HashTable;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::program::Stage;
-use rustc_hash::FxHashMap;
 
 /// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -116,8 +118,8 @@ pub struct Graph {
     nodes: Vec<Node>,
     /// When the value of each node is known.
     stages: Vec<Stage>,
-    /// Only ever looked up, never iterated: hash order cannot be observed.
-    index: FxHashMap<Node, Expr>,
+    /// The nodes by their hashes. Only ever looked up, never iterated: hash order cannot be observed.
+    index: HashTable<Expr>,
     /// What sums were split into by [`Graph::split_content`], as far as that was asked.
     contents: FxHashMap<Expr, (Rational, Expr)>,
     /// Nodes and operands so far.
@@ -126,6 +128,17 @@ pub struct Graph {
     exhausted: bool,
     /// Nodes that were made before the graph was exhausted.
     made: usize,
+}
+
+fn hash(node: &Node) -> u64 {
+    FxBuildHasher.hash_one(node)
+}
+
+/// How much a graph held at some time.
+struct Mark {
+    nodes: usize,
+    size: usize,
+    exhausted: bool,
 }
 
 impl Default for Graph {
@@ -137,7 +150,7 @@ impl Default for Graph {
 impl Graph {
     /// An empty graph of at most `limit` nodes and operands.
     pub fn with_limit(limit: usize) -> Self {
-        let (nodes, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
+        let (nodes, stages, index) = (Vec::new(), Vec::new(), HashTable::new());
         let mut graph = Graph {
             nodes,
             stages,
@@ -197,23 +210,45 @@ impl Graph {
 
     /// What `make` returns, or `None`, and the graph as it was, where it reaches the bound.
     pub(crate) fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
-        let (nodes, size, exhausted) = (self.nodes.len(), self.size, self.exhausted);
+        let before = self.mark();
         let made = make(self);
-        if exhausted || !self.exhausted {
+        if before.exhausted || !self.exhausted {
             return Some(made);
         }
-        for node in self.nodes.drain(nodes..) {
-            self.index.remove(&node);
+        self.back_to(before);
+        None
+    }
+
+    /// What `work` finds out with a few more nodes, none of which stays.
+    pub(crate) fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+        let (before, limit) = (self.mark(), self.limit);
+        self.make_room();
+        let found = work(self);
+        self.limit = limit;
+        self.back_to(before);
+        found
+    }
+
+    fn mark(&self) -> Mark {
+        Mark { nodes: self.nodes.len(), size: self.size, exhausted: self.exhausted }
+    }
+
+    /// Forgets what was made since.
+    fn back_to(&mut self, Mark { nodes, size, exhausted }: Mark) {
+        for (place, node) in self.nodes.iter().enumerate().skip(nodes) {
+            if let Ok(entry) = self.index.find_entry(hash(node), |expr| expr.index() == place) {
+                entry.remove();
+            }
         }
+        self.nodes.truncate(nodes);
         self.stages.truncate(nodes);
         self.contents.clear();
         (self.size, self.exhausted) = (size, exhausted);
-        None
     }
 
     /// The handle of a canonical node that was made already.
     pub(crate) fn find(&self, node: &Node) -> Option<Expr> {
-        self.index.get(node).copied()
+        self.index.find(hash(node), |expr| self.node(*expr) == node).copied()
     }
 
     /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
@@ -248,8 +283,8 @@ impl Graph {
 
     /// The one handle of a node that is canonical already.
     fn intern(&mut self, node: Node) -> Expr {
-        if let Some(expr) = self.index.get(&node) {
-            return *expr;
+        if let Some(expr) = self.find(&node) {
+            return expr;
         }
         self.size += 1 + node.children().count();
         // Handles are 32 bits wide; two are left for what stands for everything.
@@ -262,8 +297,8 @@ impl Graph {
 
     /// The handle of a node, which is made if there is none, whatever the bound.
     fn enter(&mut self, node: Node) -> Expr {
-        if let Some(expr) = self.index.get(&node) {
-            return *expr;
+        if let Some(expr) = self.find(&node) {
+            return expr;
         }
         let expr = Expr(self.nodes.len() as u32);
         let own = match node {
@@ -271,8 +306,10 @@ impl Graph {
             _ => Stage::Parameter,
         };
         self.stages.push(node.children().fold(own, |stage, child| stage.join(self.stage(child))));
-        self.nodes.push(node.clone());
-        self.index.insert(node, expr);
+        let hash_of_node = hash(&node);
+        self.nodes.push(node);
+        let nodes = &self.nodes;
+        self.index.insert_unique(hash_of_node, expr, |expr| hash(&nodes[expr.index()]));
         expr
     }
 
