@@ -26,7 +26,8 @@ pub fn pin(thread: usize) {
     }
 }
 
-/// The multiply-adds of a particle in a step: those of the sums over its nodes, factorised axis by axis.
+/// The multiply-adds of a particle in a step: those of the sums over its nodes, factorised axis by axis. Additions are
+/// done beside them.
 #[derive(Clone, Copy)]
 pub struct Count(usize);
 
@@ -34,38 +35,39 @@ impl Count {
     /// FLIP with `width` nodes along each of `axes`: mass, momentum and acceleration without slopes, forces
     /// and velocity with them.
     pub fn flip(axes: usize, width: usize) -> Self {
-        Count(
-            values(axes, width, axes + 1)
-                + values(axes, width, axes)
-                + 2 * slopes(axes, width, axes),
-        )
+        let [onto, over] = [Sums { axes, width, onto: true }, Sums { axes, width, onto: false }];
+        Count(onto.of(axes + 1, 0) + onto.of(axes, 1) + over.of(axes, 0) + over.of(axes, 1))
     }
 
     /// APIC: all sums with slopes, that of the velocity with two kinds of them.
     pub fn apic(axes: usize, width: usize) -> Self {
-        Count(
-            slopes(axes, width, axes + 1)
-                + slopes(axes, width, axes)
-                + two_slopes(axes, width, axes),
-        )
+        let [onto, over] = [Sums { axes, width, onto: true }, Sums { axes, width, onto: false }];
+        Count(onto.of(axes + 1, 1) + onto.of(axes, 1) + over.of(axes, 2))
     }
 }
 
-/// Of the sum of so many numbers: one for every node, row and plane.
-fn values(axes: usize, width: usize, numbers: usize) -> usize {
-    numbers * (1..=axes as u32).map(|power| width.pow(power)).sum::<usize>()
+/// Sums onto nodes or over them.
+struct Sums {
+    axes: usize,
+    width: usize,
+    onto: bool,
 }
 
-/// Likewise with their slopes along every axis: 2 for every node, 3 for every row, 4 for every plane.
-fn slopes(axes: usize, width: usize, numbers: usize) -> usize {
-    let of = |power: u32| (axes as u32 - power + 2) as usize * width.pow(power);
-    numbers * (1..=axes as u32).map(of).sum::<usize>()
-}
+impl Sums {
+    /// Of so many numbers, with so many kinds of slopes along every axis: 1 for every node, row and plane, and for each
+    /// kind 1 more for a node, 2 for a row, 3 for a plane.
+    fn of(&self, numbers: usize, kinds: usize) -> usize {
+        let along = |axis: usize| {
+            let products = 1 + kinds * (axis + 1);
+            products * self.width.pow((self.axes - axis - 1) as u32) * self.multiplied(axis)
+        };
+        numbers * (0..self.axes).map(along).sum::<usize>()
+    }
 
-/// Likewise with two slopes along every axis: 3 for every node, 5 for every row, 7 for every plane.
-fn two_slopes(axes: usize, width: usize, numbers: usize) -> usize {
-    let of = |power: u32| (2 * (axes - power as usize) + 3) * width.pow(power);
-    numbers * (1..=axes as u32).map(of).sum::<usize>()
+    /// How many of the nodes along an axis take products: of three in a plane the middle one takes what is left.
+    fn multiplied(&self, axis: usize) -> usize {
+        if self.onto && self.width == 3 && axis < 2 { 2 } else { self.width }
+    }
 }
 
 /// The best that was seen of the machine in one precision.

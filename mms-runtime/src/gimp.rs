@@ -72,7 +72,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
             return place_wide(machine, stencil, lattice, position, &half_width);
         }
-        // Weights that do not sum to 1 are not those of nodes one cell apart.
+        // Without the last node, weights do not sum to 1.
         stencil.begin::<NEAREST>(lattice, !on(Defect::ShortSupport));
         let mut fits = true;
         for a in 0..D {

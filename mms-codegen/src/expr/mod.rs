@@ -130,6 +130,7 @@ pub struct Graph {
     made: usize,
 }
 
+/// What a node is found by.
 fn hash(node: &Node) -> u64 {
     FxBuildHasher.hash_one(node)
 }

@@ -36,7 +36,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     #[inline(always)]
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
         let together = self.members == ALL && self.stencil.is_shared();
-        if W == 3 && together && self.stencil.even {
+        if W == 3 && together && self.stencil.regular {
             self.of::<W, BUNCH, true>(0, nodes);
         } else if W != 3 && together {
             self.of::<W, BUNCH, false>(0, nodes);

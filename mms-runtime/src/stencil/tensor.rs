@@ -33,8 +33,8 @@ pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
     pub(super) stride: [usize; D],
     /// How many nodes along each axis have a weight, at most: N or LEAST.
     width: usize,
-    /// Whether all nodes are one cell apart.
-    pub(super) even: bool,
+    /// Whether all nodes are one cell apart, and along each axis weights sum to 1.
+    pub(super) regular: bool,
 }
 
 impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, LEAST, N> {
@@ -48,15 +48,16 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             first: [0; BUNCH],
             stride: [0; D],
             width: N,
-            even: true,
+            regular: true,
         }
     }
 
-    /// Begins to take the weights of nodes that are one cell apart, or are not, `W` along each axis.
+    /// Begins to take `W` weights along each axis; `regular` ones sum to 1, and their nodes are one cell apart.
     #[inline(always)]
-    pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, even: bool) {
+    pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, regular: bool) {
         const { assert!(W == LEAST || W == N) };
-        (self.first, self.stride, self.width, self.even) = ([0; BUNCH], lattice.stride, W, even);
+        (self.first, self.stride) = ([0; BUNCH], lattice.stride);
+        (self.width, self.regular) = (W, regular);
     }
 
     /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on. Whether all
@@ -128,7 +129,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         axis: usize,
         k: usize,
     ) -> M::Four {
-        if self.even {
+        if self.regular {
             return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
         }
         let coordinate = &lattice.coordinate[axis];

@@ -16,7 +16,7 @@ const SQUARINGS: u8 = 6;
 /// Terms of the series that are summed then.
 const TERMS: u8 = 10;
 
-/// A program of the same outputs in which only functions of `has` are called.
+/// A program of the same outputs in which only functions of `has` are called. Of angles nothing may be expected.
 pub fn lowered(program: &Program, has: &[Function]) -> Program {
     let mut lowering = Lowering { has, instrs: Vec::new(), stage: Stage::Parameter };
     let mut renamed: Vec<Value> = Vec::with_capacity(program.instrs.len());
@@ -95,7 +95,6 @@ impl Lowering<'_> {
     }
 
     fn call(&mut self, function: Function, x: Value) -> Value {
-        let function = function.of_any_argument();
         if self.has.contains(&function) {
             return self.push(Op::Unary(function, x));
         }

@@ -60,7 +60,7 @@ impl<'a> Port<'a> {
 
     /// The same for a language that computes everything in one precision, with functions that it has.
     pub fn once(subject: &'a Subject<'a>, rules: &Rules, has: &[Function]) -> Self {
-        let lowered = lower::lowered(&subject.compiled.program, has);
+        let lowered = lower::lowered(&lower::of_any_angle(&subject.compiled.program), has);
         let mut port = Self::of(subject, rules, Cow::Owned(lowered));
         let mut kept = std::mem::take(&mut port.kept_wide);
         kept.append(&mut port.kept);
