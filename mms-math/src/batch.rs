@@ -17,8 +17,18 @@ use crate::{Lane, Real};
 /// first cache.
 pub const BLOCK: usize = 64;
 
-/// The values of `N` numbers at the points of a block.
-pub type Block<T, const N: usize> = [[T; BLOCK]; N];
+/// The values of `N` numbers at the points of a block, in whole lines of the cache: a vector that is in two takes
+/// twice as long.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Block<T, const N: usize>([[T; BLOCK]; N]);
+
+impl<T: Copy, const N: usize> Block<T, N> {
+    /// The same value everywhere.
+    fn of(value: T) -> Self {
+        Self([[value; BLOCK]; N])
+    }
+}
 
 /// The same, wherever they are.
 pub type Columns<'a, T, const N: usize> = [&'a [T; BLOCK]; N];
@@ -94,7 +104,7 @@ pub trait Function<S, const I: usize, const O: usize> {
             let point = core::array::from_fn(|input| S::standing_for(inputs[input][place]));
             let results = self.at(point);
             for output in 0..O {
-                outputs[output][place] = results[output].value();
+                outputs.0[output][place] = results[output].value();
             }
         }
     }
@@ -111,12 +121,14 @@ pub trait Points<S, const I: usize, const O: usize> {
     /// Applies the function to every point.
     fn each(&mut self, function: &impl Function<S, I, O>);
 
-    /// Applies the second function to what the first one makes of every point. Each has a loop of its own: the
-    /// elements of a short loop wait less for each other, so that more of them are under way at a time.
-    fn each_then<const M: usize>(
+    /// Applies the second function to what there is of every point then: its own numbers and, after them, what the
+    /// first function makes of it. It takes those that it `reads`. Each has a loop of its own: the elements of a
+    /// short loop wait less for each other, so that more of them are under way at a time.
+    fn each_then<const M: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, M>,
-        second: &impl Function<S, M, O>,
+        second: &impl Function<S, N, O>,
+        reads: [usize; N],
     );
 }
 
@@ -141,26 +153,28 @@ where
     }
 }
 
-/// A function of the results of another.
-struct Two<'a, F, G, T, const M: usize> {
+/// A function of a point and of another's results.
+struct Two<'a, F, G, T, const M: usize, const N: usize> {
     first: &'a F,
     second: &'a G,
+    reads: [usize; N],
     /// A place for the first one's results, made once for all blocks.
     between: Block<T, M>,
 }
 
-impl<S, T, F, G, const I: usize, const M: usize, const O: usize> OnBlock<S, T, I, O>
-    for Two<'_, F, G, T, M>
+impl<S, T, F, G, const I: usize, const M: usize, const N: usize, const O: usize> OnBlock<S, T, I, O>
+    for Two<'_, F, G, T, M, N>
 where
     S: Stand<T>,
     T: Copy,
     F: Function<S, I, M>,
-    G: Function<S, M, O>,
+    G: Function<S, N, O>,
 {
     #[inline(always)]
     fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
         self.first.on_block(inputs, &mut self.between);
-        self.second.on_block(&self.between.each_ref(), outputs);
+        let column = |k: usize| if k < I { inputs[k] } else { &self.between.0[k - I] };
+        self.second.on_block(&self.reads.map(column), outputs);
     }
 }
 
@@ -203,12 +217,12 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
             return self
                 .map(|column| column[start..].first_chunk().expect("as many points are left"));
         }
-        for (column, lane) in self.iter().zip(room.iter_mut()) {
+        for (column, lane) in self.iter().zip(&mut room.0) {
             let rest = &column[start..];
             lane[..rest.len()].copy_from_slice(rest);
             lane[rest.len()..].fill(rest[0]);
         }
-        room.each_ref()
+        room.0.each_ref()
     }
 }
 
@@ -225,8 +239,8 @@ impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
         start: usize,
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
-        turn(machine, &self[start..], room);
-        room.each_ref()
+        turn(machine, &self[start..], &mut room.0);
+        room.0.each_ref()
     }
 }
 
@@ -246,10 +260,10 @@ impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
         const { assert!(A + B == N) };
-        let (first, second) = room.split_at_mut(A);
+        let (first, second) = room.0.split_at_mut(A);
         turn(machine, &self.0[start..], first);
         turn(machine, &self.1[start..], second);
-        room.each_ref()
+        room.0.each_ref()
     }
 }
 
@@ -261,7 +275,7 @@ impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
     #[inline(always)]
     fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) -> bool {
         let mut known = true;
-        for (column, lane) in self.iter_mut().zip(block) {
+        for (column, lane) in self.iter_mut().zip(&block.0) {
             // A length that the compiler knows would have it write the loop out, number by number.
             let count = BLOCK.min(column.len() - start);
             known &= copy_known(&lane[..count], &mut column[start..start + count]);
@@ -277,8 +291,8 @@ impl<T: Float, const N: usize> Sink<T, N> for &mut [[T; N]] {
 
     #[inline(always)]
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        turn_back(machine, block, &mut self[start..]);
-        block.as_flattened().iter().fold(true, |known, value| known & is_number(value))
+        turn_back(machine, &block.0, &mut self[start..]);
+        block.0.as_flattened().iter().fold(true, |known, value| known & is_number(value))
     }
 }
 
@@ -431,8 +445,8 @@ where
             source,
             sink,
             count,
-            room: [[zero; BLOCK]; I],
-            outputs: [[zero; BLOCK]; O],
+            room: Block::of(zero),
+            outputs: Block::of(zero),
             careful: |inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>| {
                 kernel.drive::<T>(&mut Single { inputs, outputs });
             },
@@ -492,13 +506,14 @@ where
     }
 
     #[inline(always)]
-    fn each_then<const B: usize>(
+    fn each_then<const B: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, B>,
-        second: &impl Function<S, B, O>,
+        second: &impl Function<S, N, O>,
+        reads: [usize; N],
     ) {
-        let between = [[T::from_f64(0.0); BLOCK]; B];
-        self.all(&mut Two { first, second, between });
+        let between = Block::<T, B>::of(T::from_f64(0.0));
+        self.all(&mut Two { first, second, reads, between });
     }
 }
 
@@ -513,12 +528,13 @@ impl<T: Float, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T,
         function.on_block(self.inputs, self.outputs);
     }
 
-    fn each_then<const M: usize>(
+    fn each_then<const M: usize, const N: usize>(
         &mut self,
         first: &impl Function<T, I, M>,
-        second: &impl Function<T, M, O>,
+        second: &impl Function<T, N, O>,
+        reads: [usize; N],
     ) {
-        let between = [[T::from_f64(0.0); BLOCK]; M];
-        Two { first, second, between }.on_block(self.inputs, self.outputs);
+        let between = Block::<T, M>::of(T::from_f64(0.0));
+        Two { first, second, reads, between }.on_block(self.inputs, self.outputs);
     }
 }

@@ -33,11 +33,12 @@ macro_rules! kernel {
     };
 }
 
-/// A kernel that is one after another, with as many numbers in between.
+/// A kernel that is one after another, with as many numbers in between. The second one takes, of the inputs and then
+/// of these numbers, those with the indices that are given.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! kernels {
-    ($name:ident = $first:ident, $second:ident; $inputs:tt -> $between:tt -> $results:tt) => {
+    ($name:ident = $first:ident, $second:ident $reads:tt; $inputs:tt -> $between:tt -> $results:tt) => {
         struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
 
         impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
@@ -48,7 +49,7 @@ macro_rules! kernels {
             ) {
                 let field = self.0.field.standing::<S>();
                 let at = self.0.standing(&field);
-                points.each_then::<$between>(&$first(&at), &$second(&at));
+                points.each_then::<$between, _>(&$first(&at), &$second(&at), $reads);
             }
         }
     };

@@ -1,5 +1,5 @@
 //! Nesting: a x + a y + b = a (x + y) + b, after Horner. The factor that most terms have is taken
-//! out first.
+//! out first. A sum that is a square is written as one.
 
 use std::collections::BTreeMap;
 
@@ -66,11 +66,11 @@ pub(super) fn nested(
 ) -> Expr {
     // The outermost sum is first.
     let mut levels = Vec::new();
-    let mut level = Level::new(polynomial);
+    let mut level = Level::new(graph, polynomial, rank);
     loop {
         if let Some(inner) = level.take_most_frequent(graph, rank) {
             levels.push(level);
-            level = Level::new(inner);
+            level = Level::new(graph, inner, rank);
             continue;
         }
         let inner = level.finish(graph);
@@ -94,11 +94,17 @@ struct Level {
 
 impl Level {
     /// What all terms share is taken out at once, so that every further factor parts the terms.
-    fn new(polynomial: Polynomial) -> Self {
-        let (common, rest) = take_common(polynomial);
+    fn new(graph: &mut Graph, polynomial: Polynomial, rank: &dyn Fn(&Graph, Expr) -> u8) -> Self {
+        let (common, mut rest) = take_common(polynomial);
+        let mut parts = Vec::new();
+        if let Some((factor, root)) = rest.as_square() {
+            let root = nested(graph, root, rank);
+            parts.push((graph.power(root, 2), factor));
+            rest = Polynomial::default();
+        }
         let mut counts = Counts::default();
         rest.terms.keys().for_each(|monomial| counts.add(monomial, 1));
-        Level { common, rest, counts, parts: Vec::new() }
+        Level { common, rest, counts, parts }
     }
 
     /// Takes out the terms with the factor that most of them have, if two have it.

@@ -60,6 +60,29 @@ impl Polynomial {
         if self.terms.len() == 1 { self.terms.first_key_value() } else { None }
     }
 
+    /// c and q with c q^2 = self and fewer terms in q; found in polynomials of one expression.
+    pub(super) fn as_square(&self) -> Option<(Rational, Polynomial)> {
+        let [atom] = Vec::from_iter(self.atoms())[..] else { return None };
+        let leading = |polynomial: &Polynomial| {
+            let terms = polynomial.terms.iter();
+            let terms = terms.map(|(monomial, c)| (monomial.first().map_or(0, |it| it.1), c));
+            terms.max_by_key(|(exponent, _)| *exponent).map(|(exponent, c)| (exponent, c.clone()))
+        };
+        let (degree, factor) = leading(self)?;
+        if degree % 2 != 0 {
+            return None;
+        }
+        let mut root = Polynomial::power_of(atom, degree / 2);
+        while root.terms.len() < self.terms.len() {
+            let rest = self.clone().plus(&root.times(&root)?, &-factor.clone())?;
+            // The next term of the root, times that with x^(degree/2) twice, leads what is left.
+            let Some((exponent, c)) = leading(&rest) else { return Some((factor, root)) };
+            let next = Polynomial::power_of(atom, exponent - degree / 2);
+            root = root.plus(&next, &(c / (&factor * Rational::from(2))))?;
+        }
+        None
+    }
+
     /// Every expression that it has a power of.
     pub(super) fn atoms(&self) -> BTreeSet<Expr> {
         self.terms.keys().flatten().map(|(atom, _)| *atom).collect()

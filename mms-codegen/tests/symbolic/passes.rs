@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use mms_codegen::expr::print::Names;
 use mms_codegen::expr::{Graph, Rational, Symbol};
 use mms_codegen::pass::expand::expand;
 use mms_codegen::pass::factor::factor;
@@ -27,6 +28,31 @@ fn nothing_is_taken_out_of_divisions_by_zero() {
     let sum = graph.sum(terms);
     let root = graph.mul(x, sum);
     assert_eq!(factor(&mut graph, &[root, sum]), [root, sum]);
+}
+
+/// A sum of powers of one expression that is a square becomes one, whatever stands around it.
+#[test]
+fn squares_are_written_as_such() -> Result<(), TestCaseError> {
+    for (sum, square) in [
+        ("1 - 32*(X - 1)^2 + 256*(X - 1)^4", "256*((X - 1)^2 - 1/16)^2"),
+        ("9 + 6*exp(X) + exp(X)^2", "(exp(X) + 3)^2"),
+        ("2*X^6 + 4*X^4 + 6*X^3 + 2*X^2 + 6*X + 9/2", "2*(X*(X^2 + 1) + 3/2)^2"),
+        ("X^2 + 2 + X^-2", "(X + 1/X)^2"),
+        ("Y*X^5 - 2*Y*X^3 + Y*X", "Y*X*(X^2 - 1)^2"),
+        ("t*(Y^4 + 2*Y^2 + 1) + t^2*X", "t*((Y^2 + 1)^2 + t*X)"),
+        ("X^4 + 2*X^2 + 2", "X^2*(X^2 + 2) + 2"),
+        ("X^3 + 2*X^2 + X", "X*(X + 1)^2"),
+        ("X^5 + 2*X^4 + 1", "X^4*(X + 2) + 1"),
+    ] {
+        let mut graph = Graph::default();
+        let [sum, square] = [sum, square].map(|text| read(&mut graph, text));
+        let (sum, square) =
+            (sum.map_err(TestCaseError::fail)?, square.map_err(TestCaseError::fail)?);
+        let nested = nest(&mut graph, &[sum], &lateness)[0];
+        prop_assert_eq!(nested, square, "{}", graph.print(nested, &Names::default()));
+        same_value(&graph, sum, nested)?;
+    }
+    Ok(())
 }
 
 proptest! {

@@ -10,11 +10,11 @@ use crate::program::{Op, Output, Stage, Value};
 use crate::quantity::{Quantity, Shape};
 
 /// What a function of a point takes from the cache of the point.
-struct Columns {
+pub(super) struct Columns {
     /// Coordinates, by axis.
-    axes: Vec<usize>,
+    pub axes: Vec<usize>,
     /// Members.
-    values: Vec<Value>,
+    pub values: Vec<Value>,
 }
 
 impl Emitter<'_> {
@@ -144,48 +144,26 @@ impl Emitter<'_> {
         let dimension = self.axes().len();
         let is_traction = quantity == Quantity::Traction;
         let normals = if is_traction { dimension } else { 0 };
-        let count = Literal::usize_unsuffixed;
         let (axes, results) = (count(dimension), count(quantity.shape().components(dimension)));
         let name = quantity.name();
         let [batch, batch_aos, batch_at] =
             ["batch", "batch_aos", "batch_at"].map(|suffix| format_ident!("{name}_{suffix}"));
         let (whole, cached) = (kernel(quantity, ""), kernel(quantity, "At"));
-        let (function, function_at) = (format_ident!("{name}"), at(quantity));
-        let position: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();
-        let normal: Vec<_> = (0..normals).map(|axis| input(Symbol::Normal(axis))).collect();
-        let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+        let function = format_ident!("{name}");
+        let position = self.position();
+        let normal = normal(normals);
         let columns = self.columns(quantity);
-        let (point, taken) = self.point_of(&columns);
         let inputs = count(dimension + normals);
-        let inputs_at = count(taken.len() + normals);
+        let inputs_at = count(columns.axes.len() + columns.values.len() + normals);
         let with_normals = is_traction.then(|| (quote!(normals #inputs,), quote!(, #inputs_at)));
         let (with_normals, with_count) = with_normals.unzip();
-        let from_kept = self.flat(quantity, quote!(at.#function_at(&#point #normal_argument)));
-        let indices = columns
-            .axes
-            .iter()
-            .copied()
-            .chain(columns.values.iter().map(|value| self.column(*value)))
-            .map(Literal::usize_unsuffixed);
+        let indices = columns.axes.iter().copied();
+        let indices = indices.chain(columns.values.iter().map(|value| self.column(*value)));
+        let indices = indices.map(count);
         let from_position = if self.is_worth_two_loops(quantity) {
-            let (first, kept_of) = (kernel(quantity, "Of"), format_ident!("{name}_of"));
-            let place = Place::at_points(quote!(self), &[Stage::Point]);
-            let body = self.statements(columns.values.iter().copied(), &place);
-            let (kept, point) = (count(taken.len()), self.point());
-            let doc = format!(" What `{batch_at}` reads of a point.");
-            quote! {
-                impl<T: Real> Field<T> {
-                    #[doc = #doc]
-                    #[inline(always)]
-                    fn #kept_of(&self, #point) -> [T; #kept] { #body [#(#taken),*] }
-                }
-                #math::kernel! { #first<S>, #inputs -> #inputs_at, |at, [#(#position,)* #(#normal),*]| {
-                    let [#(#taken),*] = at.field.#kept_of([#(#position),*]);
-                    [#(#taken,)* #(#normal),*]
-                } }
-                #math::kernels! { #whole = #first, #cached; #inputs -> #inputs_at -> #results }
-            }
+            self.two_loops(quantity, &columns)
         } else {
+            let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
             let result =
                 self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
             quote! {
@@ -194,17 +172,57 @@ impl Emitter<'_> {
                 } }
             }
         };
+        let from_columns = self.from_columns(quantity, &cached, &columns, &columns, &[]);
         quote! {
             #from_position
-            #math::kernel! { #cached<S>, #inputs_at -> #results, |at, [#(#taken,)* #(#normal),*]| {
-                #from_kept
-            } }
+            #from_columns
             #math::batches! {
                 #name, #with_normals #axes -> #results;
                 #whole: #batch, #batch_aos;
                 #cached: #batch_at, [#(#indices),*] #with_count;
             }
         }
+    }
+
+    /// A kernel that takes these columns, and finds a quantity's own `columns` by products first.
+    pub(super) fn from_columns(
+        &self,
+        quantity: Quantity,
+        kernel: &Ident,
+        columns: &Columns,
+        taken: &Columns,
+        products: &[(Value, [Value; 2])],
+    ) -> TokenStream {
+        let math = self.math();
+        let dimension = self.axes().len();
+        let is_traction = quantity == Quantity::Traction;
+        let normal = normal(if is_traction { dimension } else { 0 });
+        let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+        let results = count(quantity.shape().components(dimension));
+        let (function, point) = (at(quantity), self.point_of(columns));
+        let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
+        let place =
+            Place { scalar: quote!(S), ..Place::at_points(quote!(at.field), &[Stage::Point]) };
+        let products = products.iter().map(|(product, factors)| {
+            let [a, b] = factors.map(|factor| self.operand(factor, &place));
+            let product = self.name(*product);
+            quote!(let #product = #a * #b;)
+        });
+        let axes = taken.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
+        let taken = axes.chain(taken.values.iter().map(|value| self.name(*value)));
+        let taken: Vec<_> = taken.chain(normal).collect();
+        let inputs = count(taken.len());
+        quote! {
+            #math::kernel! { #kernel<S>, #inputs -> #results, |at, [#(#taken),*]| {
+                #(#products)*
+                #result
+            } }
+        }
+    }
+
+    /// The names of a point's coordinates.
+    pub(super) fn position(&self) -> Vec<Ident> {
+        self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect()
     }
 
     /// Whether the stages of a quantity are loops of their own: each then has a shorter chain of
@@ -262,8 +280,8 @@ impl Emitter<'_> {
         self.axes().len() + place.expect("what a quantity reads is kept")
     }
 
-    /// A point of which only these columns are known, and the names of the columns.
-    fn point_of(&self, columns: &Columns) -> (TokenStream, Vec<Ident>) {
+    /// A point of which only these columns are known.
+    fn point_of(&self, columns: &Columns) -> TokenStream {
         let zero = quote!(S::from_f64(0.0));
         let position = self.axes().map(|axis| match columns.axes.contains(&axis) {
             true => input(Symbol::Coordinate(axis)).into_token_stream(),
@@ -276,9 +294,7 @@ impl Emitter<'_> {
                 false => quote!(#name: #zero),
             }
         });
-        let taken = columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
-        let taken = taken.chain(columns.values.iter().map(|value| self.name(*value))).collect();
-        (quote!(Point { reference_position: [#(#position),*], #(#members),* }), taken)
+        quote!(Point { reference_position: [#(#position),*], #(#members),* })
     }
 }
 
@@ -295,8 +311,18 @@ fn weight(op: &Op) -> usize {
     }
 }
 
+/// The names of the components of a normal.
+pub(super) fn normal(components: usize) -> Vec<Ident> {
+    (0..components).map(|axis| input(Symbol::Normal(axis))).collect()
+}
+
+/// A number of things.
+pub(super) fn count(number: usize) -> Literal {
+    Literal::usize_unsuffixed(number)
+}
+
 /// The name of the kernel of a quantity.
-fn kernel(quantity: Quantity, suffix: &str) -> Ident {
+pub(super) fn kernel(quantity: Quantity, suffix: &str) -> Ident {
     let words = quantity.name().split('_').map(|word| {
         let (first, rest) = word.split_at(1);
         first.to_uppercase() + rest

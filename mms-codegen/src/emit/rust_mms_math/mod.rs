@@ -3,6 +3,7 @@
 mod adapter;
 mod batch;
 mod body;
+mod cut;
 mod face;
 mod file;
 mod fusion;
