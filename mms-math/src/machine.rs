@@ -47,6 +47,9 @@ pub trait Machine<T>: Copy {
     /// Whether a <= b for all four.
     fn all_at_most(self, a: Self::Four, b: Self::Four) -> bool;
 
+    /// Whether all four numbers of each lie between its two ends: one question, and one branch, for all.
+    fn all_between<const N: usize>(self, numbers: &[Self::Four; N], ends: &[[T; 2]; N]) -> bool;
+
     /// The whole numbers that these are, between -2^31 and 2^31; any number elsewhere.
     fn whole(self, a: Self::Four) -> [i32; 4];
 
@@ -160,6 +163,19 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
+                fn all_between<const N: usize>(
+                    self,
+                    numbers: &[[$float; 4]; N],
+                    ends: &[[$float; 2]; N],
+                ) -> bool {
+                    let is_between = |number: &$float, [first, last]: &[$float; 2]| {
+                        first <= number && number <= last
+                    };
+                    let mut pairs = numbers.iter().zip(ends);
+                    pairs.all(|(four, ends)| four.iter().all(|number| is_between(number, ends)))
+                }
+
+                #[inline(always)]
                 fn whole(self, a: [$float; 4]) -> [i32; 4] {
                     a.map(|number| number as i32)
                 }
@@ -204,8 +220,8 @@ macro_rules! registers {
         $($float:ident: $register:ident {
             four $load:ident, splat $splat:ident, numbers $store:ident, plus $plus:ident, minus $minus:ident,
             times $times:ident, times_plus $times_plus:ident, over $over:ident, least $least:ident,
-            greatest $greatest:ident, root $root:ident, floor $floor:ident, compare $compare:ident, signs $signs:ident,
-            whole $whole:ident, transposed $transposed:ident, unzipped $unzipped:ident, zipped $zipped:ident
+            greatest $greatest:ident, root $root:ident, floor $floor:ident, compare $compare:ident, both $both:ident,
+            signs $signs:ident, whole $whole:ident, transposed $transposed:ident, unzipped $unzipped:ident, zipped $zipped:ident
         })*
     ) => {
         $(
@@ -283,6 +299,24 @@ macro_rules! registers {
                 }
 
                 #[inline(always)]
+                fn all_between<const N: usize>(
+                    self,
+                    numbers: &[Self::Four; N],
+                    ends: &[[$float; 2]; N],
+                ) -> bool {
+                    use core::arch::x86_64::{_CMP_LE_OQ, $both, $compare, $signs};
+                    let mut all = self.splat($float::from_bits(!0));
+                    for (number, [first, last]) in numbers.iter().zip(ends) {
+                        let (first, last) = (self.splat(*first), self.splat(*last));
+                        unsafe {
+                            all = $both(all, $compare::<_CMP_LE_OQ>(first, *number));
+                            all = $both(all, $compare::<_CMP_LE_OQ>(*number, last));
+                        }
+                    }
+                    unsafe { $signs(all) == 0b1111 }
+                }
+
+                #[inline(always)]
                 fn whole(self, a: Self::Four) -> [i32; 4] {
                     let mut numbers = [0; 4];
                     unsafe {
@@ -322,15 +356,15 @@ registers! {
     f32: __m128 {
         four _mm_loadu_ps, splat _mm_set1_ps, numbers _mm_storeu_ps, plus _mm_add_ps, minus _mm_sub_ps,
         times _mm_mul_ps, times_plus _mm_fmadd_ps, over _mm_div_ps, least _mm_min_ps,
-        greatest _mm_max_ps, root _mm_sqrt_ps, floor _mm_floor_ps, compare _mm_cmp_ps, signs _mm_movemask_ps,
-        whole _mm_cvttps_epi32, transposed transposed_singles,
+        greatest _mm_max_ps, root _mm_sqrt_ps, floor _mm_floor_ps, compare _mm_cmp_ps, both _mm_and_ps,
+        signs _mm_movemask_ps, whole _mm_cvttps_epi32, transposed transposed_singles,
         unzipped unzipped_singles, zipped zipped_singles
     }
     f64: __m256d {
         four _mm256_loadu_pd, splat _mm256_set1_pd, numbers _mm256_storeu_pd, plus _mm256_add_pd, minus _mm256_sub_pd,
         times _mm256_mul_pd, times_plus _mm256_fmadd_pd, over _mm256_div_pd, least _mm256_min_pd,
-        greatest _mm256_max_pd, root _mm256_sqrt_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, signs _mm256_movemask_pd,
-        whole _mm256_cvttpd_epi32, transposed transposed_doubles,
+        greatest _mm256_max_pd, root _mm256_sqrt_pd, floor _mm256_floor_pd, compare _mm256_cmp_pd, both _mm256_and_pd,
+        signs _mm256_movemask_pd, whole _mm256_cvttpd_epi32, transposed transposed_doubles,
         unzipped unzipped_doubles, zipped zipped_doubles
     }
 }
@@ -472,10 +506,13 @@ mod tests {
             let mut all: Vec<_> = all.into_iter().map(|four| machine.numbers(four)).collect();
             all.push(machine.whole(machine.floor(c)).map(|number| T::from_f64(number.into())));
             let compared = [(a, b), (c, d), (a, a)].map(|(a, b)| machine.all_at_most(a, b));
-            all.push(
-                [compared[0], compared[1], compared[2], false]
-                    .map(|is| T::from_f64(f64::from(u8::from(is)))),
-            );
+            // Ends are within; a number of b is none.
+            let [wide, narrow] = [[-2e9, 2e9], [-7.5, 1e9]].map(|ends| ends.map(T::from_f64));
+            let within =
+                [[a, c], [c, d], [a, b]].map(|it| machine.all_between(&it, &[wide, narrow]));
+            for [a, b, c] in [compared, within] {
+                all.push([a, b, c, false].map(|is| T::from_f64(f64::from(u8::from(is)))));
+            }
             all
         }
     }

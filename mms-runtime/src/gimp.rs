@@ -46,7 +46,6 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         initial: &[Vector<T, D>; BUNCH],
         displacement_gradient: &[Matrix<T, D>; BUNCH],
     ) -> Result<(), Cause> {
-        let half = machine.splat(T::ratio(1, 2));
         let mut half_width = components(machine, initial);
         if FOLLOWS && !on(Defect::HalfWidthKept) {
             let mut f = columns(machine, displacement_gradient);
@@ -59,13 +58,10 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             }
         }
         let mut in_cells = half_width;
-        let mut usual = true;
         for a in 0..D {
             in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
-            usual &= machine.all_at_most(in_cells[a], half)
-                && machine.all_at_most(machine.splat(T::default_epsilon()), in_cells[a]);
         }
-        if !usual {
+        if !machine.all_between(&in_cells, &[[T::default_epsilon(), T::ratio(1, 2)]; D]) {
             let half_width = vectors(machine, half_width);
             if FOLLOWS && !half_width.iter().all(is_finite) {
                 return Err(Cause::FlatDomain);
@@ -74,16 +70,19 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         }
         // Without the last node, weights do not sum to 1.
         stencil.begin::<NEAREST>(lattice, !on(Defect::ShortSupport));
-        let mut fits = true;
+        let mut first = in_cells;
         for a in 0..D {
             let cells = lattice.cells_along(machine, a, position[a]);
-            let (first, mut weights) = around_nearest(machine, cells, in_cells[a]);
+            let mut weights;
+            (first[a], weights) = around_nearest(machine, cells, in_cells[a]);
             if on(Defect::ShortSupport) {
                 weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
             }
-            fits &= stencil.set(machine, lattice, a, first, weights);
+            stencil.set(machine, lattice, a, first[a], weights);
         }
-        if fits { Ok(()) } else { Err(lost(machine, position)) }
+        // What is not a number is on no grid.
+        let on_grid = lattice.nodes.map(|nodes| [T::zero(), nodes - T::of(NEAREST as f64)]);
+        if machine.all_between(&first, &on_grid) { Ok(()) } else { Err(lost(machine, position)) }
     }
 
     fn point<T: Real, const D: usize>(
@@ -121,14 +120,14 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
             }
             let l = l * lattice.per_length[a];
             first[p] = (cells[p] - l).floor().min(last_first);
-            fits &= cells[p] + l <= last;
+            fits &= first[p] >= T::zero() && cells[p] + l <= last;
             for k in 0..MOST {
                 let offset = cells[p] - (first[p] + T::of(k as f64));
                 [weights[k][p], slopes[k][p]] = average_of_hat(offset, l);
             }
         }
         let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
-        fits &= stencil.set(machine, lattice, a, machine.four(&first), all);
+        stencil.set(machine, lattice, a, machine.four(&first), all);
     }
     if fits { Ok(()) } else { Err(lost(machine, position)) }
 }

@@ -62,38 +62,54 @@ where
     M: Machine<T>,
 {
     const { assert!(N == P + 1) };
-    let [slack, reach] = [SLACK, P as f64 - 1.0].map(T::of);
-    let (mut fits, mut even) = (true, true);
+    let reach = T::of(P as f64 - 1.0);
     let [mut cells, mut cell] = [[machine.splat(T::zero()); D]; 2];
+    let mut inner = [[T::zero(); 2]; D];
     for a in 0..D {
         let [first, last] = lattice.ends[a];
         cells[a] = lattice.cells_along(machine, a, position[a]);
-        fits &= between(machine, cells[a], [first - slack, last + slack]);
-        let [first_cell, last_cell] = [first, last - T::one()];
-        let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first_cell));
-        cell[a] = machine.least(floor, machine.splat(last_cell));
-        even &= P == 1
-            || on(Defect::SplineEnds)
-            || between(machine, cell[a], [first_cell + reach, last_cell - reach]);
+        cell[a] = machine.floor(cells[a]);
+        inner[a] = [first + reach, last - T::one() - reach];
     }
-    stencil.begin::<N>(lattice, even);
+    if !machine.all_between(&cell, &inner) {
+        return place_near_ends::<T, M, D, P, N>(machine, stencil, lattice, position, &cells);
+    }
+    stencil.begin::<N>(lattice, true);
     for a in 0..D {
-        let weights = if even {
-            regular::<T, M, P, N>(machine, machine.minus(cells[a], cell[a]))
-        } else {
-            near_any_ends::<T, M, P, N>(machine, cells[a], cell[a], lattice.ends[a])
-        };
-        fits &= stencil.set(machine, lattice, a, cell[a], weights);
+        let weights = regular::<T, M, P, N>(machine, machine.minus(cells[a], cell[a]));
+        stencil.set(machine, lattice, a, cell[a], weights);
     }
-    if fits { Ok(()) } else { Err(lost(machine, position)) }
+    Ok(())
 }
 
-/// Whether four numbers are all between two others.
-#[inline(always)]
-fn between<T: Real, M: Machine<T>>(machine: M, numbers: M::Four, [first, last]: [T; 2]) -> bool {
-    // Almost always both are so: no branch.
-    machine.all_at_most(machine.splat(first), numbers)
-        & machine.all_at_most(numbers, machine.splat(last))
+/// As [`place`], where a point is `cells` from the first knot along an axis and may be near the ends or beyond them.
+#[cold]
+fn place_near_ends<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: usize>(
+    machine: M,
+    stencil: &mut Tensor<T, D, N, N>,
+    lattice: &Lattice<T, D>,
+    position: &[M::Four; D],
+    cells: &[M::Four; D],
+) -> Result<(), Cause> {
+    let slack = T::of(SLACK);
+    if !machine.all_between(cells, &lattice.ends.map(|[first, last]| [first - slack, last + slack]))
+    {
+        return Err(lost(machine, position));
+    }
+    let is_regular = P == 1 || on(Defect::SplineEnds);
+    stencil.begin::<N>(lattice, is_regular);
+    for a in 0..D {
+        let [first, last] = lattice.ends[a];
+        let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first));
+        let cell = machine.least(floor, machine.splat(last - T::one()));
+        let weights = if is_regular {
+            regular::<T, M, P, N>(machine, machine.minus(cells[a], cell))
+        } else {
+            near_any_ends::<T, M, P, N>(machine, cells[a], cell, lattice.ends[a])
+        };
+        stencil.set(machine, lattice, a, cell, weights);
+    }
+    Ok(())
 }
 
 /// As [`place`], at one point, four times.

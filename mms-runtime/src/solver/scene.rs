@@ -48,14 +48,17 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
             return Ok(kept);
         }
         let mut position = components(machine, &self.reference_position[bunch]);
-        let mut h = &[Matrix::zeros(); BUNCH];
-        if self.moves {
+        let unmoved;
+        let h = if self.moves {
             let apart = components(machine, displacement);
             for a in 0..D {
                 position[a] = machine.plus(position[a], apart[a]);
             }
-            h = displacement_gradient;
-        }
+            displacement_gradient
+        } else {
+            unmoved = [Matrix::zeros(); BUNCH];
+            &unmoved
+        };
         let domains = &self.domains[bunch];
         match S::place(machine, room, self.lattice, &position, domains, h) {
             Ok(()) => Ok(room),

@@ -60,8 +60,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         (self.width, self.regular) = (W, regular);
     }
 
-    /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on. Whether all
-    /// nodes are on the grid; if not, the stencil may not be used.
+    /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on; if these are not
+    /// all on the grid, the stencil may not be used.
     #[inline(always)]
     pub fn set<M: Machine<T>, const W: usize>(
         &mut self,
@@ -70,24 +70,19 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         axis: usize,
         first: M::Four,
         [weight, slope]: [[M::Four; W]; 2],
-    ) -> bool {
+    ) {
         let length_axis = if on(Defect::SquareCells) { 0 } else { axis };
         let per_length = machine.splat(lattice.per_length[length_axis]);
         for k in 0..W {
             self.weight[axis][k] = machine.numbers(weight[k]);
             self.slope[axis][k] = machine.numbers(machine.times(slope[k], per_length));
         }
-        let after = machine.splat(lattice.nodes[axis] - T::of(W as f64));
-        // What is not a number is on no grid. Almost always both are so: no branch.
-        let fits = machine.all_at_most(machine.splat(T::zero()), first)
-            & machine.all_at_most(first, after);
         self.start[axis] = machine.whole(first);
         let stride = lattice.stride[axis] as u32;
         for p in 0..BUNCH {
             let along = (self.start[axis][p] as u32).wrapping_mul(stride);
             self.first[p] = self.first[p].wrapping_add(along);
         }
-        fits
     }
 
     /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis.
