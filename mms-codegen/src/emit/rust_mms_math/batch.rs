@@ -172,10 +172,10 @@ impl Emitter<'_> {
                 } }
             }
         };
-        let from_columns = self.from_columns(quantity, &cached, &columns, &columns, &[]);
+        let over_columns = self.over_columns(quantity, &cached, &columns, &columns, &[]);
         quote! {
             #from_position
-            #from_columns
+            #over_columns
             #math::batches! {
                 #name, #with_normals #axes -> #results;
                 #whole: #batch, #batch_aos;
@@ -185,7 +185,7 @@ impl Emitter<'_> {
     }
 
     /// A kernel that takes these columns, and finds a quantity's own `columns` by products first.
-    pub(super) fn from_columns(
+    pub(super) fn over_columns(
         &self,
         quantity: Quantity,
         kernel: &Ident,

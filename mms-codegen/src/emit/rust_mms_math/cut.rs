@@ -42,7 +42,7 @@ impl Emitter<'_> {
         let between = count(handed.len());
         let results = count(quantity.shape().components(dimension));
         let (point, position, normal) = (self.point(), self.position(), normal(normals));
-        let second = self.from_columns(quantity, &then, columns, &cut.columns, &cut.products);
+        let second = self.over_columns(quantity, &then, columns, &cut.columns, &cut.products);
         quote! {
             impl<T: Real> Field<T> {
                 #[inline(always)]
