@@ -72,7 +72,9 @@ where
         inner[a] = [first + reach, last - T::one() - reach];
     }
     if !machine.all_between(&cell, &inner) {
-        return place_near_ends::<T, M, D, P, N>(machine, stencil, lattice, position, &cells);
+        let numbers = |along: &[M::Four; D]| along.map(|four| machine.numbers(four));
+        let (position, cells) = (numbers(position), numbers(&cells));
+        return place_near_ends::<T, D, P, N>(stencil, lattice, position, cells);
     }
     stencil.begin::<N>(lattice, true);
     for a in 0..D {
@@ -84,17 +86,19 @@ where
 
 /// As [`place`], where a point is `cells` from the first knot along an axis and may be near the ends or beyond them.
 #[cold]
-fn place_near_ends<T: Real, M: Machine<T>, const D: usize, const P: usize, const N: usize>(
-    machine: M,
+fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     stencil: &mut Tensor<T, D, N, N>,
     lattice: &Lattice<T, D>,
-    position: &[M::Four; D],
-    cells: &[M::Four; D],
+    position: [[T; BUNCH]; D],
+    cells: [[T; BUNCH]; D],
 ) -> Result<(), Cause> {
+    // What is not inlined into a loop knows no better machine.
+    let machine = T::PlainMachine::from(Plain);
+    let [position, cells] = [position, cells].map(|along| along.map(|four| machine.four(&four)));
     let slack = T::of(SLACK);
-    if !machine.all_between(cells, &lattice.ends.map(|[first, last]| [first - slack, last + slack]))
-    {
-        return Err(lost(machine, position));
+    let near = lattice.ends.map(|[first, last]| [first - slack, last + slack]);
+    if !machine.all_between(&cells, &near) {
+        return Err(lost(machine, &position));
     }
     let is_regular = P == 1 || on(Defect::SplineEnds);
     stencil.begin::<N>(lattice, is_regular);
@@ -103,9 +107,9 @@ fn place_near_ends<T: Real, M: Machine<T>, const D: usize, const P: usize, const
         let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first));
         let cell = machine.least(floor, machine.splat(last - T::one()));
         let weights = if is_regular {
-            regular::<T, M, P, N>(machine, machine.minus(cells[a], cell))
+            regular::<T, _, P, N>(machine, machine.minus(cells[a], cell))
         } else {
-            near_any_ends::<T, M, P, N>(machine, cells[a], cell, lattice.ends[a])
+            near_any_ends::<T, _, P, N>(machine, cells[a], cell, lattice.ends[a])
         };
         stencil.set(machine, lattice, a, cell, weights);
     }
