@@ -42,3 +42,19 @@ fn ten_times_the_terms_make_at_most_ten_times_the_size_of_waves() {
 fn ten_times_the_terms_make_at_most_ten_times_the_size_of_polynomials() {
     hold(Family::Polynomial);
 }
+
+/// Each definition uses the one before it twice: what is walked again wherever it is used takes 2^60 steps.
+#[test]
+fn what_is_used_twice_is_walked_once() {
+    let lines: String =
+        (1..60).map(|level| format!("p{level} = \"p{0} + p{0}*X\"\n", level - 1)).collect();
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[let]\np0 = \"X + 1\"\n{lines}[displacement]\n\
+         u = [\"p59*1e-30\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
+         [domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
+    );
+    let load = |_: &str| Err("no files here".to_string());
+    let compiled =
+        compile("x", "x.toml", &text, &load).unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(compiled.graph.size() < 20_000, "{}", compiled.graph.size());
+}

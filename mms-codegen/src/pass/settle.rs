@@ -289,8 +289,12 @@ fn power_less_one(graph: &mut Graph, rest: Expr, power: Expr) -> Expr {
 
 /// Whether a function or a root is part of a sum, beside those in arguments.
 fn has_function(graph: &Graph, sum: Expr) -> bool {
+    let mut seen = BTreeSet::new();
     let mut open = vec![sum];
     while let Some(expr) = open.pop() {
+        if !seen.insert(expr) {
+            continue;
+        }
         match graph.node(expr) {
             Node::Call(..) => return true,
             Node::Product(factors) if factors.iter().any(|(_, power)| !power.is_int()) => {
