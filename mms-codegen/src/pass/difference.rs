@@ -217,7 +217,8 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
     let wholes: Vec<Expr> = arguments.iter().map(|argument| argument.whole).collect();
     let limit = graph.call(function, &limits);
     let Term { limit: at, rest, whole: of } = arguments[0];
-    if graph.is_zero(limit) {
+    // What it is 0 at elsewhere, as ln at 1, has lost digits of the rest.
+    if graph.is_zero(at) && graph.is_zero(limit) {
         let rest = graph.call(function, &wholes);
         return Some(Term { limit, rest, whole: rest });
     }

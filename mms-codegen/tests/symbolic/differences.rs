@@ -72,6 +72,27 @@ fn nothing_cancels_in_the_rest() {
     }
 }
 
+/// ln cosh t = t^2/2 - t^4/12 + .., ln cos t = -t^2/2 - t^4/12 - ..: functions that are 0, of what is not.
+#[test]
+fn nothing_cancels_where_functions_are_0_elsewhere_than_at_0() {
+    let mut graph = Graph::default();
+    let t = graph.symbol(Symbol::Time);
+    let written = [Function::Cosh, Function::Cos].map(|function| {
+        let inner = graph.call(function, &[t]);
+        graph.call(Function::Ln, &[inner])
+    });
+    let parts = difference(&mut graph, &written, Symbol::Time).into_iter();
+    let rests: Vec<_> = parts.map(|parts| parts.expect("a value at 0").rest).collect();
+    for t in [1e-3_f64, 1e-9, 1e-30] {
+        let at = Place { coordinates: [0.3, 0.5], time: t };
+        let found: Vec<f64> = values(&graph, &rests, &at);
+        for (found, sign) in found.into_iter().zip([1.0, -1.0]) {
+            let exact = t * t * (sign / 2.0 - t * t / 12.0);
+            assert!((found / exact - 1.0).abs() < 1e-12, "{found:e}, not {exact:e}");
+        }
+    }
+}
+
 #[test]
 fn what_has_no_value_at_0_has_no_difference() {
     let mut graph = Graph::default();
