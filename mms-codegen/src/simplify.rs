@@ -103,6 +103,16 @@ pub fn simplify(
             quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
         }
     }
+    if let Some(amplitude) = amplitude {
+        let coarse = quantities.iter_mut().filter(|(it, _)| !is_fine(**it) && wanted(**it));
+        for (_, components) in coarse {
+            let bent = graph.attempt(|graph| amplitude.of_second_order(graph, components));
+            if let Some(Some(bent)) = bent {
+                let form = BTreeMap::from([((), bent)]);
+                *components = cheapest_of(graph, &[form], kept_apart, None).remove(&()).unwrap();
+            }
+        }
+    }
     Derivation {
         quantities,
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),

@@ -9,6 +9,7 @@ use mms_math::{Double, Scalar as _};
 
 use super::model::{Body, Model};
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::pass::curvature::{self, curvature};
 use crate::pass::difference::{Parts, difference};
 use crate::pass::factor::factor;
 use crate::pass::substitute::replace;
@@ -25,6 +26,9 @@ const ENOUGH: usize = 6;
 /// How many orders in the amplitude may cancel.
 const ORDERS: usize = 3;
 
+/// A part of its default that is a small amplitude.
+const SMALL: f64 = 1e-6;
+
 /// A sum is 0 where it is less than that of its terms, of 31 digits.
 const CANCELLED: f64 = 1e-24;
 
@@ -32,6 +36,9 @@ const CANCELLED: f64 = 1e-24;
 #[derive(Clone, Debug)]
 pub struct Amplitude {
     symbol: Symbol,
+    /// Its number among the parameters, and its default, or 1 for 0.
+    index: usize,
+    usual: Double,
     /// Places of the body, and places anywhere, where it is 0.
     body: Vec<Place>,
     anywhere: Vec<Place>,
@@ -77,7 +84,8 @@ impl Amplitude {
             let anywhere = anywhere(&parameters, index);
             let symbol = Symbol::Parameter(index);
             let edges = edges.clone();
-            (!moves(&body)).then_some(Amplitude { symbol, body, anywhere, edges })
+            let usual = size(&defaults[index]);
+            (!moves(&body)).then_some(Amplitude { symbol, index, usual, body, anywhere, edges })
         })
     }
 
@@ -130,6 +138,48 @@ impl Amplitude {
             false => graph.add(limit, rest),
         };
         parts.into_iter().map(|parts| parts.map(&mut apart)).collect()
+    }
+
+    /// What is of second order in the amplitude, at the defaults of the other parameters: without what is of first
+    /// order, where that is 0 whatever they are, or beside it. `None` if it is of first order, or has a part for which
+    /// there is no rule.
+    pub fn of_second_order(&self, graph: &mut Graph, roots: &[Expr]) -> Option<Vec<Expr>> {
+        if !self.shrinks_twice(graph, roots) {
+            return None;
+        }
+        let parts = curvature(graph, roots, self.symbol);
+        let parts = parts.into_iter().collect::<Option<Vec<_>>>()?;
+        let early: Vec<Expr> = parts.iter().flat_map(|parts| [parts.limit, parts.slope]).collect();
+        let early = factor(graph, &early);
+        let [here, anywhere] =
+            [&self.body, &self.anywhere].map(|places| evaluate(graph, &early, places));
+        if !early.iter().all(|part| vanishes(&here[part])) {
+            return None;
+        }
+        let symbol = graph.symbol(self.symbol);
+        let mut with_early = |(early, parts): (&[Expr], &curvature::Parts)| {
+            let linear = graph.mul(symbol, early[1]);
+            let kept = [(early[0], early[0]), (early[1], linear)].into_iter();
+            let kept = kept.filter(|(part, _)| !is_identity(&anywhere[part]));
+            let terms = kept.map(|(_, term)| term).chain([parts.rest]);
+            graph.sum(terms.map(|term| (term, Rational::ONE)).collect::<Vec<_>>())
+        };
+        Some(early.chunks(2).zip(&parts).map(&mut with_early).collect())
+    }
+
+    /// Whether half of a small amplitude makes no more than a quarter of these.
+    fn shrinks_twice(&self, graph: &Graph, roots: &[Expr]) -> bool {
+        let largest = |amplitude: f64| {
+            let mut places = self.body.clone();
+            for place in &mut places {
+                place.parameters[self.index] = Double::from_f64(amplitude) * self.usual;
+            }
+            let values = evaluate(graph, roots, &places);
+            let sizes = roots.iter().flat_map(|root| &values[root]).map(|it| it.to_f64().abs());
+            sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+        };
+        let (whole, half) = (largest(SMALL), largest(SMALL / 2.0));
+        half > 0.0 && half < 0.3 * whole
     }
 
     /// Whether all of these keep their digits where the amplitude is small: each is not small with it,
@@ -285,6 +335,11 @@ fn places_at(
     fractions.iter().map(place).collect()
 }
 
+/// The size of a parameter with this default.
+fn size(default: &Double) -> Double {
+    if default.to_f64() == 0.0 { Double::from_f64(1.0) } else { *default }
+}
+
 /// Places with parameters of their default size and of any sign, but for the amplitude.
 fn anywhere(parameters: &[Double], amplitude: usize) -> Vec<Place> {
     let place = |index: usize| {
@@ -293,8 +348,6 @@ fn anywhere(parameters: &[Double], amplitude: usize) -> Vec<Place> {
         let mut signed = fractions.iter().map(|fraction| {
             Double::from_rational(&(fraction * Rational::from(4) - Rational::from(2)))
         });
-        let size =
-            |value: &Double| if value.to_f64() == 0.0 { Double::from_f64(1.0) } else { *value };
         let mut parameters: Vec<Double> = parameters
             .iter()
             .zip(&mut signed)

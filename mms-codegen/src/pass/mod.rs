@@ -1,7 +1,9 @@
 //! Passes over the graph, one file each. Every pass is a loop over handles in order, operands
-//! first; none recurses.
+//! first; none recurses over expressions. (What recurses does so over the bits of an exponent, or over what is left of a
+//! polynomial when a factor has been taken out.)
 
 pub mod absorb;
+pub mod curvature;
 pub mod difference;
 pub mod differentiate;
 pub mod expand;

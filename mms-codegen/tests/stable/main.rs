@@ -81,6 +81,18 @@ fn every_field_of_the_gallery_holds() {
     hold(files("../fields").iter().flat_map(of).collect());
 }
 
+/// What is left of b and Div P where all that is of first order cancels: of waves at the speed of the material, and of
+/// harmonic motions.
+#[test]
+fn what_is_of_second_order_in_the_amplitude_holds() {
+    let of = |path: &PathBuf| {
+        let text = fs::read_to_string(path).expect("a readable file");
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        measured(&name, &text)
+    };
+    hold(files("tests/data/second_order").iter().flat_map(of).collect());
+}
+
 /// A motion of `data/stable/` with a material. The files lack their last table, [material].
 fn with_material(stem: &str, text: &str, spec: &MaterialSpec) -> (String, String) {
     let line = |(index, parameter): (usize, &mms_codegen::spec::MaterialParameter)| {

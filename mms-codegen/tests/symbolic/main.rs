@@ -3,6 +3,7 @@
 //! interval arithmetic.
 
 mod canonical;
+mod curvatures;
 mod derivatives;
 mod differences;
 mod evaluation;
