@@ -28,11 +28,13 @@ impl Twin {
     /// - in one dimension the translation 3 L s^2,
     /// - in two the angle s + s^2 and the translation 3 L s, -2 L s^2,
     /// - in three the same about the axis 2, -1, 2, and L s (2 - s) along Z.
+    ///
+    /// None where there is no motion, or where the body or the window of the field could not be read.
     pub fn text(&self, field: &FieldSpec) -> Option<String> {
         let keys = match self {
             Twin::Nothing => return None,
             Twin::Given(keys) => keys.clone(),
-            Twin::Standard => standard(field),
+            Twin::Standard => standard(field)?,
         };
         Some(keys)
     }
@@ -65,21 +67,22 @@ impl Twin {
     }
 }
 
-fn standard(field: &FieldSpec) -> String {
+fn standard(field: &FieldSpec) -> Option<String> {
     let [first, last] = field.domain.time.each_ref().map(term);
+    let (first, last) = (first?, last?);
     let s = match first.as_str() {
         "0" => format!("t/{last}"),
         _ => format!("(t - {first})/({last} - {first})"),
     };
     let size = match &field.domain.body {
         Body::Box { lower, upper } => {
-            let [lower, upper] =
-                [lower, upper].map(|corner| corner.first().map_or("1".into(), term));
+            let [lower, upper] = [lower, upper].map(|corner| corner.first().and_then(term));
+            let (lower, upper) = (lower?, upper?);
             if lower == "0" { upper } else { format!("({upper} - {lower})") }
         }
-        Body::Annulus { outer, .. } => term(outer),
+        Body::Annulus { outer, .. } => term(outer)?,
     };
-    match field.dimension {
+    Some(match field.dimension {
         1 => format!(r#"translation = ["3*{size}*({s})^2"]"#),
         2 => format!(
             r#"rotation = "{s} + ({s})^2", translation = ["3*{size}*{s}", "-2*{size}*({s})^2"]"#
@@ -87,15 +90,16 @@ fn standard(field: &FieldSpec) -> String {
         _ => format!(
             r#"rotation = {{ axis = ["2", "-1", "2"], angle = "{s} + ({s})^2" }}, translation = ["3*{size}*{s}", "-2*{size}*({s})^2", "{size}*{s}*(2 - {s})"]"#
         ),
-    }
+    })
 }
 
-/// A formula as an operand: a name or a number stands for itself.
-fn term(formula: &Formula) -> String {
+/// A formula as an operand, on one line: a name or a number stands for itself. None if a mistake in it has been reported.
+fn term(formula: &Formula) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
-    if formula.text.chars().all(plain) {
-        formula.text.clone()
-    } else {
-        format!("({})", formula.text)
-    }
+    let words = || formula.text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let operand = || match formula.text.chars().all(plain) {
+        true => formula.text.clone(),
+        false => format!("({})", words()),
+    };
+    (!formula.is_reported()).then(operand)
 }

@@ -118,6 +118,21 @@ fn wrong_selections() -> Vec<Failure> {
     failures
 }
 
+/// The standard motion is made of what the file says of body and window: in as many lines as it says it, and with no
+/// word of its own about what the file does not say.
+#[test]
+fn the_standard_motion_is_of_any_text() {
+    let load = |_: &str| Err("no files here".to_string());
+    let twin = Selection { twin: Twin::Standard, ..Selection::default() };
+    let compile = |text: &str| compile_with("x", "x.toml", text, &load, &twin.clone().into());
+    let lines = FIELD.replace("time = [0, 1]", "time = [0, \"\"\"2*\na\"\"\"]");
+    compile(&lines).unwrap_or_else(|failure| panic!("{failure}"));
+    let (start, _) = FIELD.split_once("[domain]").expect("a body");
+    let failure = compile(start).expect_err("no body");
+    let places: Vec<_> = failure.diagnostics.iter().map(|found| found.span.source).collect();
+    assert_eq!(places.len(), 1, "{failure}");
+}
+
 /// Why a field that is right does not compile within so many nodes, if it does not.
 fn bounded(max_nodes: usize) -> Option<Failure> {
     let options = Options { max_nodes, ..Options::default() };
