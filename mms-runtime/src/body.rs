@@ -93,7 +93,7 @@ impl<const D: usize> Filling<D> {
             (Body::Annulus { inner, outer, theta }, fill) => {
                 let sector = Sector::new([*inner, *outer], *theta);
                 match fill {
-                    Fill::Cartesian => sector.fill_cartesian(&lower, spacing),
+                    Fill::Cartesian => sector.fill_cartesian(spacing),
                     Fill::Fitted => sector.fill_fitted(spacing),
                 }
             }

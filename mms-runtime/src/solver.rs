@@ -31,6 +31,7 @@ use slabs::Slabs;
 
 pub use clock::Seconds;
 pub use present::Present;
+pub use setup::cell_size;
 pub(crate) use state::State;
 
 /// After so many steps particles are put in order again, for bunches that share their nodes are faster than others.

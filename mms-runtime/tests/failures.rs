@@ -226,6 +226,10 @@ fn axes_that_are_not_periodic_are_refused() {
     let refusal = refused(&Wave::on_box([1.0, 0.55]), periodic(1), &8.into());
     assert!(matches!(refusal, Refusal::NoPeriod { axis: 1, is_box: true, .. }), "{refusal}");
     assert!(refusal.to_string().starts_with("axis y cannot be periodic"), "{refusal}");
+    // Between two knots, wherever the grid begins.
+    let offset = Setup { offset: [0.25; 3], ..periodic(1) };
+    let refusal = refused(&Wave::on_box([1.0, 0.5]), offset, &1.into());
+    assert!(matches!(refusal, Refusal::NoPeriod { axis: 1, is_box: true, .. }), "{refusal}");
     let refusal = refused(&Wave::on_box([1.0, 0.5]), periodic(1), &8.into());
     assert_eq!(refusal, Refusal::NotPeriodic { axis: 1 });
     // sin p = sin(q + p) at the start alone.

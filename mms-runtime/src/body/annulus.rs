@@ -52,14 +52,11 @@ impl Sector {
     }
 
     /// Boxes of one size whose middles lie inside.
-    pub fn fill_cartesian<const D: usize>(
-        &self,
-        lower: &Vector<f64, D>,
-        spacing: &Vector<f64, D>,
-    ) -> Filling<D> {
+    pub fn fill_cartesian<const D: usize>(&self, spacing: &Vector<f64, D>) -> Filling<D> {
         let mut filling = Filling::default();
         let half = spacing / 2.0;
-        let count = |a: usize| (2.0 * self.outer / spacing[a]).ceil() as usize + 1;
+        let [lower, upper] = self.bounding_box::<D>();
+        let count = |a: usize| ((upper[a] - lower[a]) / spacing[a]).ceil() as usize + 1;
         for k in 0..count(0) * count(1) {
             let index = [k % count(0), k / count(0)];
             let middle = Vector::from_fn(|a, _| lower[a] + (2 * index[a] + 1) as f64 * half[a]);

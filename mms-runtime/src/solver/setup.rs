@@ -79,8 +79,9 @@ where
         let periodic = std::array::from_fn(|a| setup.periodic[a]);
         let lattice = Lattice::new(std::array::from_fn(axis), S::DEGREE, periodic)?;
         need.check(particles.len() as f64, lattice.len() as f64)?;
-        let boundary = Boundary::new(&domain, &lattice, &filling.pieces, moves)?;
+        // A period of the grid is a whole number of its cells.
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
+        let boundary = Boundary::new(&domain, &lattice, &filling.pieces, moves)?;
         let count = particles.len();
         let residual_nodes = if particles.residual.is_empty() { 0 } else { lattice.len() };
         let mut slabs = Slabs::new(&lattice, count, S::NEAR);
@@ -138,8 +139,11 @@ where
     }
 }
 
-/// The edges of a cell.
-fn cell_size<const D: usize>(
+/// The edges of a cell, of a grid for a body whose bounding box has these.
+///
+/// # Errors
+/// A number of cells that is 0, or is given for other axes than there are.
+pub fn cell_size<const D: usize>(
     edges: &Vector<f64, D>,
     cells: &Division,
 ) -> Result<Vector<f64, D>, Refusal> {
@@ -237,7 +241,7 @@ fn repeats<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     for axis in (0..D).filter(|&axis| setup.periodic[axis]) {
         let [first, last] = lattice.axes[axis].body;
         let cells = last - first;
-        if !is_box || (cells - cells.round()).abs() > 1e-4 {
+        if !is_box || cells < 0.5 || (cells - cells.round()).abs() > 1e-4 {
             return Err(Refusal::NoPeriod { axis, is_box, cells });
         }
         let face = |face: Face| {
