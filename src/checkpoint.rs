@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::report::file::{folder, is_stream};
 use crate::report::write_with;
+use crate::shell::quoted;
 
 /// What the first key of every file says.
 const FORMAT: &str = "mms checkpoint 1";
@@ -138,7 +139,7 @@ impl Keeper {
 
     /// The command that goes on from the last one.
     pub fn resuming(&self) -> String {
-        format!("{} --resume {}", self.head.command, self.path.display())
+        format!("{} --resume {}", self.head.command, quoted(&self.path.to_string_lossy()))
     }
 
     /// Whether there is one after this step.

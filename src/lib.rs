@@ -16,6 +16,7 @@ pub mod report;
 mod rows;
 pub mod scene;
 pub mod schema;
+mod shell;
 mod store;
 mod tradeoff;
 mod trial;

@@ -1,5 +1,7 @@
 //! A field of any dimension, ready for a solver.
 
+use mms_runtime::body::bounding_box;
+use mms_runtime::solver::cell_size;
 use mms_runtime::study::{Observer, Solve, Watch};
 use mms_runtime::{Body, Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
@@ -71,6 +73,15 @@ impl<T: Real> Scene<T> {
             Scene::Space(field) => edges(field.domain().body),
         }
     }
+
+    /// The longest edge of a cell of such a grid, whose length is that of a level of a study; 0 where there is none.
+    pub fn cell_size(&self, cells: &Division) -> f64 {
+        match self {
+            Scene::Line(field) => longest_edge(&field.domain().body, cells),
+            Scene::Plane(field) => longest_edge(&field.domain().body, cells),
+            Scene::Space(field) => longest_edge(&field.domain().body, cells),
+        }
+    }
 }
 
 fn edges<T: Real, const D: usize>(body: Body<T, D>) -> Option<Vec<f64>> {
@@ -80,6 +91,11 @@ fn edges<T: Real, const D: usize>(body: Body<T, D>) -> Option<Vec<f64>> {
         }
         Body::Annulus { .. } => None,
     }
+}
+
+fn longest_edge<T: Real, const D: usize>(body: &Body<T, D>, cells: &Division) -> f64 {
+    let size = bounding_box(body).and_then(|[lower, upper]| cell_size(&(upper - lower), cells));
+    size.map_or(0.0, |size| size.max())
 }
 
 impl<T: Solvable> Scene<T> {

@@ -15,6 +15,7 @@ use crate::cli::method::Precision;
 use crate::cli::progress::Progress;
 use crate::cli::stability::fastest_wave;
 use crate::scene::{Scene, Solvable};
+use crate::shell;
 use crate::store::{Entry, Store};
 use crate::verify::matrix::{Quantity, Study};
 use crate::verify::plan::Key;
@@ -74,7 +75,7 @@ impl Trials {
         let key = Key {
             program: self.program.clone(),
             field: input.compiled.provenance(),
-            run: format!("trial {}", command(arguments)),
+            run: format!("trial {}", shell::command(arguments)),
             quantity: Quantity::Displacement.name(),
             defect: None,
         };
@@ -163,27 +164,4 @@ fn once<T: Solvable>(
         Ok(run) => outcome(&run.level, run.details.as_ref(), &Quantity::Displacement),
     };
     Trial { outcome, memory }
-}
-
-/// `mms run` with arguments, as a shell takes it.
-pub fn command(arguments: &[String]) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./,:+".contains(c);
-    let quoted = arguments.iter().map(|argument| {
-        if !argument.is_empty() && argument.chars().all(plain) {
-            return format!(" {argument}");
-        }
-        format!(" '{}'", argument.replace('\'', r"'\''"))
-    });
-    format!("mms run{}", quoted.collect::<String>())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_command_is_what_a_shell_takes_apart_again() {
-        let arguments = ["bar_1d", "--set", "young=2*pi", "it's"].map(String::from);
-        assert_eq!(command(&arguments), r"mms run bar_1d --set 'young=2*pi' 'it'\''s'");
-    }
 }

@@ -94,12 +94,18 @@ impl Writer {
         let mut text = head("Collection");
         text += "<Collection>\n";
         for (time, file) in &self.written {
+            let file = attribute(file);
             let _ = writeln!(text, r#"<DataSet timestep="{time:e}" file="{file}"/>"#);
         }
         text += "</Collection>\n</VTKFile>\n";
         let path = self.list();
         write_whole(&path, &text).with_context(|| format!("cannot write {}", path.display()))
     }
+}
+
+/// The text as the value of an attribute.
+fn attribute(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 fn head(kind: &str) -> String {
@@ -186,6 +192,18 @@ mod tests {
             padded(&[1.0, 2.0, 3.0, 4.0], 2, 2),
             [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0]
         );
+    }
+
+    #[test]
+    fn names_are_written_as_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = Writer::new(folder.path(), "a&b \"<c>\"", 4, 0, Vec::new()).unwrap();
+        writer.written.push((0.5, "a&b \"<c>\"_0000.vtu".to_owned()));
+        writer.write_list().unwrap();
+        let text = std::fs::read_to_string(writer.list()).unwrap();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let state = document.descendants().find(|node| node.has_tag_name("DataSet")).unwrap();
+        assert_eq!(state.attribute("file"), Some("a&b \"<c>\"_0000.vtu"));
     }
 
     #[test]

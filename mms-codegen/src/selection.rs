@@ -142,7 +142,7 @@ impl Selection {
 
     /// The part that a message of the compiler is about, if it is not about a file.
     pub fn entry(&self, span: Span) -> Option<Entry> {
-        // The field file is the first source, and its material the last.
+        // The field file is the first source; those of the entries are the next.
         let position = span.source.index().checked_sub(1)?;
         if position < self.set.len() {
             return Some(Entry::Set(position));

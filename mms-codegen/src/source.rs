@@ -1,7 +1,6 @@
 //! Texts and places in them.
 
-use std::path::Path;
-use std::{fs, io};
+use std::io;
 
 /// A text with the path that messages show for it.
 #[derive(Clone, Debug)]
@@ -12,12 +11,12 @@ pub struct Source {
     pub text: String,
 }
 
-/// The text of a file.
+/// The text that a file holds.
 ///
 /// # Errors
-/// The file cannot be read; or it is not text in UTF-8, and where.
-pub fn read(path: &Path) -> io::Result<String> {
-    String::from_utf8(fs::read(path)?).map_err(|error| {
+/// It is not text in UTF-8, and where.
+pub fn text(bytes: Vec<u8>) -> io::Result<String> {
+    String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let before = String::from_utf8_lossy(before);
         let line = before.matches('\n').count() + 1;
@@ -59,7 +58,7 @@ pub struct Spanned<T> {
     pub span: Span,
 }
 
-/// The texts of one compilation: the field file, and its material file.
+/// The texts of one compilation: the field file and its material file, and those that a selection is made of.
 #[derive(Clone, Debug, Default)]
 pub struct Sources(Vec<Source>);
 

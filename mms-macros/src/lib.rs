@@ -2,8 +2,8 @@
 
 mod request;
 
-use std::env;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 use mms_codegen::compile::Failure;
 use mms_codegen::emit::rust_mms_math::{module, module_named};
@@ -140,5 +140,5 @@ fn message(rendered: &str) -> String {
 }
 
 fn read(path: &Path) -> std::result::Result<String, String> {
-    source::read(path).map_err(|error| error.to_string())
+    fs::read(path).and_then(source::text).map_err(|error| error.to_string())
 }

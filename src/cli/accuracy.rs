@@ -12,7 +12,7 @@ use mms_codegen::suggest::did_you_mean;
 use mms_codegen::{Compiled, Options};
 
 use super::input::{Motion, Text, precision, quantities, settings};
-use super::{Outcome, print, print_json, say, this_command};
+use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::report::accuracy::Report;
 use crate::report::provenance::Input;
 use crate::workbench::{Module, Time, Way, Workbench, time};
@@ -84,6 +84,7 @@ impl Accuracy {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let text = Text::find(&self.field)?;
         let quantities = self.quantities()?;
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
         let set = settings(&self.set)?;
         let options = self.motion.options(Selection { set, ..Selection::default() });
         let refused = |failure| anyhow!("the field does not compile as selected\n{failure}");
@@ -110,17 +111,17 @@ impl Accuracy {
             points: request.points,
             accuracy,
             times: times.unwrap_or_default(),
-            provenance: this_command("accuracy", input)?,
+            provenance: this_command("accuracy", input),
         };
-        if let Some(folder) = &self.output {
-            for path in report.write(folder)? {
-                say(path);
-            }
-        }
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.table(self.all))?;
+        }
+        if let Some(folder) = &self.output {
+            for path in report.write(folder)? {
+                say(path);
+            }
         }
         let held = report.broken().is_empty() && !report.is_unmeasured();
         Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })

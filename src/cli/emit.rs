@@ -12,10 +12,11 @@ use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
 use mms_codegen::selection::{Freeze, Selection};
 use serde_json::{Value, json};
 
-use self::folder::{State, compare, quoted, write};
+use self::folder::{State, compare, write};
 use super::input::{Input, Variant, quantities, settings};
 use super::{Outcome, print, print_json, say};
 use crate::gallery::FIELDS;
+use crate::shell::{command, quoted, words};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.
 ///
@@ -219,9 +220,5 @@ impl Delivered {
 
 /// The command line of this process, such that it writes what it has compared.
 fn command_without_check() -> String {
-    let words = std::env::args().skip(1).filter(|word| word != "--check");
-    std::iter::once("mms".to_string())
-        .chain(words.map(|word| quoted(&word)))
-        .collect::<Vec<_>>()
-        .join(" ")
+    command(words(std::env::args_os().skip(1)).into_iter().filter(|word| word != "--check"))
 }

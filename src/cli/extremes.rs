@@ -10,7 +10,7 @@ use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
 use super::method::{Arithmetic, MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json, say, this_command};
+use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::extremes::rows::{Row, rows};
 use crate::extremes::stable;
 use crate::extremes::subject::Subject;
@@ -59,6 +59,7 @@ impl Extremes {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let all = rows()?;
         let wanted = self.select(&all)?;
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
         let arithmetic = self.method.arithmetic;
         let declared = match Subject::new(&self.field, arithmetic.form, None)? {
             Ok(declared) => declared,
@@ -104,20 +105,17 @@ impl Extremes {
             declared: declared_error,
             rows: judged,
             stability,
-            provenance: this_command("extremes", declared.input.provenance(&[]))?,
-        };
-        let written = match &self.output {
-            Some(folder) => {
-                write_files(folder, "extremes", [("json", pretty(&report.document())?)])?
-            }
-            None => Vec::new(),
+            provenance: this_command("extremes", declared.input.provenance(&[])),
         };
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
-            for path in written {
-                print(&format!("\nwrote {path}"))?;
+        }
+        if let Some(folder) = &self.output {
+            let written = write_files(folder, "extremes", [("json", pretty(&report.document())?)])?;
+            if !self.json {
+                print(&format!("\nwrote {}", written.join(", ")))?;
             }
         }
         let expected = report.unexpected().is_empty();

@@ -14,7 +14,6 @@ use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::program::interpret::Number;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
-use mms_codegen::source;
 use mms_codegen::suggest::did_you_mean;
 use mms_codegen::twin::Twin;
 use mms_codegen::variation::Variation;
@@ -22,7 +21,7 @@ use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_runtime::Real;
 
 use crate::gallery::{self, Entry};
-use crate::report::provenance;
+use crate::report::{file, provenance};
 use crate::scene::Scene;
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
@@ -301,7 +300,7 @@ impl Text {
 
     fn read(path: &Path) -> anyhow::Result<Self> {
         let shown = path.display().to_string();
-        let text = source::read(path).with_context(|| format!("cannot read `{shown}`"))?;
+        let text = file::read(path).with_context(|| format!("cannot read `{shown}`"))?;
         let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Text { name, shown, text, origin: Origin::Folder(folder) })
@@ -328,7 +327,7 @@ impl Text {
         let load = |material: &str| match &self.origin {
             Origin::Gallery(entry) => entry.own_material(),
             Origin::Folder(folder) => {
-                source::read(&folder.join(material)).map_err(|error| error.to_string())
+                file::read(&folder.join(material)).map_err(|error| error.to_string())
             }
         };
         compile(&self.name, &self.shown, &self.text, &load, options)

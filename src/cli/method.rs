@@ -57,14 +57,23 @@ impl fmt::Display for Arithmetic {
     }
 }
 
+/// What an option is, and its words.
+fn listed(what: &str, words: &[&str]) -> String {
+    format!("{what}: {}", words.join(", "))
+}
+
 /// How to solve.
 #[derive(Args, Clone, Debug)]
 pub struct MethodOptions {
-    /// The shape function: linear, ugimp, cpgimp, cpdi, quadratic_bspline or cubic_bspline.
-    #[arg(long, default_value_t = ShapeName::Cpgimp)]
+    /// The shape function.
+    #[arg(long, default_value_t = ShapeName::Cpgimp, help = listed("The shape function", ShapeName::NAMES))]
     pub shape: ShapeName,
-    /// The time integrator: usf, usl, musl or leapfrog.
-    #[arg(long, default_value_t = IntegratorName::Leapfrog)]
+    /// The time integrator.
+    #[arg(
+        long,
+        default_value_t = IntegratorName::Leapfrog,
+        help = listed("The time integrator", IntegratorName::NAMES)
+    )]
     pub integrator: IntegratorName,
     /// The formulation: updated, whose grid is in space, or total, whose grid is in the reference
     /// configuration.

@@ -25,9 +25,11 @@ mod verify;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::provenance::{Input, Provenance};
+use crate::shell::words;
 
 /// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order
 /// of convergence of an MPM/GIMP solver on them.
@@ -94,7 +96,7 @@ pub fn run() -> ExitCode {
 fn answer() -> anyhow::Result<Outcome> {
     let arguments = saved::expand(std::env::args_os())?;
     let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
-    let matches = command.clone().get_matches_from(arguments);
+    let matches = command.clone().get_matches_from(&arguments);
     let parsed = Arguments::from_arg_matches(&matches)
         .unwrap_or_else(|error| error.format(&mut command).exit());
     match parsed.command {
@@ -106,7 +108,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Emit(emit)) => emit.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Run(run)) => run.run(),
-        Some(Command::Study(study)) => study.run(),
+        Some(Command::Study(study)) => study.run(&words(arguments)),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),
@@ -124,20 +126,27 @@ fn with_signs(argument: Arg) -> Arg {
 }
 
 /// What this command line makes of an input.
-fn this_command(kind: &str, input: Input) -> anyhow::Result<Provenance> {
-    let arguments = saved::expand(std::env::args_os())?;
-    let words: Vec<_> = arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
-    Ok(Provenance::new(kind, &words, input))
+fn this_command(kind: &str, input: Input) -> Provenance {
+    Provenance::new(kind, &words(std::env::args_os()), input)
 }
 
-/// Where to write what is said of a field. What can be seen to be wrong with it is said before any work is done.
+/// Makes the folder of `--output`. What is wrong with it is said before any work is done.
+fn hold_output(folder: &Path) -> anyhow::Result<()> {
+    let wrong = || format!("`--output {}`: cannot write there", folder.display());
+    if folder.exists() && !folder.is_dir() {
+        anyhow::bail!("`--output {}`: not a folder", folder.display());
+    }
+    std::fs::create_dir_all(folder).with_context(wrong)?;
+    tempfile::tempfile_in(folder).with_context(wrong)?;
+    Ok(())
+}
+
+/// Where to write what is said of a field; see [`hold_output`].
 fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
     let own = name.trim_start_matches('.');
     let own = if own.is_empty() { "field" } else { own };
     let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
-    if folder.exists() && !folder.is_dir() {
-        anyhow::bail!("`--output {}`: not a folder", folder.display());
-    }
+    hold_output(&folder)?;
     Ok(folder)
 }
 

@@ -11,14 +11,15 @@ use super::follow::{Followers, Interrupted};
 use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision};
 use super::progress::Progress;
-use super::{Outcome, print, print_json, say};
+use super::{Outcome, hold_output, print, print_json, say};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
 use crate::report::provenance::Provenance;
 use crate::report::run::Run as Report;
 use crate::report::{pretty, write_files};
 use crate::scene::usual_cells;
-use crate::store::digest;
+use crate::shell::words;
+use crate::store::{digest, program};
 use crate::vtk::Writer;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
@@ -72,9 +73,15 @@ impl Run {
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        if let (Some(history), Some(checkpoint)) = (&self.history, &self.checkpoint)
+            && history == checkpoint
+        {
+            bail!("`--history` and `--checkpoint` name the same file, `{}`", history.display());
+        }
         let progress = Progress::new();
         let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
-        let head = Head::new(self.key(&input, &method, cells), provenance.command.clone());
+        let head = Head::new(self.key(&input, &method, cells)?, provenance.command.clone());
         let mut followers = self.followers(&input, cells, head, &progress)?;
         let run = match self.method.arithmetic.precision {
             Precision::F32 => {
@@ -87,7 +94,7 @@ impl Run {
             }
         };
         progress.finish();
-        followers.end()?;
+        let kept = followers.end();
         let run = match run {
             Ok(run) => run,
             Err(refusal) => {
@@ -104,18 +111,23 @@ impl Run {
             run,
             provenance,
         };
-        let written = match &self.output {
-            Some(folder) => write_files(folder, "run", [("json", pretty(&report.document())?)])?,
-            None => Vec::new(),
-        };
+        // What cannot be written loses nothing of what can be printed.
+        let states = followers.list_of_states().map(|list| list.display().to_string());
+        let mut written: Vec<String> = states.into_iter().collect();
         if self.json {
             print_json(&report.document())?;
         } else {
             print(&report.text())?;
-            let states = followers.list_of_states().map(|list| list.display().to_string());
-            for path in states.into_iter().chain(written) {
-                print(&format!("\nwrote {path}"))?;
-            }
+        }
+        if let Some(folder) = &self.output {
+            written.extend(write_files(folder, "run", [("json", pretty(&report.document())?)])?);
+        }
+        if !self.json {
+            written.iter().try_for_each(|path| print(&format!("\nwrote {path}")))?;
+        }
+        if let Err(error) = kept {
+            say(format_args!("error: {error:#}"));
+            return Ok(Outcome::RunFailed);
         }
         if let Err(failure) = &report.run.level.errors {
             say(format_args!("error: {failure}"));
@@ -137,7 +149,7 @@ impl Run {
         {
             bail!(
                 "`--resume {}`: it is a checkpoint of another run, `{}`, and goes on with its options \
-                 only, in the same version of this program",
+                 only, in the same build of this program",
                 path.display(),
                 found.head.command
             );
@@ -158,19 +170,18 @@ impl Run {
     }
 
     /// What tells this run from all others, as far as its numbers depend on it.
-    fn key(&self, input: &Input, method: &Method, cells: Division) -> String {
+    fn key(&self, input: &Input, method: &Method, cells: Division) -> anyhow::Result<String> {
         let mut method = method.clone();
         (method.setup.threads, method.setup.memory) = (1, None);
         let scene = format!("{method:?}, {cells} cells, {:?}", self.method.arithmetic);
         let field = format!("{:?}, {:?}", self.set, self.motion);
-        let program = env!("CARGO_PKG_VERSION").to_owned();
-        digest([program, input.compiled.provenance(), scene, field])
+        Ok(digest([program()?, input.compiled.provenance(), scene, field]))
     }
 }
 
 /// The command line without `--resume`: what makes the run again.
 fn from_the_start() -> Vec<String> {
-    let mut all = std::env::args_os().map(|word| word.to_string_lossy().into_owned());
+    let mut all = words(std::env::args_os()).into_iter();
     let mut kept = Vec::new();
     while let Some(word) = all.next() {
         match word.as_str() {

@@ -6,12 +6,13 @@ use anyhow::{Context as _, anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
-use mms_codegen::source::{self, Sources};
+use mms_codegen::source::Sources;
 use mms_codegen::suggest::did_you_mean;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::study::Study;
+use crate::report::file;
 
 /// The arguments of a command line, with those of a study file in front of the others. What is also given on
 /// the command line is not taken from the file, nor what that excludes; parameters are set by both.
@@ -32,7 +33,7 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
         bail!("`--study` is given twice");
     }
     let shown = path.to_string_lossy().into_owned();
-    let text = source::read(path.as_ref()).with_context(|| format!("cannot read `{shown}`"))?;
+    let text = file::read(path.as_ref()).with_context(|| format!("cannot read `{shown}`"))?;
     let own = &arguments[2..];
     let saved = read(&shown, &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())

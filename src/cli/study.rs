@@ -11,13 +11,13 @@ use mms_codegen::sample::domain;
 use mms_runtime::study::{
     Fit, Phase, Phases, Refinement, Series, TOLERANCE, Watch, differences, fit,
 };
-use mms_runtime::{Division, Method, Run, Verdict};
+use mms_runtime::{Division, Method, Real, Run, Verdict};
 
 use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision, finite, positive};
 use super::methods::Methods;
 use super::progress::Progress;
-use super::{Outcome, output_folder, print, print_json, say, this_command};
+use super::{Outcome, output_folder, print, print_json, say};
 use crate::report::provenance::Provenance;
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
 use crate::scene::{Scene, Solvable};
@@ -147,16 +147,17 @@ struct Case<'a> {
 
 /// What `mms` does without arguments: the slides' bar with contiguous-particle GIMP.
 pub(super) fn main_job() -> anyhow::Result<Outcome> {
-    Alone::parse_from(["mms", "bar_1d"]).study.run()
+    Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
 
 impl Study {
-    pub(super) fn run(self) -> anyhow::Result<Outcome> {
+    /// Runs it, by these words of a command line; those of a study file among them.
+    pub(super) fn run(self, words: &[String]) -> anyhow::Result<Outcome> {
         self.validate()?;
         let cases = self.cases()?;
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), &input.name)?;
-        let provenance = this_command("study", input.provenance(&self.set))?;
+        let provenance = Provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, &provenance)?;
         if !studies.iter().any(Report::is_started) {
             say(format_args!("error: the study of `{}` cannot be started", input.name));
@@ -357,7 +358,7 @@ impl Study {
         (levels, found)
     }
 
-    fn levels<T>(
+    fn levels<T: Real>(
         &self,
         scene: &Scene<T>,
         method: &Method,
@@ -392,12 +393,13 @@ impl Study {
     }
 
     /// The levels of a study in space, from coarse to fine: orders are those between neighbours.
-    fn grids<T>(&self, scene: &Scene<T>) -> Vec<Division> {
+    fn grids<T: Real>(&self, scene: &Scene<T>) -> Vec<Division> {
         let mut cells = self.cells.clone();
         if cells.is_empty() {
             cells.extend(scene.default_cells().iter().map(|&cells| Division::Uniform(cells)));
         }
-        cells.sort_unstable_by_key(|cells| cells.numbers());
+        let size = |cells: &Division| scene.cell_size(cells);
+        cells.sort_by(|a, b| size(b).total_cmp(&size(a)));
         cells
     }
 

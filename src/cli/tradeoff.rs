@@ -12,10 +12,11 @@ use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
 use crate::scene::usual_cells;
+use crate::shell;
 use crate::store::Store;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use crate::tradeoff::setting::Setting;
-use crate::trial::{Trials, command};
+use crate::trial::Trials;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
 ///
@@ -90,8 +91,7 @@ impl Tradeoff {
         let plan = self.plan(&input, goal)?;
         let found = Search::run(&mut bench, plan)?;
         trials.finish();
-        let command =
-            |setting: &Setting, cells: usize| command(&self.arguments(field, setting, cells));
+        let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
         let report = self.report(&input, plan, found, &command)?;
         let written = report.write(&folder)?;
         if self.json {
@@ -115,7 +115,7 @@ impl Tradeoff {
         command: &'a dyn Fn(&Setting, usize) -> String,
     ) -> anyhow::Result<Report<'a>> {
         let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
-        let provenance = this_command("tradeoff", input.provenance(&self.set))?;
+        let provenance = this_command("tradeoff", input.provenance(&self.set));
         Ok(Report { field, title, plan, found, command, provenance })
     }
 
@@ -135,9 +135,7 @@ impl Tradeoff {
                 let plan = self.plan(&input, Goal::Error(target))?;
                 let mut bench = Bench { trials, field, set: &self.set, motion: &self.motion };
                 let found = Search::run(&mut bench, plan)?;
-                let command = |setting: &Setting, cells: usize| {
-                    command(&self.arguments(field, setting, cells))
-                };
+                let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
                 page.add(&self.report(&input, plan, found, &command)?);
             }
         }
@@ -146,8 +144,9 @@ impl Tradeoff {
         Ok(Outcome::AsExpected)
     }
 
-    fn arguments(&self, field: &str, setting: &Setting, cells: usize) -> Vec<String> {
-        arguments(field, &self.set, &self.motion, setting, cells)
+    fn command(&self, field: &str, setting: &Setting, cells: usize) -> String {
+        let arguments = arguments(field, &self.set, &self.motion, setting, cells);
+        shell::command(["run".to_owned()].into_iter().chain(arguments))
     }
 }
 

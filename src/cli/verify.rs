@@ -95,7 +95,7 @@ impl Verify {
         let report = Report {
             quick: self.quick,
             rows: judged.collect::<anyhow::Result<_>>()?,
-            provenance: this_command("verify", input())?,
+            provenance: this_command("verify", input()),
         };
         self.tell("verification", &report.document(), || report.table(), || report.page())?;
         Ok(match report.unexpected().next() {

@@ -1,8 +1,10 @@
-//! How files are written: whole or not at all, without a change to what else is at their place.
+//! How files are read and written: whole or not at all, without a change to what else is at their place.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+
+use mms_codegen::source;
 
 /// Where a path leads.
 enum Target {
@@ -44,7 +46,20 @@ pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
     write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
-/// The same, with whatever is written. A link stays, and so do the permissions of a file that is replaced; a device or a
+/// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
+pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
+    let mut file = builder().tempfile_in(folder(path))?;
+    file.write_all(content.as_bytes())?;
+    file.persist_noclobber(path)?;
+    Ok(())
+}
+
+/// The text of a file, in UTF-8.
+pub(crate) fn read(path: &Path) -> io::Result<String> {
+    fs::read(path).and_then(source::text)
+}
+
+/// As [`write_whole`], with whatever is written. A link stays, and so do the permissions of a file that is replaced; a device or a
 /// FIFO is written to.
 pub(crate) fn write_with(
     path: &Path,

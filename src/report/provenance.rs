@@ -5,6 +5,8 @@ use mms_codegen::twin::Twin;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::shell::command;
+
 /// The key `provenance` of a document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
@@ -81,11 +83,10 @@ impl Machine {
 impl Provenance {
     /// Of what this program computes here and now, by a command line, program included.
     pub fn new(kind: &str, arguments: &[String], input: Input) -> Self {
-        let words = arguments.iter().skip(1).map(|word| quoted(word));
         Self {
             kind: kind.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: ["mms".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" "),
+            command: command(arguments.iter().skip(1)),
             input,
             machine: Some(Machine::this()),
         }
@@ -97,29 +98,5 @@ impl Provenance {
             keys.insert("provenance".to_owned(), serde_json::json!(self));
         }
         document
-    }
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"_-+=.,:/@%".contains(&byte);
-    match !word.is_empty() && word.bytes().all(is_plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_command_is_what_a_shell_reads_back() {
-        let input = Input { field: None, rigid: None, set: Vec::new(), hash: String::new() };
-        let words = ["/bin/mms", "study", "--rigid=rotation = \"pi*t\"", "it's", "", "8,16"];
-        let words = words.map(str::to_owned);
-        let found = Provenance::new("study", &words, input).command;
-        let expected = r#"mms study '--rigid=rotation = "pi*t"' 'it'\''s' '' 8,16"#;
-        assert_eq!(found, expected);
     }
 }

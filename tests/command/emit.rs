@@ -151,6 +151,20 @@ fn a_title_cannot_leave_its_comment() {
 }
 
 #[test]
+#[cfg(unix)]
+fn a_folder_whose_name_is_no_text_is_compared_and_written() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt as _;
+    let folder = Folder::new();
+    let name = OsStr::from_bytes(b"d\xff");
+    let [emit, field, output, check] = ["emit", "bar_1d", "-o", "--check"].map(OsStr::new);
+    let run = folder.run(&[emit, field, output, name, check]).exits(1);
+    run.complains("write them anew: mms emit bar_1d -o 'd\u{fffd}'");
+    folder.run(&[emit, field, output, name]).exits(0);
+    folder.run(&[emit, field, output, name, check]).exits(0);
+}
+
+#[test]
 fn a_wrong_word_is_refused_with_advice() {
     let folder = Folder::new();
     for (arguments, complaint) in [

@@ -1,5 +1,6 @@
 //! Runs the program, and reads what it printed.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -46,15 +47,16 @@ impl Folder {
     }
 
     /// Runs `mms` with these arguments.
-    pub fn run(&self, arguments: &[&str]) -> Run {
+    pub fn run(&self, arguments: &[impl AsRef<OsStr>]) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_mms"))
             .args(arguments)
             .current_dir(self.0.path())
             .output()
             .expect("the program starts");
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+        let words = arguments.iter().map(|word| word.as_ref().to_string_lossy());
         Run {
-            command: format!("mms {}", arguments.join(" ")),
+            command: format!("mms {}", words.collect::<Vec<_>>().join(" ")),
             code: output.status.code().expect("the program ends by itself"),
             stdout: text(output.stdout),
             stderr: text(output.stderr),

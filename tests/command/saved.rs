@@ -1,5 +1,10 @@
 //! `mms study --study FILE`: a saved scene.
 
+use std::io::Write as _;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
 use super::mms::Folder;
 
 const SCENE: &str = "field = \"bar_1d\"\nformulation = \"total\"\nshape = \"linear\"\n\
@@ -29,6 +34,24 @@ fn a_saved_scene_is_the_command_with_its_options() {
     {
         assert_eq!(strip(command)["levels"][0]["cells"], 16);
     }
+}
+
+/// A pipe can be read once.
+#[test]
+#[cfg(unix)]
+fn a_scene_from_a_pipe_stands_in_the_recorded_command() {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_mms"));
+    let folder = Folder::new();
+    let program = program.args(["study", "--study", "/dev/stdin"]).current_dir(folder.path("."));
+    let mut program =
+        program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("a start");
+    let mut stdin = program.stdin.take().expect("a pipe");
+    stdin.write_all(SCENE.as_bytes()).expect("a reader");
+    drop(stdin);
+    let output = program.wait_with_output().expect("an end");
+    let document: Value = serde_json::from_slice(&output.stdout).expect("a document");
+    let command = document["provenance"]["command"].as_str().expect("a command");
+    assert!(command.starts_with("mms study bar_1d --formulation=total"), "{command}");
 }
 
 #[test]

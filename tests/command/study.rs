@@ -97,6 +97,15 @@ fn the_first_level_has_no_orders_and_the_next_have_theirs() {
 }
 
 /// Of v, F and P too; those of u are those of the levels.
+/// Orders are those between neighbours, and each is finer than the one before.
+#[test]
+fn levels_stand_in_the_order_of_their_cells_however_they_are_given() {
+    let study = "study axis_aligned_2d --cells 32,8,64x16,24x24 --json";
+    let document = Folder::new().mms(study).exits(0).json();
+    let cells = array(&document["levels"]).iter().map(|level| level["cells"].to_string());
+    assert_eq!(cells.collect::<Vec<_>>(), ["8", "\"64x16\"", "\"24x24\"", "32"]);
+}
+
 #[test]
 fn every_quantity_has_its_orders() {
     let document = document("--cells 16,32,64 --formulation total --shape linear", 0);

@@ -204,7 +204,7 @@ impl Graph {
         ]
     }
 
-    /// Doubles the bound above what is used: for a few more nodes in a graph that was within it.
+    /// Leaves room for as many nodes again, and the usual number: for a few more in a graph that was within its bound.
     pub(crate) fn make_room(&mut self) {
         self.limit += self.size + DEFAULT_MAX_NODES;
     }

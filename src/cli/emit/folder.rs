@@ -51,30 +51,3 @@ pub fn compare(folder: &Path, file: &File) -> anyhow::Result<(String, State)> {
     };
     Ok((shown, state))
 }
-
-/// A word as a shell takes it.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=,:+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.into();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn a_shell_reads_back_what_was_quoted() {
-        for (word, text) in [
-            ("out/bar_1d", "out/bar_1d"),
-            ("my folder", "'my folder'"),
-            ("it's", r"'it'\''s'"),
-            ("", "''"),
-            ("a=b*c", "'a=b*c'"),
-        ] {
-            assert_eq!(quoted(word), text);
-        }
-    }
-}

@@ -2,8 +2,8 @@
 
 mod template;
 
-use std::fs::{self, OpenOptions};
-use std::io::{ErrorKind, Write as _};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
@@ -13,6 +13,7 @@ use mms_codegen::spec::field_name;
 use self::template::{Body, Template};
 use super::{Outcome, print};
 use crate::gallery;
+use crate::report::file;
 
 /// Where fields are kept, in this project and in others.
 const FIELDS: &str = "fields";
@@ -99,10 +100,8 @@ impl New {
 /// Writes a file that must not be there yet.
 fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
     let shown = path.display();
-    match OpenOptions::new().write(true).create_new(true).open(path) {
-        Ok(mut file) => {
-            file.write_all(text.as_bytes()).with_context(|| format!("cannot write `{shown}`"))
-        }
+    match file::write_new(path, text) {
+        Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
             bail!(
                 "`{shown}` exists already, and is left as it is; choose another name or `--output`"

@@ -66,7 +66,7 @@ impl Verify {
             showings.push(showing);
         }
         progress.bar.finish_and_clear();
-        let provenance = this_command("defects", input())?;
+        let provenance = this_command("defects", input());
         let report =
             Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
         self.tell("defects", &report.document(), || report.table(), || report.page())?;

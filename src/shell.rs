@@ -1,0 +1,50 @@
+//! Command lines, as a shell takes them apart again.
+
+use std::ffi::OsString;
+
+/// A word.
+pub fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-+=.,:/@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+/// `mms` with these arguments.
+pub fn command<W: AsRef<str>>(arguments: impl IntoIterator<Item = W>) -> String {
+    let words = arguments.into_iter().map(|word| format!(" {}", quoted(word.as_ref())));
+    format!("mms{}", words.collect::<String>())
+}
+
+/// The words of a command line; what is no text in them is shown as it can be.
+pub fn words(arguments: impl IntoIterator<Item = OsString>) -> Vec<String> {
+    arguments.into_iter().map(|word| word.to_string_lossy().into_owned()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{command, quoted};
+
+    #[test]
+    fn a_shell_reads_back_what_was_quoted() {
+        for (word, text) in [
+            ("out/bar_1d", "out/bar_1d"),
+            ("my folder", "'my folder'"),
+            ("it's", r"'it'\''s'"),
+            ("", "''"),
+            ("a=b*c", "'a=b*c'"),
+            ("8,16", "8,16"),
+        ] {
+            assert_eq!(quoted(word), text);
+        }
+    }
+
+    #[test]
+    fn a_command_is_what_a_shell_takes_apart_again() {
+        let arguments = ["study", "--rigid=rotation = \"pi*t\"", "young=2*pi", "it's"];
+        let expected = r#"mms study '--rigid=rotation = "pi*t"' 'young=2*pi' 'it'\''s'"#;
+        assert_eq!(command(arguments), expected);
+        assert_eq!(command::<&str>([]), "mms");
+    }
+}
