@@ -261,9 +261,9 @@ pub enum Cause {
     /// A particle's domain is flat or not finite.
     #[error("the particle's domain is flat or not finite")]
     FlatDomain,
-    /// No reference position was found for a node beside a prescribed face.
+    /// No reference position was found for a node beside a face whose motion is given.
     #[error(
-        "the field's motion could not be inverted at the grid node x = {position:?}, beside a prescribed face"
+        "the field's motion could not be inverted at the grid node x = {position:?}, beside a face whose motion is given"
     )]
     NoReferencePosition {
         /// The node's position.
@@ -301,8 +301,8 @@ impl Cause {
                 "the stretch is large for so few particles: try more particles per cell"
             }
             Cause::NoReferencePosition { .. } => {
-                "the field may not continue smoothly beyond its body: claim `fixed`, `roller` or \
-                 `free` on that face if it holds, or use more cells"
+                "the field may not continue smoothly beyond its body: use more cells, or claim `fixed`, \
+                 `roller` or `free` on that face where it holds and is not claimed yet"
             }
             Cause::Stopped { .. } => "what was written before is whole",
         }

@@ -7,7 +7,7 @@ use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::quantity::Quantity;
 use crate::source::Span;
-use crate::spec::BoundarySpec;
+use crate::spec::{BoundarySpec, Claim};
 
 /// J is not positive.
 pub fn inverted(compiled: &Compiled, witness: &Witness, value: f64) -> Diagnostic {
@@ -68,13 +68,18 @@ pub fn unproved(claim: &BoundarySpec, interval: [f64; 2]) -> Diagnostic {
     let (face, word) = (claim.face.value.name(), claim.claim.value);
     let message =
         format!("`{face}` is not proved to be a `{}` face: {}", word.name(), word.meaning());
-    Diagnostic::error(claim.claim.span, message)
-        .label(format!(
-            "what should be 0 lies in [{}, {}]",
-            digits(interval[0]),
-            digits(interval[1])
-        ))
-        .help("write u so that the claim follows term by term, or claim `prescribed` or `traction`")
+    let found = format!("lies in [{}, {}]", digits(interval[0]), digits(interval[1]));
+    let (label, help) = match word {
+        Claim::Prescribed | Claim::Traction => (
+            format!("what has to be finite {found}"),
+            "shrink the body or the time window, or write u in another form",
+        ),
+        Claim::Fixed | Claim::Roller | Claim::Free => (
+            format!("what should be 0 {found}"),
+            "write u so that the claim follows term by term, or claim `prescribed` or `traction`",
+        ),
+    };
+    Diagnostic::error(claim.claim.span, message).label(label).help(help)
 }
 
 fn place(compiled: &Compiled, witness: &Witness) -> String {
