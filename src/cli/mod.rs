@@ -130,14 +130,18 @@ fn this_command(kind: &str, input: Input) -> Provenance {
     Provenance::new(kind, &words(std::env::args_os()), input)
 }
 
-/// Makes the folder of `--output`. What is wrong with it is said before any work is done.
+/// Asks whether the folder of `--output` can be made and written to: what is wrong with it is said before any work is
+/// done. Nothing is left there.
 fn hold_output(folder: &Path) -> anyhow::Result<()> {
-    let wrong = || format!("`--output {}`: cannot write there", folder.display());
+    let shown = folder.display();
     if folder.exists() && !folder.is_dir() {
-        anyhow::bail!("`--output {}`: not a folder", folder.display());
+        anyhow::bail!("`--output {shown}`: not a folder");
     }
-    std::fs::create_dir_all(folder).with_context(wrong)?;
-    tempfile::tempfile_in(folder).with_context(wrong)?;
+    let what = if folder.exists() { "write to" } else { "make" };
+    let mut folders = folder.ancestors().filter(|it| !it.as_os_str().is_empty());
+    let nearest = folders.find(|it| it.exists()).unwrap_or(Path::new("."));
+    tempfile::tempfile_in(nearest)
+        .with_context(|| format!("cannot {what} the folder `{shown}`"))?;
     Ok(())
 }
 

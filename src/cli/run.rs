@@ -125,10 +125,7 @@ impl Run {
         if !self.json {
             written.iter().try_for_each(|path| print(&format!("\nwrote {path}")))?;
         }
-        if let Err(error) = kept {
-            say(format_args!("error: {error:#}"));
-            return Ok(Outcome::RunFailed);
-        }
+        kept?;
         if let Err(failure) = &report.run.level.errors {
             say(format_args!("error: {failure}"));
         }

@@ -222,3 +222,16 @@ fn the_text_has_a_line_for_every_quantity() {
         run.prints(part);
     }
 }
+
+#[test]
+fn what_cannot_be_written_is_said_before_the_run() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    for command in ["run bar_1d --cells 8", "extremes bar_1d", "accuracy bar_1d"] {
+        let run = folder.mms(&format!("{command} --output file/below")).exits(2);
+        run.prints_nothing().complains("cannot make the folder `file/below`");
+        assert!(!run.stderr.contains("steps"), "{run}");
+    }
+    let run = folder.mms("run bar_1d --history one --checkpoint one").exits(2);
+    run.prints_nothing().complains("name the same file, `one`");
+}
