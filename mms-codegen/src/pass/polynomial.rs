@@ -13,6 +13,9 @@ const MAX_EXPONENT: i64 = 1 << 20;
 /// How many terms a polynomial may have.
 const MAX_TERMS: usize = 200;
 
+/// How many terms a polynomial may have of which another one is looked for to be the square.
+const MAX_ROOT: usize = 8;
+
 /// A sum of monomials with non-zero coefficients.
 ///
 /// Operations return `None` where the result would have more than [`MAX_TERMS`] terms.
@@ -60,8 +63,12 @@ impl Polynomial {
         if self.terms.len() == 1 { self.terms.first_key_value() } else { None }
     }
 
-    /// c and q with c q^2 = self and fewer terms in q; found in polynomials of one expression.
+    /// c and q with c q^2 = self and fewer terms in q; found in short polynomials of one expression.
     pub(super) fn as_square(&self) -> Option<(Rational, Polynomial)> {
+        // The square of n terms has no more than n (n + 1)/2.
+        if self.terms.len() > MAX_ROOT * (MAX_ROOT + 1) / 2 {
+            return None;
+        }
         let [atom] = Vec::from_iter(self.atoms())[..] else { return None };
         let leading = |polynomial: &Polynomial| {
             let terms = polynomial.terms.iter();
@@ -73,7 +80,7 @@ impl Polynomial {
             return None;
         }
         let mut root = Polynomial::power_of(atom, degree / 2);
-        while root.terms.len() < self.terms.len() {
+        while root.terms.len() < self.terms.len() && root.terms.len() <= MAX_ROOT {
             let rest = self.clone().plus(&root.times(&root)?, &-factor.clone())?;
             // The next term of the root, times that with x^(degree/2) twice, leads what is left.
             let Some((exponent, c)) = leading(&rest) else { return Some((factor, root)) };
