@@ -103,16 +103,15 @@ pub fn simplify(
             quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
         }
     }
-    if let Some(amplitude) = amplitude {
-        let coarse = quantities.iter_mut().filter(|(it, _)| !is_fine(**it) && wanted(**it));
-        for (_, components) in coarse {
-            let bent = graph.attempt(|graph| amplitude.of_second_order(graph, components));
-            if let Some(Some(bent)) = bent {
-                let form = BTreeMap::from([((), bent)]);
-                *components = cheapest_of(graph, &[form], kept_apart, None).remove(&()).unwrap();
-            }
-        }
+    // Where what is of first order cancels, none of these forms keeps its digits.
+    let mut of_second_order = BTreeMap::new();
+    for (quantity, components) in quantities.iter().filter(|(it, _)| !is_fine(**it) && wanted(**it))
+    {
+        let bent = |graph: &mut Graph| amplitude?.of_second_order(graph, components);
+        let bent = graph.attempt(bent).flatten();
+        of_second_order.extend(bent.map(|components| (*quantity, components)));
     }
+    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, None));
     Derivation {
         quantities,
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),

@@ -106,7 +106,7 @@ impl Split {
                 Some(all)
             }
             Node::Call(function, arguments) => {
-                self.call(graph, function, self.known[arguments.first()?]?, expr)
+                call(graph, function, self.known[arguments.first()?]?, expr)
             }
         }
     }
@@ -134,7 +134,7 @@ impl Split {
         let magnitude = if is_negative { -exponent.clone() } else { exponent.clone() };
         let degree = u32::try_from(magnitude.denominator()).ok().filter(|it| *it <= MAX_ROOT)?;
         let count = u32::try_from(magnitude.numerator()).ok().filter(|it| *it <= MAX_POWER)?;
-        let root = if degree == 1 { base } else { self.root(graph, base, degree)? };
+        let root = if degree == 1 { base } else { root(graph, base, degree)? };
         let mut power = root;
         for bit in (0..count.ilog2()).rev() {
             power = self.product(graph, power, power);
@@ -144,77 +144,71 @@ impl Split {
         }
         if is_negative { reciprocal(graph, power) } else { Some(power) }
     }
+}
 
-    fn root(&self, graph: &mut Graph, of: Term, degree: u32) -> Option<Term> {
-        if graph.is_zero(of.limit) {
-            return None;
-        }
-        let exponent = Rational::from_parts(1.into(), degree.into());
-        let [limit, whole] = [of.limit, of.whole].map(|it| graph.power(it, exponent.clone()));
-        // y^n - y0^n = (y - y0) sum, and of that again.
-        let [mut sum, mut again] = [Vec::new(), Vec::new()];
-        for j in 0..degree {
-            let powers = |graph: &mut Graph, of_whole: u32| {
-                let [at, of] = [(limit, j), (whole, of_whole)].map(|(it, n)| graph.power(it, n));
-                graph.mul(at, of)
-            };
-            sum.push((powers(graph, degree - 1 - j), Rational::ONE));
-            if j + 2 <= degree {
-                again.push((powers(graph, degree - 2 - j), Rational::from(j + 1)));
-            }
-        }
-        let [sum, again] = [sum, again].map(|terms| graph.sum(terms));
-        let first = graph.div(of.first, sum);
-        let divisor = graph.power(limit, degree - 1);
-        let divisor = graph.scale(divisor, degree);
-        let slope = graph.div(of.slope, divisor);
-        let square = graph.power(first, 2);
-        let bent = graph.mul(square, again);
-        let second = graph.sub(of.second, bent);
-        let second = graph.div(second, divisor);
-        Some(Term { limit, slope, first, second, whole })
+fn root(graph: &mut Graph, of: Term, degree: u32) -> Option<Term> {
+    if graph.is_zero(of.limit) {
+        return None;
     }
-
-    fn call(&self, graph: &mut Graph, function: Function, of: Term, expr: Expr) -> Option<Term> {
-        let Term { limit: at, slope, first, second, whole } = of;
-        match function {
-            Function::Ln => logarithm(graph, of, expr),
-            Function::Ln1p => {
-                let [limit, whole] = [at, whole].map(|it| one_plus(graph, it));
-                logarithm(graph, Term { limit, whole, ..of }, expr)
-            }
-            // x - ln_1p x.
-            Function::Ln1pRest => {
-                let [limit, whole] = [at, whole].map(|it| one_plus(graph, it));
-                let logarithm = logarithm(graph, Term { limit, whole, ..of }, expr)?;
-                let difference = |graph: &mut Graph, [of, less]: [Expr; 2]| graph.sub(of, less);
-                let limit = graph.call(Function::Ln1pRest, &[at]);
-                let [slope, first, second] = [
-                    [slope, logarithm.slope],
-                    [first, logarithm.first],
-                    [second, logarithm.second],
-                ]
-                .map(|pair| difference(graph, pair));
-                Some(tidy(graph, Term { limit, slope, first, second, whole: expr }))
-            }
-            Function::Exp | Function::ExpM1 => {
-                let limit = graph.call(function, &[at]);
-                let factor = graph.call(Function::Exp, &[at]);
-                let more = graph.call(Function::ExpM1, &[first]);
-                let bent = graph.call(Function::Ln1pRest, &[more]);
-                let bent = graph.add(second, bent);
-                let [slope, first, second] =
-                    [slope, more, bent].map(|part| graph.mul(factor, part));
-                Some(tidy(graph, Term { limit, slope, first, second, whole: expr }))
-            }
-            Function::Cos if graph.is_zero(at) => {
-                Some(at_crest(graph, [Function::Sin, Function::Cos], -2, of))
-            }
-            Function::Cosh if graph.is_zero(at) => {
-                Some(at_crest(graph, [Function::Sinh, Function::Cosh], 2, of))
-            }
-            _ => None,
+    let exponent = Rational::from_parts(1.into(), degree.into());
+    let [limit, whole] = [of.limit, of.whole].map(|it| graph.power(it, exponent.clone()));
+    // y^n - y0^n = (y - y0) sum, and of that again.
+    let [mut sum, mut again] = [Vec::new(), Vec::new()];
+    for j in 0..degree {
+        let powers = |graph: &mut Graph, of_whole: u32| {
+            let [at, of] = [(limit, j), (whole, of_whole)].map(|(it, n)| graph.power(it, n));
+            graph.mul(at, of)
+        };
+        sum.push((powers(graph, degree - 1 - j), Rational::ONE));
+        if j + 2 <= degree {
+            again.push((powers(graph, degree - 2 - j), Rational::from(j + 1)));
         }
+    }
+    let [sum, again] = [sum, again].map(|terms| graph.sum(terms));
+    let first = graph.div(of.first, sum);
+    let divisor = graph.power(limit, degree - 1);
+    let divisor = graph.scale(divisor, degree);
+    let slope = graph.div(of.slope, divisor);
+    let square = graph.power(first, 2);
+    let bent = graph.mul(square, again);
+    let second = graph.sub(of.second, bent);
+    let second = graph.div(second, divisor);
+    Some(Term { limit, slope, first, second, whole })
+}
+
+fn call(graph: &mut Graph, function: Function, of: Term, expr: Expr) -> Option<Term> {
+    let Term { limit: at, slope, first, second, whole } = of;
+    match function {
+        Function::Ln => logarithm(graph, of, expr),
+        Function::Ln1p => {
+            let [limit, whole] = [at, whole].map(|it| one_plus(graph, it));
+            logarithm(graph, Term { limit, whole, ..of }, expr)
+        }
+        // x - ln_1p x.
+        Function::Ln1pRest => {
+            let [limit, whole] = [at, whole].map(|it| one_plus(graph, it));
+            let less = logarithm(graph, Term { limit, whole, ..of }, expr)?;
+            let limit = graph.call(Function::Ln1pRest, &[at]);
+            let pairs = [(slope, less.slope), (first, less.first), (second, less.second)];
+            let [slope, first, second] = pairs.map(|(of, less)| graph.sub(of, less));
+            Some(tidy(graph, Term { limit, slope, first, second, whole: expr }))
+        }
+        Function::Exp | Function::ExpM1 => {
+            let limit = graph.call(function, &[at]);
+            let factor = graph.call(Function::Exp, &[at]);
+            let more = graph.call(Function::ExpM1, &[first]);
+            let bent = graph.call(Function::Ln1pRest, &[more]);
+            let bent = graph.add(second, bent);
+            let [slope, first, second] = [slope, more, bent].map(|part| graph.mul(factor, part));
+            Some(tidy(graph, Term { limit, slope, first, second, whole: expr }))
+        }
+        Function::Cos if graph.is_zero(at) => {
+            Some(at_crest(graph, [Function::Sin, Function::Cos], -2, of))
+        }
+        Function::Cosh if graph.is_zero(at) => {
+            Some(at_crest(graph, [Function::Sinh, Function::Cosh], 2, of))
+        }
+        _ => None,
     }
 }
 
