@@ -21,6 +21,9 @@ use crate::program::schedule::{Cost, cost};
 use crate::quantity::Quantity;
 use crate::selection::Form;
 
+/// The components of quantities.
+type Quantities = BTreeMap<Quantity, Vec<Expr>>;
+
 /// Simplifies those quantities of a derivation without relations that are wanted, and its
 /// responses; other quantities stay as they are.
 pub fn simplify(
@@ -31,91 +34,112 @@ pub fn simplify(
     wanted: impl Fn(Quantity) -> bool,
 ) -> Derivation {
     let relations = Relations::find(graph, &model.displacement);
-    let of_wanted = |mut quantities: BTreeMap<Quantity, Vec<Expr>>| {
-        quantities.retain(|quantity, _| wanted(*quantity));
-        quantities
-    };
-    let unrelated = Relations::default();
+    let fine = |quantity| wanted(quantity) && is_fine(quantity);
+    let coarse = |quantity| wanted(quantity) && !is_fine(quantity);
     // Relations that are used early keep the motion short, and all that follows from it.
+    let unrelated = Relations::default();
     let used = if relations.is_empty() { vec![&unrelated] } else { vec![&unrelated, &relations] };
-    let mut derivations = vec![plain.quantities.clone()];
-    let mut derive_more = |graph: &mut Graph, route: Route<'_>, used: &[&Relations]| {
-        for relations in used {
-            let derived = graph.attempt(|graph| derive(graph, model, relations, route));
-            derivations.extend(derived.and_then(Result::ok).map(|derived| derived.quantities));
-        }
-        derivations.len()
-    };
-    let of_gradient = derive_more(graph, Route::Gradient, &used[1..]);
-    derive_more(graph, Route::Deformation, &used);
-    let of = |derivations: &[BTreeMap<Quantity, Vec<Expr>>], fine: bool| -> Vec<_> {
-        let of_kind = |derivation: &BTreeMap<Quantity, Vec<Expr>>| {
-            let of_kind = derivation.iter().filter(|(quantity, _)| is_fine(**quantity) == fine);
-            of_wanted(of_kind.map(|(quantity, it)| (*quantity, it.clone())).collect())
-        };
-        derivations.iter().map(of_kind).collect()
-    };
+    let mut of_gradient = vec![plain.quantities.clone()];
+    of_gradient.extend(derived(graph, model, Route::Gradient, &used[1..]));
+    let of_deformation = derived(graph, model, Route::Deformation, &used);
+    let all = [of_gradient.clone(), of_deformation].concat();
     let mut quantities = plain.quantities.clone();
-    quantities.extend(cheapest(graph, of(&derivations, false), &relations));
-    // The fast form loses digits at small amplitudes anyway.
-    let amplitude = match form {
-        Form::Stable => Amplitude::find(graph, model),
-        Form::Fast => None,
-    };
-    let amplitude = amplitude.as_ref();
-    let settled = graph.attempt(|graph| derive_settled(graph, model, &relations, amplitude));
-    quantities.extend(match (form, settled) {
-        (Form::Fast, _) => cheapest(graph, of(&derivations, true), &relations),
-        // To multiply out what was settled would undo it, modulo the relations of whole angles alone
-        // it does not: they do not occur in what is small.
-        (Form::Stable, Some(Ok(Some(settled)))) => {
-            let forms = of(&[settled], true);
-            let rewrite = |graph: &mut Graph, components: Vec<Expr>| {
-                let mut ways = kept_apart(graph, components.clone());
-                if !relations.is_empty() {
-                    ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
-                }
-                ways
-            };
-            cheapest_of(graph, &forms, rewrite, amplitude)
-        }
-        (Form::Stable, _) => cheapest(graph, of(&derivations[..of_gradient], true), &relations),
-    });
-    // The part of Div P that is due to gradients of the moduli is as small as the stress is.
-    let is_graded = is_graded(graph, model);
-    let lost: Vec<Quantity> = match form {
-        Form::Fast => Vec::new(),
+    quantities.extend(cheapest(graph, only(&all, coarse), &relations));
+    match form {
+        // It loses digits at small amplitudes anyway.
+        Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations)),
         Form::Stable => {
-            let coarse = quantities.iter().filter(|(it, _)| !is_fine(**it) && wanted(**it));
-            let lost = |(_, components): &(&Quantity, &Vec<Expr>)| {
-                let loses = |amplitude: &Amplitude| !amplitude.keeps(graph, components);
-                is_graded || amplitude.is_some_and(loses)
-            };
-            coarse.filter(lost).map(|(quantity, _)| *quantity).collect()
-        }
-    };
-    if !lost.is_empty() {
-        let route = Route::Settled(amplitude);
-        let settled = graph.attempt(|graph| derive(graph, model, &relations, route));
-        if let Some(Ok(mut settled)) = settled {
-            settled.quantities.retain(|quantity, _| lost.contains(quantity));
-            let forms = [settled.quantities];
-            quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
+            let amplitude = Amplitude::find(graph, model);
+            let settled = settled(graph, model, &relations, amplitude.as_ref(), fine);
+            quantities.extend(
+                settled.unwrap_or_else(|| cheapest(graph, only(&of_gradient, fine), &relations)),
+            );
+            mend(graph, model, &relations, amplitude.as_ref(), &mut quantities, coarse);
         }
     }
-    // Where what is of first order cancels, none of these forms keeps its digits.
-    let mut of_second_order = BTreeMap::new();
-    for (quantity, components) in quantities.iter().filter(|(it, _)| !is_fine(**it) && wanted(**it))
-    {
-        let bent = |graph: &mut Graph| amplitude?.of_second_order(graph, components);
-        let bent = graph.attempt(bent).flatten();
-        of_second_order.extend(bent.map(|components| (*quantity, components)));
-    }
-    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, None));
     Derivation {
         quantities,
         responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
     }
+}
+
+/// What a motion comes to by one route, with each of these relations; what would outgrow the graph is left out.
+fn derived(
+    graph: &mut Graph,
+    model: &Model,
+    route: Route<'_>,
+    used: &[&Relations],
+) -> Vec<Quantities> {
+    let with = |relations: &&Relations| {
+        let derived = graph.attempt(|graph| derive(graph, model, relations, route));
+        derived.and_then(Result::ok).map(|derived| derived.quantities)
+    };
+    used.iter().filter_map(with).collect()
+}
+
+/// Of each form these quantities alone.
+fn only(forms: &[Quantities], kept: impl Fn(Quantity) -> bool) -> Vec<Quantities> {
+    let mut forms = forms.to_vec();
+    for form in &mut forms {
+        form.retain(|quantity, _| kept(*quantity));
+    }
+    forms
+}
+
+/// Quantities that vanish with the displacement or the strain, with all that cancels taken apart: see
+/// [`derive_settled`].
+fn settled(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+    amplitude: Option<&Amplitude>,
+    is_fine: impl Fn(Quantity) -> bool,
+) -> Option<Quantities> {
+    let settled = graph.attempt(|graph| derive_settled(graph, model, relations, amplitude));
+    let forms = only(&[settled?.ok()??], is_fine);
+    // To multiply out what was settled would undo it, modulo the relations of whole angles alone
+    // it does not: they do not occur in what is small.
+    let rewrite = |graph: &mut Graph, components: Vec<Expr>| {
+        let mut ways = kept_apart(graph, components.clone());
+        if !relations.is_empty() {
+            ways.extend(graph.attempt(|graph| reduce(graph, &components, relations)));
+        }
+        ways
+    };
+    Some(cheapest_of(graph, &forms, rewrite, amplitude))
+}
+
+/// Other quantities, where they lose digits at small amplitudes, in a form that keeps more.
+fn mend(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+    amplitude: Option<&Amplitude>,
+    quantities: &mut Quantities,
+    is_coarse: impl Fn(Quantity) -> bool,
+) {
+    let coarse = |quantities: &Quantities| {
+        let coarse = quantities.iter().filter(|(quantity, _)| is_coarse(**quantity));
+        coarse.map(|(quantity, components)| (*quantity, components.clone())).collect::<Quantities>()
+    };
+    // The part of Div P that is due to gradients of the moduli is as small as the stress is.
+    let is_graded = is_graded(graph, model);
+    let mut lost = coarse(quantities);
+    let loses = |components: &[Expr]| amplitude.is_some_and(|it| !it.keeps(graph, components));
+    lost.retain(|_, components| is_graded || loses(components));
+    if !lost.is_empty() {
+        let derived = derived(graph, model, Route::Settled(amplitude), &[relations]);
+        let forms = only(&derived, |quantity| lost.contains_key(&quantity));
+        quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
+    }
+    // Where what is of first order cancels, none of these forms keeps its digits.
+    let mut of_second_order = Quantities::new();
+    for (quantity, components) in coarse(quantities) {
+        let bent = |graph: &mut Graph| amplitude?.of_second_order(graph, &components);
+        let bent = graph.attempt(bent).flatten();
+        of_second_order.extend(bent.map(|components| (quantity, components)));
+    }
+    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, None));
 }
 
 /// Whether moduli or the direction of fibres depend on X.
