@@ -13,7 +13,7 @@ use mms_codegen::program::{Bound, Output};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::quantity;
 use mms_codegen::spec::Face;
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 
 use crate::error::{Error, MmsCode};
 
@@ -214,10 +214,7 @@ impl Field {
         let parameters = &self.compiled.model.parameters;
         let names = || parameters.iter().map(|parameter| parameter.name.as_str());
         names().position(|known| known == name).ok_or_else(|| {
-            let advice = match did_you_mean(name, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("the field has {}", names().collect::<Vec<_>>().join(", ")),
-            };
+            let advice = advice(name, names(), |all| format!("the field has {all}"));
             Error::new(MmsCode::UnknownName, format!("no parameter `{name}`; {advice}"))
         })
     }

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
@@ -16,10 +16,7 @@ pub fn field(name: &str) -> Result<Field, Error> {
     let names = || FIELDS.iter().filter_map(|(name, ..)| name.to_str().ok());
     let Some((_, text, material)) = FIELDS.iter().find(|(known, ..)| known.to_str() == Ok(name))
     else {
-        let advice = match did_you_mean(name, names()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("it holds {}", names().collect::<Vec<_>>().join(", ")),
-        };
+        let advice = advice(name, names(), |all| format!("it holds {all}"));
         let message = format!("no field `{name}` in the gallery; {advice}");
         return Err(Error::new(MmsCode::UnknownName, message));
     };

@@ -25,7 +25,7 @@ use crate::selection::{Form, Selection};
 use crate::simplify::{simplify, twins};
 use crate::source::{SourceId, Sources, Span};
 use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 use crate::syntax::{self, Kind};
 use crate::units;
 use crate::variation::Variation;
@@ -368,16 +368,9 @@ fn find_material(
     let stems = MATERIALS.iter().map(|(stem, _)| *stem);
     let diagnostic = Diagnostic::error(model.span, format!("unknown material `{shown}`"))
         .label("no such material");
-    diagnostics.push(match did_you_mean(shown, stems.clone()) {
-        Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-        None => {
-            let stems: Vec<_> = stems.collect();
-            diagnostic.help(format!(
-                "shipped materials: {}; one of your own is written \"./mine.toml\"",
-                stems.join(", ")
-            ))
-        }
-    });
+    diagnostics.push(diagnostic.help(advice(shown, stems, |all| {
+        format!("shipped materials: {all}; one of your own is written \"./mine.toml\"")
+    })));
     None
 }
 
@@ -496,10 +489,8 @@ impl Compiled {
         let faces = Face::of(&self.field.domain.body, self.field.dimension);
         let names = || faces.iter().map(|face| face.name());
         faces.iter().copied().find(|face| face.name() == name).ok_or_else(|| {
-            match did_you_mean(name, names()) {
-                Some(near) => format!("no such face; did you mean `{near}`?"),
-                None => format!("this body has {}", names().collect::<Vec<_>>().join(", ")),
-            }
+            let advice = advice(name, names(), |all| format!("this body has {all}"));
+            format!("no such face; {advice}")
         })
     }
 

@@ -52,14 +52,6 @@ impl Diagnostic {
         self.help.push(help.into());
         self
     }
-
-    /// Adds "did you mean ...?" where there is something near.
-    pub fn did_you_mean(self, near: Option<&str>) -> Self {
-        match near {
-            Some(near) => self.help(format!("did you mean `{near}`?")),
-            None => self,
-        }
-    }
 }
 
 /// A piece of a user's text as messages quote it: in backticks, and cut where it is long.
@@ -153,7 +145,7 @@ mod tests {
         let (sources, span) = source("[field]\ntitel = 1\n");
         let diagnostic = Diagnostic::error(span(8, 13), "unknown key `titel`")
             .label("not a key of [field]")
-            .did_you_mean(Some("title"));
+            .help("did you mean `title`?");
         let expected = "\
 error: unknown key `titel`
  --> fields/x.toml:2:1

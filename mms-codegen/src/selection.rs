@@ -18,7 +18,7 @@ use crate::program::{Bound, Op, Output, Program, Value};
 use crate::quantity::Quantity;
 use crate::source::{Sources, Span};
 use crate::spec::{FieldSpec, Formula, ParameterSpec};
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 use crate::twin::Twin;
 
 /// What of a field is wanted. The default is everything, as the file says it.
@@ -63,10 +63,7 @@ impl Form {
     pub fn from_name(name: &str) -> Result<Form, String> {
         Self::ALL.into_iter().find(|form| form.name() == name).ok_or_else(|| {
             let known = Self::ALL.map(Form::name);
-            let advice = match did_you_mean(name, known) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("the forms are {}", known.join(", ")),
-            };
+            let advice = advice(name, known, |all| format!("the forms are {all}"));
             format!("unknown form {}; {advice}", quoted(name))
         })
     }
@@ -100,10 +97,7 @@ pub enum Entry {
 pub fn quantity(name: &str) -> Result<Quantity, String> {
     Quantity::from_name(name).ok_or_else(|| {
         let known = Quantity::ALL.iter().map(|quantity| quantity.name());
-        let advice = match did_you_mean(name, known.clone()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the quantities are {}", known.collect::<Vec<_>>().join(", ")),
-        };
+        let advice = advice(name, known, |all| format!("the quantities are {all}"));
         format!("unknown quantity {}; {advice}", quoted(name))
     })
 }
@@ -316,14 +310,10 @@ fn find(
     if index.is_none() && !field.incomplete {
         let message = format!("no parameter {}", quoted(name));
         let diagnostic = Diagnostic::error(span, message).label("not a parameter of this field");
-        diagnostics.push(match did_you_mean(name, known.clone()) {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None if field.parameters.is_empty() => diagnostic.help("the field has no parameters"),
-            None => {
-                let known = known.collect::<Vec<_>>().join(", ");
-                diagnostic.help(format!("the field's parameters are {known}"))
-            }
-        });
+        diagnostics.push(diagnostic.help(advice(name, known, |all| match all {
+            "" => "the field has no parameters".into(),
+            _ => format!("the field's parameters are {all}"),
+        })));
     }
     index
 }

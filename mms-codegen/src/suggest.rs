@@ -52,9 +52,22 @@ fn edit_distance(a: &[char], b: &[char]) -> usize {
     rows[a.len()][b.len()]
 }
 
+/// What to write in the place of a name that is not known: the one that is meant, or else what `otherwise` says,
+/// which is told all of them.
+pub fn advice<'a>(
+    name: &str,
+    known: impl IntoIterator<Item = &'a str> + Clone,
+    otherwise: impl FnOnce(&str) -> String,
+) -> String {
+    match did_you_mean(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => otherwise(&known.into_iter().collect::<Vec<_>>().join(", ")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::did_you_mean;
+    use super::{advice, did_you_mean};
 
     #[test]
     fn finds_slips_and_leaves_strangers_alone() {
@@ -70,6 +83,13 @@ mod tests {
     fn prefers_the_nearest_then_the_first() {
         assert_eq!(did_you_mean("x_mun", ["x_max", "x_min"]), Some("x_min"));
         assert_eq!(did_you_mean("abcd", ["abce", "abcf"]), Some("abce"));
+    }
+
+    #[test]
+    fn advice_is_what_is_near_or_else_all() {
+        let of = |name| advice(name, ["x_min", "x_max"], |all| format!("there are {all}"));
+        assert_eq!(of("x_mni"), "did you mean `x_min`?");
+        assert_eq!(of("temperature"), "there are x_min, x_max");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The words between the parentheses of `field!`.
 
 use mms_codegen::selection::{Entry, Form, Freeze, Selection, quantity};
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use mms_codegen::twin::Twin;
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt as _;
@@ -87,10 +87,7 @@ impl Request {
                 Ok(())
             }
             other => {
-                let advice = match did_you_mean(other, OPTIONS) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("the options are {}", OPTIONS.join(", ")),
-                };
+                let advice = advice(other, OPTIONS, |all| format!("the options are {all}"));
                 Err(Error::new(option.span(), format!("unknown option `{other}`; {advice}")))
             }
         }

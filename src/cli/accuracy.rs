@@ -8,7 +8,7 @@ use mms_codegen::accuracy::regime::REGIMES;
 use mms_codegen::accuracy::{Precision, Request, measure, names};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, Selection};
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use mms_codegen::{Compiled, Options};
 
 use super::input::{Motion, Text, precision, quantities, settings};
@@ -145,13 +145,8 @@ impl Accuracy {
             if known.contains(name) {
                 continue;
             }
-            match did_you_mean(name, names()) {
-                Some(near) => bail!("no regime `{name}`; did you mean `{near}`?"),
-                None => bail!(
-                    "no regime `{name}`; there are {}",
-                    names().collect::<Vec<_>>().join(", ")
-                ),
-            }
+            let advice = advice(name, names(), |all| format!("there are {all}"));
+            bail!("no regime `{name}`; {advice}");
         }
         Ok(Some(wanted))
     }

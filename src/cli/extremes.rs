@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
@@ -134,14 +134,11 @@ impl Extremes {
             if names().any(|known| known == name) {
                 continue;
             }
-            match did_you_mean(name, names()) {
-                Some(near) => bail!("`--row {name}`: no such row or group; did you mean `{near}`?"),
-                None => {
-                    let all: Vec<_> =
-                        all.iter().map(|row| row.name.as_str()).chain([STABILITY]).collect();
-                    bail!("`--row {name}`: no such row or group; there are {}", all.join(", "))
-                }
-            }
+            let advice = advice(name, names(), |_| {
+                let rows = all.iter().map(|row| row.name.as_str()).chain([STABILITY]);
+                format!("there are {}", rows.collect::<Vec<_>>().join(", "))
+            });
+            bail!("`--row {name}`: no such row or group; {advice}");
         }
         Ok(all.iter().filter(|row| self.wants(&row.name) || self.wants(row.group())).collect())
     }

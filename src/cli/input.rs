@@ -14,7 +14,7 @@ use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::program::interpret::Number;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use mms_codegen::twin::Twin;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
@@ -207,15 +207,8 @@ impl Input {
             let index = parameters.iter().position(|parameter| parameter.name == name);
             let index = index.with_context(|| {
                 let names = parameters.iter().map(|parameter| parameter.name.as_str());
-                match did_you_mean(name, names.clone()) {
-                    Some(near) => {
-                        format!("`--set {setting}`: no parameter `{name}`; did you mean `{near}`?")
-                    }
-                    None => format!(
-                        "`--set {setting}`: no parameter `{name}`; the field has {}",
-                        names.collect::<Vec<_>>().join(", ")
-                    ),
-                }
+                let advice = advice(name, names, |all| format!("the field has {all}"));
+                format!("`--set {setting}`: no parameter `{name}`; {advice}")
             })?;
             let value = mms_codegen::compile::constant(value.trim())
                 .map_err(|failure| anyhow!("`--set {setting}`: not a number\n{failure}"))?;
@@ -261,13 +254,10 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
         return Ok(entry);
     }
     let names = gallery::FIELDS.iter().map(|entry| entry.name);
-    match did_you_mean(field, names.clone()) {
-        Some(near) => bail!("no field `{field}` in the gallery; did you mean `{near}`?"),
-        None => bail!(
-            "no field `{field}` in the gallery, which holds {}; a file of your own is given by its path, ending in .toml",
-            names.collect::<Vec<_>>().join(", ")
-        ),
-    }
+    let advice = advice(field, names, |all| {
+        format!("it holds {all}; a file of your own is given by its path, ending in .toml")
+    });
+    bail!("no field `{field}` in the gallery; {advice}")
 }
 
 /// The text of a field that the user named, to be compiled in one way or more.

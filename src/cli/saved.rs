@@ -7,7 +7,7 @@ use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
 use mms_codegen::source::Sources;
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -122,10 +122,10 @@ fn read(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString>> 
         let place = key.span();
         let span = sources.span(source, place.start, place.end);
         if !known().any(|option| option == name) {
-            let help = match did_you_mean(&name, known()) {
-                Some(near) => format!("did you mean `{}`?", near.replace('-', "_")),
-                None => "the keys are the options of `mms study`, and `field`: see `--help`".into(),
-            };
+            let keys: Vec<String> = known().map(|option| option.replace('-', "_")).collect();
+            let help = advice(key.get_ref(), keys.iter().map(String::as_str), |_| {
+                "the keys are the options of `mms study`, and `field`: see `--help`".into()
+            });
             let message = format!("`{}` is no option of a study", key.get_ref());
             diagnostics.push(Diagnostic::error(span, message).label("unknown").help(help));
         } else if !given.replaces(&name) {

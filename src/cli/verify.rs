@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 use serde_json::Value;
 
 use super::input::Input;
@@ -145,12 +145,8 @@ impl Verify {
                 continue;
             }
             let names = all.iter().flat_map(|row| [row.name.as_str(), row.group()]);
-            match did_you_mean(name, names) {
-                Some(near) => bail!("`--row {name}`: no such row or group; did you mean `{near}`?"),
-                None => {
-                    bail!("`--row {name}`: no such row or group; `mms verify --list` lists them")
-                }
-            }
+            let advice = advice(name, names, |_| "`mms verify --list` lists them".into());
+            bail!("`--row {name}`: no such row or group; {advice}");
         }
         let asked = |row: &&Row| self.row.is_empty() || self.row.iter().any(|name| is(row, name));
         let rows: Vec<_> = all.iter().filter(asked).collect();

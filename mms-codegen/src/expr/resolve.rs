@@ -8,7 +8,7 @@ use super::{Expr, Function, Graph, Rational, Symbol};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Span, Spanned};
 use crate::spec::names::FUNCTIONS;
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 use crate::syntax::{Ast, Kind, Operator};
 
 /// Functions that people try, and why a field cannot have them.
@@ -203,11 +203,11 @@ impl Resolver<'_> {
         let diagnostic =
             Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
         let candidates = self.scope.names.keys().map(String::as_str);
-        let diagnostic = match did_you_mean(name, candidates) {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None if self.scope.names.is_empty() => diagnostic.help("expected a number"),
-            None => diagnostic.help(format!("names in scope: {}", self.known_names())),
-        };
+        let diagnostic =
+            diagnostic.help(advice(name, candidates, |_| match self.scope.names.is_empty() {
+                true => "expected a number".into(),
+                false => format!("names in scope: {}", self.known_names()),
+            }));
         self.report(diagnostic)
     }
 
@@ -350,13 +350,7 @@ impl Resolver<'_> {
         let diagnostic = Diagnostic::error(name.span, format!("unknown function `{shown}`"))
             .label("not a function");
         let functions = FUNCTIONS.iter().copied();
-        match did_you_mean(shown, functions.clone()) {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None => {
-                let functions: Vec<_> = functions.collect();
-                diagnostic.help(format!("the functions are {}", functions.join(", ")))
-            }
-        }
+        diagnostic.help(advice(shown, functions, |all| format!("the functions are {all}")))
     }
 
     /// A sufficient condition for a base to be positive: read off, not proved by bounds.

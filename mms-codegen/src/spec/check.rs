@@ -9,7 +9,7 @@ use crate::accuracy::regime;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 
 /// A closed form that a quantity must equal.
 #[derive(Clone, Debug)]
@@ -140,9 +140,9 @@ fn set<'a>(
 fn unknown_parameter(name: &Spanned<String>, parameters: &[&str]) -> Diagnostic {
     let message = format!("unknown parameter {}", quoted(&name.value));
     let diagnostic = Diagnostic::error(name.span, message).label("not in [parameters]");
-    match did_you_mean(&name.value, parameters.iter().copied()) {
-        near @ Some(_) => diagnostic.did_you_mean(near),
-        None if parameters.is_empty() => diagnostic.help("this field has no parameters"),
-        None => diagnostic.help(format!("the parameters are {}", list(parameters))),
-    }
+    let all = |_: &str| match parameters {
+        [] => "this field has no parameters".into(),
+        _ => format!("the parameters are {}", list(parameters)),
+    };
+    diagnostic.help(advice(&name.value, parameters.iter().copied(), all))
 }

@@ -155,7 +155,7 @@ fn misspelt_keys(
         reader.report(
             Diagnostic::error(key.span, format!("unknown key {}", quoted(&key.value)))
                 .label(format!("[material] needs `{meant}`"))
-                .did_you_mean(Some(meant)),
+                .help(format!("did you mean `{meant}`?")),
         );
         misspelt.push((key.value.clone(), meant));
     }

@@ -11,7 +11,7 @@ use super::format::{self, Key};
 use super::formula::Formula;
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::source::{SourceId, Sources, Span, Spanned};
-use crate::suggest::did_you_mean;
+use crate::suggest::{advice, did_you_mean};
 
 /// One file never gives more diagnostics than this.
 const MAX_DIAGNOSTICS: usize = 1000;
@@ -195,15 +195,14 @@ impl<'a> Reader<'a> {
             if keys.contains(&key) || self.incomplete || self.is_full() {
                 continue;
             }
-            let near = did_you_mean(key, absent.iter().copied());
-            table.misspelt.extend(near);
-            let diagnostic =
+            let absent = absent.iter().copied();
+            table.misspelt.extend(did_you_mean(key, absent.clone()));
+            let all = |_: &str| format!("its keys are {}", list(&keys));
+            self.report(
                 Diagnostic::error(entry.key.span, format!("unknown key {}", quoted(key)))
-                    .label(format!("not a key of {}", table.name));
-            self.report(match near {
-                Some(_) => diagnostic.did_you_mean(near),
-                None => diagnostic.help(format!("its keys are {}", list(&keys))),
-            });
+                    .label(format!("not a key of {}", table.name))
+                    .help(advice(key, absent, all)),
+            );
         }
     }
 

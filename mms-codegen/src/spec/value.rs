@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::table::{Entry, Reader, Table, Value, list};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::source::{Span, Spanned};
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 
 /// Cells and particles beyond this are a slip.
 pub const MAX_COUNT: usize = 1_000_000_000;
@@ -217,10 +217,8 @@ impl<'a> Reader<'a> {
 pub(super) fn unknown_word(found: &Spanned<String>, what: &str, words: &[&str]) -> Diagnostic {
     let message = format!("unknown {what} {}", quoted(&found.value));
     let diagnostic = Diagnostic::error(found.span, message).label(format!("no such {what}"));
-    match did_you_mean(&found.value, words.iter().copied()) {
-        near @ Some(_) => diagnostic.did_you_mean(near),
-        None => diagnostic.help(format!("expected one of {}", list(words))),
-    }
+    let expected = |_: &str| format!("expected one of {}", list(words));
+    diagnostic.help(advice(&found.value, words.iter().copied(), expected))
 }
 
 /// `1 formula`, `2 formulas`.

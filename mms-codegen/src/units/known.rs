@@ -1,7 +1,7 @@
 //! The units that files may use: those of the SI with their prefixes, and few others.
 
 use super::dimension::Dimension;
-use crate::suggest::did_you_mean;
+use crate::suggest;
 
 /// How large a unit is, as 10^tens * 60^sixties SI units. The two factors are independent, so
 /// that sizes are equal only where both exponents are.
@@ -129,12 +129,9 @@ pub fn advice(symbol: &str) -> String {
         return format!("did you mean `{}`?", unit.symbol);
     }
     let candidates = candidates();
-    match did_you_mean(symbol, candidates.iter().map(String::as_str)) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => {
-            "units are those of the SI with their prefixes, such as `kg/m^3`, `MPa` or `1`".into()
-        }
-    }
+    suggest::advice(symbol, candidates.iter().map(String::as_str), |_| {
+        "units are those of the SI with their prefixes, such as `kg/m^3`, `MPa` or `1`".into()
+    })
 }
 
 /// Whether a text is a word, or its plural, in letters of any case.

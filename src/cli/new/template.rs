@@ -11,7 +11,7 @@ use mms_codegen::spec::names::FUNCTIONS;
 use mms_codegen::spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
-use mms_codegen::suggest::did_you_mean;
+use mms_codegen::suggest::advice;
 
 use crate::gallery;
 
@@ -72,13 +72,9 @@ pub fn material(name: &str) -> anyhow::Result<MaterialSpec> {
         return Ok(material.clone());
     }
     let stems = materials.iter().map(|material| material.name.as_str());
-    match did_you_mean(name, stems.clone()) {
-        Some(near) => bail!("no material `{name}`; did you mean `{near}`?"),
-        None => bail!(
-            "no material `{name}`; there are {}. One of your own is named in the file",
-            stems.collect::<Vec<_>>().join(", ")
-        ),
-    }
+    let advice =
+        advice(name, stems, |all| format!("there are {all}. One of your own is named in the file"));
+    bail!("no material `{name}`; {advice}")
 }
 
 impl Template<'_> {

@@ -9,7 +9,7 @@ use crate::mechanics::invariant::{INVARIANTS, Kind, VOLUME};
 use crate::source::Spanned;
 use crate::spec::moduli::ENGINEERING;
 use crate::spec::{FieldSpec, MaterialSpec};
-use crate::suggest::did_you_mean;
+use crate::suggest::advice;
 use crate::syntax;
 
 /// What Poisson's ratio must be.
@@ -94,13 +94,11 @@ impl Reader<'_> {
         let model = &field.material.model.value;
         let message = format!("`{}` is not a parameter of `{model}`", name.value);
         let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
-        self.diagnostics.push(match did_you_mean(&name.value, known.iter().copied()) {
-            Some(near) => diagnostic.help(format!("did you mean `{near}`?")),
-            None if known.is_empty() => {
-                diagnostic.help("it has none: a material file lists them in [parameters]")
-            }
-            None => diagnostic.help(format!("its parameters are {}", known.join(", "))),
+        let advice = advice(&name.value, known.iter().copied(), |all| match all {
+            "" => "it has none: a material file lists them in [parameters]".into(),
+            _ => format!("its parameters are {all}"),
         });
+        self.diagnostics.push(diagnostic.help(advice));
     }
 
     /// The invariants in terms of their departures from the undeformed state.
