@@ -16,21 +16,21 @@ pub trait Work {
 }
 
 /// Does work with the most that the processor has. Numbers four at a time gain by AVX-512 too: it has twice as many
-/// registers, and takes one number of memory for all four.
+/// registers, and takes one number of memory for all four. With debug assertions there is no such version: every
+/// batch and every step of a solver would be compiled once more, for programs that need not be fast.
 #[inline]
 pub fn best<W: Work>(work: W) -> W::Output {
+    #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+    if has_avx512() {
+        // Safety: the processor has what the function is compiled for.
+        #[allow(unsafe_code)]
+        return unsafe { avx512(work) };
+    }
     #[cfg(target_arch = "x86_64")]
-    {
-        if has_avx512() {
-            // Safety: the processor has what the function is compiled for.
-            #[allow(unsafe_code)]
-            return unsafe { avx512(work) };
-        }
-        if has_avx2() {
-            // Safety: likewise.
-            #[allow(unsafe_code)]
-            return unsafe { avx2(work) };
-        }
+    if has_avx2() {
+        // Safety: likewise.
+        #[allow(unsafe_code)]
+        return unsafe { avx2(work) };
     }
     baseline(work)
 }
@@ -40,7 +40,7 @@ fn baseline<W: Work>(work: W) -> W::Output {
     if cfg!(target_arch = "aarch64") { work.fused(Fused::known()) } else { work.plain(Plain) }
 }
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
 fn has_avx512() -> bool {
     std::is_x86_feature_detected!("avx512f")
         && std::is_x86_feature_detected!("avx512dq")
@@ -53,7 +53,7 @@ fn has_avx2() -> bool {
     std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
 }
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn avx512<W: Work>(work: W) -> W::Output {
     work.fused(Fused::known())

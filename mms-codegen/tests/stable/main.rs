@@ -8,6 +8,7 @@ mod measure;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 use measure::{Excess, of_field, of_responses};
 use mms_codegen::compile::{MATERIALS, compile_unproved};
@@ -119,16 +120,22 @@ fn materials() -> Vec<MaterialSpec> {
 
 #[test]
 fn motions_with_large_rotations_and_tiny_strains_hold_for_every_material() {
-    let mut all = Vec::new();
-    for motion in files("tests/data/stable") {
-        let text = fs::read_to_string(&motion).expect("a readable file");
+    let motions = files("tests/data/stable");
+    let of = |spec: &MaterialSpec, motion: &PathBuf| {
+        let text = fs::read_to_string(motion).expect("a readable file");
         let stem = motion.file_stem().unwrap_or_default().to_string_lossy();
-        for spec in materials() {
-            let (name, text) = with_material(&stem, &text, &spec);
-            all.extend(measured(&name, &text));
-        }
-    }
-    hold(all);
+        let (name, text) = with_material(&stem, &text, spec);
+        measured(&name, &text)
+    };
+    let of_material = |spec: &MaterialSpec| -> Vec<Excess> {
+        motions.iter().flat_map(|motion| of(spec, motion)).collect()
+    };
+    hold(thread::scope(|scope| {
+        let (of_material, materials) = (&of_material, materials());
+        let start = |spec: MaterialSpec| scope.spawn(move || of_material(&spec));
+        let running: Vec<_> = materials.into_iter().map(start).collect();
+        running.into_iter().flat_map(|it| it.join().expect("no panic")).collect()
+    }));
 }
 
 /// What fibres of another direction everywhere add to Div P is as small as the stress.

@@ -14,7 +14,7 @@ use mms_codegen::sample::{halton, samples};
 use mms_math::Scalar as _;
 
 /// How many points and times.
-const POINTS: usize = 64;
+const POINTS: usize = 24;
 
 /// The error of one output of one field.
 pub struct Excess {
