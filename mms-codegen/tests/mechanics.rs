@@ -251,6 +251,18 @@ fn a_vortex_has_no_volume_change_no_lambda_and_a_symmetric_stress() {
     }
 }
 
+/// The sine of twice an angle in one component, twice sine times cosine in the other.
+#[test]
+fn a_divergence_that_is_0_by_an_identity_leaves_no_lambda() {
+    let vortex =
+        "[\"0.1*sin(pi*X)^2*sin(2*pi*Y)*cos(t)\", \"-0.1*sin(2*pi*X)*sin(pi*Y)^2*cos(t)\"]";
+    let linear = "model = \"linear_elastic\"\nlambda = 3\nmu = 2";
+    let [present, zero, negligible] = seen(&field(2, vortex, linear, "1"));
+    assert!(zero.contains(&"parameter.lambda".to_string()), "{zero:?} {negligible:?}");
+    assert!(present.contains(&"parameter.mu".to_string()), "{present:?}");
+    assert!(negligible.is_empty(), "{negligible:?}");
+}
+
 #[test]
 fn components_that_do_not_couple_have_no_cross_terms() {
     let apart = "[\"0.1*sin(X)*cos(t)\", \"0.1*sin(Y)*cos(t + 1)\"]";

@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::amplitude::{Amplitude, mended};
-use super::kinematics::{Motion, Route, Strain, half_angles};
+use super::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use super::material::{self, Law};
 use super::misread;
 use super::model::Model;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
-use crate::pass::differentiate::differentiate;
 use crate::pass::factor::factor;
 use crate::pass::relations::Relations;
 use crate::pass::settle::settle;
@@ -55,7 +54,7 @@ pub fn derive(
 ) -> Result<Derivation, TooLarge> {
     let law = Law::new(graph, model.energy, &model.kind);
     within_bound(graph, "stress of the material")?;
-    let motion = Motion::new(graph, &model.displacement, &model.kind, relations, route);
+    let motion = Motion::new(graph, model, relations, route);
     within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
     let mut quantities = kinematic_quantities(graph, &motion);
     quantities.extend(strain_quantities(graph, &motion.strain));
@@ -82,14 +81,9 @@ pub fn derive_settled(
     relations: &Relations,
     amplitude: Option<&Amplitude>,
 ) -> Result<Option<BTreeMap<Quantity, Vec<Expr>>>, TooLarge> {
-    let dimension = model.displacement.len();
     let plain = factor(graph, &model.displacement);
-    let columns: Vec<Vec<Expr>> =
-        (0..dimension).map(|axis| differentiate(graph, &plain, Symbol::Coordinate(axis))).collect();
-    let components: Vec<Expr> =
-        (0..dimension * dimension).map(|k| columns[k % dimension][k / dimension]).collect();
-    let components = factor(graph, &components);
-    let gradient = Tensor::from_components(dimension, components);
+    let gradient = gradient_of(graph, &plain);
+    let gradient = traceless(graph, model, gradient);
     let displacement = settle(graph, &plain);
     let displacement = mended(graph, amplitude, &plain, &displacement);
     let halves = half_angles(graph, &plain, &gradient);

@@ -6,6 +6,8 @@ use super::amplitude::{Amplitude, mended};
 use super::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
+use super::model::Model;
+use super::place::is_nothing;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
@@ -168,7 +170,7 @@ impl Strain {
         [relations, of_inverse]: [&Relations; 2],
     ) -> Self {
         let mut invariants: Vec<Expr> = match kind {
-            Kind::Isotropic | Kind::Fibrous(_) => first_invariants(graph, &right).into(),
+            Kind::Isotropic | Kind::Fibrous(_) => first_invariants(graph, &gradient, &right).into(),
             Kind::SmallStrain => small_invariants(graph, &gradient).into(),
         };
         let fibre = match kind {
@@ -191,6 +193,20 @@ impl Strain {
         let adjugate = deformation.adjugate(graph).reduce(graph, of_inverse);
         let inverse = adjugate.scale(graph, reciprocal);
         Strain { gradient, deformation, jacobian, inverse, right, left, invariants, fibre }
+    }
+
+    /// (adj F - I)/J where tr H = 0: what F^-1 is to be contracted with tensors without a trace, of the size of H.
+    fn inverse_beside_identity(&self, graph: &mut Graph) -> Tensor {
+        let minors = self.gradient.adjugate(graph);
+        let rest = match self.gradient.dimension() {
+            3 => {
+                let minus_one = graph.number(-1);
+                self.gradient.scale(graph, minus_one).add(graph, &minors)
+            }
+            _ => minors,
+        };
+        let reciprocal = graph.power(self.jacobian, -1);
+        rest.scale(graph, reciprocal)
     }
 
     /// The small strain eps = (H + H^T)/2.
@@ -223,10 +239,14 @@ fn small_invariants(graph: &mut Graph, gradient: &Tensor) -> [Expr; 2] {
     [gradient.trace(graph), strain.contract(graph, &strain)]
 }
 
-/// I1 - 3 = tr (C - I) and I2 - 3 = 2 i1 + q, from C - I and the sum q of its principal minors of
-/// two rows.
-fn first_invariants(graph: &mut Graph, right: &Tensor) -> [Expr; 2] {
-    let first = right.trace(graph);
+/// I1 - 3 = tr (C - I), or |H|^2 where tr H = 0, and I2 - 3 = 2 i1 + q, from C - I and the sum q of its principal
+/// minors of two rows.
+fn first_invariants(graph: &mut Graph, gradient: &Tensor, right: &Tensor) -> [Expr; 2] {
+    let trace = gradient.trace(graph);
+    let first = match graph.is_zero(trace) {
+        true => gradient.contract(graph, gradient),
+        false => right.trace(graph),
+    };
     let minors = right.principal_minors(graph, 2);
     [first, graph.sum([(first, Rational::from(2)), (minors, Rational::ONE)])]
 }
@@ -281,24 +301,18 @@ impl Motion {
     ///
     /// Where there are any, the invariants have become short, and their gradients are the
     /// derivatives of that; else they are tensor algebra, which shares the second gradient of u.
-    pub fn new(
-        graph: &mut Graph,
-        displacement: &[Expr],
-        kind: &Kind,
-        relations: &Relations,
-        route: Route<'_>,
-    ) -> Self {
-        let dimension = displacement.len();
-        let displacement = factor(graph, displacement);
+    pub fn new(graph: &mut Graph, model: &Model, relations: &Relations, route: Route<'_>) -> Self {
+        let kind = &model.kind;
+        let dimension = model.displacement.len();
+        let displacement = factor(graph, &model.displacement);
         let velocity = derivative(graph, &displacement, Symbol::Time);
         let acceleration = derivative(graph, &velocity, Symbol::Time);
-        let columns: Vec<Vec<Expr>> = (0..dimension)
-            .map(|axis| derivative(graph, &displacement, Symbol::Coordinate(axis)))
-            .collect();
-        let gradient = Tensor::from_fn(dimension, |row, column| columns[column][row]);
+        let gradient = gradient_of(graph, &displacement);
+        let gradient = traceless(graph, model, gradient);
         let second_gradient = (0..dimension)
             .map(|component| {
-                let row: Vec<Expr> = columns.iter().map(|column| column[component]).collect();
+                let row: Vec<Expr> =
+                    (0..dimension).map(|axis| gradient.at(component, axis)).collect();
                 let second: Vec<Vec<Expr>> = (0..dimension)
                     .map(|axis| derivative(graph, &row, Symbol::Coordinate(axis)))
                     .collect();
@@ -370,22 +384,30 @@ impl Motion {
         self.log_volume_gradient = volume.iter().map(|slope| graph.div(*slope, jacobian)).collect();
     }
 
-    /// I1,J = 2 F : F,J;  I2,J = 2 (I1 F - F C) : F,J;  J,J = J F^-T : F,J.
+    /// I1,J = 2 F : F,J;  I2,J = 2 (I1 F - F C) : F,J;  J,J = J F^-T : F,J. Where tr H = 0, I : F,J is left out.
     fn contract_invariants(&mut self, graph: &mut Graph) {
         let strain = &self.strain;
         let identity = Tensor::identity(graph, self.displacement.len());
-        let right = identity.add(graph, &strain.right);
+        let (three, two, minus_one) = (graph.number(3), graph.number(2), graph.number(-1));
+        let trace = strain.gradient.trace(graph);
+        let (stretch, right, first, inverse) = if graph.is_zero(trace) {
+            let first = graph.add(strain.invariants[&FIRST], two);
+            let inverse = strain.inverse_beside_identity(graph);
+            (strain.gradient.clone(), strain.right.clone(), first, inverse)
+        } else {
+            let right = identity.add(graph, &strain.right);
+            let first = graph.add(strain.invariants[&FIRST], three);
+            (strain.deformation.clone(), right, first, strain.inverse.clone())
+        };
         let cubic = strain.deformation.mul(graph, &right);
-        let (three, minus_one) = (graph.number(3), graph.number(-1));
-        let first = graph.add(strain.invariants[&FIRST], three);
-        let scaled = strain.deformation.scale(graph, first);
+        let scaled = stretch.scale(graph, first);
         let second = cubic.scale(graph, minus_one).add(graph, &scaled);
         let mut twice = |with: &Tensor| -> Vec<Expr> {
             let half = self.contract_second_gradient(graph, with);
             half.into_iter().map(|component| graph.scale(component, 2)).collect()
         };
-        let (first, second) = (twice(&strain.deformation), twice(&second));
-        let transposed = strain.inverse.transpose();
+        let (first, second) = (twice(&stretch), twice(&second));
+        let transposed = inverse.transpose();
         let log_volume = self.contract_second_gradient(graph, &transposed);
         let volume = log_volume.iter().map(|slope| graph.mul(strain.jacobian, *slope)).collect();
         self.log_volume_gradient = log_volume;
@@ -444,8 +466,27 @@ impl Motion {
     }
 }
 
+/// H, such that its trace is 0 as it is written where it is 0 whatever the parameters are. It is multiplied by moduli
+/// that may be large.
+pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> Tensor {
+    let trace = gradient.trace(graph);
+    if graph.is_zero(trace) || !is_nothing(graph, model, trace) {
+        return gradient;
+    }
+    let dimension = gradient.dimension();
+    let size = |axis: &usize| graph.reachable(&[gradient.at(*axis, *axis)]).len();
+    let last = (0..dimension).max_by_key(size).unwrap_or_default();
+    let others = (0..dimension).filter(|axis| *axis != last);
+    let others = others.map(|axis| (gradient.at(axis, axis), Rational::from(-1)));
+    let rest = graph.sum(others.collect::<Vec<_>>());
+    Tensor::from_fn(dimension, |row, column| match (row, column) == (last, last) {
+        true => rest,
+        false => gradient.at(row, column),
+    })
+}
+
 /// A_K,J of a vector field A.
-fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
+pub(super) fn gradient_of(graph: &mut Graph, vector: &[Expr]) -> Tensor {
     let columns: Vec<Vec<Expr>> =
         (0..vector.len()).map(|axis| derivative(graph, vector, Symbol::Coordinate(axis))).collect();
     Tensor::from_fn(vector.len(), |row, column| columns[column][row])

@@ -16,6 +16,7 @@ pub mod kinematics;
 pub mod material;
 pub(crate) mod misread;
 pub mod model;
+mod place;
 pub mod rigid;
 mod small_strain;
 pub mod tensor;
