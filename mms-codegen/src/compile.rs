@@ -1,33 +1,26 @@
-//! The table of contents: from a text to everything that follows from it.
+//! From a text to everything that follows from it.
+
+mod phases;
 
 use std::collections::BTreeMap;
 
+use self::phases::Phases;
 use crate::certify::certificate::contradictions;
-use crate::certify::{declared, near_zero};
-use crate::culprit::culprit;
 use crate::diagnostic::{self, Diagnostic};
 use crate::expr::resolve::Scope;
 use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
-use crate::mechanics::boundary::{Datum, data};
+use crate::mechanics::boundary::Datum;
 use crate::mechanics::face;
-use crate::mechanics::kinematics::Route;
-#[cfg(feature = "defects")]
-use crate::mechanics::misread;
-use crate::mechanics::model::Body;
-use crate::mechanics::{Derivation, Model, Response, TooLarge, derive, tangent};
-use crate::pass::half_turns::half_turns;
-use crate::pass::relations::Relations;
+use crate::mechanics::{Derivation, Model, Response, TooLarge, tangent};
 use crate::pass::substitute::substitute;
 use crate::program::interpret::{Interpreter, Number, Point};
 use crate::program::schedule::schedule;
-use crate::program::{Bound, Op, Output, Program};
+use crate::program::{Output, Program};
 use crate::selection::{Form, Selection};
-use crate::simplify::{simplify, twins};
-use crate::source::{SourceId, Sources, Span};
-use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec, moduli};
+use crate::source::Sources;
+use crate::spec::{Face, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::advice;
-use crate::syntax::{self, Kind};
-use crate::units;
+use crate::syntax;
 use crate::variation::Variation;
 
 /// The materials that come with the crate: stem and text.
@@ -155,11 +148,10 @@ pub fn compile_unproved(
     load: Loader<'_>,
     options: &Options,
 ) -> Result<Compiled, Failure> {
-    let mut sources = Sources::default();
-    let mut diagnostics = Vec::new();
-    match phases(name, path, text, load, options, &mut sources, &mut diagnostics) {
-        Some(compiled) if diagnostics.is_empty() => Ok(compiled),
-        _ => Err(Failure { sources, diagnostics }),
+    let mut phases = Phases::new(options, load);
+    match phases.run(name, path, text) {
+        Some(compiled) if phases.diagnostics.is_empty() => Ok(compiled),
+        _ => Err(Failure { sources: phases.sources, diagnostics: phases.diagnostics }),
     }
 }
 
@@ -181,240 +173,6 @@ pub fn constant(text: &str) -> Result<Rational, Failure> {
             number
         });
     value.ok_or(Failure { sources, diagnostics })
-}
-
-fn phases(
-    name: &str,
-    path: &str,
-    text: &str,
-    load: Loader<'_>,
-    options: &Options,
-    sources: &mut Sources,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Compiled> {
-    let selection = &options.selection;
-    let mut graph = Graph::with_limit(options.max_nodes);
-    let source = sources.add(path, text);
-    let mut field = spec::read_field(sources, source, name, diagnostics)?;
-    selection.apply(sources, &mut field, diagnostics);
-    options.variation.rewrite(sources, &mut field);
-    let mut material = read_material(sources, &field, load, diagnostics);
-    if let Some(material) = &mut material {
-        moduli::convert(sources, &field, material, diagnostics);
-    }
-    diagnostics.extend(units::check(sources, &field, material.as_ref()));
-    let reported = diagnostics.len();
-    let model = Model::resolve(&mut graph, &field, material.as_ref(), diagnostics);
-    selection.explain(sources, &field, &mut diagnostics[reported..]);
-    let (mut model, material) = (model?, material?);
-    let specs = (&field, &material);
-    let reported = diagnostics.len();
-    diagnostics.extend(declared::check(&graph, &model, specs, &BTreeMap::new()));
-    selection.explain(sources, &field, &mut diagnostics[reported..]);
-    diagnostics.extend(rotates_unfit_material(&field, &material));
-    if !diagnostics.is_empty() {
-        return None;
-    }
-    options.variation.transform(&mut graph, &mut model);
-    let derived = derive(&mut graph, &model, &Relations::default(), Route::Gradient)
-        .map_err(|TooLarge(what)| diagnostics.push(too_large(&field, &graph, what)))
-        .ok()?;
-    #[cfg(feature = "defects")]
-    let (model, derived) = match misread::moduli(&mut graph, &field, &material, &model) {
-        None => (model, derived),
-        Some(wrong) => {
-            let of_wrong = derive(&mut graph, &wrong, &Relations::default(), Route::Gradient);
-            (wrong, Derivation { responses: derived.responses, ..of_wrong.ok()? })
-        }
-    };
-    // The force of a twin needs the motion of the field.
-    let needed = |quantity| model.rigid.is_some() || selection.wants(quantity);
-    let derivation = simplify(&mut graph, &model, &derived, options.form, needed);
-    let (derived, derivation) = match &model.rigid {
-        Some(rigid) => twins(&mut graph, rigid, [&derived, &derivation]),
-        None => (derived, derivation),
-    };
-    let mut outputs = outputs(&mut graph, &model, &field, &derivation);
-    outputs.retain(|output, _| selection.schedules(*output, &field));
-    for components in outputs.values_mut() {
-        *components = half_turns(&mut graph, components);
-    }
-    near_zero(&mut graph, &field, &model, &mut outputs);
-    if graph.is_exhausted() {
-        diagnostics.push(too_large(&field, &graph, "simplified form"));
-        return None;
-    }
-    let program = schedule(&graph, &outputs);
-    diagnostics.extend(unrepresentable(&field, &program));
-    diagnostics.extend(selection.undefined(sources, &field, &program));
-    let (sources, selection) = (sources.clone(), selection.clone());
-    Some(Compiled {
-        field,
-        material,
-        sources,
-        graph,
-        model,
-        derived,
-        derivation,
-        selection,
-        form: options.form,
-        program,
-    })
-}
-
-/// A rotation of a material that a rotation strains.
-fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
-    let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
-    let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
-    Some(
-        Diagnostic::error(angle.span, message)
-            .label("would strain the material")
-            .help("the energy of this material changes with a rotation, W(Q F) != W(F): give a translation alone, or another material"),
-    )
-}
-
-/// A constant that no double precision number is near to, if the program has one.
-fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
-    let infinite = |op: &Op| match op {
-        Op::Constant(number) => number.to_f64().value().is_infinite(),
-        _ => false,
-    };
-    program.instrs.iter().find(|instr| infinite(&instr.op))?;
-    let (span, label) = match field.formulas().find_map(huge_number) {
-        Some(span) => (span, "too large"),
-        None => {
-            let first = field.displacement.first();
-            let span = first.map_or(field.material.span, |formula| formula.span);
-            (span, "here, or in what it uses")
-        }
-    };
-    Some(
-        Diagnostic::error(span, "a constant of this field is beyond the range of double precision")
-            .label(label)
-            .help("numbers up to 1.797e308 can be computed with: choose other units"),
-    )
-}
-
-/// Where a formula has a number that no double precision number is near to.
-fn huge_number(formula: &Formula) -> Option<Span> {
-    let is_huge = |kind: &Kind| match kind {
-        Kind::Number(number) => number.to_f64().value().is_infinite(),
-        _ => false,
-    };
-    let ast = syntax::parse(formula, &mut Vec::new())?;
-    ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
-}
-
-/// The derivation of `what` filled the graph: points at the part of the file that made most of it.
-fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
-    let culprit = culprit(field);
-    let span = match &culprit {
-        Some(culprit) => culprit.span,
-        None => field.displacement.first().map_or(field.material.span, |formula| formula.span),
-    };
-    let label = match &culprit {
-        Some(culprit) => format!("most of them come from here, in {}", culprit.definition),
-        None => "here, or in what it uses".into(),
-    };
-    let diagnostic =
-        Diagnostic::error(span, format!("the {what} of this field is too large")).label(label);
-    Diagnostic { help: graph.exhaustion(), ..diagnostic }
-}
-
-fn read_material(
-    sources: &mut Sources,
-    field: &FieldSpec,
-    load: Loader<'_>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<MaterialSpec> {
-    let (source, stem) = find_material(sources, field, load, diagnostics)?;
-    spec::read_material(sources, source, &stem, diagnostics)
-}
-
-fn find_material(
-    sources: &mut Sources,
-    field: &FieldSpec,
-    load: Loader<'_>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Option<(SourceId, String)> {
-    let model = &field.material.model;
-    let shown = &model.value;
-    if shown.is_empty() {
-        // The missing model has been reported.
-        return None;
-    }
-    if let Some((stem, text)) = shipped(shown) {
-        return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
-    }
-    if shown.ends_with(".toml") {
-        return match load(shown) {
-            Ok(text) => {
-                let file = shown.rsplit('/').next().unwrap_or(shown);
-                let stem = file.trim_end_matches(".toml").to_string();
-                let field_path = &sources.get(model.span.source).path;
-                Some((sources.add(beside(field_path, shown), text), stem))
-            }
-            Err(reason) => {
-                let message = format!("cannot read the material file `{shown}`");
-                diagnostics.push(
-                    Diagnostic::error(model.span, message)
-                        .label(reason)
-                        .help("the path is relative to the field file"),
-                );
-                None
-            }
-        };
-    }
-    let stems = MATERIALS.iter().map(|(stem, _)| *stem);
-    let diagnostic = Diagnostic::error(model.span, format!("unknown material `{shown}`"))
-        .label("no such material");
-    diagnostics.push(diagnostic.help(advice(shown, stems, |all| {
-        format!("shipped materials: {all}; one of your own is written \"./mine.toml\"")
-    })));
-    None
-}
-
-/// The path of a file that is named relative to another one.
-fn beside(path: &str, relative: &str) -> String {
-    let relative = relative.trim_start_matches("./");
-    match path.rsplit_once('/') {
-        Some((folder, _)) if !relative.starts_with('/') => format!("{folder}/{relative}"),
-        _ => relative.to_string(),
-    }
-}
-
-fn outputs(
-    graph: &mut Graph,
-    model: &Model,
-    field: &FieldSpec,
-    derivation: &Derivation,
-) -> BTreeMap<Output, Vec<Expr>> {
-    let mut outputs = BTreeMap::new();
-    for (quantity, components) in &derivation.quantities {
-        outputs.insert(Output::Quantity(*quantity), components.clone());
-    }
-    for (response, components) in &derivation.responses {
-        outputs.insert(Output::Response(*response), components.clone());
-    }
-    for ((face, datum), components) in data(graph, model, field, derivation) {
-        outputs.insert(Output::Face(face, datum), components);
-    }
-    match &model.domain.body {
-        Body::Box { lower, upper } => {
-            outputs.insert(Output::Bound(Bound::Lower), lower.clone());
-            outputs.insert(Output::Bound(Bound::Upper), upper.clone());
-        }
-        Body::Annulus { inner, outer, theta } => {
-            outputs.insert(Output::Bound(Bound::Inner), vec![*inner]);
-            outputs.insert(Output::Bound(Bound::Outer), vec![*outer]);
-            outputs.insert(Output::Bound(Bound::Theta), theta.to_vec());
-        }
-    }
-    outputs.insert(Output::Bound(Bound::Time), model.domain.time.to_vec());
-    for (index, value) in parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate() {
-        outputs.insert(Output::Parameter(index), vec![value]);
-    }
-    outputs
 }
 
 /// The parameters' values as constants, some of them set by the caller.

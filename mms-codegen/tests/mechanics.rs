@@ -263,6 +263,23 @@ fn a_divergence_that_is_0_by_an_identity_leaves_no_lambda() {
     assert!(negligible.is_empty(), "{negligible:?}");
 }
 
+/// Everywhere else u is too small for any number.
+#[test]
+fn a_pulse_in_a_tiny_body_has_a_divergence() {
+    let pulse = "1e-11*exp(-(X/1e-9)^2 - (Y/1e-9)^2)*cos(t)";
+    let text = format!(
+        "[field]\ntitle = \"a pulse\"\ndimension = 2\n[displacement]\nu = [\"{pulse}\", \"{pulse}\"]\n\
+         [material]\n{NEO_HOOKEAN}\ndensity = 1\n[domain]\nshape = \"box\"\n\
+         lower = [0, 0]\nupper = [1e-9, 1e-9]\ntime = [0, 1]\n",
+    );
+    let load = |_: &str| Err("no other file".to_string());
+    let compiled = compile("pulse", "pulse.toml", &text, &load).expect("a right field");
+    let [present, ..] = seen(&compiled);
+    for term in ["volume_change", "parameter.lambda"] {
+        assert!(present.contains(&term.to_string()), "{term} of {present:?}");
+    }
+}
+
 #[test]
 fn components_that_do_not_couple_have_no_cross_terms() {
     let apart = "[\"0.1*sin(X)*cos(t)\", \"0.1*sin(Y)*cos(t + 1)\"]";

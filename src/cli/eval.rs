@@ -153,31 +153,15 @@ impl Eval {
         input: &Input,
         quantities: &[Quantity],
     ) -> anyhow::Result<Outcome> {
-        let dimension = input.compiled.field.dimension;
         let time = T::read(&self.time).with_context(|| format!("`--time {}`", self.time))?;
         if !time.near().is_finite() {
             bail!("`--time {}`: expected a finite number", self.time);
         }
-        let points = self
-            .at
-            .iter()
-            .map(|at| coordinates::<T>("--at", at, dimension))
-            .collect::<anyhow::Result<Vec<_>>>()?;
+        let dimension = input.compiled.field.dimension;
+        let points = self.at.iter().map(|at| coordinates::<T>("--at", at, dimension));
+        let points = points.collect::<anyhow::Result<Vec<_>>>()?;
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
-        let normals = match (&self.normal, &self.face) {
-            (Some(normal), _) => vec![unit(normal, dimension)?; points.len()],
-            (None, Some(name)) => {
-                let face = input.compiled.face(name);
-                let face = face.map_err(|mistake| anyhow!("`--face {name}`: {mistake}"))?;
-                input.compiled.normals(face, &parameters, &points)
-            }
-            (None, None) if quantities.contains(&Quantity::Traction) => {
-                bail!(
-                    "`traction` needs the reference normal of a boundary: give --face or --normal"
-                )
-            }
-            (None, None) => vec![Vec::new(); points.len()],
-        };
+        let normals = self.normals(input, quantities, &parameters, &points)?;
         let mut interpreter = Interpreter::new(&input.compiled.program, &parameters);
         interpreter.set_time(&time);
         let outputs: Vec<_> =
@@ -189,17 +173,7 @@ impl Eval {
             let mut record = Record(vec![("at", Numbers::new(coordinates))]);
             for quantity in quantities {
                 let components = interpreter.output(Output::Quantity(*quantity));
-                if let Some(odd) = components.iter().find(|component| !component.near().is_finite())
-                {
-                    bail!(
-                        "{} of `{}` is {} at X = {at}, t = {}: not defined there, or beyond the range of {}",
-                        quantity.name(),
-                        input.name,
-                        odd.near(),
-                        self.time,
-                        self.precision.name()
-                    );
-                }
+                self.ensure_finite(input, *quantity, at, &components)?;
                 record.0.push((quantity.name(), Numbers::new(&components)));
             }
             records.push(record);
@@ -216,6 +190,51 @@ impl Eval {
             print(&text(&records))?;
         }
         Ok(Outcome::AsExpected)
+    }
+
+    /// The unit normals at the points; without components where none is needed.
+    fn normals<T: Digits>(
+        &self,
+        input: &Input,
+        quantities: &[Quantity],
+        parameters: &[T],
+        points: &[Vec<T>],
+    ) -> anyhow::Result<Vec<Vec<T>>> {
+        let dimension = input.compiled.field.dimension;
+        Ok(match (&self.normal, &self.face) {
+            (Some(normal), _) => vec![unit(normal, dimension)?; points.len()],
+            (None, Some(name)) => {
+                let face = input.compiled.face(name);
+                let face = face.map_err(|mistake| anyhow!("`--face {name}`: {mistake}"))?;
+                input.compiled.normals(face, parameters, points)
+            }
+            (None, None) if quantities.contains(&Quantity::Traction) => {
+                bail!(
+                    "`traction` needs the reference normal of a boundary: give --face or --normal"
+                )
+            }
+            (None, None) => vec![Vec::new(); points.len()],
+        })
+    }
+
+    fn ensure_finite<T: Digits>(
+        &self,
+        input: &Input,
+        quantity: Quantity,
+        at: &str,
+        components: &[T],
+    ) -> anyhow::Result<()> {
+        let odd = components.iter().map(T::near).find(|component| !component.is_finite());
+        match odd {
+            None => Ok(()),
+            Some(odd) => bail!(
+                "{} of `{}` is {odd} at X = {at}, t = {}: not defined there, or beyond the range of {}",
+                quantity.name(),
+                input.name,
+                self.time,
+                self.precision.name()
+            ),
+        }
     }
 }
 

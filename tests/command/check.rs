@@ -213,6 +213,14 @@ fn what_is_proved_is_told_with_its_bounds() {
     assert!((1.0 / (fastest * 1.1)..=1.0 / fastest).contains(&step), "{step}");
 }
 
+/// A product on the way to it is beyond the largest number.
+#[test]
+fn a_speed_without_a_bound_is_no_number() {
+    let run = Folder::with_bar("bar.toml").mms("check bar.toml --set young=1e300").exits(0);
+    run.prints("waves without a bound in double precision");
+    run.prints("no time step is known to be stable");
+}
+
 #[test]
 fn a_refuted_claim_exits_1_and_is_refused_elsewhere_with_the_same_text() {
     let folder = changed("x_max = \"free\"", "x_max = \"fixed\"");

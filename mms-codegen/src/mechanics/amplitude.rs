@@ -64,7 +64,7 @@ impl Amplitude {
             let mut parameters = defaults.clone();
             parameters[index] = Double::from_f64(0.0);
             let body = places(graph, model, &parameters);
-            let anywhere = anywhere(&parameters, Some(index));
+            let anywhere = anywhere(graph, model, &parameters, Some(index));
             let symbol = Symbol::Parameter(index);
             let edges = edges.clone();
             let usual = size(&defaults[index]);

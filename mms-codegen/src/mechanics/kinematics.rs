@@ -7,7 +7,7 @@ use super::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
 use super::model::Model;
-use super::place::is_nothing;
+use super::place::cancel;
 use super::tensor::{Tensor, dot};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
@@ -469,11 +469,12 @@ impl Motion {
 /// H, such that its trace is 0 as it is written where it is 0 whatever the parameters are. It is multiplied by moduli
 /// that may be large.
 pub(super) fn traceless(graph: &mut Graph, model: &Model, gradient: Tensor) -> Tensor {
+    let dimension = gradient.dimension();
+    let diagonal: Vec<Expr> = (0..dimension).map(|axis| gradient.at(axis, axis)).collect();
     let trace = gradient.trace(graph);
-    if graph.is_zero(trace) || !is_nothing(graph, model, trace) {
+    if graph.is_zero(trace) || !cancel(graph, model, &diagonal) {
         return gradient;
     }
-    let dimension = gradient.dimension();
     let size = |axis: &usize| graph.reachable(&[gradient.at(*axis, *axis)]).len();
     let last = (0..dimension).max_by_key(size).unwrap_or_default();
     let others = (0..dimension).filter(|axis| *axis != last);

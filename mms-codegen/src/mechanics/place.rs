@@ -27,10 +27,15 @@ pub(super) struct Place {
     pub time: Double,
 }
 
-/// Whether an expression is 0 whatever the parameters, X and t are.
-pub(super) fn is_nothing(graph: &Graph, model: &Model, expr: Expr) -> bool {
-    let places = anywhere(&defaults(graph, model), None);
-    is_identity(&evaluate(graph, &[expr], &places)[&expr])
+/// Whether expressions are 0 together, whatever the parameters, X and t are, and not one by one.
+pub(super) fn cancel(graph: &mut Graph, model: &Model, terms: &[Expr]) -> bool {
+    let sum = graph.sum(terms.iter().map(|term| (*term, Rational::ONE)));
+    let places = anywhere(graph, model, &defaults(graph, model), None);
+    let values = evaluate(graph, &[&[sum], terms].concat(), &places);
+    let is_something = |value: &Double| value.to_f64().is_finite() && value.to_f64() != 0.0;
+    let counts = |index: &usize| terms.iter().any(|term| is_something(&values[term][*index]));
+    let sums = (0..places.len()).filter(counts).map(|index| values[&sum][index]);
+    is_identity(&sums.collect::<Vec<_>>())
 }
 
 /// 0 wherever there is a value.
@@ -47,8 +52,7 @@ pub(super) fn is_identity(values: &[Double]) -> bool {
 
 /// The defaults of the parameters.
 pub(super) fn defaults(graph: &Graph, model: &Model) -> Vec<Double> {
-    let mut place =
-        Place { parameters: Vec::new(), coordinates: Vec::new(), time: Double::from_f64(0.0) };
+    let mut place = nowhere(&[]);
     for parameter in &model.parameters {
         let value = value(graph, parameter.default, &place);
         place.parameters.push(value);
@@ -95,11 +99,7 @@ fn places_at(
     parameters: &[Double],
     fractions: &[[Double; 4]],
 ) -> Vec<Place> {
-    let nowhere = Place {
-        parameters: parameters.to_vec(),
-        coordinates: Vec::new(),
-        time: Double::from_f64(0.0),
-    };
+    let nowhere = nowhere(parameters);
     let of = |bound: &Expr| value(graph, *bound, &nowhere);
     let extent = match &model.domain.body {
         Body::Box { lower, upper } => {
@@ -123,27 +123,51 @@ pub(super) fn size(default: &Double) -> Double {
     if default.to_f64() == 0.0 { Double::from_f64(1.0) } else { *default }
 }
 
-/// Places with parameters of their default size and of any sign, but for one that is 0.
-pub(super) fn anywhere(parameters: &[Double], nothing: Option<usize>) -> Vec<Place> {
+/// Places with parameters, X and t of their usual size and of any sign, but for a parameter that is 0.
+pub(super) fn anywhere(
+    graph: &Graph,
+    model: &Model,
+    parameters: &[Double],
+    nothing: Option<usize>,
+) -> Vec<Place> {
+    let usual: Vec<Double> =
+        parameters.iter().map(size).chain(extent(graph, model, parameters)).collect();
     let place = |index: usize| {
-        let count = parameters.len() + 4;
-        let fractions = spread(index, count);
-        let mut signed = fractions.iter().map(|fraction| {
+        let fractions = spread(index, usual.len());
+        let signed = fractions.iter().map(|fraction| {
             Double::from_rational(&(fraction * Rational::from(4) - Rational::from(2)))
         });
-        let mut parameters: Vec<Double> = parameters
-            .iter()
-            .zip(&mut signed)
-            .map(|(value, factor)| size(value) * factor)
-            .collect();
+        let mut all = usual.iter().zip(signed).map(|(usual, factor)| *usual * factor);
+        let mut parameters: Vec<Double> = all.by_ref().take(parameters.len()).collect();
         if let Some(index) = nothing {
             parameters[index] = Double::from_f64(0.0);
         }
-        let coordinates = signed.by_ref().take(3).collect();
-        let time = signed.next().unwrap_or(Double::from_f64(0.5));
+        let coordinates = all.by_ref().take(3).collect();
+        let time = all.next().unwrap_or(Double::from_f64(0.5));
         Place { parameters, coordinates, time }
     };
     (101..101 + ANYWHERE).map(place).collect()
+}
+
+/// How large the three components of X and t are in the body and in the time window.
+fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
+    let nowhere = nowhere(parameters);
+    let largest = |bounds: &[Expr]| {
+        let bounds = bounds.iter().map(|bound| value(graph, *bound, &nowhere).to_f64().abs());
+        let largest = bounds.filter(|bound| bound.is_finite()).fold(0.0, f64::max);
+        size(&Double::from_f64(largest))
+    };
+    let along = |axis: usize| match &model.domain.body {
+        Body::Box { lower, upper } if axis < lower.len() => largest(&[lower[axis], upper[axis]]),
+        Body::Box { .. } => Double::from_f64(1.0),
+        Body::Annulus { outer, .. } => largest(&[*outer]),
+    };
+    [along(0), along(1), along(2), largest(&model.domain.time)]
+}
+
+/// Values of the parameters, for what does not depend on X and t.
+fn nowhere(parameters: &[Double]) -> Place {
+    Place { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
 }
 
 fn value(graph: &Graph, expr: Expr, place: &Place) -> Double {

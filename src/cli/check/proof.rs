@@ -48,17 +48,19 @@ pub fn text(certificate: &Certificate) -> Vec<String> {
 }
 
 fn rates(rates: &Rates) -> [String; 2] {
-    let [stretch, rate, speed, step] = [
-        rates.principal_stretch,
-        rates.strain_rate,
-        rates.wave_speed,
-        1.0 / rates.time_step_per_cell_size(),
-    ]
-    .map(up);
-    [
-        format!("  bound  principal stretch <= {stretch}, strain rate <= {rate}, waves <= {speed}"),
-        format!("  bound  a stable time step is <= cell size / {step}"),
-    ]
+    let bound = |what: &str, value: f64| match value.is_finite() {
+        true => format!("{what} <= {}", up(value)),
+        false => format!("{what} without a bound in double precision"),
+    };
+    let stretch = bound("principal stretch", rates.principal_stretch);
+    let rate = bound("strain rate", rates.strain_rate);
+    let waves = bound("waves", rates.wave_speed);
+    let step = 1.0 / rates.time_step_per_cell_size();
+    let step = match step.is_finite() {
+        true => format!("a stable time step is <= cell size / {}", up(step)),
+        false => "no time step is known to be stable".into(),
+    };
+    [format!("  bound  {stretch}, {rate}, {waves}"), format!("  bound  {step}")]
 }
 
 /// Four digits of a number, rounded up.

@@ -1,0 +1,292 @@
+//! The phases of a compilation: a text is read, derived from and scheduled.
+
+use std::collections::BTreeMap;
+
+use super::{Compiled, Loader, MATERIALS, Options, parameter_values, shipped};
+use crate::certify::{declared, near_zero};
+use crate::culprit::culprit;
+use crate::diagnostic::Diagnostic;
+use crate::expr::{Expr, Graph};
+use crate::mechanics::boundary::data;
+use crate::mechanics::kinematics::Route;
+#[cfg(feature = "defects")]
+use crate::mechanics::misread;
+use crate::mechanics::model::Body;
+use crate::mechanics::{Derivation, Model, TooLarge, derive};
+use crate::pass::half_turns::half_turns;
+use crate::pass::relations::Relations;
+use crate::program::schedule::schedule;
+use crate::program::{Bound, Op, Output, Program};
+use crate::simplify::{simplify, twins};
+use crate::source::{SourceId, Sources, Span};
+use crate::spec::{self, FieldSpec, Formula, MaterialSpec, moduli};
+use crate::suggest::advice;
+use crate::syntax::{self, Kind};
+use crate::units;
+
+/// A compilation on its way: what is asked for, the texts that were read, and every mistake that was found.
+pub(super) struct Phases<'a> {
+    options: &'a Options,
+    load: Loader<'a>,
+    pub sources: Sources,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What the texts say, without a mistake.
+struct Read {
+    field: FieldSpec,
+    material: MaterialSpec,
+    model: Model,
+}
+
+impl<'a> Phases<'a> {
+    pub fn new(options: &'a Options, load: Loader<'a>) -> Self {
+        Phases { options, load, sources: Sources::default(), diagnostics: Vec::new() }
+    }
+
+    /// All of them; a mistake ends them, or is found beside others.
+    pub fn run(&mut self, name: &str, path: &str, text: &str) -> Option<Compiled> {
+        let mut graph = Graph::with_limit(self.options.max_nodes);
+        let mut read = self.read(&mut graph, name, path, text)?;
+        self.options.variation.transform(&mut graph, &mut read.model);
+        let [derived, derivation] = self.derive(&mut graph, &mut read)?;
+        let program = self.schedule(&mut graph, &read, &derivation)?;
+        let Read { field, material, model } = read;
+        Some(Compiled {
+            field,
+            material,
+            sources: self.sources.clone(),
+            graph,
+            model,
+            derived,
+            derivation,
+            selection: self.options.selection.clone(),
+            form: self.options.form,
+            program,
+        })
+    }
+
+    /// The field and its material; everything that is wrong with them is reported.
+    fn read(&mut self, graph: &mut Graph, name: &str, path: &str, text: &str) -> Option<Read> {
+        let Options { selection, variation, .. } = self.options;
+        let source = self.sources.add(path, text);
+        let mut field = spec::read_field(&self.sources, source, name, &mut self.diagnostics)?;
+        selection.apply(&mut self.sources, &mut field, &mut self.diagnostics);
+        variation.rewrite(&mut self.sources, &mut field);
+        let mut material = self.read_material(&field);
+        let Self { sources, diagnostics, .. } = self;
+        if let Some(material) = &mut material {
+            moduli::convert(sources, &field, material, diagnostics);
+        }
+        diagnostics.extend(units::check(sources, &field, material.as_ref()));
+        let reported = diagnostics.len();
+        let model = Model::resolve(graph, &field, material.as_ref(), diagnostics);
+        selection.explain(sources, &field, &mut diagnostics[reported..]);
+        let (model, material) = (model?, material?);
+        let specs = (&field, &material);
+        let reported = diagnostics.len();
+        diagnostics.extend(declared::check(graph, &model, specs, &BTreeMap::new()));
+        selection.explain(sources, &field, &mut diagnostics[reported..]);
+        diagnostics.extend(rotates_unfit_material(&field, &material));
+        diagnostics.is_empty().then_some(Read { field, material, model })
+    }
+
+    /// What follows from the model, as it was derived and simplified.
+    fn derive(&mut self, graph: &mut Graph, read: &mut Read) -> Option<[Derivation; 2]> {
+        let derived = derive(graph, &read.model, &Relations::default(), Route::Gradient)
+            .map_err(|TooLarge(what)| self.diagnostics.push(too_large(&read.field, graph, what)))
+            .ok()?;
+        #[cfg(feature = "defects")]
+        let derived = misread(graph, read, derived)?;
+        let Options { selection, form, .. } = self.options;
+        // The force of a twin needs the motion of the field.
+        let needed = |quantity| read.model.rigid.is_some() || selection.wants(quantity);
+        let derivation = simplify(graph, &read.model, &derived, *form, needed);
+        Some(match &read.model.rigid {
+            Some(rigid) => twins(graph, rigid, [&derived, &derivation]).into(),
+            None => [derived, derivation],
+        })
+    }
+
+    /// What is wanted of a derivation, as a program.
+    fn schedule(
+        &mut self,
+        graph: &mut Graph,
+        Read { field, model, .. }: &Read,
+        derivation: &Derivation,
+    ) -> Option<Program> {
+        let selection = &self.options.selection;
+        let mut outputs = outputs(graph, model, field, derivation);
+        outputs.retain(|output, _| selection.schedules(*output, field));
+        for components in outputs.values_mut() {
+            *components = half_turns(graph, components);
+        }
+        near_zero(graph, field, model, &mut outputs);
+        if graph.is_exhausted() {
+            self.diagnostics.push(too_large(field, graph, "simplified form"));
+            return None;
+        }
+        let program = schedule(graph, &outputs);
+        self.diagnostics.extend(unrepresentable(field, &program));
+        self.diagnostics.extend(selection.undefined(&self.sources, field, &program));
+        Some(program)
+    }
+
+    fn read_material(&mut self, field: &FieldSpec) -> Option<MaterialSpec> {
+        let (source, stem) = self.find_material(field)?;
+        spec::read_material(&self.sources, source, &stem, &mut self.diagnostics)
+    }
+
+    fn find_material(&mut self, field: &FieldSpec) -> Option<(SourceId, String)> {
+        let Self { load, sources, diagnostics, .. } = self;
+        let model = &field.material.model;
+        let shown = &model.value;
+        if shown.is_empty() {
+            // The missing model has been reported.
+            return None;
+        }
+        if let Some((stem, text)) = shipped(shown) {
+            return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
+        }
+        if shown.ends_with(".toml") {
+            return match load(shown) {
+                Ok(text) => {
+                    let file = shown.rsplit('/').next().unwrap_or(shown);
+                    let stem = file.trim_end_matches(".toml").to_string();
+                    let field_path = &sources.get(model.span.source).path;
+                    Some((sources.add(beside(field_path, shown), text), stem))
+                }
+                Err(reason) => {
+                    let message = format!("cannot read the material file `{shown}`");
+                    diagnostics.push(
+                        Diagnostic::error(model.span, message)
+                            .label(reason)
+                            .help("the path is relative to the field file"),
+                    );
+                    None
+                }
+            };
+        }
+        let stems = MATERIALS.iter().map(|(stem, _)| *stem);
+        let diagnostic = Diagnostic::error(model.span, format!("unknown material `{shown}`"))
+            .label("no such material");
+        diagnostics.push(diagnostic.help(advice(shown, stems, |all| {
+            format!("shipped materials: {all}; one of your own is written \"./mine.toml\"")
+        })));
+        None
+    }
+}
+
+/// Of the wrong moduli that a deliberate mistake takes, but for what a solver asks the material.
+#[cfg(feature = "defects")]
+fn misread(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<Derivation> {
+    let Read { field, material, model } = read;
+    let Some(wrong) = misread::moduli(graph, field, material, model) else {
+        return Some(derived);
+    };
+    let of_wrong = derive(graph, &wrong, &Relations::default(), Route::Gradient).ok()?;
+    *model = wrong;
+    Some(Derivation { responses: derived.responses, ..of_wrong })
+}
+
+/// A rotation of a material that a rotation strains.
+fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
+    let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
+    let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
+    Some(
+        Diagnostic::error(angle.span, message)
+            .label("would strain the material")
+            .help("the energy of this material changes with a rotation, W(Q F) != W(F): give a translation alone, or another material"),
+    )
+}
+
+/// A constant that no double precision number is near to, if the program has one.
+fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
+    let infinite = |op: &Op| match op {
+        Op::Constant(number) => number.to_f64().value().is_infinite(),
+        _ => false,
+    };
+    program.instrs.iter().find(|instr| infinite(&instr.op))?;
+    let (span, label) = match field.formulas().find_map(huge_number) {
+        Some(span) => (span, "too large"),
+        None => {
+            let first = field.displacement.first();
+            let span = first.map_or(field.material.span, |formula| formula.span);
+            (span, "here, or in what it uses")
+        }
+    };
+    Some(
+        Diagnostic::error(span, "a constant of this field is beyond the range of double precision")
+            .label(label)
+            .help("numbers up to 1.797e308 can be computed with: choose other units"),
+    )
+}
+
+/// Where a formula has a number that no double precision number is near to.
+fn huge_number(formula: &Formula) -> Option<Span> {
+    let is_huge = |kind: &Kind| match kind {
+        Kind::Number(number) => number.to_f64().value().is_infinite(),
+        _ => false,
+    };
+    let ast = syntax::parse(formula, &mut Vec::new())?;
+    ast.nodes.iter().find(|node| is_huge(&node.kind)).map(|node| node.span)
+}
+
+/// The derivation of `what` filled the graph: points at the part of the file that made most of it.
+fn too_large(field: &FieldSpec, graph: &Graph, what: &str) -> Diagnostic {
+    let culprit = culprit(field);
+    let span = match &culprit {
+        Some(culprit) => culprit.span,
+        None => field.displacement.first().map_or(field.material.span, |formula| formula.span),
+    };
+    let label = match &culprit {
+        Some(culprit) => format!("most of them come from here, in {}", culprit.definition),
+        None => "here, or in what it uses".into(),
+    };
+    let diagnostic =
+        Diagnostic::error(span, format!("the {what} of this field is too large")).label(label);
+    Diagnostic { help: graph.exhaustion(), ..diagnostic }
+}
+
+/// The path of a file that is named relative to another one.
+fn beside(path: &str, relative: &str) -> String {
+    let relative = relative.trim_start_matches("./");
+    match path.rsplit_once('/') {
+        Some((folder, _)) if !relative.starts_with('/') => format!("{folder}/{relative}"),
+        _ => relative.to_string(),
+    }
+}
+
+fn outputs(
+    graph: &mut Graph,
+    model: &Model,
+    field: &FieldSpec,
+    derivation: &Derivation,
+) -> BTreeMap<Output, Vec<Expr>> {
+    let mut outputs = BTreeMap::new();
+    for (quantity, components) in &derivation.quantities {
+        outputs.insert(Output::Quantity(*quantity), components.clone());
+    }
+    for (response, components) in &derivation.responses {
+        outputs.insert(Output::Response(*response), components.clone());
+    }
+    for ((face, datum), components) in data(graph, model, field, derivation) {
+        outputs.insert(Output::Face(face, datum), components);
+    }
+    match &model.domain.body {
+        Body::Box { lower, upper } => {
+            outputs.insert(Output::Bound(Bound::Lower), lower.clone());
+            outputs.insert(Output::Bound(Bound::Upper), upper.clone());
+        }
+        Body::Annulus { inner, outer, theta } => {
+            outputs.insert(Output::Bound(Bound::Inner), vec![*inner]);
+            outputs.insert(Output::Bound(Bound::Outer), vec![*outer]);
+            outputs.insert(Output::Bound(Bound::Theta), theta.to_vec());
+        }
+    }
+    outputs.insert(Output::Bound(Bound::Time), model.domain.time.to_vec());
+    for (index, value) in parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate() {
+        outputs.insert(Output::Parameter(index), vec![value]);
+    }
+    outputs
+}
