@@ -21,7 +21,7 @@ pub const BLOCK: usize = 64;
 /// twice as long.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Block<T, const N: usize>([[T; BLOCK]; N]);
+pub struct Block<T, const N: usize>(pub(crate) [[T; BLOCK]; N]);
 
 impl<T: Copy, const N: usize> Block<T, N> {
     /// The same value everywhere.
@@ -43,18 +43,16 @@ pub trait Stand<T>: Real {
 
 /// A number that batches are made of: `f32` or `f64`.
 pub trait Float: Real + Stand<Self> + PartialOrd + Send + Sync {
-    /// Its stand-in where the processor multiplies and adds in one step.
-    type Fused: Stand<Self>;
-    /// Its stand-in elsewhere.
-    type Plain: Stand<Self>;
-    /// Four of it at a time where the processor multiplies and adds in one step.
+    /// Eight of it at a time where the processor has registers of 512 bits.
+    type WideMachine: Machine<Self> + From<machine::Wide>;
+    /// Where the processor multiplies and adds in one step.
     type FusedMachine: Machine<Self> + From<machine::Fused>;
-    /// Four of it at a time elsewhere.
+    /// Elsewhere.
     type PlainMachine: Machine<Self> + From<machine::Plain>;
 }
 
 macro_rules! float {
-    ($float:ident) => {
+    ($float:ident, $wide:ident) => {
         impl Stand<$float> for $float {
             #[inline(always)]
             fn standing_for(value: $float) -> Self {
@@ -78,16 +76,19 @@ macro_rules! float {
         }
 
         impl Float for $float {
-            type Fused = Lane<$float, true>;
-            type Plain = Lane<$float, false>;
+            type WideMachine = machine::$wide;
             type FusedMachine = machine::Fused;
             type PlainMachine = machine::Plain;
         }
     };
 }
 
-float!(f32);
-float!(f64);
+// Eight single ones fill a register of 256 bits.
+float!(f32, Fused);
+#[cfg(target_arch = "x86_64")]
+float!(f64, Wide);
+#[cfg(not(target_arch = "x86_64"))]
+float!(f64, Fused);
 
 /// A function of `I` numbers with `O` results.
 pub trait Function<S, const I: usize, const O: usize> {
@@ -310,29 +311,29 @@ fn copy_known<T: Float>(from: &[T], to: &mut [T]) -> bool {
 /// Only not-a-number differs from itself.
 #[allow(clippy::eq_op)]
 #[inline(always)]
-fn is_number<T: Float>(value: &T) -> bool {
+pub(crate) fn is_number<T: Float>(value: &T) -> bool {
     *value == *value
 }
 
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
 /// are no more.
 #[inline(always)]
-fn turn<T: Copy, M: Machine<T>, const N: usize>(
+pub(crate) fn turn<T: Copy, M: Machine<T>, const N: usize>(
     machine: M,
     points: &[[T; N]],
     lanes: &mut [[T; BLOCK]],
 ) {
     let points = &points[..points.len().min(BLOCK)];
-    let (fours, others) = points.as_chunks::<4>();
-    for (four, points) in fours.iter().enumerate() {
+    let (eights, others) = points.as_chunks::<8>();
+    for (eight, points) in eights.iter().enumerate() {
         let mut columns = [machine.splat(points[0][0]); N];
         take_columns(machine, points.as_flattened(), &mut columns);
         for number in 0..N {
-            let place = &mut lanes[number][4 * four..4 * four + 4];
+            let place = &mut lanes[number][8 * eight..8 * eight + 8];
             place.copy_from_slice(&machine.numbers(columns[number]));
         }
     }
-    for (point, place) in others.iter().zip(4 * fours.len()..) {
+    for (point, place) in others.iter().zip(8 * eights.len()..) {
         for number in 0..N {
             lanes[number][place] = point[number];
         }
@@ -350,16 +351,16 @@ fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
     points: &mut [[T; N]],
 ) {
     let count = points.len().min(BLOCK);
-    let (fours, others) = points[..count].as_chunks_mut::<4>();
-    for (four, points) in fours.iter_mut().enumerate() {
+    let (eights, others) = points[..count].as_chunks_mut::<8>();
+    for (eight, points) in eights.iter_mut().enumerate() {
         let mut columns = [machine.splat(lanes[0][0]); N];
         for number in 0..N {
-            let place = lanes[number][4 * four..].first_chunk();
-            columns[number] = machine.four(place.expect("there are four more"));
+            let place = lanes[number][8 * eight..].first_chunk();
+            columns[number] = machine.eight(place.expect("there are eight more"));
         }
         put_columns(machine, &columns, points.as_flattened_mut());
     }
-    for (point, place) in others.iter_mut().zip(4 * fours.len()..) {
+    for (point, place) in others.iter_mut().zip(8 * eights.len()..) {
         for number in 0..N {
             point[number] = lanes[number][place];
         }
@@ -409,7 +410,7 @@ struct Drive<'a, T, K, In, Out, const I: usize, const O: usize> {
     scalar: core::marker::PhantomData<T>,
 }
 
-impl<T, K, In, Out, const I: usize, const O: usize> Work for Drive<'_, T, K, In, Out, I, O>
+impl<T, K, In, Out, const I: usize, const O: usize> Work<T> for Drive<'_, T, K, In, Out, I, O>
 where
     T: Float,
     K: Kernel<T, I, O>,
@@ -419,28 +420,10 @@ where
     type Output = ();
 
     #[inline(always)]
-    fn fused(self, machine: machine::Fused) {
-        self.with::<T::Fused, _>(T::FusedMachine::from(machine));
-    }
-
-    #[inline(always)]
-    fn plain(self, machine: machine::Plain) {
-        self.with::<T::Plain, _>(T::PlainMachine::from(machine));
-    }
-}
-
-impl<T, K, In, Out, const I: usize, const O: usize> Drive<'_, T, K, In, Out, I, O>
-where
-    T: Float,
-    K: Kernel<T, I, O>,
-    In: Source<T, I>,
-    Out: Sink<T, O>,
-{
-    #[inline(always)]
-    fn with<S: Stand<T>, M: Machine<T>>(self, machine: M) {
+    fn on<M: Machine<T>>(self, machine: M) {
         let Self { kernel, source, sink, count, .. } = self;
         let zero = T::from_f64(0.0);
-        kernel.drive::<S>(&mut Blocks {
+        kernel.drive::<M::Lane>(&mut Blocks {
             machine,
             source,
             sink,

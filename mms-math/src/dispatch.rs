@@ -1,25 +1,24 @@
 //! Compiles work for several instruction sets, and takes the best one that the processor has.
 
-use crate::machine::{Fused, Plain};
+use crate::batch::Float;
+#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+use crate::machine::Wide;
+use crate::machine::{Fused, Machine, Plain};
 
-/// Work on many numbers, in two versions of the same code: everything it calls has to be inlined, or is not
-/// compiled for the instruction set.
-pub trait Work {
+/// Work on many numbers of type `T`, in versions of the same code.
+pub trait Work<T> {
     /// What comes of it.
     type Output;
 
-    /// Where the processor multiplies and adds in one step: with [`Float::Fused`](crate::batch::Float::Fused), or four numbers at a time.
-    fn fused(self, machine: Fused) -> Self::Output;
-
-    /// Where it does not: with [`Float::Plain`](crate::batch::Float::Plain).
-    fn plain(self, machine: Plain) -> Self::Output;
+    /// Does it, with loops over `M::Lane` and eight numbers at a time. Everything that is called has to be inlined, or
+    /// is not compiled for the instruction set.
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output;
 }
 
-/// Does work with the most that the processor has. Numbers four at a time gain by AVX-512 too: it has twice as many
-/// registers, and takes one number of memory for all four. With debug assertions there is no such version: every
+/// Does work with the most that the processor has. With debug assertions there is no version for AVX-512: every
 /// batch and every step of a solver would be compiled once more, for programs that need not be fast.
 #[inline]
-pub fn best<W: Work>(work: W) -> W::Output {
+pub fn best<T: Float, W: Work<T>>(work: W) -> W::Output {
     #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
     if has_avx512() {
         // Safety: the processor has what the function is compiled for.
@@ -35,9 +34,13 @@ pub fn best<W: Work>(work: W) -> W::Output {
     baseline(work)
 }
 
-fn baseline<W: Work>(work: W) -> W::Output {
+fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
     // Every processor of these multiplies and adds in one step.
-    if cfg!(target_arch = "aarch64") { work.fused(Fused::known()) } else { work.plain(Plain) }
+    if cfg!(target_arch = "aarch64") {
+        work.on(T::FusedMachine::from(Fused::known()))
+    } else {
+        work.on(T::PlainMachine::from(Plain))
+    }
 }
 
 #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
@@ -55,12 +58,12 @@ fn has_avx2() -> bool {
 
 #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<W: Work>(work: W) -> W::Output {
-    work.fused(Fused::known())
+fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
+    work.on(T::WideMachine::from(Wide::known()))
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2<W: Work>(work: W) -> W::Output {
-    work.fused(Fused::known())
+fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
+    work.on(T::FusedMachine::from(Fused::known()))
 }

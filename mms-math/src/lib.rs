@@ -13,6 +13,8 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
+#[cfg(feature = "std")]
+pub mod bunched;
 mod defect;
 #[cfg(feature = "std")]
 pub mod dispatch;

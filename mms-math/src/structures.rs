@@ -1,19 +1,19 @@
-//! Arrays of structures: the same number of four structures together, in one register, and back.
+//! Arrays of structures: the same number of eight structures together, in one register, and back.
 //!
-//! Four numbers of each of the four go at a time. The compiler would take them one by one, from all over the memory.
+//! Four numbers of each of the eight go at a time. The compiler would take them one by one, from all over the memory.
 
 use crate::machine::Machine;
 
-/// The columns of four structures, whose `numbers` stand one structure behind the other: of each number the four.
+/// The columns of eight structures, whose `numbers` stand one structure behind the other: of each number the eight.
 ///
 /// # Panics
-/// If there are less numbers than in four structures.
+/// If there are less numbers than in eight structures.
 #[inline(always)]
-pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: &mut [M::Four]) {
+pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: &mut [M::Eight]) {
     let n = columns.len();
-    let numbers = &numbers[..4 * n];
+    let numbers = &numbers[..8 * n];
     if n == 2 {
-        let rows = [machine.four(four(numbers, 0)), machine.four(four(numbers, 4))];
+        let rows = [machine.eight(some(numbers, 0)), machine.eight(some(numbers, 8))];
         columns.copy_from_slice(&machine.unzipped(rows));
         return;
     }
@@ -21,35 +21,37 @@ pub fn take_columns<T: Copy, M: Machine<T>>(machine: M, numbers: &[T], columns: 
         let first = first.min(n.saturating_sub(4));
         let mut rows = [machine.splat(numbers[0]); 4];
         for k in 0..4 {
-            let from = k * n + first;
-            rows[k] = if from + 4 <= 4 * n {
-                machine.four(four(numbers, from))
+            let (from, second) = (k * n + first, (k + 4) * n + first);
+            rows[k] = if second + 4 <= 8 * n {
+                machine.halves(some(numbers, from), some(numbers, second))
             } else {
-                let number = |j: usize| numbers[(from + j).min(4 * n - 1)];
-                machine.four(&[number(0), number(1), number(2), number(3)])
+                let number = |j: usize| numbers[(second + j).min(8 * n - 1)];
+                let last = [number(0), number(1), number(2), number(3)];
+                machine.halves(some(numbers, from), &last)
             };
         }
-        let some = machine.transposed(rows);
-        columns[first..first + n.min(4)].copy_from_slice(&some[..n.min(4)]);
+        let turned = machine.transposed(rows);
+        columns[first..first + n.min(4)].copy_from_slice(&turned[..n.min(4)]);
     }
     if together(n) < n {
         let last = |k: usize| numbers[k * n + n - 1];
-        columns[n - 1] = machine.four(&[last(0), last(1), last(2), last(3)]);
+        let [a, b] = [0, 4].map(|k| [last(k), last(k + 1), last(k + 2), last(k + 3)]);
+        columns[n - 1] = machine.halves(&a, &b);
     }
 }
 
-/// Writes the `numbers` of four structures with these columns.
+/// Writes the `numbers` of eight structures with these columns.
 ///
 /// # Panics
-/// If there is no room for four structures.
+/// If there is no room for eight structures.
 #[inline(always)]
-pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Four], numbers: &mut [T]) {
+pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Eight], numbers: &mut [T]) {
     let n = columns.len();
-    let numbers = &mut numbers[..4 * n];
+    let numbers = &mut numbers[..8 * n];
     if n == 2 {
         let rows = machine.zipped([columns[0], columns[1]]);
         for k in 0..2 {
-            numbers[4 * k..4 * k + 4].copy_from_slice(&machine.numbers(rows[k]));
+            numbers[8 * k..8 * k + 8].copy_from_slice(&machine.numbers(rows[k]));
         }
         return;
     }
@@ -59,15 +61,18 @@ pub fn put_columns<T: Copy, M: Machine<T>>(machine: M, columns: &[M::Four], numb
         some[..n.min(4)].copy_from_slice(&columns[first..first + n.min(4)]);
         let rows = machine.transposed(some);
         // Where a row is longer than a structure, the next one is written over what is too much.
-        for k in 0..4 {
-            let from = k * n + first;
-            let width = (4 * n - from).min(4);
-            numbers[from..from + width].copy_from_slice(&machine.numbers(rows[k])[..width]);
+        for half in 0..2 {
+            for k in 0..4 {
+                let from = (4 * half + k) * n + first;
+                let width = (8 * n - from).min(4);
+                let row = machine.numbers(rows[k]);
+                numbers[from..from + width].copy_from_slice(&row[4 * half..4 * half + width]);
+            }
         }
     }
     if together(n) < n {
         let last = machine.numbers(columns[n - 1]);
-        for k in 0..4 {
+        for k in 0..8 {
             numbers[k * n + n - 1] = last[k];
         }
     }
@@ -81,8 +86,8 @@ const fn together(n: usize) -> usize {
 }
 
 #[inline(always)]
-fn four<T>(numbers: &[T], from: usize) -> &[T; 4] {
-    numbers[from..].first_chunk().expect("four numbers")
+fn some<T, const N: usize>(numbers: &[T], from: usize) -> &[T; N] {
+    numbers[from..].first_chunk().expect("as many numbers")
 }
 
 #[cfg(test)]
@@ -92,44 +97,40 @@ mod tests {
     use super::{put_columns, take_columns};
     use crate::batch::Float;
     use crate::dispatch::{Work, best};
-    use crate::machine::{Fused, Machine, Plain};
+    use crate::machine::{Machine, Plain};
 
-    /// The columns of four structures of `N` numbers: they are 0, 1, 2, .. and so on; and what they make again.
+    /// The columns of eight structures of `N` numbers: they are 0, 1, 2, .. and so on; and what they make again.
     struct ThereAndBack<const N: usize>;
 
     impl<const N: usize> ThereAndBack<N> {
         fn by<T: Float, M: Machine<T>>(machine: M) {
-            let numbers: Vec<T> = (0..4 * N + 1).map(|k| T::from_f64(k as f64)).collect();
+            let numbers: Vec<T> = (0..8 * N + 1).map(|k| T::from_f64(k as f64)).collect();
             let mut columns = [machine.splat(T::from_f64(-1.0)); N];
             take_columns(machine, &numbers, &mut columns);
             for (number, column) in columns.iter().enumerate() {
-                let expected = [0, 1, 2, 3].map(|p| numbers[p * N + number]);
+                let expected = [0, 1, 2, 3, 4, 5, 6, 7].map(|p| numbers[p * N + number]);
                 assert!(machine.numbers(*column) == expected, "{number} of {N}");
             }
             let mut back = numbers.clone();
-            back[..4 * N].fill(T::from_f64(-1.0));
+            back[..8 * N].fill(T::from_f64(-1.0));
             put_columns(machine, &columns, &mut back);
             assert!(back == numbers, "{N}");
         }
     }
 
-    impl<const N: usize> Work for ThereAndBack<N> {
+    impl<T: Float, const N: usize> Work<T> for ThereAndBack<N> {
         type Output = ();
 
-        fn fused(self, machine: Fused) {
-            Self::by::<f32, _>(machine);
-            Self::by::<f64, _>(machine);
-        }
-
-        fn plain(self, machine: Plain) {
-            Self::by::<f32, _>(machine);
-            Self::by::<f64, _>(machine);
+        fn on<M: Machine<T>>(self, machine: M) {
+            Self::by::<T, M>(machine);
         }
     }
 
     fn every<const N: usize>() {
-        best(ThereAndBack::<N>);
-        ThereAndBack::<N>.plain(Plain);
+        best::<f32, _>(ThereAndBack::<N>);
+        best::<f64, _>(ThereAndBack::<N>);
+        ThereAndBack::<N>::by::<f32, _>(Plain);
+        ThereAndBack::<N>::by::<f64, _>(Plain);
     }
 
     #[test]

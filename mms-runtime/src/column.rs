@@ -1,8 +1,12 @@
 //! Arrays of particles, bunch by bunch.
 
+use std::fmt;
 use std::ops::{Deref, DerefMut};
 
+use mms_math::bunched::Numbers;
+
 use crate::stencil::BUNCH;
+use crate::{Matrix, Real, Vector};
 
 /// An entry for every particle. The last bunch is full: its last entry stands in for those that there are not, so
 /// that whatever is done to bunches is done to all alike.
@@ -17,11 +21,6 @@ impl<V: Copy> Column<V> {
     /// Bunch by bunch.
     pub(crate) fn bunches(&self) -> &[[V; BUNCH]] {
         self.entries.as_chunks().0
-    }
-
-    /// Bunch by bunch; the entries of a bunch that stand for the last particle have to become what its own does.
-    pub(crate) fn bunches_mut(&mut self) -> &mut [[V; BUNCH]] {
-        self.entries.as_chunks_mut().0
     }
 
     /// Has the last entry stand in again for those that there are not.
@@ -71,18 +70,210 @@ impl<'a, V> IntoIterator for &'a Column<V> {
     }
 }
 
+/// What a bunch of particles has, of each number those of all particles beside each other.
+pub trait Bunch: Copy + fmt::Debug + Send + Sync {
+    /// What one particle has.
+    type One: Copy;
+
+    /// A bunch of particles that are alike.
+    fn alike(one: &Self::One) -> Self;
+
+    /// That of one particle.
+    fn get(&self, particle: usize) -> Self::One;
+
+    /// Sets that of one particle.
+    fn set(&mut self, particle: usize, one: &Self::One);
+}
+
+/// The vectors of a bunch: of each component those of all particles beside each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Vectors<T, const D: usize>(pub [[T; BUNCH]; D]);
+
+impl<T: Real, const D: usize> Bunch for Vectors<T, D> {
+    type One = Vector<T, D>;
+
+    fn alike(one: &Vector<T, D>) -> Self {
+        Self(std::array::from_fn(|i| [one[i]; BUNCH]))
+    }
+
+    fn get(&self, particle: usize) -> Vector<T, D> {
+        Vector::from_fn(|i, _| self.0[i][particle])
+    }
+
+    fn set(&mut self, particle: usize, one: &Vector<T, D>) {
+        (0..D).for_each(|i| self.0[i][particle] = one[i]);
+    }
+}
+
+/// The matrices of a bunch, by columns: of each entry those of all particles beside each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Matrices<T, const D: usize>(pub [[[T; BUNCH]; D]; D]);
+
+impl<T: Real, const D: usize> Matrices<T, D> {
+    /// Zero.
+    pub fn zeros() -> Self {
+        Self([[[T::zero(); BUNCH]; D]; D])
+    }
+}
+
+impl<T: Real, const D: usize> Bunch for Matrices<T, D> {
+    type One = Matrix<T, D>;
+
+    fn alike(one: &Matrix<T, D>) -> Self {
+        Self(std::array::from_fn(|j| std::array::from_fn(|i| [one[(i, j)]; BUNCH])))
+    }
+
+    fn get(&self, particle: usize) -> Matrix<T, D> {
+        Matrix::from_fn(|i, j| self.0[j][i][particle])
+    }
+
+    fn set(&mut self, particle: usize, one: &Matrix<T, D>) {
+        for j in 0..D {
+            for i in 0..D {
+                self.0[j][i][particle] = one[(i, j)];
+            }
+        }
+    }
+}
+
+impl Bunch for () {
+    type One = ();
+
+    fn alike((): &()) {}
+
+    fn get(&self, _: usize) {}
+
+    fn set(&mut self, _: usize, (): &()) {}
+}
+
+macro_rules! numbers {
+    ($($dimension:literal $entries:literal),*) => {
+        $(impl<T: Real> Numbers<T, $entries> for Matrices<T, $dimension> {
+            #[inline(always)]
+            fn numbers(&self) -> [&[T; BUNCH]; $entries] {
+                let entries = self.0.as_flattened().first_chunk();
+                entries.expect("as many entries").each_ref()
+            }
+
+            #[inline(always)]
+            fn numbers_mut(&mut self) -> [&mut [T; BUNCH]; $entries] {
+                let entries = self.0.as_flattened_mut().first_chunk_mut();
+                entries.expect("as many entries").each_mut()
+            }
+        })*
+    };
+}
+
+numbers!(1 1, 2 4, 3 9);
+
+/// An entry for every particle, number by number. As in a [`Column`], the last bunch is full.
+#[derive(Clone, Debug)]
+pub struct Bunches<B> {
+    bunches: Vec<B>,
+    len: usize,
+}
+
+impl<B: Bunch> Bunches<B> {
+    /// How many entries there are.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// That of one particle.
+    ///
+    /// # Panics
+    /// If there is no such particle.
+    pub fn get(&self, particle: usize) -> B::One {
+        assert!(particle < self.len, "a particle that there is not");
+        self.bunches[particle / BUNCH].get(particle % BUNCH)
+    }
+
+    /// One after the other.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = B::One> {
+        (0..self.len).map(|particle| self.get(particle))
+    }
+
+    /// Bytes of one particle.
+    pub fn bytes(&self) -> usize {
+        if self.is_empty() { 0 } else { size_of::<B>() / BUNCH }
+    }
+
+    /// Bunch by bunch.
+    pub(crate) fn bunches(&self) -> &[B] {
+        &self.bunches
+    }
+
+    /// Bunch by bunch; those that stand for the last particle have to become what its own does.
+    pub(crate) fn bunches_mut(&mut self) -> &mut [B] {
+        &mut self.bunches
+    }
+
+    /// Exchanges those of two particles.
+    pub(crate) fn swap(&mut self, a: usize, b: usize) {
+        let (first, second) = (self.get(a), self.get(b));
+        self.bunches[a / BUNCH].set(a % BUNCH, &second);
+        self.bunches[b / BUNCH].set(b % BUNCH, &first);
+    }
+
+    /// Has the last one stand in again for those that there are not.
+    pub(crate) fn fill_up(&mut self) {
+        if let Some(last) = self.len.checked_sub(1) {
+            let entry = self.get(last);
+            for k in last % BUNCH + 1..BUNCH {
+                self.bunches[last / BUNCH].set(k, &entry);
+            }
+        }
+    }
+}
+
+impl<B: Bunch> FromIterator<B::One> for Bunches<B> {
+    fn from_iter<I: IntoIterator<Item = B::One>>(entries: I) -> Self {
+        let mut all = Self { bunches: Vec::new(), len: 0 };
+        for entry in entries {
+            match all.len % BUNCH {
+                0 => all.bunches.push(B::alike(&entry)),
+                // Those that follow stand in for what does not come.
+                k => (k..BUNCH).for_each(|k| all.bunches[all.len / BUNCH].set(k, &entry)),
+            }
+            all.len += 1;
+        }
+        all
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Column;
+    use super::{Bunches, Column, Matrices};
+    use crate::Matrix;
 
     #[test]
     fn the_last_entry_stands_in_for_those_that_there_are_not() {
-        let mut column = Column::from(vec![0, 1, 2, 3, 4, 5]);
-        assert_eq!(column.bunches(), [[0, 1, 2, 3], [4, 5, 5, 5]]);
-        column.swap(0, 5);
+        let mut column = Column::from((0..10).collect::<Vec<_>>());
+        assert_eq!(column.bunches(), [[0, 1, 2, 3, 4, 5, 6, 7], [8, 9, 9, 9, 9, 9, 9, 9]]);
+        column.swap(0, 9);
         column.fill_up();
-        assert_eq!(column.bunches_mut(), [[5, 1, 2, 3], [4, 0, 0, 0]]);
-        assert_eq!(*column, [5, 1, 2, 3, 4, 0]);
+        assert_eq!(column.bunches(), [[9, 1, 2, 3, 4, 5, 6, 7], [8, 0, 0, 0, 0, 0, 0, 0]]);
+        assert_eq!(*column, [9, 1, 2, 3, 4, 5, 6, 7, 8, 0]);
         assert!(Column::<i32>::default().bunches().is_empty());
+    }
+
+    #[test]
+    fn matrices_are_kept_entry_by_entry() {
+        let matrix = |p: usize| Matrix::<f64, 2>::new(0.0, 1.0, 2.0, 3.0) * (1.0 + p as f64);
+        let mut column: Bunches<Matrices<_, 2>> = (0..10).map(matrix).collect();
+        assert_eq!(column.bunches()[0].0[1][0], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+        assert_eq!(column.bunches()[1].0[0][1], [18.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0, 20.0]);
+        column.swap(0, 9);
+        column.fill_up();
+        assert_eq!(column.bunches()[1].0[0][1], [18.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+        let order = [9, 1, 2, 3, 4, 5, 6, 7, 8, 0].map(matrix);
+        assert!(column.iter().eq(order));
     }
 }

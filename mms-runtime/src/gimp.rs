@@ -9,6 +9,7 @@
 use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
+use crate::column::{Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::lanes::{columns, components, stretches, vectors};
 use crate::shape::{Shape, lost};
@@ -29,7 +30,7 @@ pub struct Gimp<const FOLLOWS: bool>;
 impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     const FOLLOWS: bool = FOLLOWS;
     const ORIGIN: f64 = -0.5;
-    type Domain<T: Real, const D: usize> = Vector<T, D>;
+    type Domain<T: Real, const D: usize> = Vectors<T, D>;
     type Stencil<T: Real, const D: usize> = Tensor<T, D, NEAREST, MOST>;
     type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
 
@@ -42,9 +43,9 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         machine: M,
         stencil: &mut Tensor<T, D, NEAREST, MOST>,
         lattice: &Lattice<T, D>,
-        position: &[M::Four; D],
-        initial: &[Vector<T, D>; BUNCH],
-        displacement_gradient: &[Matrix<T, D>; BUNCH],
+        position: &[M::Eight; D],
+        initial: &Vectors<T, D>,
+        displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause> {
         let mut half_width = components(machine, initial);
         if FOLLOWS && !on(Defect::HalfWidthKept) {
@@ -99,7 +100,7 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     stencil: &mut Tensor<T, D, NEAREST, MOST>,
     lattice: &Lattice<T, D>,
-    position: &[M::Four; D],
+    position: &[M::Eight; D],
     half_width: &[Vector<T, D>; BUNCH],
 ) -> Result<(), Cause> {
     stencil.begin::<MOST>(lattice, true);
@@ -126,8 +127,8 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
                 [weights[k][p], slopes[k][p]] = average_of_hat(offset, l);
             }
         }
-        let all = [weights, slopes].map(|all| all.map(|along| machine.four(&along)));
-        stencil.set(machine, lattice, a, machine.four(&first), all);
+        let all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
+        stencil.set(machine, lattice, a, machine.eight(&first), all);
     }
     if fits { Ok(()) } else { Err(lost(machine, position)) }
 }
@@ -150,9 +151,9 @@ fn half_widths<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, 
 #[inline(always)]
 fn around_nearest<T: Real, M: Machine<T>>(
     machine: M,
-    position: M::Four,
-    half_width: M::Four,
-) -> (M::Four, [[M::Four; NEAREST]; 2]) {
+    position: M::Eight,
+    half_width: M::Eight,
+) -> (M::Eight, [[M::Eight; NEAREST]; 2]) {
     let [zero, half, one] = [0, 1, 2].map(|halves| machine.splat(T::ratio(halves, 2)));
     let nearest = machine.floor(machine.plus(position, half));
     let offset = machine.minus(position, nearest);

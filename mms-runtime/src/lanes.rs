@@ -1,70 +1,94 @@
-//! Vectors and matrices of four particles, component by component: a particle in each lane.
+//! Vectors and matrices of a bunch of particles, component by component: a particle in each lane.
 
-use bytemuck::{cast_slice, cast_slice_mut};
+use bytemuck::cast_slice;
 use mms_math::machine::Machine;
-use mms_math::structures::{put_columns, take_columns};
+use mms_math::structures::take_columns;
 
+use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::stencil::BUNCH;
-use crate::{Matrix, Real, Vector};
+use crate::{Real, Vector};
 
-/// The components of four vectors.
+/// The components of the vectors of a bunch that stand one after the other.
 #[inline(always)]
-pub fn components<T: Real, M: Machine<T>, const D: usize>(
+pub fn turned<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     vectors: &[Vector<T, D>; BUNCH],
-) -> [M::Four; D] {
+) -> [M::Eight; D] {
     let mut components = [machine.splat(T::zero()); D];
     take_columns(machine, cast_slice(vectors), &mut components);
     components
 }
 
-/// Gives four vectors these components.
+/// The components of the vectors of a bunch.
+#[inline(always)]
+pub fn components<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    vectors: &Vectors<T, D>,
+) -> [M::Eight; D] {
+    let mut components = [machine.splat(T::zero()); D];
+    for i in 0..D {
+        components[i] = machine.eight(&vectors.0[i]);
+    }
+    components
+}
+
+/// Gives the vectors of a bunch these components.
 #[inline(always)]
 pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    vectors: &mut [Vector<T, D>; BUNCH],
-    components: [M::Four; D],
+    vectors: &mut Vectors<T, D>,
+    components: [M::Eight; D],
 ) {
-    put_columns(machine, &components, cast_slice_mut(vectors));
+    for i in 0..D {
+        vectors.0[i] = machine.numbers(components[i]);
+    }
 }
 
 /// The vectors with these components.
 pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    components: [M::Four; D],
+    components: [M::Eight; D],
 ) -> [Vector<T, D>; BUNCH] {
-    let mut vectors = [Vector::zeros(); BUNCH];
+    let mut vectors = Vectors([[T::zero(); BUNCH]; D]);
     set_components(machine, &mut vectors, components);
-    vectors
+    std::array::from_fn(|k| vectors.get(k))
 }
 
-/// The components of four matrices, column by column.
+/// The matrices of a bunch, column by column.
 #[inline(always)]
 pub fn columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    matrices: &[Matrix<T, D>; BUNCH],
-) -> [[M::Four; D]; D] {
+    matrices: &Matrices<T, D>,
+) -> [[M::Eight; D]; D] {
     let mut columns = [[machine.splat(T::zero()); D]; D];
-    take_columns(machine, cast_slice(matrices), columns.as_flattened_mut());
+    for j in 0..D {
+        for i in 0..D {
+            columns[j][i] = machine.eight(&matrices.0[j][i]);
+        }
+    }
     columns
 }
 
-/// Gives four matrices these columns.
+/// Gives the matrices of a bunch these columns.
 #[inline(always)]
 pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    matrices: &mut [Matrix<T, D>; BUNCH],
-    columns: [[M::Four; D]; D],
+    matrices: &mut Matrices<T, D>,
+    columns: [[M::Eight; D]; D],
 ) {
-    put_columns(machine, columns.as_flattened(), cast_slice_mut(matrices));
+    for j in 0..D {
+        for i in 0..D {
+            matrices.0[j][i] = machine.numbers(columns[j][i]);
+        }
+    }
 }
 
-/// The determinants of four matrices with these columns; D = 1, 2, 3.
+/// The determinants of matrices with these columns; D = 1, 2, 3.
 #[inline(always)]
 pub fn determinants<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    columns: &[[M::Four; D]; D],
-) -> M::Four {
+    columns: &[[M::Eight; D]; D],
+) -> M::Eight {
     dot(machine, &columns[0], &cofactors(machine, columns)[0])
 }
 
@@ -72,8 +96,8 @@ pub fn determinants<T: Real, M: Machine<T>, const D: usize>(
 #[inline(always)]
 pub fn cofactors<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    columns: &[[M::Four; D]; D],
-) -> [[M::Four; D]; D] {
+    columns: &[[M::Eight; D]; D],
+) -> [[M::Eight; D]; D] {
     const { assert!(D >= 1 && D <= 3, "one to three dimensions") };
     let mut cofactors = [[machine.splat(T::one()); D]; D];
     let f = |i: usize, j: usize| columns[j % D][i % D];
@@ -98,9 +122,9 @@ pub fn cofactors<T: Real, M: Machine<T>, const D: usize>(
 #[inline(always)]
 fn dot<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    a: &[M::Four; D],
-    b: &[M::Four; D],
-) -> M::Four {
+    a: &[M::Eight; D],
+    b: &[M::Eight; D],
+) -> M::Eight {
     let mut sum = machine.times(a[0], b[0]);
     for i in 1..D {
         sum = machine.times_plus(a[i], b[i], sum);
@@ -115,13 +139,13 @@ const POLAR_ITERATIONS: usize = 20;
 /// not finite.
 ///
 /// U^2 = C = F^T F. Where every C is diagonal but for e, U_aa is sqrt(C_aa) but for e^2, which is nothing if that is
-/// less than round-off: the stretches of four diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
+/// less than round-off: the stretches of eight diagonal F are exact. Otherwise R is the limit of (R + R^-T)/2 from R = F
 /// (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat. Comput. 7 (1986)).
 #[inline(always)]
 pub fn stretches<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    f: &[[M::Four; D]; D],
-) -> [M::Four; D] {
+    f: &[[M::Eight; D]; D],
+) -> [M::Eight; D] {
     let round_off = machine.splat(T::default_epsilon());
     let mut stretches = [machine.splat(T::zero()); D];
     let mut straight = true;
@@ -172,12 +196,12 @@ mod tests {
     use mms_math::machine::Plain;
 
     use super::{columns, stretches};
-    use crate::stencil::BUNCH;
+    use crate::column::{Bunch as _, Matrices};
     use crate::tensor::deformation_gradient;
     use crate::{Matrix, Vector};
 
     fn stretch<const D: usize>(f: &Matrix<f64, D>) -> Vector<f64, D> {
-        let found = stretches::<f64, _, D>(Plain, &columns(Plain, &[*f; BUNCH]));
+        let found = stretches::<f64, _, D>(Plain, &columns(Plain, &Matrices::alike(f)));
         Vector::from_fn(|a, _| found[a][0])
     }
 

@@ -119,14 +119,14 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         Vector::from_fn(|a, _| machine.numbers(along(a))[0])
     }
 
-    /// As [`in_cells`](Lattice::in_cells), of four particles along one axis.
+    /// As [`in_cells`](Lattice::in_cells), of the particles of a bunch along one axis.
     #[inline(always)]
     pub fn cells_along<M: Machine<T>>(
         &self,
         machine: M,
         axis: usize,
-        position: M::Four,
-    ) -> M::Four {
+        position: M::Eight,
+    ) -> M::Eight {
         let from_lower = machine.minus(position, machine.splat(self.lower[axis]));
         let cells = machine.times(from_lower, machine.splat(self.per_length[axis]));
         let Some(period) = self.period[axis] else { return cells };

@@ -1,5 +1,7 @@
 //! The constitutive response of a field's material.
 
+use crate::column::{Bunch as _, Matrices};
+use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Vector};
 
 /// The constitutive response that the forcing was derived with.
@@ -23,6 +25,22 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         stress: &mut [Matrix<T, D>],
     );
 
+    /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole bunches of particles, whose matrices are kept entry by
+    /// entry: what a solver asks for in every step.
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        reference: &[[Vector<T, D>; BUNCH]],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
+    ) {
+        for ((reference, h), stress) in reference.iter().zip(displacement_gradient).zip(stress) {
+            let gradients: [_; BUNCH] = std::array::from_fn(|k| h.get(k));
+            let mut stresses = [Matrix::zeros(); BUNCH];
+            self.kirchhoff_stress(reference, &gradients, &mut stresses);
+            stresses.iter().enumerate().for_each(|(k, matrix)| stress.set(k, matrix));
+        }
+    }
+
     /// Strain energy W (per reference volume) of the displacement gradient H, and whether the material offers
     /// it. Nothing but the balance of energy asks for it; without it `energy` stays as it is.
     fn strain_energy(
@@ -32,5 +50,42 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         _energy: &mut [T],
     ) -> bool {
         false
+    }
+}
+
+/// How many bunches are evaluated together.
+const TOGETHER: usize = 8;
+
+/// [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_bunches`], for materials that have the latter.
+///
+/// # Panics
+/// If the slices have different lengths.
+pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
+    material: &M,
+    reference: &[Vector<T, D>],
+    displacement_gradient: &[Matrix<T, D>],
+    stress: &mut [Matrix<T, D>],
+) {
+    assert_eq!(reference.len(), stress.len(), "a reference position for each stress");
+    assert_eq!(displacement_gradient.len(), stress.len(), "H for each stress");
+    let parts = reference.chunks(TOGETHER * BUNCH);
+    let parts = parts.zip(displacement_gradient.chunks(TOGETHER * BUNCH));
+    for ((x, h), stress) in parts.zip(stress.chunks_mut(TOGETHER * BUNCH)) {
+        let mut points = [[x[0]; BUNCH]; TOGETHER];
+        points.as_flattened_mut()[..x.len()].copy_from_slice(x);
+        let mut gradients = [Matrices::zeros(); TOGETHER];
+        for (k, h) in h.iter().enumerate() {
+            gradients[k / BUNCH].set(k % BUNCH, h);
+        }
+        let mut stresses = [Matrices::zeros(); TOGETHER];
+        let bunches = x.len().div_ceil(BUNCH);
+        material.kirchhoff_stress_of_bunches(
+            &points[..bunches],
+            &gradients[..bunches],
+            &mut stresses[..bunches],
+        );
+        for (k, stress) in stress.iter_mut().enumerate() {
+            *stress = stresses[k / BUNCH].get(k % BUNCH);
+        }
     }
 }

@@ -4,7 +4,7 @@ use std::ops::{Add, AddAssign, Div, Mul};
 
 use mms_math::machine::Machine;
 
-use crate::{Matrix, Real, Vector};
+use crate::{Real, Vector};
 
 /// A vector at a node, in the first components, and in the last one what is mapped along with it: the
 /// mass along with the momentum.
@@ -95,27 +95,15 @@ impl<'a, T> Window<'a, T> {
     }
 }
 
-/// A vector, and the same number in all places that it leaves.
+/// A vector for each half, and the same number in all places that they leave.
 #[inline(always)]
-pub fn four<T: Real, M: Machine<T>, const D: usize>(
+pub fn halves<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    vector: &Vector<T, D>,
+    [first, second]: [&Vector<T, D>; 2],
     other: T,
-) -> M::Four {
-    let component = |a: usize| if a < D { vector[a] } else { other };
-    machine.four(&[component(0), component(1), component(2), other])
-}
-
-/// The columns of a matrix.
-#[inline(always)]
-pub fn columns<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    matrix: &Matrix<T, D>,
-) -> [M::Four; D] {
-    let mut columns = [machine.splat(T::zero()); D];
-    for j in 0..D {
-        let row = |i: usize| if i < D { matrix[(i, j)] } else { T::zero() };
-        columns[j] = machine.four(&[row(0), row(1), row(2), T::zero()]);
-    }
-    columns
+) -> M::Eight {
+    let first = |a: usize| if a < D { first[a] } else { other };
+    let second = |a: usize| if a < D { second[a] } else { other };
+    machine
+        .halves(&[first(0), first(1), first(2), other], &[second(0), second(1), second(2), other])
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::body::Filling;
-use crate::column::Column;
+use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
 use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Transfer, Vector};
 
@@ -18,11 +18,11 @@ pub struct Particles<T, const D: usize> {
     /// X.
     pub reference_position: Column<Vector<T, D>>,
     /// d = x - X.
-    pub displacement: Column<Vector<T, D>>,
+    pub displacement: Bunches<Vectors<T, D>>,
     /// v.
-    pub velocity: Column<Vector<T, D>>,
+    pub velocity: Bunches<Vectors<T, D>>,
     /// H = F - I.
-    pub displacement_gradient: Column<Matrix<T, D>>,
+    pub displacement_gradient: Bunches<Matrices<T, D>>,
     /// b, per unit mass.
     pub body_force: Column<Vector<T, D>>,
     /// m.
@@ -30,9 +30,9 @@ pub struct Particles<T, const D: usize> {
     /// V0.
     pub reference_volume: Column<T>,
     /// C, the linear velocity on each particle; only with APIC.
-    pub affine: Column<Matrix<T, D>>,
+    pub affine: Bunches<Matrices<T, D>>,
     /// (I - S S+)^m v, what the grid does not represent of the velocity; only with XPIC.
-    pub residual: Column<Vector<T, D>>,
+    pub residual: Bunches<Vectors<T, D>>,
 }
 
 impl<T: Real, const D: usize> Particles<T, D> {
@@ -49,14 +49,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
             // Fillings are limited to less than that.
             id: (0..count as u32).collect(),
             reference_position: filling.position.iter().map(|x| x.map(T::of)).collect(),
-            displacement: vec![Vector::zeros(); count].into(),
-            velocity: vec![Vector::zeros(); count].into(),
-            displacement_gradient: vec![Matrix::zeros(); count].into(),
+            displacement: (0..count).map(|_| Vector::zeros()).collect(),
+            velocity: (0..count).map(|_| Vector::zeros()).collect(),
+            displacement_gradient: (0..count).map(|_| Matrix::zeros()).collect(),
             body_force: vec![Vector::zeros(); count].into(),
             mass: vec![T::zero(); count].into(),
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
-            affine: vec![Matrix::zeros(); affine].into(),
-            residual: vec![Vector::zeros(); residual].into(),
+            affine: (0..affine).map(|_| Matrix::zeros()).collect(),
+            residual: (0..residual).map(|_| Vector::zeros()).collect(),
         }
     }
 
@@ -73,19 +73,17 @@ impl<T: Real, const D: usize> Particles<T, D> {
     /// x = X + d of one particle.
     #[inline(always)]
     pub fn position(&self, particle: usize) -> Vector<T, D> {
-        self.reference_position[particle] + self.displacement[particle]
+        self.reference_position[particle] + self.displacement.get(particle)
     }
 
     /// What is kept of one particle, in bytes.
     pub fn bytes_per_particle(&self) -> usize {
-        let held = |one: usize, len: usize| one * len / self.len().max(1);
-        size_of::<u32>()
-            + 3 * size_of::<Vector<T, D>>()
-            + size_of::<Matrix<T, D>>()
-            + held(size_of::<Vector<T, D>>(), self.body_force.len())
-            + 2 * size_of::<T>()
-            + held(size_of::<Matrix<T, D>>(), self.affine.len())
-            + held(size_of::<Vector<T, D>>(), self.residual.len())
+        let numbers = 2 * size_of::<T>();
+        let given = 2 * size_of::<Vector<T, D>>();
+        let kept = self.displacement.bytes() + self.velocity.bytes();
+        let deformation = self.displacement_gradient.bytes();
+        let transfer = self.affine.bytes() + self.residual.bytes();
+        size_of::<u32>() + numbers + given + kept + deformation + transfer
     }
 
     /// Puts particle `order[p]` in place `p`, in every array.
@@ -104,14 +102,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
         } = self;
         reorder(id, order);
         reorder(reference_position, order);
-        reorder(displacement, order);
-        reorder(velocity, order);
-        reorder(displacement_gradient, order);
+        reorder_bunches(displacement, order);
+        reorder_bunches(velocity, order);
+        reorder_bunches(displacement_gradient, order);
         reorder(body_force, order);
         reorder(mass, order);
         reorder(reference_volume, order);
-        reorder(affine, order);
-        reorder(residual, order);
+        reorder_bunches(affine, order);
+        reorder_bunches(residual, order);
         self.fill_up();
     }
 
@@ -145,18 +143,29 @@ impl<T: Real, const D: usize> Particles<T, D> {
 /// Marks, in an order, the places that are done.
 const DONE: u32 = 1 << 31;
 
-/// Puts item `order[p]` in place `p`, cycle by cycle; an array that is empty stays so.
+/// Puts item `order[p]` in place `p`; an array that is empty stays so.
 pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
-    if items.is_empty() {
-        return;
+    if !items.is_empty() {
+        follow(order, |place, from| items.swap(place, from));
     }
+}
+
+/// As [`reorder`].
+pub(crate) fn reorder_bunches<B: Bunch>(items: &mut Bunches<B>, order: &mut [u32]) {
+    if !items.is_empty() {
+        follow(order, |place, from| items.swap(place, from));
+    }
+}
+
+/// Does an order by exchanges, cycle by cycle.
+fn follow(order: &mut [u32], mut swap: impl FnMut(usize, usize)) {
     for first in 0..order.len() {
         let mut place = first;
         while order[place] & DONE == 0 {
             let from = order[place] as usize;
             order[place] |= DONE;
             if from != first {
-                items.swap(place, from);
+                swap(place, from);
             }
             place = from;
         }
@@ -167,11 +176,11 @@ pub(crate) fn reorder<V>(items: &mut [V], order: &mut [u32]) {
 /// What a step changes of the bunches from `start` on.
 pub(crate) struct Columns<'a, T, const D: usize> {
     pub start: usize,
-    pub displacement: &'a mut [[Vector<T, D>; BUNCH]],
-    pub velocity: &'a mut [[Vector<T, D>; BUNCH]],
-    pub displacement_gradient: &'a mut [[Matrix<T, D>; BUNCH]],
-    pub affine: &'a mut [[Matrix<T, D>; BUNCH]],
-    pub residual: &'a mut [[Vector<T, D>; BUNCH]],
+    pub displacement: &'a mut [Vectors<T, D>],
+    pub velocity: &'a mut [Vectors<T, D>],
+    pub displacement_gradient: &'a mut [Matrices<T, D>],
+    pub affine: &'a mut [Matrices<T, D>],
+    pub residual: &'a mut [Vectors<T, D>],
 }
 
 impl<T, const D: usize> Columns<'_, T, D> {
@@ -207,14 +216,17 @@ impl<T, const D: usize> Columns<'_, T, D> {
     }
 }
 
-/// Where material and b are evaluated: X; x, where a defect takes that for it.
+/// Where material and b are evaluated, for some bunches: X; x, where a defect takes that for it.
 pub(crate) fn material_points<'a, T: Real, const D: usize>(
-    reference: &'a [Vector<T, D>],
-    displacement: &[Vector<T, D>],
+    reference: &'a [[Vector<T, D>; BUNCH]],
+    displacement: &[Vectors<T, D>],
     at_present: bool,
-) -> Cow<'a, [Vector<T, D>]> {
+) -> Cow<'a, [[Vector<T, D>; BUNCH]]> {
+    let present = |(reference, displacement): (&[Vector<T, D>; BUNCH], &Vectors<T, D>)| {
+        std::array::from_fn(|k| reference[k] + displacement.get(k))
+    };
     match at_present {
-        true => reference.iter().zip(displacement).map(|(x, d)| x + d).collect(),
+        true => reference.iter().zip(displacement).map(present).collect(),
         false => Cow::Borrowed(reference),
     }
 }

@@ -18,7 +18,7 @@ mod state;
 mod threads;
 
 use crate::boundary::Boundary;
-use crate::column::Column;
+use crate::column::Bunches;
 use crate::formulation::Configuration;
 use crate::integrator::Integrator;
 use crate::nodal::Nodal;
@@ -42,7 +42,7 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     field: &'f F,
     clock: Clock,
     particles: Particles<T, D>,
-    domains: Column<S::Domain<T, D>>,
+    domains: Bunches<S::Domain<T, D>>,
     grid: Grid<T, D>,
     boundary: Boundary<T, D>,
     transfer: Transfer,
@@ -88,7 +88,7 @@ where
         let particles = &self.particles;
         // An inverted particle first: what is not finite is often its consequence.
         for (p, h) in particles.displacement_gradient.iter().enumerate() {
-            let jacobian = jacobian(h);
+            let jacobian = jacobian(&h);
             if jacobian <= T::zero() {
                 let jacobian = jacobian.to_f64();
                 return Err(self.failure(p, Cause::Inverted { jacobian }));
@@ -96,9 +96,12 @@ where
         }
         for p in 0..particles.len() {
             let suspect = [
-                ("displacement", is_finite(&particles.displacement[p])),
-                ("velocity", is_finite(&particles.velocity[p])),
-                ("displacement gradient", matrix_is_finite(&particles.displacement_gradient[p])),
+                ("displacement", is_finite(&particles.displacement.get(p))),
+                ("velocity", is_finite(&particles.velocity.get(p))),
+                (
+                    "displacement gradient",
+                    matrix_is_finite(&particles.displacement_gradient.get(p)),
+                ),
             ];
             if let Some((quantity, _)) = suspect.into_iter().find(|(_, finite)| !finite) {
                 return Err(self.failure(p, Cause::NotFinite { quantity }));

@@ -6,6 +6,7 @@
 
 use mms_math::machine::{Machine, Plain};
 
+use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::lanes::components;
 use crate::shape::{Shape, lost};
@@ -31,9 +32,9 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
         machine: M,
         stencil: &mut Tensor<T, D, N, N>,
         lattice: &Lattice<T, D>,
-        position: &[M::Four; D],
-        _: &[(); BUNCH],
-        _: &[Matrix<T, D>; BUNCH],
+        position: &[M::Eight; D],
+        (): &(),
+        _: &Matrices<T, D>,
     ) -> Result<(), Cause> {
         place::<T, M, D, P, N>(machine, stencil, lattice, position)
     }
@@ -46,7 +47,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     }
 }
 
-/// The products of splines of degree P along the axes, at the points where four particles are.
+/// The products of splines of degree P along the axes, at the points where the particles of a bunch are.
 ///
 /// # Errors
 /// A point is off the grid, or beyond the ends of the knots.
@@ -55,7 +56,7 @@ pub fn place<T, M, const D: usize, const P: usize, const N: usize>(
     machine: M,
     stencil: &mut Tensor<T, D, N, N>,
     lattice: &Lattice<T, D>,
-    position: &[M::Four; D],
+    position: &[M::Eight; D],
 ) -> Result<(), Cause>
 where
     T: Real,
@@ -72,7 +73,7 @@ where
         inner[a] = [first + reach, last - T::one() - reach];
     }
     if !machine.all_between(&cell, &inner) {
-        let numbers = |along: &[M::Four; D]| along.map(|four| machine.numbers(four));
+        let numbers = |along: &[M::Eight; D]| along.map(|eight| machine.numbers(eight));
         let (position, cells) = (numbers(position), numbers(&cells));
         return place_near_ends::<T, D, P, N>(stencil, lattice, position, cells);
     }
@@ -94,7 +95,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
 ) -> Result<(), Cause> {
     // What is not inlined into a loop knows no better machine.
     let machine = T::PlainMachine::from(Plain);
-    let [position, cells] = [position, cells].map(|along| along.map(|four| machine.four(&four)));
+    let [position, cells] = [position, cells].map(|along| along.map(|eight| machine.eight(&eight)));
     let slack = T::of(SLACK);
     let near = lattice.ends.map(|[first, last]| [first - slack, last + slack]);
     if !machine.all_between(&cells, &near) {
@@ -116,7 +117,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     Ok(())
 }
 
-/// As [`place`], at one point, four times.
+/// As [`place`], at one point, as often as there are particles in a bunch.
 ///
 /// # Errors
 /// Likewise.
@@ -126,7 +127,7 @@ pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
 ) -> Result<Tensor<T, D, N, N>, Cause> {
     let mut stencil = Tensor::new();
     let machine = T::PlainMachine::from(Plain);
-    let position = components(machine, &[*position; BUNCH]);
+    let position = components(machine, &Vectors::alike(position));
     place::<T, _, D, P, N>(machine, &mut stencil, lattice, &position)?;
     Ok(stencil)
 }
@@ -136,8 +137,8 @@ pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
 #[inline(always)]
 fn regular<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     machine: M,
-    r: M::Four,
-) -> [[M::Four; N]; 2] {
+    r: M::Eight,
+) -> [[M::Eight; N]; 2] {
     let zero = machine.splat(T::zero());
     let half = machine.splat(T::ratio(1, 2));
     let one = machine.splat(T::one());
@@ -171,9 +172,9 @@ fn regular<T: Real, M: Machine<T>, const P: usize, const N: usize>(
 #[inline(always)]
 fn cubics<T: Real, M: Machine<T>>(
     machine: M,
-    s: M::Four,
-    r: M::Four,
-) -> ([M::Four; 2], [M::Four; 2]) {
+    s: M::Eight,
+    r: M::Eight,
+) -> ([M::Eight; 2], [M::Eight; 2]) {
     let half = machine.splat(T::ratio(1, 2));
     let half_square = machine.times(machine.times(half, s), s);
     let outer = machine.times(machine.times(machine.splat(T::ratio(1, 3)), s), half_square);
@@ -191,10 +192,10 @@ fn cubics<T: Real, M: Machine<T>>(
 #[cold]
 fn near_any_ends<T: Real, M: Machine<T>, const P: usize, const N: usize>(
     machine: M,
-    cells: M::Four,
-    cell: M::Four,
+    cells: M::Eight,
+    cell: M::Eight,
     ends: [T; 2],
-) -> [[M::Four; N]; 2] {
+) -> [[M::Eight; N]; 2] {
     let (cells, cell) = (machine.numbers(cells), machine.numbers(cell));
     let mut all = [[[T::zero(); BUNCH]; N]; 2];
     for p in 0..BUNCH {
@@ -203,7 +204,7 @@ fn near_any_ends<T: Real, M: Machine<T>, const P: usize, const N: usize>(
             (all[0][k][p], all[1][k][p]) = (weights[k], slopes[k]);
         }
     }
-    all.map(|all| all.map(|numbers| machine.four(&numbers)))
+    all.map(|all| all.map(|numbers| machine.eight(&numbers)))
 }
 
 /// The splines in a `cell` whose knots are not all one cell apart, by the recurrence of Cox and de Boor, and

@@ -7,9 +7,10 @@
 //! of that kind, and so is the linear velocity of APIC, with the moments w (x_i - x_p)_a in place of
 //! (grad w)_a.
 //!
-//! A bunch is four particles that stand beside each other. What is said of particles has one of them in each lane of
-//! a register; what is said of nodes has in each lane one of the four numbers that a node carries. Most bunches
-//! share their nodes, for particles stand in the order of their cells: then a node is looked up once for all four.
+//! A bunch is eight particles that stand beside each other, in two halves of four. What is said of particles has one of
+//! them in each lane of a register; what is said of nodes has in each half one of their four numbers in each lane, those
+//! that particle k of the first half sees and those that particle k of the second one sees. In most bunches those of a
+//! half share their nodes, for particles stand in the order of their cells: then a node is looked up once for all four.
 
 mod collect;
 mod spread;
@@ -25,18 +26,21 @@ use crate::{Lattice, Real, Vector};
 pub use tensor::Tensor;
 
 /// How many particles are in a bunch.
-pub const BUNCH: usize = 4;
+pub const BUNCH: usize = 8;
 
-/// The four numbers of a node for each particle of a bunch, and of slopes along each axis.
+/// And in each half of it.
+pub const HALF: usize = BUNCH / 2;
+
+/// The four numbers of a node for each particle of both halves, and of slopes along each axis.
 #[derive(Clone, Copy)]
 pub struct Sloped<F, const D: usize> {
     /// q.
-    pub value: [F; BUNCH],
+    pub value: [F; HALF],
     /// Q_a.
-    pub slopes: [[F; D]; BUNCH],
+    pub slopes: [[F; D]; HALF],
 }
 
-/// The vector q that nodes have, as a bunch sees it: four numbers for each component.
+/// The vector q that nodes have, as a bunch sees it: a number for each particle.
 #[derive(Clone, Copy)]
 pub struct Collected<F, const D: usize> {
     /// sum_i w q_i.
@@ -72,7 +76,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     fn spread_value<M: Machine<T>>(
         &self,
         machine: M,
-        value: [M::Four; BUNCH],
+        value: [M::Eight; HALF],
         members: Members,
         nodes: Window<'_, T>,
     );
@@ -81,7 +85,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     );
@@ -91,7 +95,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     );
@@ -104,7 +108,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Four, D>;
+    ) -> Collected<M::Eight, D>;
 }
 
 /// Which particles of a bunch are meant, from one on and before another.

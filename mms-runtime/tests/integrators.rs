@@ -132,7 +132,7 @@ fn momentum<F: ManufacturedField<f64, 1> + ?Sized, S: Shape>(
     solver: &Solver<'_, f64, 1, F, S>,
 ) -> f64 {
     let particles = solver.particles();
-    particles.mass.iter().zip(&particles.velocity).map(|(m, v)| m * v[0]).sum()
+    particles.mass.iter().zip(particles.velocity.iter()).map(|(m, v)| m * v[0]).sum()
 }
 
 #[test]
@@ -229,7 +229,7 @@ impl<S: Shape> IntegratorVisitor for ShearedFlow<S> {
             solver.step::<I>().unwrap();
         }
         let exact = affine.gradient::<f64, 3>(solver.present().time);
-        for h in &solver.particles().displacement_gradient {
+        for h in solver.particles().displacement_gradient.iter() {
             assert!((h - exact).amax() < 0.02, "{h}, not {exact}");
         }
     }

@@ -116,11 +116,11 @@ fn energy_drift<S: Shape>(formulation: FormulationName, cells: usize) -> f64 {
         let particles = solver.particles();
         let gradients = particles.displacement_gradient.iter();
         let shares = gradients.zip(&particles.reference_volume);
-        shares.map(|(h, volume)| wave.strain_energy(h) * volume).sum()
+        shares.map(|(h, volume)| wave.strain_energy(&h) * volume).sum()
     };
     let kinetic = |solver: &Solver<'_, f64, 1, _, S>| -> f64 {
         let particles = solver.particles();
-        let shares = particles.mass.iter().zip(&particles.velocity);
+        let shares = particles.mass.iter().zip(particles.velocity.iter());
         shares.map(|(m, v)| m * v.norm_squared() / 2.0).sum()
     };
     let start = kinetic(&solver) + strain(&solver);

@@ -5,10 +5,10 @@ mod common;
 
 use common::weights::{CELLS, Particle, lattice};
 use mms_runtime::math::dispatch::{Work, best};
-use mms_runtime::math::machine::{Fused, Machine, Plain};
+use mms_runtime::math::machine::{Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, BUNCH, Collected, Members, Sloped, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, BUNCH, Collected, HALF, Members, Sloped, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
@@ -39,10 +39,12 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
                 stencil.collect(machine, lattice, wanted, nodes);
             let gradient = if wanted == Wanted::Value { &[] } else { &gradient[..] };
             for components in [value].iter().chain(gradient) {
-                all.extend(components.iter().flat_map(|&four| machine.numbers(four)));
+                all.extend(components.iter().flat_map(|&eight| machine.numbers(eight)));
             }
         }
-        let of = |p: usize, k: usize| machine.four(&carried[4 * p + k].0);
+        let of = |p: usize, k: usize| {
+            machine.halves(&carried[4 * p + k].0, &carried[4 * (p + HALF) + k].0)
+        };
         let value = std::array::from_fn(|p| of(p, 0));
         let slopes = std::array::from_fn(|p| std::array::from_fn(|a| of(p, 1 + a)));
         let carried = Sloped { value, slopes };
@@ -91,28 +93,27 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
     fn slopes<M: Machine<T>>(&self, machine: M) -> Vec<T> {
         let Self { stencil, lattice, nodes, .. } = *self;
         let slopes = stencil.collect(machine, lattice, Wanted::Slopes, nodes).slopes;
-        slopes.iter().flatten().flat_map(|&four| machine.numbers(four)).collect()
+        slopes.iter().flatten().flat_map(|&eight| machine.numbers(eight)).collect()
     }
 }
 
-impl<T: Real, const D: usize, S: Stencil<T, D>> Work for &Sums<'_, T, D, S> {
+impl<T: Real, const D: usize, S: Stencil<T, D>> Work<T> for &Sums<'_, T, D, S> {
     type Output = [Vec<T>; 2];
 
-    fn fused(self, machine: Fused) -> Self::Output {
-        let machine = T::FusedMachine::from(machine);
-        [self.by(machine), self.slopes(machine)]
-    }
-
-    fn plain(self, machine: Plain) -> Self::Output {
-        let machine = T::PlainMachine::from(machine);
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         [self.by(machine), self.slopes(machine)]
     }
 }
 
-/// How far the particles of a bunch are apart along each axis, in cells: all share their nodes (the second four almost
-/// always), or not.
-const APART: [[f64; BUNCH]; 4] =
-    [[0.0; BUNCH], [0.0, 0.02, 0.01, 0.03], [0.0, 1e-3, 0.0, 1.0], [0.4, 0.0, 1.7, 0.0]];
+/// How far the particles of a bunch are apart along each axis, in cells: all share their nodes, those of each half do
+/// (almost always), those of one half do, or they do not.
+const APART: [[f64; BUNCH]; 5] = [
+    [0.0; BUNCH],
+    [0.0, 0.02, 0.01, 0.03, 0.02, 0.0, 0.01, 0.03],
+    [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0],
+    [0.0, 1e-3, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+    [0.4, 0.0, 1.7, 0.0, 1.7, 0.4, 1.0, 0.4],
+];
 
 /// A particle, for every shape function.
 struct Check<T, const D: usize> {
@@ -137,12 +138,12 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             }
         };
 
-        for (apart, members) in APART.into_iter().zip([ALL, ALL, ALL, [1, 3]]) {
+        for (apart, members) in APART.into_iter().zip([ALL, ALL, ALL, [0, 6], [1, 7]]) {
             let (stencil, positions) = self.particle.bunch::<T, S>(&lattice, apart).unwrap();
             let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(4 * BUNCH)[..]);
             let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
             let expected = sums.by_definition(&positions);
-            for [found, _] in [sums.plain(Plain), best(&sums)] {
+            for [found, _] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
                 close(&found, &expected);
             }
 
@@ -157,7 +158,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
             let diagonal = |k: usize| (k / BUNCH).is_multiple_of(D + 1);
             let unit = |k: usize| if diagonal(k) { T::one() } else { T::zero() };
             let expected: Vec<T> = (0..BUNCH * D * D).map(unit).collect();
-            for [_, found] in [sums.plain(Plain), best(&sums)] {
+            for [_, found] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {
                 close(&found, &expected);
             }
         }

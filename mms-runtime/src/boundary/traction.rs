@@ -10,9 +10,9 @@ use mms_math::machine::Plain;
 
 use crate::body::Piece;
 use crate::defect::{Defect, on};
-use crate::nodal::{Nodal, Window, four};
+use crate::nodal::{Nodal, Window, halves};
 use crate::shape::Shape;
-use crate::stencil::{BUNCH, Stencil as _};
+use crate::stencil::{HALF, Stencil as _};
 use crate::tensor::{cofactor, components, jacobian};
 use crate::{
     Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
@@ -108,9 +108,9 @@ impl<T: Real, const D: usize> Traction<T, D> {
             let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { jacobian(exact) };
             let traction = kirchhoff_stress[k] * present_area / ratio;
             let stencil = S::point(lattice, &position).map_err(fail)?;
-            let traction = four(machine, &traction, T::zero());
+            let traction = halves(machine, [&traction; 2], T::zero());
             let nodes = Window { start: 0, nodes: &mut *force };
-            stencil.spread_value(machine, [traction; BUNCH], [0, 1], nodes);
+            stencil.spread_value(machine, [traction; HALF], [0, 1], nodes);
         }
         Ok(())
     }

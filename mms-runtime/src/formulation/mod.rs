@@ -1,7 +1,8 @@
 //! Formulations: in which configuration the grid lives.
 
+use crate::Real;
+use crate::column::Matrices;
 use crate::extension::extension_list;
-use crate::{Matrix, Real};
 
 extension_list! {
     /// The formulations.
@@ -16,17 +17,17 @@ pub trait Formulation: Send + Sync + 'static {
     /// otherwise weights are those of the reference positions, computed once, and dF/dt is that sum.
     const MOVES: bool;
 
-    /// From tau and H of some particles the stresses that work on grad w per reference volume.
+    /// From tau and H of some bunches of particles the stresses that work on grad w per reference volume.
     ///
     /// # Errors
     /// The first particle where F is singular.
     fn stress<T: Real, const D: usize>(
-        displacement_gradient: &[Matrix<T, D>],
-        stress: &mut [Matrix<T, D>],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
     ) -> Result<(), usize>;
 }
 
-/// From H of some particles, and what is tau before, the stresses; or where F is singular.
+/// From H of some bunches, and what is tau before, the stresses; or where F is singular.
 type StressOf<M> = fn(&[M], &mut [M]) -> Result<(), usize>;
 
 /// A formulation as a value: solvers are compiled once for all.
@@ -35,7 +36,7 @@ pub(crate) struct Configuration<T, const D: usize> {
     /// [`Formulation::MOVES`].
     pub moves: bool,
     /// [`Formulation::stress`].
-    pub stress: StressOf<Matrix<T, D>>,
+    pub stress: StressOf<Matrices<T, D>>,
 }
 
 impl FormulationName {

@@ -6,9 +6,11 @@
 //! f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
 
 use super::Formulation;
+use crate::Real;
+use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
+use crate::stencil::BUNCH;
 use crate::tensor::inverse_deformation_gradient;
-use crate::{Matrix, Real};
 
 /// Particles stay where they are in the grid; nothing crosses a cell.
 pub struct Total;
@@ -17,14 +19,17 @@ impl Formulation for Total {
     const MOVES: bool = false;
 
     fn stress<T: Real, const D: usize>(
-        displacement_gradient: &[Matrix<T, D>],
-        stress: &mut [Matrix<T, D>],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
     ) -> Result<(), usize> {
-        for (p, (h, stress)) in displacement_gradient.iter().zip(stress).enumerate() {
-            let inverse = inverse_deformation_gradient(h).ok_or(p)?;
-            *stress *= inverse.transpose();
-            if on(Defect::TransposedStress) {
-                stress.transpose_mut();
+        for (b, (h, stress)) in displacement_gradient.iter().zip(stress).enumerate() {
+            for k in 0..BUNCH {
+                let inverse = inverse_deformation_gradient(&h.get(k)).ok_or(BUNCH * b + k)?;
+                let mut first = stress.get(k) * inverse.transpose();
+                if on(Defect::TransposedStress) {
+                    first.transpose_mut();
+                }
+                stress.set(k, &first);
             }
         }
         Ok(())

@@ -5,9 +5,11 @@
 //! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
 
 use super::Formulation;
+use crate::Real;
+use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
+use crate::stencil::BUNCH;
 use crate::tensor::jacobian;
-use crate::{Matrix, Real};
 
 /// Particles move through the grid.
 pub struct Updated;
@@ -16,12 +18,15 @@ impl Formulation for Updated {
     const MOVES: bool = true;
 
     fn stress<T: Real, const D: usize>(
-        displacement_gradient: &[Matrix<T, D>],
-        stress: &mut [Matrix<T, D>],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
     ) -> Result<(), usize> {
         if on(Defect::KirchhoffForCauchy) {
-            let particles = displacement_gradient.iter().zip(stress);
-            particles.for_each(|(h, stress)| *stress *= jacobian(h));
+            for (h, stress) in displacement_gradient.iter().zip(stress) {
+                for k in 0..BUNCH {
+                    stress.set(k, &(stress.get(k) * jacobian(&h.get(k))));
+                }
+            }
         }
         Ok(())
     }

@@ -12,11 +12,12 @@ use std::ops::Range;
 use mms_math::machine::Machine;
 
 use super::Shape;
+use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
 use crate::lanes::columns;
 use crate::nodal::{Nodal, Window};
 use crate::spline;
-use crate::stencil::{BUNCH, Collected, Members, Sloped, Stencil, Tensor, Wanted};
+use crate::stencil::{BUNCH, Collected, HALF, Members, Sloped, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -40,7 +41,7 @@ pub struct Corners<T, const D: usize> {
 impl Shape for Cpdi {
     const FOLLOWS: bool = true;
     const NEAR: bool = false;
-    type Domain<T: Real, const D: usize> = Matrix<T, D>;
+    type Domain<T: Real, const D: usize> = Matrices<T, D>;
     type Stencil<T: Real, const D: usize> = Corners<T, D>;
     type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
 
@@ -53,20 +54,22 @@ impl Shape for Cpdi {
         machine: M,
         corners: &mut Corners<T, D>,
         lattice: &Lattice<T, D>,
-        position: &[M::Four; D],
-        half_edges: &[Matrix<T, D>; BUNCH],
-        displacement_gradient: &[Matrix<T, D>; BUNCH],
+        position: &[M::Eight; D],
+        half_edges: &Matrices<T, D>,
+        displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause> {
-        let [mut present, mut inverse] = [[Matrix::zeros(); BUNCH]; 2];
+        let [mut all_present, mut all_inverse] = [Matrices::zeros(); 2];
         for p in 0..BUNCH {
-            present[p] = deformation_gradient(&displacement_gradient[p]) * half_edges[p];
-            present[p] = if on(Defect::CornersKept) { half_edges[p] } else { present[p] };
-            let found = present[p].try_inverse().filter(matrix_is_finite);
-            inverse[p] = found.ok_or(Cause::FlatDomain)?;
+            let half_edges = half_edges.get(p);
+            let present = deformation_gradient(&displacement_gradient.get(p)) * half_edges;
+            let present = if on(Defect::CornersKept) { half_edges } else { present };
+            let inverse = present.try_inverse().filter(matrix_is_finite);
+            let inverse = inverse.ok_or(Cause::FlatDomain)?;
             let transposed = on(Defect::CornersTransposed);
-            inverse[p] = if transposed { inverse[p].transpose() } else { inverse[p] };
+            all_present.set(p, &present);
+            all_inverse.set(p, &if transposed { inverse.transpose() } else { inverse });
         }
-        let (present, inverse) = (columns(machine, &present), columns(machine, &inverse));
+        let (present, inverse) = (columns(machine, &all_present), columns(machine, &all_inverse));
         for c in 0..1 << D {
             let sign = |a: usize| if c >> a & 1 == 0 { -T::one() } else { T::one() };
             let share = machine.splat(T::ratio(1, 1 << D));
@@ -108,15 +111,17 @@ impl<T: Real, const D: usize> Corners<T, D> {
     fn of_corner<M: Machine<T>>(
         machine: M,
         along: &[[T; BUNCH]; D],
-        share: M::Four,
-        carried: &Sloped<M::Four, D>,
-    ) -> [M::Four; BUNCH] {
+        share: M::Eight,
+        carried: &Sloped<M::Eight, D>,
+    ) -> [M::Eight; HALF] {
         let mut of_corner = carried.value;
-        for p in 0..BUNCH {
-            of_corner[p] = machine.times(share, of_corner[p]);
-            for a in 0..D {
-                let along = machine.splat(along[a][p]);
-                of_corner[p] = machine.times_plus(along, carried.slopes[p][a], of_corner[p]);
+        for k in 0..HALF {
+            of_corner[k] = machine.times(share, of_corner[k]);
+        }
+        for a in 0..D {
+            let along = machine.spread(machine.eight(&along[a]));
+            for k in 0..HALF {
+                of_corner[k] = machine.times_plus(along[k], carried.slopes[k][a], of_corner[k]);
             }
         }
         of_corner
@@ -141,14 +146,14 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     fn spread_value<M: Machine<T>>(
         &self,
         machine: M,
-        value: [M::Four; BUNCH],
+        value: [M::Eight; HALF],
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
         let share = machine.splat(T::ratio(1, 1 << D));
         let mut of_corner = value;
-        for p in 0..BUNCH {
-            of_corner[p] = machine.times(share, value[p]);
+        for k in 0..HALF {
+            of_corner[k] = machine.times(share, value[k]);
         }
         for hats in self.hats.iter().take(1 << D) {
             hats.spread_value(machine, of_corner, members, nodes.reborrow());
@@ -159,7 +164,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
@@ -177,15 +182,15 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
         let share = machine.splat(T::ratio(1, 1 << D));
         let mut of_node = *carried;
-        for p in 0..BUNCH {
+        for k in 0..HALF {
             for a in 0..D {
-                of_node.slopes[p][a] = machine.times(share, carried.slopes[p][a]);
+                of_node.slopes[k][a] = machine.times(share, carried.slopes[k][a]);
             }
         }
         for (hats, apart) in self.hats.iter().zip(&self.apart).take(1 << D) {
@@ -202,7 +207,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Four, D> {
+    ) -> Collected<M::Eight, D> {
         let zero = machine.splat(T::zero());
         let nothing = [[zero; D]; D];
         let mut collected = Collected { value: [zero; D], gradient: nothing, slopes: nothing };
@@ -217,7 +222,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
                 }
                 for a in 0..D {
                     let gradient = &mut collected.gradient[a][c];
-                    let along = machine.four(&direction[a]);
+                    let along = machine.eight(&direction[a]);
                     *gradient = machine.times_plus(along, of_corner[c], *gradient);
                 }
             }

@@ -6,9 +6,10 @@
 
 use mms_math::machine::{Machine, Plain};
 
+use crate::column::{Bunch, Matrices, Vectors};
 use crate::extension::extension_list;
 use crate::lanes::{components, vectors};
-use crate::stencil::{BUNCH, Stencil};
+use crate::stencil::Stencil;
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 extension_list! {
@@ -42,7 +43,7 @@ pub trait Shape: 'static {
     const ORIGIN: f64 = 0.0;
 
     /// What is kept of a particle's undeformed domain.
-    type Domain<T: Real, const D: usize>: Copy + Send + Sync;
+    type Domain<T: Real, const D: usize>: Bunch;
 
     /// The nodes of a bunch of particles.
     type Stencil<T: Real, const D: usize>: Stencil<T, D>;
@@ -51,42 +52,44 @@ pub trait Shape: 'static {
     type Point<T: Real, const D: usize>: Stencil<T, D>;
 
     /// What is kept of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns.
-    fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Self::Domain<T, D>;
+    fn domain<T: Real, const D: usize>(
+        half_edges: &Matrix<T, D>,
+    ) -> <Self::Domain<T, D> as Bunch>::One;
 
-    /// Writes the nodes and weights of four particles to `stencil`. They are at these positions (lengths), of which
+    /// Writes the nodes and weights of a bunch of particles to `stencil`. They are at these positions (lengths), of which
     /// the components along each axis are given, and have these domains and displacement gradients H.
     ///
     /// # Errors
-    /// A domain does not fit on the grid, or is too large for the stencil: the cause that the first of four particles
+    /// A domain does not fit on the grid, or is too large for the stencil: the cause that the first of particles
     /// that are alike would have.
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
         stencil: &mut Self::Stencil<T, D>,
         lattice: &Lattice<T, D>,
-        position: &[M::Four; D],
-        domain: &[Self::Domain<T, D>; BUNCH],
-        displacement_gradient: &[Matrix<T, D>; BUNCH],
+        position: &[M::Eight; D],
+        domain: &Self::Domain<T, D>,
+        displacement_gradient: &Matrices<T, D>,
     ) -> Result<(), Cause>;
 
-    /// The nodes and weights of four particles that are alike; see [`place`](Shape::place).
+    /// The nodes and weights of a bunch of particles that are alike; see [`place`](Shape::place).
     ///
     /// # Errors
     /// Likewise.
     fn stencil<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-        domain: &Self::Domain<T, D>,
+        domain: &<Self::Domain<T, D> as Bunch>::One,
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<Self::Stencil<T, D>, Cause> {
         let mut stencil = Self::Stencil::default();
         let machine = T::PlainMachine::from(Plain);
-        let position = components(machine, &[*position; BUNCH]);
-        let (domain, h) = ([*domain; BUNCH], [*displacement_gradient; BUNCH]);
+        let position = components(machine, &Vectors::alike(position));
+        let (domain, h) = (Bunch::alike(domain), Matrices::alike(displacement_gradient));
         Self::place(machine, &mut stencil, lattice, &position, &domain, &h)?;
         Ok(stencil)
     }
 
-    /// The nodes and weights of four points that are alike: of a piece of a face, say.
+    /// The nodes and weights of a bunch of points that are alike: of a piece of a face, say.
     ///
     /// # Errors
     /// The point is off the grid.
@@ -100,7 +103,7 @@ pub trait Shape: 'static {
 #[cold]
 pub(crate) fn lost<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    position: &[M::Four; D],
+    position: &[M::Eight; D],
 ) -> Cause {
     Cause::lost(&vectors(machine, *position)[0])
 }

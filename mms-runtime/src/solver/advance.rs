@@ -1,7 +1,7 @@
 //! From nodes to particles: velocity, displacement, deformation.
 
 use mms_math::dispatch::Work;
-use mms_math::machine::{Fused, Machine, Plain};
+use mms_math::machine::Machine;
 
 use super::misread;
 use super::scene::Scene;
@@ -35,23 +35,11 @@ pub(super) struct Advance<'a, 'p, T: Real, const D: usize, S: Shape> {
 /// Whether all numbers are finite and J > 0, or might not be.
 pub(super) type Sound = bool;
 
-impl<T: Real, const D: usize, S: Shape> Work for Advance<'_, '_, T, D, S> {
+impl<T: Real, const D: usize, S: Shape> Work<T> for Advance<'_, '_, T, D, S> {
     type Output = Result<Sound, (usize, Cause)>;
 
     #[inline(always)]
-    fn fused(self, machine: Fused) -> Self::Output {
-        self.update(T::FusedMachine::from(machine))
-    }
-
-    #[inline(always)]
-    fn plain(self, machine: Plain) -> Self::Output {
-        self.update(T::PlainMachine::from(machine))
-    }
-}
-
-impl<T: Real, const D: usize, S: Shape> Advance<'_, '_, T, D, S> {
-    #[inline(always)]
-    fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         let Columns { start, .. } = self.particles;
         let mut particles = self.particles;
         let nodes = Nodes {
@@ -90,7 +78,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         particles: &mut Columns<'_, T, D>,
         k: usize,
         stencil: &S::Stencil<T, D>,
-        rest: &mut M::Four,
+        rest: &mut M::Eight,
     ) -> Sound {
         let Self { scene, steps, velocity, .. } = self;
         let zero = machine.splat(T::zero());
@@ -146,11 +134,11 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         &self,
         machine: M,
         kick: T,
-        mapped: [M::Four; D],
+        mapped: [M::Eight; D],
         particles: &mut Columns<'_, T, D>,
         k: usize,
         stencil: &S::Stencil<T, D>,
-    ) -> [M::Four; D] {
+    ) -> [M::Eight; D] {
         let Self { scene, acceleration, .. } = self;
         if let Transfer::Pic | Transfer::Apic = scene.transfer {
             return mapped;
@@ -185,11 +173,11 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
 #[inline(always)]
 fn deformed<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    h: [[M::Four; D]; D],
-    mut gradient: [[M::Four; D]; D],
+    h: [[M::Eight; D]; D],
+    mut gradient: [[M::Eight; D]; D],
     time_step: T,
     moves: bool,
-) -> [[M::Four; D]; D] {
+) -> [[M::Eight; D]; D] {
     let mut next = h;
     for j in 0..D {
         for i in 0..D {
@@ -226,23 +214,11 @@ pub(super) struct Residual<'a, 'p, T: Real, const D: usize, S: Shape> {
     pub source: Source,
 }
 
-impl<T: Real, const D: usize, S: Shape> Work for Residual<'_, '_, T, D, S> {
+impl<T: Real, const D: usize, S: Shape> Work<T> for Residual<'_, '_, T, D, S> {
     type Output = Result<Sound, (usize, Cause)>;
 
     #[inline(always)]
-    fn fused(self, machine: Fused) -> Self::Output {
-        self.update(T::FusedMachine::from(machine))
-    }
-
-    #[inline(always)]
-    fn plain(self, machine: Plain) -> Self::Output {
-        self.update(T::PlainMachine::from(machine))
-    }
-}
-
-impl<T: Real, const D: usize, S: Shape> Residual<'_, '_, T, D, S> {
-    #[inline(always)]
-    fn update<M: Machine<T>>(self, machine: M) -> Result<Sound, (usize, Cause)> {
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         let Self { scene, particles, nodal, source, .. } = self;
         let mut room = S::Stencil::default();
         for k in 0..particles.len() {

@@ -3,20 +3,22 @@
 use std::ops::Range;
 
 use mms_math::dispatch::{Work, best};
-use mms_math::machine::{Fused, Machine, Plain};
+use mms_math::machine::Machine;
 
 use super::clock::{Seconds, timed};
 use super::misread;
 use super::scene::Scene;
 use super::slabs::Slab;
+use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::formulation::Configuration;
-use crate::nodal::{Window, columns, four};
+use crate::lanes::columns;
+use crate::nodal::{LAST, Window, halves};
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::{ALL, BUNCH, Members, Sloped, Stencil};
+use crate::stencil::{ALL, BUNCH, HALF, Members, Sloped, Stencil};
 use crate::tensor::matrix_is_finite;
-use crate::{Cause, Lattice, ManufacturedField, Matrix, Real, Vector};
+use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 
 /// Particles whose stresses are computed together: so many that it is nothing to ask what time it is, and so few that
 /// their stresses stay near.
@@ -67,24 +69,23 @@ where
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
-        let mut stress = [Matrix::zeros(); PART];
+        let mut stress = [Matrices::zeros(); PART / BUNCH];
         let mut room = S::Stencil::default();
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
         let Range { start, end } = slab.particles;
-        let count = self.particles.len();
-        for first in (start / BUNCH * BUNCH..end).step_by(PART) {
-            let part = first..end.next_multiple_of(BUNCH).min(first + PART);
+        let (start, end) = (start / BUNCH, end.div_ceil(BUNCH));
+        for first in (start..end).step_by(PART / BUNCH) {
+            let part = first..end.min(first + PART / BUNCH);
+            let stress = &mut stress[..part.len()];
             if let Carried::Force | Carried::Everything = self.carried {
-                let part = first..part.end.min(count);
-                let stress = &mut stress[..part.len()];
-                timed(&mut seconds.stress, || self.find_stress(part, stress))?;
+                timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
             }
             let sums = Sums {
                 scene: self.scene,
                 particles: self.particles,
                 carried: self.carried,
-                bunches: first / BUNCH..part.end / BUNCH,
-                stress: stress.as_chunks().0,
+                bunches: part,
+                stress,
                 nodes: [momentum.reborrow(), force.reborrow()],
                 slab,
                 room: &mut room,
@@ -95,13 +96,14 @@ where
     }
 
     /// The stress that works on grad w, of every particle of a part.
-    fn find_stress(&self, part: Range<usize>, stress: &mut [Matrix<T, D>]) -> Result<(), Stop> {
-        let gradients = &self.particles.displacement_gradient[part.clone()];
-        let reference = &self.particles.reference_position[part.clone()];
-        let displacement = &self.particles.displacement[part.clone()];
+    fn find_stress(&self, part: Range<usize>, stress: &mut [Matrices<T, D>]) -> Result<(), Stop> {
+        let all = self.particles;
+        let gradients = &all.displacement_gradient.bunches()[part.clone()];
+        let reference = &all.reference_position.bunches()[part.clone()];
+        let displacement = &all.displacement.bunches()[part.clone()];
         let points = material_points(reference, displacement, on(Defect::ModuliAtPresent));
-        self.field.kirchhoff_stress(&points, gradients, stress);
-        let singular = |k| (part.start + k, Cause::Inverted { jacobian: 0.0 });
+        self.field.kirchhoff_stress_of_bunches(&points, gradients, stress);
+        let singular = |k| (BUNCH * part.start + k, Cause::Inverted { jacobian: 0.0 });
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
 }
@@ -113,43 +115,32 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     carried: Carried,
     bunches: Range<usize>,
     /// From the first one of these on.
-    stress: &'a [[Matrix<T, D>; BUNCH]],
+    stress: &'a [Matrices<T, D>],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
     slab: &'a Slab,
     room: &'a mut S::Stencil<T, D>,
 }
 
-impl<T: Real, const D: usize, S: Shape> Work for Sums<'_, T, D, S> {
+impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
     type Output = Result<(), Stop>;
 
     #[inline(always)]
-    fn fused(self, machine: Fused) -> Self::Output {
-        self.add(T::FusedMachine::from(machine))
-    }
-
-    #[inline(always)]
-    fn plain(self, machine: Plain) -> Self::Output {
-        self.add(T::PlainMachine::from(machine))
-    }
-}
-
-impl<T: Real, const D: usize, S: Shape> Sums<'_, T, D, S> {
-    #[inline(always)]
-    fn add<M: Machine<T>>(self, machine: M) -> Result<(), Stop> {
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         let Self { scene, particles, carried, bunches: range, stress, mut nodes, slab, room } =
             self;
         let Slab { particles: own, window } = slab;
-        let stress = &stress[..range.len()];
-        let bunches = Bunches::new(particles, range.clone(), stress);
+        let bunches = Arrays::new(particles, range.clone(), stress);
         // For the stress of the next part.
         let next = &particles.displacement_gradient.bunches()[range.end..];
         let mut rest = machine.splat(T::zero());
         for k in 0..range.len() {
             let bunch = range.start + k;
             if let Some(next) = next.get(k) {
-                for h in next {
-                    machine.fetch(h);
+                for column in &next.0 {
+                    for entry in column {
+                        machine.fetch(entry);
+                    }
                 }
             }
             let moved = (&bunches.displacement[k], &bunches.displacement_gradient[k]);
@@ -172,34 +163,31 @@ impl<T: Real, const D: usize, S: Shape> Sums<'_, T, D, S> {
         if machine.all_at_most(rest, rest) {
             return Ok(());
         }
-        let odd = stress.as_flattened().iter().position(|stress| !matrix_is_finite(stress));
+        let mut all = stress.iter().flat_map(|stress| (0..BUNCH).map(|k| stress.get(k)));
+        let odd = all.position(|stress| !matrix_is_finite(&stress));
         let cause = Cause::NotFinite { quantity: "stress" };
         odd.map_or(Ok(()), |p| Err(Stop::Failed(BUNCH * range.start + p, cause)))
     }
 }
 
 /// The particles that are added, bunch by bunch.
-struct Bunches<'a, T: Real, const D: usize> {
-    displacement: &'a [[Vector<T, D>; BUNCH]],
-    velocity: &'a [[Vector<T, D>; BUNCH]],
-    displacement_gradient: &'a [[Matrix<T, D>; BUNCH]],
+struct Arrays<'a, T: Real, const D: usize> {
+    displacement: &'a [Vectors<T, D>],
+    velocity: &'a [Vectors<T, D>],
+    displacement_gradient: &'a [Matrices<T, D>],
     body_force: &'a [[Vector<T, D>; BUNCH]],
     mass: &'a [[T; BUNCH]],
     reference_volume: &'a [[T; BUNCH]],
-    stress: &'a [[Matrix<T, D>; BUNCH]],
+    stress: &'a [Matrices<T, D>],
     /// With APIC.
-    affine: Option<&'a [[Matrix<T, D>; BUNCH]]>,
+    affine: Option<&'a [Matrices<T, D>]>,
     /// With XPIC.
-    residual: Option<&'a [[Vector<T, D>; BUNCH]]>,
+    residual: Option<&'a [Vectors<T, D>]>,
 }
 
-impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
+impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
     #[inline(always)]
-    fn new(
-        all: &'a Particles<T, D>,
-        range: Range<usize>,
-        stress: &'a [[Matrix<T, D>; BUNCH]],
-    ) -> Self {
+    fn new(all: &'a Particles<T, D>, range: Range<usize>, stress: &'a [Matrices<T, D>]) -> Self {
         Self {
             displacement: &all.displacement.bunches()[range.clone()],
             velocity: &all.velocity.bunches()[range.clone()],
@@ -216,7 +204,7 @@ impl<'a, T: Real, const D: usize> Bunches<'a, T, D> {
 
 /// Some particles beside each other.
 struct Bunch<'a, T: Real, const D: usize, St> {
-    bunches: &'a Bunches<'a, T, D>,
+    bunches: &'a Arrays<'a, T, D>,
     k: usize,
     members: Members,
     stencil: &'a St,
@@ -231,7 +219,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
         carried: Carried,
         lattice: &Lattice<T, D>,
         [momentum, force]: [Window<'_, T>; 2],
-        rest: &mut M::Four,
+        rest: &mut M::Eight,
     ) {
         let Self { bunches, k, members, stencil } = self;
         match (carried, &bunches.affine, &bunches.residual) {
@@ -256,67 +244,80 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
 
     /// m v, and m.
     #[inline(always)]
-    fn momentum<M: Machine<T>>(
-        &self,
-        machine: M,
-        velocity: &[Vector<T, D>; BUNCH],
-    ) -> [M::Four; BUNCH] {
-        let mass = &self.bunches.mass[self.k];
-        let mut momentum = [machine.splat(T::zero()); BUNCH];
-        for p in 0..BUNCH {
-            let velocity = four(machine, &velocity[p], T::one());
-            momentum[p] = machine.times(velocity, machine.splat(mass[p]));
+    fn momentum<M: Machine<T>>(&self, machine: M, velocity: &Vectors<T, D>) -> [M::Eight; HALF] {
+        let mass = machine.eight(&self.bunches.mass[self.k]);
+        let mut rows = [mass; HALF];
+        for i in 0..LAST {
+            rows[i] = if i < D {
+                machine.times(mass, machine.eight(&velocity.0[i % D]))
+            } else {
+                machine.splat(T::zero())
+            };
         }
-        momentum
+        machine.transposed(rows)
     }
 
     /// The momentum of a linear velocity.
     #[inline(always)]
-    fn linear<M: Machine<T>>(
-        &self,
-        machine: M,
-        affine: &[Matrix<T, D>; BUNCH],
-    ) -> Sloped<M::Four, D> {
+    fn linear<M: Machine<T>>(&self, machine: M, affine: &Matrices<T, D>) -> Sloped<M::Eight, D> {
         let value = self.momentum(machine, &self.bunches.velocity[self.k]);
-        let mass = &self.bunches.mass[self.k];
-        let mut slopes = [[machine.splat(T::zero()); D]; BUNCH];
-        for p in 0..BUNCH {
-            slopes[p] = scaled(machine, &affine[p], machine.splat(mass[p]));
-        }
-        Sloped { value, slopes }
+        let mass = machine.eight(&self.bunches.mass[self.k]);
+        let affine = scaled(machine, columns(machine, affine), mass);
+        Sloped { value, slopes: slopes(machine, &affine) }
     }
 
     /// m b, and - V0 S; to `rest` is added zero times that: zero, if it is finite.
     #[inline(always)]
-    fn push<M: Machine<T>>(&self, machine: M, rest: &mut M::Four) -> Sloped<M::Four, D> {
-        let Bunches { body_force, mass, reference_volume, stress, .. } = self.bunches;
-        let (body_force, mass) = (&body_force[self.k], &mass[self.k]);
-        let (volume, stress) = (&reference_volume[self.k], &stress[self.k]);
+    fn push<M: Machine<T>>(&self, machine: M, rest: &mut M::Eight) -> Sloped<M::Eight, D> {
+        let Arrays { body_force, mass, reference_volume, stress, .. } = self.bunches;
+        let body_force = &body_force[self.k];
         let zero = machine.splat(T::zero());
-        let mut push = Sloped { value: [zero; BUNCH], slopes: [[zero; D]; BUNCH] };
-        for p in 0..BUNCH {
-            let body_force = four(machine, &body_force[p], T::zero());
-            push.value[p] = machine.times(body_force, machine.splat(mass[p]));
-            let slopes = scaled(machine, &stress[p], machine.splat(-volume[p]));
-            for column in slopes {
-                *rest = machine.times_plus(column, zero, *rest);
+        let volume = machine.minus(zero, machine.eight(&reference_volume[self.k]));
+        let push = scaled(machine, columns(machine, &stress[self.k]), volume);
+        for column in push {
+            for entry in column {
+                *rest = machine.times_plus(entry, zero, *rest);
             }
-            push.slopes[p] = misread::stress(slopes);
         }
-        push
+        let mut value = machine.spread(machine.eight(&mass[self.k]));
+        for k in 0..HALF {
+            let body_force = halves(machine, [&body_force[k], &body_force[k + HALF]], T::zero());
+            value[k] = machine.times(body_force, value[k]);
+        }
+        Sloped { value, slopes: slopes(machine, &misread::stress(push)) }
     }
 }
 
-/// The columns of a matrix, times a number.
+/// Matrices, times a number each.
 #[inline(always)]
 fn scaled<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    matrix: &Matrix<T, D>,
-    factor: M::Four,
-) -> [M::Four; D] {
-    let mut columns = columns(machine, matrix);
-    for a in 0..D {
-        columns[a] = machine.times(columns[a], factor);
+    mut columns: [[M::Eight; D]; D],
+    factor: M::Eight,
+) -> [[M::Eight; D]; D] {
+    for j in 0..D {
+        for i in 0..D {
+            columns[j][i] = machine.times(columns[j][i], factor);
+        }
     }
     columns
+}
+
+/// From the columns of the matrices of a bunch, those of each particle in one register.
+#[inline(always)]
+fn slopes<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    columns: &[[M::Eight; D]; D],
+) -> [[M::Eight; D]; HALF] {
+    let zero = machine.splat(T::zero());
+    let mut slopes = [[zero; D]; HALF];
+    for a in 0..D {
+        let mut rows = [zero; HALF];
+        rows[..D].copy_from_slice(&columns[a]);
+        let turned = machine.transposed(rows);
+        for k in 0..HALF {
+            slopes[k][a] = turned[k];
+        }
+    }
+    slopes
 }

@@ -5,12 +5,12 @@ use mms_math::machine::Machine;
 use crate::Real;
 use crate::defect::{Defect, on};
 
-/// The columns of four velocity gradients.
+/// The columns of the velocity gradients of a bunch.
 #[inline(always)]
 pub(super) fn velocity_gradient<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    gradient: [[M::Four; D]; D],
-) -> [[M::Four; D]; D] {
+    gradient: [[M::Eight; D]; D],
+) -> [[M::Eight; D]; D] {
     if on(Defect::TransposedGradient) {
         return transposed(gradient);
     }
@@ -25,7 +25,7 @@ pub(super) fn velocity_gradient<T: Real, M: Machine<T>, const D: usize>(
     gradient
 }
 
-/// The velocities that move four particles: those of the nodes.
+/// The velocities that move the particles of a bunch: those of the nodes.
 #[inline(always)]
 pub(super) fn carrier<F: Copy, const D: usize>(mapped: [F; D], own: [F; D]) -> [F; D] {
     if on(Defect::OwnVelocity) { own } else { mapped }
@@ -35,9 +35,9 @@ pub(super) fn carrier<F: Copy, const D: usize>(mapped: [F; D], own: [F; D]) -> [
 #[inline(always)]
 pub(super) fn affine<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    affine: [[M::Four; D]; D],
+    affine: [[M::Eight; D]; D],
     degree: usize,
-) -> [[M::Four; D]; D] {
+) -> [[M::Eight; D]; D] {
     if on(Defect::AffineTransposed) {
         return transposed(affine);
     }

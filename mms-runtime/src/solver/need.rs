@@ -1,5 +1,6 @@
 //! What a run takes of memory, about: refused before it is taken.
 
+use crate::column::{Matrices, Vectors};
 use crate::nodal::Nodal;
 use crate::shape::Shape;
 use crate::stencil::BUNCH;
@@ -19,12 +20,15 @@ impl Need {
         let matrix = size_of::<Matrix<T, D>>();
         // Id, X, d, v, b, H, C, m, V0 and the domain, and weights that stay.
         let weights = if moves { 0 } else { size_of::<S::Stencil<T, D>>() / BUNCH };
-        let state = size_of::<u32>() + 4 * vector + 2 * matrix + 2 * number + weights;
+        // d and v, H and C: of a bunch, they are padded.
+        let bunch = 2 * size_of::<Vectors<T, D>>() + 2 * size_of::<Matrices<T, D>>();
+        let bunch = (bunch + size_of::<S::Domain<T, D>>()) / BUNCH;
+        let state = size_of::<u32>() + 2 * vector + bunch + 2 * number + weights;
         // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
         let measured = 2 * vector + 3 * matrix + number;
         let filling = size_of::<f64>() * (D + 1 + D * D);
         Self {
-            particle: state + size_of::<S::Domain<T, D>>() + measured + filling,
+            particle: state + measured + filling,
             // Momentum, force, velocity and acceleration.
             node: 4 * size_of::<Nodal<T>>(),
             available,

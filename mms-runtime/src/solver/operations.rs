@@ -172,9 +172,11 @@ where
         let Self { particles, field, seconds, .. } = self;
         let Particles { reference_position, displacement, body_force, .. } = particles;
         let at_present = on(Defect::ForceAtPresent);
-        let points = material_points(reference_position, displacement, at_present);
+        let points =
+            material_points(reference_position.bunches(), displacement.bunches(), at_present);
+        let points = &points.as_flattened()[..body_force.len()];
         timed(&mut seconds.forcing, || {
-            each_pair(&points, body_force, &|reference, body_force| {
+            each_pair(points, body_force, &|reference, body_force| {
                 field.body_force(time, reference, body_force);
             });
         });
@@ -308,7 +310,7 @@ where
                 return Place { position: *reference, carrier: None };
             }
             let p = slabs.place_of(id);
-            let h = particles.displacement_gradient[p];
+            let h = particles.displacement_gradient.get(p);
             let apart = reference - particles.reference_position[p];
             let apart = if on(Defect::TractionAtParticle) { Vector::zeros() } else { apart };
             let position = particles.position(p) + deformation_gradient(&h) * apart;

@@ -2,10 +2,11 @@
 
 use mms_math::machine::Machine;
 
-use crate::lanes::{components, vectors};
+use crate::column::{Bunch as _, Matrices, Vectors};
+use crate::lanes::{components, turned, vectors};
 use crate::shape::Shape;
 use crate::stencil::BUNCH;
-use crate::{Cause, Lattice, Matrix, Real, Transfer, Vector};
+use crate::{Cause, Lattice, Real, Transfer, Vector};
 
 /// The grid's geometry, and the particles' domains and weights.
 pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
@@ -14,7 +15,7 @@ pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
     pub moves: bool,
     pub transfer: Transfer,
     pub reference_position: &'a [[Vector<T, D>; BUNCH]],
-    pub domains: &'a [[S::Domain<T, D>; BUNCH]],
+    pub domains: &'a [S::Domain<T, D>],
     /// The weights of every bunch, where they are kept.
     pub weights: &'a [S::Stencil<T, D>],
 }
@@ -28,8 +29,7 @@ impl<T: Real, const D: usize, S: Shape> Clone for Scene<'_, T, D, S> {
 impl<T: Real, const D: usize, S: Shape> Copy for Scene<'_, T, D, S> {}
 
 /// The displacements and the displacement gradients of a bunch.
-pub(super) type Moved<'a, T, const D: usize> =
-    (&'a [Vector<T, D>; BUNCH], &'a [Matrix<T, D>; BUNCH]);
+pub(super) type Moved<'a, T, const D: usize> = (&'a Vectors<T, D>, &'a Matrices<T, D>);
 
 impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
     /// The weights of one bunch: those that are kept, or those of its state in a `room` for them.
@@ -47,7 +47,7 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
         if let Some(kept) = self.weights.get(bunch) {
             return Ok(kept);
         }
-        let mut position = components(machine, &self.reference_position[bunch]);
+        let mut position = turned(machine, &self.reference_position[bunch]);
         let unmoved;
         let h = if self.moves {
             let apart = components(machine, displacement);
@@ -56,7 +56,7 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
             }
             displacement_gradient
         } else {
-            unmoved = [Matrix::zeros(); BUNCH];
+            unmoved = Matrices::zeros();
             &unmoved
         };
         let domains = &self.domains[bunch];
@@ -74,13 +74,13 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
     fn blamed(
         &self,
         positions: &[Vector<T, D>; BUNCH],
-        domains: &[S::Domain<T, D>; BUNCH],
-        displacement_gradients: &[Matrix<T, D>; BUNCH],
+        domains: &S::Domain<T, D>,
+        displacement_gradients: &Matrices<T, D>,
         cause: Cause,
     ) -> (usize, Cause) {
         for p in 0..BUNCH {
-            let h = &displacement_gradients[p];
-            if let Err(cause) = S::stencil(self.lattice, &positions[p], &domains[p], h) {
+            let h = &displacement_gradients.get(p);
+            if let Err(cause) = S::stencil(self.lattice, &positions[p], &domains.get(p), h) {
                 return (p, cause);
             }
         }

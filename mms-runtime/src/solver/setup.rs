@@ -6,7 +6,7 @@ use super::need::Need;
 use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
-use crate::column::Column;
+use crate::column::Bunches;
 use crate::defect::{Defect, on};
 use crate::failure::positive;
 use crate::lattice::Axis;
@@ -67,7 +67,7 @@ where
 
         let mut motion = [lower, upper];
         if moves {
-            motion = extent_of_motion(field, &mut particles, &clock)?;
+            motion = extent_of_motion(field, &particles, &clock)?;
         }
         let is_box = matches!(domain.body, Body::Box { .. });
         let ends_at = |face: Face| S::DEGREE > 1 && is_box && (!moves || is_wall(&domain, face));
@@ -97,7 +97,7 @@ where
             grid.mass_floor = smallest * T::ratio(1, 100);
         }
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
-        let mut domains: Column<_> = domains.collect();
+        let mut domains: Bunches<_> = domains.collect();
         slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, |all, p| {
             if moves { all.position(p) } else { all.reference_position[p] }
         });
@@ -282,19 +282,20 @@ fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Siz
 /// The smallest and the largest coordinates that the field moves a particle to.
 fn extent_of_motion<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
     field: &F,
-    particles: &mut Particles<T, D>,
+    particles: &Particles<T, D>,
     clock: &Clock,
 ) -> Result<[Vector<f64, D>; 2], Refusal> {
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY].map(Vector::<f64, D>::repeat);
+    let mut displacement = vec![Vector::zeros(); particles.len()];
     let samples = clock.steps.min(MOTION_SAMPLES);
     for sample in 0..=samples {
         let fraction = sample as f64 / samples as f64;
         let time = T::of(clock.start + fraction * clock.time_step * clock.steps as f64);
         let reference = &particles.reference_position;
-        field.displacement(time, reference, &mut particles.displacement);
-        finite_vectors("displacement", time, reference, &particles.displacement)?;
-        for p in 0..particles.len() {
-            let position = particles.position(p).map(Real::to_f64);
+        field.displacement(time, reference, &mut displacement);
+        finite_vectors("displacement", time, reference, &displacement)?;
+        for (reference, displacement) in reference.iter().zip(&displacement) {
+            let position = (reference + displacement).map(Real::to_f64);
             extent = [extent[0].inf(&position), extent[1].sup(&position)];
         }
     }
@@ -314,28 +315,33 @@ fn initialise<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Sized>(
         *mass *= volume;
         positive("the mass of a particle", mass.to_f64())?;
     }
-    field.displacement(start, reference, &mut particles.displacement);
-    finite_vectors("displacement", start, reference, &particles.displacement)?;
-    field.velocity(start, reference, &mut particles.velocity);
+    let mut vectors = vec![Vector::zeros(); particles.len()];
+    field.displacement(start, reference, &mut vectors);
+    finite_vectors("displacement", start, reference, &vectors)?;
+    particles.displacement = vectors.iter().copied().collect();
+    field.velocity(start, reference, &mut vectors);
     if on(Defect::StartAtRest) {
-        particles.velocity.fill(Vector::zeros());
+        vectors.fill(Vector::zeros());
     }
     if on(Defect::StartSingle) {
         let single = |v: T| T::of(f64::from(v.to_f64() as f32));
-        particles.velocity.iter_mut().for_each(|v| *v = v.map(single));
+        vectors.iter_mut().for_each(|v| *v = v.map(single));
     }
-    finite_vectors("velocity", start, reference, &particles.velocity)?;
-    field.displacement_gradient(start, reference, &mut particles.displacement_gradient);
+    finite_vectors("velocity", start, reference, &vectors)?;
+    particles.velocity = vectors.into_iter().collect();
+    let mut gradients = vec![Matrix::zeros(); particles.len()];
+    field.displacement_gradient(start, reference, &mut gradients);
     if on(Defect::MassOfPresentVolume) {
-        let gradients = particles.displacement_gradient.iter();
+        let gradients = gradients.iter();
         particles.mass.iter_mut().zip(gradients).for_each(|(mass, h)| *mass *= jacobian(h));
     }
     if on(Defect::StartUndeformed) {
-        particles.displacement_gradient.fill(Matrix::zeros());
+        gradients.fill(Matrix::zeros());
     }
-    let mut gradients = particles.displacement_gradient.iter();
-    let odd = gradients.position(|h| !matrix_is_finite(h));
-    refuse_at("displacement gradient", start, reference, odd)
+    let odd = gradients.iter().position(|h| !matrix_is_finite(h));
+    refuse_at("displacement gradient", start, reference, odd)?;
+    particles.displacement_gradient = gradients.into_iter().collect();
+    Ok(())
 }
 
 fn finite_vectors<T: Real, const D: usize>(

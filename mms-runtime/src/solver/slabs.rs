@@ -1,7 +1,7 @@
 //! The order of the particles, and which of them may be added to the nodes at the same time.
 //!
-//! Particles stand in the order of the cells they were in when they were sorted, those that make no bunch with others
-//! of their cell after the others of a slab. The layers of cells along the last
+//! Particles stand in the order of the cells they were in when they were sorted: in a slab first those that make a bunch
+//! with others of their cell, then those that make half of one, then the others. The layers of cells along the last
 //! axis are cut into slabs with about as many particles each, which stand together; the nodes that they can reach
 //! are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
 //! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
@@ -9,10 +9,10 @@
 
 use std::ops::Range;
 
-use crate::column::Column;
+use crate::column::{Bunch, Bunches};
 use crate::nodal::{Nodal, Window};
-use crate::particle::{Particles, reorder};
-use crate::stencil::BUNCH;
+use crate::particle::{Particles, reorder, reorder_bunches};
+use crate::stencil::{BUNCH, HALF};
 use crate::{Lattice, Real, Vector};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
@@ -129,12 +129,12 @@ impl Slabs {
     }
 
     /// Sorts the particles, with their `domains`, by the cells of their positions from an origin, in cells.
-    pub fn sort<T: Real, V: Copy, const D: usize>(
+    pub fn sort<T: Real, B: Bunch, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
         origin: f64,
         particles: &mut Particles<T, D>,
-        domains: &mut Column<V>,
+        domains: &mut Bunches<B>,
         position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
     ) {
         if self.place.is_empty() {
@@ -155,7 +155,7 @@ impl Slabs {
             let own = particles.clone();
             bunch(&mut order[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
         }
-        reorder(domains, order);
+        reorder_bunches(domains, order);
         domains.fill_up();
         particles.reorder(order);
         self.stand(&particles.id);
@@ -216,23 +216,40 @@ fn arrange(order: &mut [u32], cell: &[u64], id: &[u32]) {
     order.sort_unstable_by_key(|&p| (cell[p as usize], id[p as usize]));
 }
 
-/// Puts those of each cell that make no bunch after all others that do, so that most bunches are of one cell. The
-/// first place has the number `start`; bunches begin at every fourth.
+/// Puts those of each cell that make a bunch first, then those that make half of one, then the others, so that most
+/// bunches are of one cell, and most halves. The first place has the number `start`; bunches begin at every eighth.
 fn bunch(order: &mut [u32], cell: &[u64], start: usize, scratch: &mut [u32]) {
-    let whole = |count: usize| count / BUNCH * BUNCH;
-    let cells = || cell.chunk_by(|a, b| a == b).map(<[u64]>::len);
-    let bunched: usize = cells().map(whole).sum();
-    let lead = (start.next_multiple_of(BUNCH) - start).min(cell.len() - bunched);
-    let (mut from, mut next, mut others) = (0, lead, 0);
-    for count in cells() {
-        let (bunches, rest) = order[from..from + count].split_at(whole(count));
-        scratch[next..next + bunches.len()].copy_from_slice(bunches);
-        next += bunches.len();
-        for &particle in rest {
-            scratch[if others < lead { others } else { bunched + others }] = particle;
-            others += 1;
+    /// How many of a cell's particles make bunches, halves of bunches, and neither.
+    fn shares(count: usize) -> [usize; 3] {
+        let [bunched, halved] = [count / BUNCH * BUNCH, count / HALF * HALF];
+        [bunched, halved - bunched, count - halved]
+    }
+    let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
+    let total = |share: usize| cells().map(|shares| shares[share]).sum::<usize>();
+    let [bunched, halved, others] = [total(0), total(1), total(2)];
+    // Before the first bunch stands what there is, others first.
+    let lead = start.next_multiple_of(BUNCH) - start;
+    let lead = [lead.min(others), lead.saturating_sub(others).min(halved)];
+    let lead_end = lead[0] + lead[1];
+    let ends = [bunched, bunched + halved];
+    let mut taken = [0; 3];
+    let mut from = 0;
+    for shares in cells() {
+        for (share, count) in shares.into_iter().enumerate() {
+            for &particle in &order[from..from + count] {
+                let k = taken[share];
+                let place = match share {
+                    0 => lead_end + k,
+                    1 if k < lead[1] => lead[0] + k,
+                    1 => lead[0] + ends[0] + k,
+                    _ if k < lead[0] => k,
+                    _ => ends[1] + k,
+                };
+                scratch[place] = particle;
+                taken[share] += 1;
+            }
+            from += count;
         }
-        from += count;
     }
     order.copy_from_slice(scratch);
 }
@@ -329,10 +346,22 @@ mod tests {
 
     #[test]
     fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
-        let cell = [0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 3, 3, 3, 3, 3, 3];
-        let mut order: Vec<u32> = (20..37).collect();
-        bunch(&mut order, &cell, 6, &mut [0; 17]);
-        let expected = [24, 29, 20, 21, 22, 23, 25, 26, 27, 28, 31, 32, 33, 34, 30, 35, 36];
+        let cell: Vec<u64> =
+            [(0, 9), (1, 4), (2, 2), (3, 13)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
+        let mut order: Vec<u32> = (20..48).collect();
+        bunch(&mut order, &cell, 6, &mut [0; 28]);
+        // Two others, the bunches of the first and the last cell, halves of bunches, others.
+        let expected: Vec<u32> = [28..29, 33..34, 20..28, 35..43, 29..33, 43..47, 34..35, 47..48]
+            .into_iter()
+            .flatten()
+            .collect();
+        assert_eq!(order, expected);
+
+        // Halves of bunches go before the first bunch where others are too few.
+        let cell: Vec<u64> = [(0, 12), (1, 8)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
+        let mut order: Vec<u32> = (0..20).collect();
+        bunch(&mut order, &cell, 12, &mut [0; 20]);
+        let expected: Vec<u32> = [8..12, 0..8, 12..20].into_iter().flatten().collect();
         assert_eq!(order, expected);
     }
 

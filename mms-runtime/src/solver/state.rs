@@ -40,10 +40,10 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
             step: self.clock.step,
             lag: self.clock.lag,
             id: Cow::from(&*particles.id),
-            displacement: Cow::from(&*particles.displacement),
-            velocity: Cow::from(&*particles.velocity),
-            displacement_gradient: Cow::from(&*particles.displacement_gradient),
-            affine: Cow::from(&*particles.affine),
+            displacement: particles.displacement.iter().collect(),
+            velocity: particles.velocity.iter().collect(),
+            displacement_gradient: particles.displacement_gradient.iter().collect(),
+            affine: particles.affine.iter().collect(),
             cuts: Cow::from(self.slabs.cuts()),
             seconds: self.seconds,
         }
@@ -67,14 +67,15 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =
             state.id.iter().map(|&id| self.slabs.place_of(id as usize) as u32).collect();
-        crate::particle::reorder(&mut self.domains, &mut order);
+        crate::particle::reorder_bunches(&mut self.domains, &mut order);
         self.domains.fill_up();
         self.particles.reorder(&mut order);
         self.slabs.stand(&self.particles.id);
-        self.particles.displacement = state.displacement.into_owned().into();
-        self.particles.velocity = state.velocity.into_owned().into();
-        self.particles.displacement_gradient = state.displacement_gradient.into_owned().into();
-        self.particles.affine = state.affine.into_owned().into();
+        self.particles.displacement = state.displacement.iter().copied().collect();
+        self.particles.velocity = state.velocity.iter().copied().collect();
+        self.particles.displacement_gradient =
+            state.displacement_gradient.iter().copied().collect();
+        self.particles.affine = state.affine.iter().copied().collect();
         (self.clock.step, self.clock.lag) = (state.step, state.lag);
         self.seconds = state.seconds;
         Ok(())

@@ -9,7 +9,7 @@ use mms_math::machine::Machine;
 
 use super::collect::{Summed, Sums};
 use super::spread::Spread;
-use super::{BUNCH, Collected, Members, Sloped, Stencil, Wanted};
+use super::{BUNCH, Collected, HALF, Members, Sloped, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
@@ -20,7 +20,7 @@ pub(super) type Along<T, const D: usize, const N: usize> = [[[T; BUNCH]; N]; D];
 /// A stencil that is the product of the weights along the axes: of `N` nodes along each, or where that is enough
 /// for the whole bunch, of `LEAST`.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
+#[repr(align(64))]
 pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
     pub(super) weight: Along<T, D, N>,
     /// Their derivatives, per length.
@@ -68,8 +68,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         machine: M,
         lattice: &Lattice<T, D>,
         axis: usize,
-        first: M::Four,
-        [weight, slope]: [[M::Four; W]; 2],
+        first: M::Eight,
+        [weight, slope]: [[M::Eight; W]; 2],
     ) {
         let length_axis = if on(Defect::SquareCells) { 0 } else { axis };
         let per_length = machine.splat(lattice.per_length[length_axis]);
@@ -92,14 +92,14 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         machine: M,
         lattice: &Lattice<T, D>,
         moment: &mut Along<T, D, N>,
-    ) -> [M::Four; D] {
+    ) -> [M::Eight; D] {
         let zero = machine.splat(T::zero());
         let mut per_spread = [zero; D];
         for a in 0..D {
             let (mut weight, mut apart) = ([zero; N], [zero; N]);
             let mut middle = zero;
             for k in 0..self.width() {
-                weight[k] = machine.four(&self.weight[a][k]);
+                weight[k] = machine.eight(&self.weight[a][k]);
                 apart[k] = self.beyond_first(machine, lattice, a, k);
                 middle = machine.times_plus(weight[k], apart[k], middle);
             }
@@ -123,7 +123,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         lattice: &Lattice<T, D>,
         axis: usize,
         k: usize,
-    ) -> M::Four {
+    ) -> M::Eight {
         if self.regular {
             return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
         }
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             // Past the width weights are 0, and nodes may not be there.
             coordinate.get(start + k).map_or(T::zero(), |&there| there - coordinate[start])
         });
-        machine.four(&apart)
+        machine.eight(&apart)
     }
 
     /// How far the last node is behind the first one, in the grid's arrays.
@@ -159,11 +159,15 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         (from..to).find(|&p| self.first[p].wrapping_sub(start) >= room)
     }
 
-    /// Whether all four have the same nodes.
+    /// Whether all of each half have the same nodes.
     #[inline(always)]
     pub(super) fn is_shared(&self) -> bool {
-        let [a, b, c, d] = self.first;
-        (a ^ b) | (a ^ c) | (a ^ d) == 0
+        let mut different = 0;
+        for k in 1..HALF {
+            different |= self.first[0] ^ self.first[k];
+            different |= self.first[HALF] ^ self.first[HALF + k];
+        }
+        different == 0
     }
 
     /// Adds to nodes, with these weights along the axes where the slopes are.
@@ -172,7 +176,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         &self,
         machine: M,
         aside: &Along<T, D, N>,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
@@ -193,7 +197,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         machine: M,
         asides: [&Along<T, D, N>; K],
         nodes: &[Nodal<T>],
-    ) -> Summed<M::Four, D, K> {
+    ) -> Summed<M::Eight, D, K> {
         let sums = Sums { stencil: self, asides, nodes };
         if LEAST < N && self.width == LEAST {
             sums.all::<M, LEAST>(machine)
@@ -248,11 +252,11 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
     fn spread_value<M: Machine<T>>(
         &self,
         machine: M,
-        value: [M::Four; BUNCH],
+        value: [M::Eight; HALF],
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let slopes = [[machine.splat(T::zero()); D]; BUNCH];
+        let slopes = [[machine.splat(T::zero()); D]; HALF];
         let carried = Sloped { value, slopes };
         self.add::<M, false>(machine, &self.slope, &carried, members, nodes);
     }
@@ -261,7 +265,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
@@ -273,7 +277,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Four, D>,
+        carried: &Sloped<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
@@ -289,7 +293,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Four, D> {
+    ) -> Collected<M::Eight, D> {
         let nothing = [[machine.splat(T::zero()); D]; D];
         match wanted {
             Wanted::Value => {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::Present;
-use crate::{ManufacturedField, Real, Vector};
+use crate::{ManufacturedField, Matrix, Real, Vector};
 
 /// What drove the body, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,7 +30,8 @@ pub(super) struct Account<T, const D: usize> {
     velocity: Vec<Vector<T, D>>,
     time_of_velocity: f64,
     kinetic_energy: f64,
-    /// W of each particle.
+    /// H and W of each particle.
+    displacement_gradient: Vec<Matrix<T, D>>,
     energy: Vec<T>,
     tally: Tally,
 }
@@ -56,6 +57,7 @@ impl<T: Real, const D: usize> Account<T, D> {
             velocity: vec![Vector::zeros(); count],
             time_of_velocity: 0.0,
             kinetic_energy: 0.0,
+            displacement_gradient: Vec::with_capacity(count),
             energy: vec![T::zero(); count],
             tally: Tally::default(),
         };
@@ -80,7 +82,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         let (mut work, mut force) = (0.0, Vector::<f64, D>::zeros());
         for (p, &id) in particles.id.iter().enumerate() {
             let before = self.velocity[id as usize].map(Real::to_f64);
-            let after = particles.velocity[p].map(Real::to_f64);
+            let after = particles.velocity.get(p).map(Real::to_f64);
             let (m, b) = (particles.mass[p].to_f64(), particles.body_force[p].map(Real::to_f64));
             // With the mean velocity, the work of all forces is the change of the kinetic energy.
             work += m * b.dot(&(before + after)) / 2.0 * elapsed;
@@ -122,7 +124,7 @@ impl<T: Real, const D: usize> Account<T, D> {
         self.time_of_velocity = present.time_of_velocity;
         self.kinetic_energy = 0.0;
         for (p, &id) in particles.id.iter().enumerate() {
-            let v = particles.velocity[p];
+            let v = particles.velocity.get(p);
             self.velocity[id as usize] = v;
             self.kinetic_energy +=
                 particles.mass[p].to_f64() * v.map(Real::to_f64).norm_squared() / 2.0;
@@ -134,7 +136,9 @@ impl<T: Real, const D: usize> Account<T, D> {
         F: ManufacturedField<T, D> + ?Sized,
     {
         let particles = present.particles;
-        let (x, h) = (&particles.reference_position, &particles.displacement_gradient);
+        let (x, h) = (&particles.reference_position, &mut self.displacement_gradient);
+        h.clear();
+        h.extend(particles.displacement_gradient.iter());
         let offered = present.field.strain_energy(x, h, &mut self.energy);
         let shares = self.energy.iter().zip(&particles.reference_volume);
         offered.then(|| shares.map(|(w, volume)| w.to_f64() * volume.to_f64()).sum())

@@ -37,7 +37,8 @@ impl Deviations {
 pub(super) struct Watcher<T, const D: usize> {
     watch: Watch,
     vector: Vec<Vector<T, D>>,
-    gradient: Vec<Matrix<T, D>>,
+    /// Those of the particles, and the field's.
+    gradients: [Vec<Matrix<T, D>>; 2],
     stress: [Vec<Matrix<T, D>>; 2],
     /// The largest so far of what rounding is relative to: of d, and of |x| |H| where weights follow x.
     size: f64,
@@ -51,7 +52,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         Self {
             watch,
             vector: vec![Vector::zeros(); count],
-            gradient: matrices(),
+            gradients: [matrices(), matrices()],
             stress: [matrices(), matrices()],
             size: 0.0,
         }
@@ -82,7 +83,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
             if !moves {
                 return own;
             }
-            let strain = particles.displacement_gradient[p].map(Real::to_f64).norm_squared();
+            let strain = particles.displacement_gradient.get(p).map(Real::to_f64).norm_squared();
             own + particles.position(p).map(Real::to_f64).norm_squared() * strain
         });
         let mean = squares.sum::<f64>() / particles.len().max(1) as f64;
@@ -102,7 +103,7 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         let now = T::of(present.time);
         let odd = |quantity| move |p| present.failure(p, Cause::NotFinite { quantity });
         field.displacement(now, reference, &mut self.vector);
-        let displacement = Errors::of(&particles.displacement, &self.vector)
+        let displacement = Errors::of(particles.displacement.iter(), &self.vector)
             .map_err(odd("displacement's error"))?;
         self.weigh(particles, present.moves);
         if self.watch == Watch::Displacement {
@@ -110,13 +111,14 @@ impl<T: Real, const D: usize> Watcher<T, D> {
         }
         field.velocity(T::of(present.time_of_velocity), reference, &mut self.vector);
         let velocity =
-            Errors::of(&particles.velocity, &self.vector).map_err(odd("velocity's error"))?;
+            Errors::of(particles.velocity.iter(), &self.vector).map_err(odd("velocity's error"))?;
 
-        field.displacement_gradient(now, reference, &mut self.gradient);
-        let gradients = [&*particles.displacement_gradient, &self.gradient];
-        let deformation_gradient =
-            Errors::of_tensors(gradients[0], gradients[1]).map_err(odd("F's error"))?;
-        for (stress, gradient) in self.stress.iter_mut().zip(gradients) {
+        let [computed, exact] = &mut self.gradients;
+        computed.clear();
+        computed.extend(particles.displacement_gradient.iter());
+        field.displacement_gradient(now, reference, exact);
+        let deformation_gradient = Errors::of_tensors(computed, exact).map_err(odd("F's error"))?;
+        for (stress, gradient) in self.stress.iter_mut().zip(&self.gradients) {
             field.kirchhoff_stress(reference, gradient, stress);
             for (stress, gradient) in stress.iter_mut().zip(gradient) {
                 // J > 0 has been checked; where the exact F is singular, the error is not finite.

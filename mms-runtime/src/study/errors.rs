@@ -20,13 +20,13 @@ impl Errors {
     /// The norms of `computed` against `exact` vectors, both with one entry per particle; or the first
     /// particle whose error is not finite.
     pub fn of<T: Real, const D: usize>(
-        computed: &[Vector<T, D>],
+        computed: impl ExactSizeIterator<Item = Vector<T, D>>,
         exact: &[Vector<T, D>],
     ) -> Result<Self, usize> {
-        let square = |(a, b): (&Vector<T, D>, &Vector<T, D>)| {
+        let square = |(a, b): (Vector<T, D>, &Vector<T, D>)| {
             a.iter().zip(b).map(|(a, b)| (a.to_f64() - b.to_f64()).powi(2)).sum()
         };
-        Self::of_squares(computed.iter().zip(exact).map(square))
+        Self::of_squares(computed.zip(exact).map(square))
     }
 
     /// The same of tensors, in the norm of Frobenius.
@@ -72,7 +72,7 @@ mod tests {
     fn norms_of_a_known_error() {
         let zero = [Vector::<f32, 2>::zeros(); 2];
         let one = [Vector::<f32, 2>::new(3.0, 4.0), Vector::zeros()];
-        let errors = Errors::of(&one, &zero).unwrap();
+        let errors = Errors::of(one.into_iter(), &zero).unwrap();
         assert_eq!(errors, Errors { l1: 2.5, l2: 12.5f64.sqrt(), linf: 5.0 });
     }
 
@@ -80,6 +80,6 @@ mod tests {
     fn not_a_number_is_seen() {
         let zero = [Vector::<f64, 1>::zeros(); 3];
         let odd = [0.0, f64::NAN, 1.0].map(Vector::<f64, 1>::new);
-        assert_eq!(Errors::of(&odd, &zero), Err(1));
+        assert_eq!(Errors::of(odd.into_iter(), &zero), Err(1));
     }
 }

@@ -122,11 +122,12 @@ impl Frame {
         F: ManufacturedField<T, D> + ?Sized,
     {
         let Present { field, particles, .. } = *present;
-        let (x, h) = (&particles.reference_position, &particles.displacement_gradient);
+        let (x, h) = (&particles.reference_position, particles.displacement_gradient.iter());
+        let h: Vec<_> = h.collect();
         let mut exact = vec![Vector::zeros(); particles.len()];
         field.displacement(T::of(present.time), x, &mut exact);
         let mut stress = vec![Matrix::zeros(); particles.len()];
-        field.kirchhoff_stress(x, h, &mut stress);
+        field.kirchhoff_stress(x, &h, &mut stress);
         let d = &particles.displacement;
         let vectors = |of: &dyn Fn(usize) -> Vector<T, D>| {
             by_number(&particles.id, D, |p, out| {
@@ -144,9 +145,9 @@ impl Frame {
             time: present.time,
             dimension: D,
             position: vectors(&|p| particles.position(p)),
-            displacement: vectors(&|p| d[p]),
-            displacement_error: vectors(&|p| d[p] - exact[p]),
-            velocity: vectors(&|p| particles.velocity[p]),
+            displacement: vectors(&|p| d.get(p)),
+            displacement_error: vectors(&|p| d.get(p) - exact[p]),
+            velocity: vectors(&|p| particles.velocity.get(p)),
             deformation_gradient: tensors(&|p| deformation_gradient(&h[p])),
             cauchy_stress: tensors(&|p| stress[p] / jacobian(&h[p])),
         }

@@ -68,12 +68,12 @@ impl Diagnostics {
         balance: Option<Balance>,
     ) -> Self {
         let (mut momentum, mut kinetic_energy) = (Vector::<f64, D>::zeros(), 0.0);
-        for (m, v) in particles.mass.iter().zip(&particles.velocity) {
+        for (m, v) in particles.mass.iter().zip(particles.velocity.iter()) {
             let (m, v) = (m.to_f64(), v.map(Real::to_f64));
             momentum += v * m;
             kinetic_energy += m * v.norm_squared() / 2.0;
         }
-        let all = particles.displacement_gradient.iter().map(|h| jacobian(h).to_f64());
+        let all = particles.displacement_gradient.iter().map(|h| jacobian(&h).to_f64());
         Self {
             mass: particles.mass.iter().map(|m| m.to_f64()).sum(),
             momentum: momentum.as_slice().to_vec(),

@@ -21,7 +21,7 @@ impl Snapshots {
         (self.dimension, self.particles) = (D, particles.len());
         let start = self.values.len();
         self.values.resize(start + D * particles.len(), 0.0);
-        for (&id, d) in particles.id.iter().zip(&particles.displacement) {
+        for (&id, d) in particles.id.iter().zip(particles.displacement.iter()) {
             let at = start + D * id as usize;
             self.values[at..at + D].copy_from_slice(d.map(Real::to_f64).as_slice());
         }
@@ -46,7 +46,7 @@ impl Snapshots {
         let times = [self, other].map(|it| vectors(&it.values).chunks(it.particles));
         let [own, others] = times;
         own.zip(others).try_fold(Errors::default(), |largest, (a, b)| {
-            Some(largest.larger(&Errors::of(a, b).ok()?))
+            Some(largest.larger(&Errors::of(a.iter().copied(), b).ok()?))
         })
     }
 }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use mms_runtime::lanes::components;
+use mms_runtime::column::{Bunch, Matrices};
+use mms_runtime::lanes::turned;
 use mms_runtime::lattice::Axis;
 use mms_runtime::math::machine::Plain;
 use mms_runtime::shape::Shape;
@@ -95,10 +96,10 @@ impl<const D: usize> Particle<D> {
         let machine = T::PlainMachine::from(Plain);
         let here = self.position(lattice);
         let positions = apart.map(|cells| here + lattice.cell_size * T::of(cells));
-        let domains = [S::domain(&self.lengths(lattice)); BUNCH];
-        let h = [self.displacement_gradient.map(T::of); BUNCH];
+        let domains = Bunch::alike(&S::domain(&self.lengths(lattice)));
+        let h = Matrices::alike(&self.displacement_gradient.map(T::of));
         let mut stencil = S::Stencil::default();
-        let components = components(machine, &positions);
+        let components = turned(machine, &positions);
         S::place(machine, &mut stencil, lattice, &components, &domains, &h)?;
         Ok((stencil, positions))
     }

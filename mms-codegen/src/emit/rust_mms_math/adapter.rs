@@ -20,7 +20,9 @@ impl Emitter<'_> {
         let (reference, source) = match self.stress_depends_on_position() {
             true => (
                 quote!(reference),
-                quote!(&(::#runtime::arrays::<T, _, #dimension>(reference), gradients)),
+                quote! {
+                    &(::#runtime::arrays::<T, _, #dimension>(reference.as_flattened()), gradients)
+                },
             ),
             false => (quote!(_), quote!(&gradients)),
         };
@@ -77,12 +79,24 @@ impl Emitter<'_> {
 
                 fn kirchhoff_stress(
                     &self,
-                    #reference: &[Vector<T>],
+                    reference: &[Vector<T>],
                     displacement_gradient: &[Matrix<T>],
                     stress: &mut [Matrix<T>],
                 ) {
-                    let gradients: &[[T; #components]] = ::#runtime::arrays(displacement_gradient);
-                    let mut stress: &mut [[T; #components]] = ::#runtime::arrays_mut(stress);
+                    ::#runtime::material::by_bunches(
+                        self, reference, displacement_gradient, stress,
+                    );
+                }
+
+                fn kirchhoff_stress_of_bunches(
+                    &self,
+                    #reference: &[[Vector<T>; ::#runtime::stencil::BUNCH]],
+                    displacement_gradient: &[::#runtime::column::Matrices<T, #dimension>],
+                    stress: &mut [::#runtime::column::Matrices<T, #dimension>],
+                ) {
+                    use ::#runtime::math::bunched::Bunched;
+                    let gradients = Bunched::<_, #components>(displacement_gradient);
+                    let mut stress = Bunched::<_, #components>(stress);
                     batch::run(&Response(self), #source, &mut stress);
                 }
 

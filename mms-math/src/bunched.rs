@@ -1,0 +1,146 @@
+//! Points in bunches of eight, whose numbers are kept number by number.
+
+use crate::batch::{BLOCK, Block, Columns, Float, Sink, Source, is_number};
+use crate::machine::Machine;
+
+/// A bunch of eight points with `N` numbers each.
+pub trait Numbers<T, const N: usize> {
+    /// Of each number the eight.
+    fn numbers(&self) -> [&[T; 8]; N];
+    /// As [`numbers`](Numbers::numbers), to write to.
+    fn numbers_mut(&mut self) -> [&mut [T; 8]; N];
+}
+
+/// Some bunches, as a place to read points from or to write them to.
+pub struct Bunched<B, const N: usize>(pub B);
+
+impl<T: Copy, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {
+    fn count(&self) -> usize {
+        8 * self.0.len()
+    }
+
+    #[inline(always)]
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        _: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
+        copy(&self.0[start / 8..], &mut room.0);
+        room.0.each_ref()
+    }
+}
+
+/// Positions, and what comes with them in bunches.
+impl<T: Copy, B: Numbers<T, K>, const A: usize, const K: usize, const N: usize> Source<T, N>
+    for (&[[T; A]], Bunched<&[B], K>)
+{
+    fn count(&self) -> usize {
+        assert_eq!(self.0.len(), 8 * self.1.0.len(), "batches have different lengths");
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        machine: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
+        const { assert!(A + K == N) };
+        let (first, second) = room.0.split_at_mut(A);
+        crate::batch::turn(machine, &self.0[start..], first);
+        copy(&self.1.0[start / 8..], second);
+        room.0.each_ref()
+    }
+}
+
+impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B], N> {
+    fn room(&self) -> usize {
+        8 * self.0.len()
+    }
+
+    #[inline(always)]
+    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) -> bool {
+        for (bunch, place) in self.0[start / 8..].iter_mut().zip((0..BLOCK).step_by(8)) {
+            for (to, lane) in bunch.numbers_mut().into_iter().zip(&block.0) {
+                to.copy_from_slice(&lane[place..place + 8]);
+            }
+        }
+        // Past the last bunch there are copies of the first point, of which as much is known.
+        block.0.as_flattened().iter().fold(true, |known, value| known & is_number(value))
+    }
+}
+
+/// Copies bunches, as many as fit and are there, to lanes: the first point where there are no more.
+#[inline(always)]
+fn copy<T: Copy, B: Numbers<T, N>, const N: usize>(bunches: &[B], lanes: &mut [[T; BLOCK]]) {
+    let bunches = &bunches[..bunches.len().min(BLOCK / 8)];
+    for (bunch, place) in bunches.iter().zip((0..BLOCK).step_by(8)) {
+        for (lane, numbers) in lanes.iter_mut().zip(bunch.numbers()) {
+            lane[place..place + 8].copy_from_slice(numbers);
+        }
+    }
+    if bunches.len() < BLOCK / 8 {
+        for (lane, numbers) in lanes.iter_mut().zip(bunches[0].numbers()) {
+            lane[8 * bunches.len()..].fill(numbers[0]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::{Bunched, Numbers};
+    use crate::batch::{Function, Kernel, Points, Stand, run};
+
+    impl<const N: usize> Numbers<f64, N> for [[f64; 8]; N] {
+        fn numbers(&self) -> [&[f64; 8]; N] {
+            self.each_ref()
+        }
+        fn numbers_mut(&mut self) -> [&mut [f64; 8]; N] {
+            self.each_mut()
+        }
+    }
+
+    /// x y and x + 2 y.
+    struct Both;
+
+    impl<S: crate::Real> Function<S, 2, 2> for Both {
+        #[inline(always)]
+        fn at(&self, [x, y]: [S; 2]) -> [S; 2] {
+            [x * y, x + S::from_f64(2.0) * y]
+        }
+    }
+
+    impl Kernel<f64, 2, 2> for Both {
+        #[inline(always)]
+        fn drive<S: Stand<f64>>(&self, points: &mut impl Points<S, 2, 2>) {
+            points.each(self);
+        }
+    }
+
+    #[test]
+    fn bunches_are_evaluated_as_points_are() {
+        for count in [1, 7, 8, 9, 25] {
+            let number = |k: usize| (0.3 + 0.7 * k as f64).sin();
+            let points: Vec<_> =
+                (0..8 * count).map(|k| [number(2 * k), number(2 * k + 1)]).collect();
+            let bunch = |b: usize| [0, 1].map(|n| core::array::from_fn(|k| points[8 * b + k][n]));
+            let bunches: Vec<[[f64; 8]; 2]> = (0..count).map(bunch).collect();
+            let mut results = bunches.clone();
+            run(&Both, &Bunched(&bunches[..]), &mut Bunched(&mut results[..]));
+            let mut expected = points.clone();
+            run(&Both, &&points[..], &mut &mut expected[..]);
+            let mut mixed = bunches.clone();
+            let first: Vec<_> = points.iter().map(|[x, _]| [*x]).collect();
+            let second: Vec<_> = bunches.iter().map(|[_, y]| [*y]).collect();
+            run(&Both, &(&first[..], Bunched(&second[..])), &mut Bunched(&mut mixed[..]));
+            for (k, expected) in expected.iter().enumerate() {
+                let found = [0, 1].map(|n| results[k / 8][n][k % 8]);
+                assert_eq!((found, mixed[k / 8][0][k % 8]), (*expected, expected[0]));
+            }
+        }
+    }
+}

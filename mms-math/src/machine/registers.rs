@@ -1,0 +1,51 @@
+//! Eight numbers in the registers of x86-64: one of 256 bits in single precision, in double precision two of them, or
+//! one of 512.
+//!
+//! Safety, of all that is unsafe here: a [`Fused`](super::Fused) is a proof that the processor has AVX2 and FMA, and a
+//! [`Wide`](super::Wide) that it has AVX-512.
+
+// What one instruction does to every number, with the registers that there are for each value.
+macro_rules! alike {
+    (one: $($method:ident($($argument:ident),*) $instruction:ident;)*) => {
+        $(
+            #[inline(always)]
+            fn $method(self, $($argument: Self::Eight),*) -> Self::Eight {
+                unsafe { $instruction($($argument),*) }
+            }
+        )*
+    };
+    (two: $($method:ident($($argument:ident),*) $instruction:ident;)*) => {
+        $(
+            #[inline(always)]
+            fn $method(self, $($argument: Self::Eight),*) -> Self::Eight {
+                unsafe { [$instruction($($argument[0]),*), $instruction($($argument[1]),*)] }
+            }
+        )*
+    };
+}
+
+// What every machine with registers has alike.
+macro_rules! common {
+    ($float:ident) => {
+        #[inline(always)]
+        fn add_first(self, to: &mut [$float; 4], eight: Self::Eight) {
+            let [first, _] = fours(eight);
+            add(to, first);
+        }
+
+        #[inline(always)]
+        fn add_second(self, to: &mut [$float; 4], eight: Self::Eight) {
+            let [_, second] = fours(eight);
+            add(to, second);
+        }
+
+        #[inline(always)]
+        fn fetch<V>(self, value: &V) {
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
+        }
+    };
+}
+
+mod doubles;
+mod singles;
+mod wide;
