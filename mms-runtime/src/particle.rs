@@ -23,8 +23,6 @@ pub struct Particles<T, const D: usize> {
     pub velocity: Bunches<Vectors<T, D>>,
     /// H = F - I.
     pub displacement_gradient: Bunches<Matrices<T, D>>,
-    /// b, per unit mass.
-    pub body_force: Column<Vector<T, D>>,
     /// m.
     pub mass: Column<T>,
     /// V0.
@@ -52,7 +50,6 @@ impl<T: Real, const D: usize> Particles<T, D> {
             displacement: (0..count).map(|_| Vector::zeros()).collect(),
             velocity: (0..count).map(|_| Vector::zeros()).collect(),
             displacement_gradient: (0..count).map(|_| Matrix::zeros()).collect(),
-            body_force: vec![Vector::zeros(); count].into(),
             mass: vec![T::zero(); count].into(),
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
             affine: (0..affine).map(|_| Matrix::zeros()).collect(),
@@ -78,12 +75,11 @@ impl<T: Real, const D: usize> Particles<T, D> {
 
     /// What is kept of one particle, in bytes.
     pub fn bytes_per_particle(&self) -> usize {
-        let numbers = 2 * size_of::<T>();
-        let given = 2 * size_of::<Vector<T, D>>();
+        let given = size_of::<Vector<T, D>>() + 2 * size_of::<T>();
         let kept = self.displacement.bytes() + self.velocity.bytes();
         let deformation = self.displacement_gradient.bytes();
         let transfer = self.affine.bytes() + self.residual.bytes();
-        size_of::<u32>() + numbers + given + kept + deformation + transfer
+        size_of::<u32>() + given + kept + deformation + transfer
     }
 
     /// Puts particle `order[p]` in place `p`, in every array.
@@ -94,7 +90,6 @@ impl<T: Real, const D: usize> Particles<T, D> {
             displacement,
             velocity,
             displacement_gradient,
-            body_force,
             mass,
             reference_volume,
             affine,
@@ -105,7 +100,6 @@ impl<T: Real, const D: usize> Particles<T, D> {
         reorder_bunches(displacement, order);
         reorder_bunches(velocity, order);
         reorder_bunches(displacement_gradient, order);
-        reorder(body_force, order);
         reorder(mass, order);
         reorder(reference_volume, order);
         reorder_bunches(affine, order);
@@ -119,7 +113,6 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.displacement.fill_up();
         self.velocity.fill_up();
         self.displacement_gradient.fill_up();
-        self.body_force.fill_up();
         self.mass.fill_up();
         self.reference_volume.fill_up();
         self.affine.fill_up();

@@ -53,6 +53,8 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     keeps_weights: bool,
     /// XPIC: what is left of the velocity, mapped to nodes, and over their mass.
     residual: [Vec<Nodal<T>>; 2],
+    /// The time that the body force was last evaluated at.
+    time_of_force: T,
     /// Whether a state may be bad.
     suspect: bool,
     seconds: Seconds,
@@ -125,6 +127,7 @@ where
             step,
             time,
             time_of_velocity: time - lag * time_step,
+            time_of_force: self.time_of_force,
             time_step,
             moves: self.formulation.moves,
         }

@@ -112,8 +112,10 @@ fn balance<I: Integrator, S: Shape>(
         let (before, time) = (momentum(&solver), solver.present().time);
         solver.step::<I>().unwrap();
         let particles = solver.particles();
-        let body: f64 =
-            particles.mass.iter().zip(&particles.body_force).map(|(m, b)| m * b[0]).sum();
+        let mut force = vec![mms_runtime::Vector::zeros(); particles.len()];
+        let time_of_force = solver.present().time_of_force;
+        field.body_force(time_of_force, &particles.reference_position, &mut force);
+        let body: f64 = particles.mass.iter().zip(&force).map(|(m, b)| m * b[0]).sum();
         let stress = |x: f64| {
             let h = wave.gradient(time, &mms_runtime::Vector::<f64, 1>::new(x));
             wave.first_piola_kirchhoff(&h)[0]

@@ -24,6 +24,9 @@ use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 /// their stresses stay near.
 const PART: usize = 256;
 
+/// Particles whose body forces are computed together: so many that it is nothing to begin with a time.
+const FORCED: usize = 2048;
+
 /// What is added to the nodes.
 #[derive(Clone, Copy)]
 pub(super) enum Carried {
@@ -58,6 +61,8 @@ pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape> {
     pub field: &'a F,
     pub carried: Carried,
     pub formulation: Configuration<T, D>,
+    /// When the body force is evaluated.
+    pub time: T,
 }
 
 impl<T: Real, const D: usize, F, S> Map<'_, T, D, F, S>
@@ -70,27 +75,34 @@ where
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
         let mut stress = [Matrices::zeros(); PART / BUNCH];
+        let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
         let mut room = S::Stencil::default();
+        let is_force = matches!(self.carried, Carried::Force | Carried::Everything);
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
         let Range { start, end } = slab.particles;
-        let (start, end) = (start / BUNCH, end.div_ceil(BUNCH));
-        for first in (start..end).step_by(PART / BUNCH) {
-            let part = first..end.min(first + PART / BUNCH);
-            let stress = &mut stress[..part.len()];
-            if let Carried::Force | Carried::Everything = self.carried {
-                timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
+        for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
+            let body_force = &mut body_force[..forced.len()];
+            if is_force {
+                timed(&mut seconds.forcing, || self.find_body_force(forced.clone(), body_force));
             }
-            let sums = Sums {
-                scene: self.scene,
-                particles: self.particles,
-                carried: self.carried,
-                bunches: part,
-                stress,
-                nodes: [momentum.reborrow(), force.reborrow()],
-                slab,
-                room: &mut room,
-            };
-            timed(&mut seconds.transfer, || best(sums))?;
+            for part in parts(forced.clone(), PART / BUNCH) {
+                let stress = &mut stress[..part.len()];
+                if is_force {
+                    timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
+                }
+                let sums = Sums {
+                    scene: self.scene,
+                    particles: self.particles,
+                    carried: self.carried,
+                    body_force: &body_force[part.start - forced.start..][..part.len()],
+                    bunches: part,
+                    stress,
+                    nodes: [momentum.reborrow(), force.reborrow()],
+                    slab,
+                    room: &mut room,
+                };
+                timed(&mut seconds.transfer, || best(sums))?;
+            }
         }
         Ok(seconds)
     }
@@ -106,9 +118,24 @@ where
         let singular = |k| (BUNCH * part.start + k, Cause::Inverted { jacobian: 0.0 });
         Ok((self.formulation.stress)(gradients, stress).map_err(singular)?)
     }
+
+    /// b of every particle of a part.
+    fn find_body_force(&self, part: Range<usize>, body_force: &mut [[Vector<T, D>; BUNCH]]) {
+        let all = self.particles;
+        let reference = &all.reference_position.bunches()[part.clone()];
+        let displacement = &all.displacement.bunches()[part];
+        let points = material_points(reference, displacement, on(Defect::ForceAtPresent));
+        self.field.body_force(self.time, points.as_flattened(), body_force.as_flattened_mut());
+    }
 }
 
-/// The sums of some particles, whose stress is known.
+/// A range in parts of so many.
+fn parts(range: Range<usize>, count: usize) -> impl Iterator<Item = Range<usize>> {
+    let end = range.end;
+    range.step_by(count).map(move |first| first..end.min(first + count))
+}
+
+/// The sums of some particles, whose stress and body force are known.
 struct Sums<'a, T: Real, const D: usize, S: Shape> {
     scene: Scene<'a, T, D, S>,
     particles: &'a Particles<T, D>,
@@ -116,6 +143,7 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     bunches: Range<usize>,
     /// From the first one of these on.
     stress: &'a [Matrices<T, D>],
+    body_force: &'a [[Vector<T, D>; BUNCH]],
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
     slab: &'a Slab,
@@ -127,10 +155,10 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Self { scene, particles, carried, bunches: range, stress, mut nodes, slab, room } =
-            self;
+        let Self { scene, particles, carried, bunches: range, mut nodes, slab, room, .. } = self;
+        let (stress, body_force) = (self.stress, self.body_force);
         let Slab { particles: own, window } = slab;
-        let bunches = Arrays::new(particles, range.clone(), stress);
+        let bunches = Arrays::new(particles, range.clone(), stress, body_force);
         // For the stress of the next part.
         let next = &particles.displacement_gradient.bunches()[range.end..];
         let mut rest = machine.splat(T::zero());
@@ -187,15 +215,20 @@ struct Arrays<'a, T: Real, const D: usize> {
 
 impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
     #[inline(always)]
-    fn new(all: &'a Particles<T, D>, range: Range<usize>, stress: &'a [Matrices<T, D>]) -> Self {
+    fn new(
+        all: &'a Particles<T, D>,
+        range: Range<usize>,
+        stress: &'a [Matrices<T, D>],
+        body_force: &'a [[Vector<T, D>; BUNCH]],
+    ) -> Self {
         Self {
             displacement: &all.displacement.bunches()[range.clone()],
             velocity: &all.velocity.bunches()[range.clone()],
             displacement_gradient: &all.displacement_gradient.bunches()[range.clone()],
-            body_force: &all.body_force.bunches()[range.clone()],
             mass: &all.mass.bunches()[range.clone()],
             reference_volume: &all.reference_volume.bunches()[range.clone()],
             stress,
+            body_force,
             affine: all.affine.bunches().get(range.clone()),
             residual: all.residual.bunches().get(range),
         }

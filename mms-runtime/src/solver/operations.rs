@@ -10,13 +10,13 @@ use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
 use super::map::{Carried, Map, Stop};
 use super::scene::Scene;
-use super::threads::{each_pair, each_part};
+use super::threads::each_part;
 use crate::boundary::traction::Place;
 use crate::defect::{Defect, on};
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
-use crate::particle::{Particles, material_points};
+use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
@@ -52,7 +52,10 @@ where
             self.weigh()?;
         }
         if let Some(time) = acceleration {
-            self.force_particles(time);
+            let step = self.time_step();
+            let time = if on(Defect::ForceLate) { time - step } else { time };
+            let ahead = T::ratio(1, 2) * step;
+            self.time_of_force = if on(Defect::ForceAhead) { time + ahead } else { time };
         }
         let carried = match (with_mass || velocity.is_some(), acceleration.is_some()) {
             (true, true) => Carried::Everything,
@@ -164,24 +167,6 @@ where
         found.map_err(|(p, cause)| self.failure(p, cause))
     }
 
-    /// b of every particle.
-    fn force_particles(&mut self, time: T) {
-        let time = if on(Defect::ForceLate) { time - self.time_step() } else { time };
-        let half = T::ratio(1, 2);
-        let time = if on(Defect::ForceAhead) { time + half * self.time_step() } else { time };
-        let Self { particles, field, seconds, .. } = self;
-        let Particles { reference_position, displacement, body_force, .. } = particles;
-        let at_present = on(Defect::ForceAtPresent);
-        let points =
-            material_points(reference_position.bunches(), displacement.bunches(), at_present);
-        let points = &points.as_flattened()[..body_force.len()];
-        timed(&mut seconds.forcing, || {
-            each_pair(points, body_force, &|reference, body_force| {
-                field.body_force(time, reference, body_force);
-            });
-        });
-    }
-
     /// The sums onto nodes, which hold nothing else afterwards. Particles are sorted if one has left its slab.
     fn add_to_nodes(&mut self, carried: Carried) -> Result<(), Failure> {
         let mut sorted = false;
@@ -214,7 +199,7 @@ where
 
     fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {
         let Self { grid, particles, domains, weights, slabs, transfer, .. } = self;
-        let (field, formulation) = (self.field, self.formulation);
+        let (field, formulation, time) = (self.field, self.formulation, self.time_of_force);
         let Grid { lattice, momentum, force, .. } = grid;
         let nodes: [&mut [Nodal<T>]; 2] = match carried {
             Carried::Momentum => [momentum, &mut []],
@@ -237,7 +222,7 @@ where
             domains: domains.bunches(),
             weights,
         };
-        let map = Map { scene, particles, field, carried, formulation };
+        let map = Map { scene, particles, field, carried, formulation, time };
         let start = Instant::now();
         let taken =
             slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;

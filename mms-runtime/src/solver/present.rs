@@ -18,6 +18,8 @@ pub struct Present<'a, T, const D: usize, F: ?Sized> {
     pub time: f64,
     /// The time of their velocities.
     pub time_of_velocity: f64,
+    /// The time that the body force was last evaluated at.
+    pub time_of_force: T,
     /// dt.
     pub time_step: f64,
     /// Whether the body moves through the grid.

@@ -113,6 +113,7 @@ where
             weights: Vec::new(),
             keeps_weights: false,
             residual: std::array::from_fn(|_| vec![Nodal::zero(); residual_nodes]),
+            time_of_force: T::zero(),
             suspect: false,
             seconds: Seconds::default(),
             formulation,

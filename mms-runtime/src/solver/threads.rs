@@ -36,19 +36,3 @@ pub(super) fn each_part<T: Real, R: Send, const D: usize>(
     let (first, others) = both(|| each_part(first, work, join), || each_part(others, work, join));
     join(first, others)
 }
-
-/// Does `work` for the entries of two arrays of the same length, part by part.
-pub(super) fn each_pair<A: Sync, B: Send>(
-    given: &[A],
-    wanted: &mut [B],
-    work: &(dyn Fn(&[A], &mut [B]) + Sync),
-) {
-    let count = given.len();
-    if count <= PART {
-        return work(given, wanted);
-    }
-    let middle = (count / 2).next_multiple_of(PART);
-    let (given, other_given) = given.split_at(middle);
-    let (wanted, other_wanted) = wanted.split_at_mut(middle);
-    both(|| each_pair(given, wanted, work), || each_pair(other_given, other_wanted, work));
-}

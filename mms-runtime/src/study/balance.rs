@@ -30,6 +30,8 @@ pub(super) struct Account<T, const D: usize> {
     velocity: Vec<Vector<T, D>>,
     time_of_velocity: f64,
     kinetic_energy: f64,
+    /// b of each particle in the last step.
+    body_force: Vec<Vector<T, D>>,
     /// H and W of each particle.
     displacement_gradient: Vec<Matrix<T, D>>,
     energy: Vec<T>,
@@ -57,6 +59,7 @@ impl<T: Real, const D: usize> Account<T, D> {
             velocity: vec![Vector::zeros(); count],
             time_of_velocity: 0.0,
             kinetic_energy: 0.0,
+            body_force: vec![Vector::zeros(); count],
             displacement_gradient: Vec::with_capacity(count),
             energy: vec![T::zero(); count],
             tally: Tally::default(),
@@ -76,14 +79,18 @@ impl<T: Real, const D: usize> Account<T, D> {
     }
 
     /// After each step.
-    pub fn step<F: ?Sized>(&mut self, present: &Present<'_, T, D, F>) {
-        let particles = present.particles;
+    pub fn step<F>(&mut self, present: &Present<'_, T, D, F>)
+    where
+        F: ManufacturedField<T, D> + ?Sized,
+    {
+        let Present { field, particles, time_of_force, .. } = *present;
+        field.body_force(time_of_force, &particles.reference_position, &mut self.body_force);
         let elapsed = present.time_of_velocity - self.time_of_velocity;
         let (mut work, mut force) = (0.0, Vector::<f64, D>::zeros());
         for (p, &id) in particles.id.iter().enumerate() {
             let before = self.velocity[id as usize].map(Real::to_f64);
             let after = particles.velocity.get(p).map(Real::to_f64);
-            let (m, b) = (particles.mass[p].to_f64(), particles.body_force[p].map(Real::to_f64));
+            let (m, b) = (particles.mass[p].to_f64(), self.body_force[p].map(Real::to_f64));
             // With the mean velocity, the work of all forces is the change of the kinetic energy.
             work += m * b.dot(&(before + after)) / 2.0 * elapsed;
             force += ((after - before) / elapsed - b) * m;
