@@ -3,6 +3,8 @@
 use std::ops::MulAssign;
 
 use mms::scene::Scene;
+use mms_runtime::column::Matrices;
+use mms_runtime::stencil::BUNCH;
 use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
 
 /// A field of the gallery as a block.
@@ -92,6 +94,15 @@ impl<T: Real, const D: usize> Material<T, D> for Block<T, D> {
         stress: &mut [Matrix<T, D>],
     ) {
         self.field.kirchhoff_stress(reference, displacement_gradient, stress);
+    }
+
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        reference: &[[Vector<T, D>; BUNCH]],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
+    ) {
+        self.field.kirchhoff_stress_of_bunches(reference, displacement_gradient, stress);
     }
 }
 

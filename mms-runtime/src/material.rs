@@ -26,18 +26,26 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     );
 
     /// [`kirchhoff_stress`](Material::kirchhoff_stress) of whole bunches of particles, whose matrices are kept entry by
-    /// entry: what a solver asks for in every step.
+    /// entry: what a solver asks for in every step. A material that passes on another one's does so here too, for
+    /// otherwise matrices are turned twice.
     fn kirchhoff_stress_of_bunches(
         &self,
         reference: &[[Vector<T, D>; BUNCH]],
         displacement_gradient: &[Matrices<T, D>],
         stress: &mut [Matrices<T, D>],
     ) {
-        for ((reference, h), stress) in reference.iter().zip(displacement_gradient).zip(stress) {
-            let gradients: [_; BUNCH] = std::array::from_fn(|k| h.get(k));
-            let mut stresses = [Matrix::zeros(); BUNCH];
-            self.kirchhoff_stress(reference, &gradients, &mut stresses);
-            stresses.iter().enumerate().for_each(|(k, matrix)| stress.set(k, matrix));
+        let parts = reference.chunks(TOGETHER).zip(displacement_gradient.chunks(TOGETHER));
+        for ((reference, h), stress) in parts.zip(stress.chunks_mut(TOGETHER)) {
+            let count = BUNCH * h.len();
+            let [mut gradients, mut stresses] = [[Matrix::zeros(); TOGETHER * BUNCH]; 2];
+            for (k, gradient) in gradients[..count].iter_mut().enumerate() {
+                *gradient = h[k / BUNCH].get(k % BUNCH);
+            }
+            let found = &mut stresses[..count];
+            self.kirchhoff_stress(reference.as_flattened(), &gradients[..count], found);
+            for (k, found) in found.iter().enumerate() {
+                stress[k / BUNCH].set(k % BUNCH, found);
+            }
         }
     }
 
@@ -54,7 +62,7 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
 }
 
 /// How many bunches are evaluated together.
-const TOGETHER: usize = 8;
+const TOGETHER: usize = 32;
 
 /// [`Material::kirchhoff_stress`] by [`Material::kirchhoff_stress_of_bunches`], for materials that have the latter.
 ///
