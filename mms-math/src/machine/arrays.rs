@@ -57,43 +57,64 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
-                fn plus(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| a[k] + b[k])
+                fn plus(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] += b[k];
+                    }
+                    a
                 }
 
                 #[inline(always)]
-                fn minus(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| a[k] - b[k])
+                fn minus(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] -= b[k];
+                    }
+                    a
                 }
 
                 #[inline(always)]
-                fn times(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| a[k] * b[k])
+                fn times(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] *= b[k];
+                    }
+                    a
                 }
 
                 #[inline(always)]
                 fn times_plus(
                     self,
-                    a: [$float; 8],
+                    mut a: [$float; 8],
                     b: [$float; 8],
                     c: [$float; 8],
                 ) -> [$float; 8] {
-                    core::array::from_fn(|k| $times_plus(a[k], b[k], c[k]))
+                    for k in 0..8 {
+                        a[k] = $times_plus(a[k], b[k], c[k]);
+                    }
+                    a
                 }
 
                 #[inline(always)]
-                fn over(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| a[k] / b[k])
+                fn over(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] /= b[k];
+                    }
+                    a
                 }
 
                 #[inline(always)]
-                fn least(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| if a[k] < b[k] { a[k] } else { b[k] })
+                fn least(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] = if a[k] < b[k] { a[k] } else { b[k] };
+                    }
+                    a
                 }
 
                 #[inline(always)]
-                fn greatest(self, a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
-                    core::array::from_fn(|k| if a[k] > b[k] { a[k] } else { b[k] })
+                fn greatest(self, mut a: [$float; 8], b: [$float; 8]) -> [$float; 8] {
+                    for k in 0..8 {
+                        a[k] = if a[k] > b[k] { a[k] } else { b[k] };
+                    }
+                    a
                 }
 
                 #[inline(always)]
@@ -131,14 +152,20 @@ macro_rules! arrays {
 
                 #[inline(always)]
                 fn spread(self, a: [$float; 8]) -> [[$float; 8]; 4] {
-                    core::array::from_fn(|k| self.splat_halves(a[k], a[k + 4]))
+                    let of = |k: usize| self.splat_halves(a[k], a[k + 4]);
+                    [of(0), of(1), of(2), of(3)]
                 }
 
                 #[inline(always)]
                 fn transposed(self, rows: [[$float; 8]; 4]) -> [[$float; 8]; 4] {
-                    // Number k of half h is number k of the half that row p has there.
-                    let column = |k: usize| core::array::from_fn(|at| rows[at % 4][at / 4 * 4 + k]);
-                    core::array::from_fn(column)
+                    let mut columns = rows;
+                    for k in 0..4 {
+                        for row in 0..4 {
+                            columns[k][row] = rows[row][k];
+                            columns[k][4 + row] = rows[row][4 + k];
+                        }
+                    }
+                    columns
                 }
 
                 #[inline(always)]

@@ -40,13 +40,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
         let along = self.axis::<M, W>(machine, 0);
         let firsts = self.stencil.first;
-        if self.stencil.is_shared() {
-            let first = [firsts[0], firsts[HALF]];
-            return if first[0] == first[1] {
-                self.space::<M, W, true>(machine, &along, first)
-            } else {
-                self.space::<M, W, false>(machine, &along, first)
-            };
+        let shared = self.stencil.is_shared();
+        if shared && firsts[0] == firsts[HALF] {
+            return self.space::<M, W, true>(machine, &along, [firsts[0]; 2]);
         }
         let nothing = machine.splat(T::zero());
         let mut summed = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
@@ -57,23 +53,28 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
             let next = [left % (1 << HALF), left >> HALF];
             let at = [0, 1]
                 .map(|half| firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]);
-            let mut share = [T::zero(); BUNCH];
-            for p in 0..BUNCH {
-                if firsts[p] == at[p / HALF] && left >> p & 1 == 1 {
-                    share[p] = T::one();
-                    left &= !(1 << p);
-                }
-            }
-            // Every product has a factor of the first axis: those of others are 0.
-            let share = machine.eight(&share);
             let mut own = along;
-            for k in 0..W {
-                own.weight[k] = machine.times(own.weight[k], share);
-                for aside in &mut own.asides {
-                    aside[k] = machine.times(aside[k], share);
+            if !shared {
+                let mut share = [T::zero(); BUNCH];
+                for p in 0..BUNCH {
+                    if firsts[p] == at[p / HALF] && left >> p & 1 == 1 {
+                        share[p] = T::one();
+                        left &= !(1 << p);
+                    }
+                }
+                // Every product has a factor of the first axis: those of others are 0.
+                let share = machine.eight(&share);
+                for k in 0..W {
+                    own.weight[k] = machine.times(own.weight[k], share);
+                    for aside in &mut own.asides {
+                        aside[k] = machine.times(aside[k], share);
+                    }
                 }
             }
             let theirs = self.space::<M, W, false>(machine, &own, at);
+            if shared {
+                return theirs;
+            }
             for c in 0..D {
                 summed.value[c] = machine.plus(summed.value[c], theirs.value[c]);
                 for s in 0..K {
