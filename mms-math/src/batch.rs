@@ -245,12 +245,34 @@ impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
     }
 }
 
-/// Two arrays of structures: positions, and what comes with them.
-impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
-    for (&[[T; A]], &[[T; B]])
-{
+/// Points that do not stand in columns, and are copied to lanes.
+pub trait Copied<T> {
+    /// How many numbers a point has.
+    const NUMBERS: usize;
+    /// How many points there are.
+    fn points(&self) -> usize;
+    /// Copies the points from `start` on, as many as fit and are there, to lanes: one for each of their numbers; the first
+    /// one where there are no more.
+    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [[T; BLOCK]]);
+}
+
+impl<T: Copy, const N: usize> Copied<T> for &[[T; N]] {
+    const NUMBERS: usize = N;
+
+    fn points(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+        turn(machine, &self[start..], lanes);
+    }
+}
+
+/// The numbers of some points, and then others of the same points: positions, and what comes with them.
+impl<T, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, B) {
     fn count(&self) -> usize {
-        one_length([self.0.len(), self.1.len()].into_iter())
+        one_length([self.0.points(), self.1.points()].into_iter())
     }
 
     #[inline(always)]
@@ -260,10 +282,10 @@ impl<T: Copy, const A: usize, const B: usize, const N: usize> Source<T, N>
         start: usize,
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
-        const { assert!(A + B == N) };
-        let (first, second) = room.0.split_at_mut(A);
-        turn(machine, &self.0[start..], first);
-        turn(machine, &self.1[start..], second);
+        const { assert!(A::NUMBERS + B::NUMBERS == N) };
+        let (first, second) = room.0.split_at_mut(A::NUMBERS);
+        self.0.copy(machine, start, first);
+        self.1.copy(machine, start, second);
         room.0.each_ref()
     }
 }
@@ -318,7 +340,7 @@ pub(crate) fn is_number<T: Float>(value: &T) -> bool {
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
 /// are no more.
 #[inline(always)]
-pub(crate) fn turn<T: Copy, M: Machine<T>, const N: usize>(
+fn turn<T: Copy, M: Machine<T>, const N: usize>(
     machine: M,
     points: &[[T; N]],
     lanes: &mut [[T; BLOCK]],

@@ -1,6 +1,6 @@
 //! Points in bunches of eight, whose numbers are kept number by number.
 
-use crate::batch::{BLOCK, Block, Columns, Float, Sink, Source, is_number};
+use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source, is_number};
 use crate::machine::Machine;
 
 /// A bunch of eight points with `N` numbers each.
@@ -16,28 +16,7 @@ pub struct Bunched<B, const N: usize>(pub B);
 
 impl<T: Copy, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {
     fn count(&self) -> usize {
-        8 * self.0.len()
-    }
-
-    #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        _: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
-        copy(&self.0[start / 8..], &mut room.0);
-        room.0.each_ref()
-    }
-}
-
-/// Positions, and what comes with them in bunches.
-impl<T: Copy, B: Numbers<T, K>, const A: usize, const K: usize, const N: usize> Source<T, N>
-    for (&[[T; A]], Bunched<&[B], K>)
-{
-    fn count(&self) -> usize {
-        assert_eq!(self.0.len(), 8 * self.1.0.len(), "batches have different lengths");
-        self.0.len()
+        self.points()
     }
 
     #[inline(always)]
@@ -47,11 +26,30 @@ impl<T: Copy, B: Numbers<T, K>, const A: usize, const K: usize, const N: usize> 
         start: usize,
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
-        const { assert!(A + K == N) };
-        let (first, second) = room.0.split_at_mut(A);
-        crate::batch::turn(machine, &self.0[start..], first);
-        copy(&self.1.0[start / 8..], second);
+        self.copy(machine, start, &mut room.0);
         room.0.each_ref()
+    }
+}
+
+impl<T: Copy, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> {
+    const NUMBERS: usize = N;
+
+    fn points(&self) -> usize {
+        8 * self.0.len()
+    }
+
+    #[inline(always)]
+    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+        let bunches = &self.0[start / 8..];
+        let bunches = &bunches[..bunches.len().min(BLOCK / 8)];
+        for (bunch, place) in bunches.iter().zip((0..BLOCK).step_by(8)) {
+            for (lane, numbers) in lanes.iter_mut().zip(bunch.numbers()) {
+                lane[place..place + 8].copy_from_slice(numbers);
+            }
+        }
+        for (lane, numbers) in lanes.iter_mut().zip(bunches[0].numbers()) {
+            lane[8 * bunches.len()..].fill(numbers[0]);
+        }
     }
 }
 
@@ -69,22 +67,6 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
         }
         // Past the last bunch there are copies of the first point, of which as much is known.
         block.0.as_flattened().iter().fold(true, |known, value| known & is_number(value))
-    }
-}
-
-/// Copies bunches, as many as fit and are there, to lanes: the first point where there are no more.
-#[inline(always)]
-fn copy<T: Copy, B: Numbers<T, N>, const N: usize>(bunches: &[B], lanes: &mut [[T; BLOCK]]) {
-    let bunches = &bunches[..bunches.len().min(BLOCK / 8)];
-    for (bunch, place) in bunches.iter().zip((0..BLOCK).step_by(8)) {
-        for (lane, numbers) in lanes.iter_mut().zip(bunch.numbers()) {
-            lane[place..place + 8].copy_from_slice(numbers);
-        }
-    }
-    if bunches.len() < BLOCK / 8 {
-        for (lane, numbers) in lanes.iter_mut().zip(bunches[0].numbers()) {
-            lane[8 * bunches.len()..].fill(numbers[0]);
-        }
     }
 }
 

@@ -85,7 +85,8 @@ pub trait Bunch: Copy + fmt::Debug + Send + Sync {
     fn set(&mut self, particle: usize, one: &Self::One);
 }
 
-/// The vectors of a bunch: of each component those of all particles beside each other.
+/// The vectors of a bunch: of each of the `D` components those of all particles beside each other. Whole lines of the
+/// cache, for a register that is in two takes twice as long; so those of single precision may be padded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Vectors<T, const D: usize>(pub [[T; BUNCH]; D]);
@@ -106,7 +107,7 @@ impl<T: Real, const D: usize> Bunch for Vectors<T, D> {
     }
 }
 
-/// The matrices of a bunch, by columns: of each entry those of all particles beside each other.
+/// The matrices of a bunch, by columns: entry (i, j) of all particles is `.0[j][i]`. Padded as [`Vectors`] are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Matrices<T, const D: usize>(pub [[[T; BUNCH]; D]; D]);

@@ -97,3 +97,85 @@ pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Material, by_bunches};
+    use crate::column::{Bunch as _, Bunches, Matrices};
+    use crate::stencil::BUNCH;
+    use crate::{Matrix, Vector};
+
+    /// A stress that depends on H and on X.
+    fn stress(x: &Vector<f64, 2>, h: &Matrix<f64, 2>) -> Matrix<f64, 2> {
+        h * h * x[0] + h.transpose() * x[1]
+    }
+
+    /// Knows points one after the other alone.
+    struct ByPoints;
+
+    impl Material<f64, 2> for ByPoints {
+        fn density(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
+        fn wave_speed(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
+        fn kirchhoff_stress(
+            &self,
+            reference: &[Vector<f64, 2>],
+            displacement_gradient: &[Matrix<f64, 2>],
+            out: &mut [Matrix<f64, 2>],
+        ) {
+            for (k, out) in out.iter_mut().enumerate() {
+                *out = stress(&reference[k], &displacement_gradient[k]);
+            }
+        }
+    }
+
+    /// Knows bunches alone.
+    struct OfBunches;
+
+    impl Material<f64, 2> for OfBunches {
+        fn density(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
+        fn wave_speed(&self, _: &[Vector<f64, 2>], _: &mut [f64]) {}
+        fn kirchhoff_stress(
+            &self,
+            reference: &[Vector<f64, 2>],
+            displacement_gradient: &[Matrix<f64, 2>],
+            out: &mut [Matrix<f64, 2>],
+        ) {
+            by_bunches(self, reference, displacement_gradient, out);
+        }
+        fn kirchhoff_stress_of_bunches(
+            &self,
+            reference: &[[Vector<f64, 2>; BUNCH]],
+            displacement_gradient: &[Matrices<f64, 2>],
+            out: &mut [Matrices<f64, 2>],
+        ) {
+            for (b, out) in out.iter_mut().enumerate() {
+                for k in 0..BUNCH {
+                    out.set(k, &stress(&reference[b][k], &displacement_gradient[b].get(k)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn stresses_are_the_same_by_points_and_of_bunches() {
+        for count in [1, 8, 250, 600] {
+            let number = |k: usize| (0.3 + 0.7 * k as f64).sin();
+            let x: Vec<_> = (0..count).map(|p| Vector::from_fn(|i, _| number(7 * p + i))).collect();
+            let h: Vec<_> =
+                (0..count).map(|p| Matrix::from_fn(|i, j| number(5 * p + 2 * i + j))).collect();
+            let expected: Vec<_> = x.iter().zip(&h).map(|(x, h)| stress(x, h)).collect();
+            let mut found = vec![Matrix::zeros(); count];
+            OfBunches.kirchhoff_stress(&x, &h, &mut found);
+            assert_eq!(found, expected);
+
+            let whole = count / BUNCH;
+            let gradients: Bunches<Matrices<f64, 2>> = h.iter().copied().collect();
+            let mut found = vec![Matrices::zeros(); whole];
+            let gradients = &gradients.bunches()[..whole];
+            ByPoints.kirchhoff_stress_of_bunches(&x.as_chunks().0[..whole], gradients, &mut found);
+            for (p, expected) in expected[..BUNCH * whole].iter().enumerate() {
+                assert_eq!(found[p / BUNCH].get(p % BUNCH), *expected, "{p} of {count}");
+            }
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! The particles: structure of arrays, entry `p` of every array belongs to particle `p`.
 
 use std::borrow::Cow;
+use std::iter::repeat_n;
 
 use crate::body::Filling;
 use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
@@ -47,13 +48,13 @@ impl<T: Real, const D: usize> Particles<T, D> {
             // Fillings are limited to less than that.
             id: (0..count as u32).collect(),
             reference_position: filling.position.iter().map(|x| x.map(T::of)).collect(),
-            displacement: (0..count).map(|_| Vector::zeros()).collect(),
-            velocity: (0..count).map(|_| Vector::zeros()).collect(),
-            displacement_gradient: (0..count).map(|_| Matrix::zeros()).collect(),
+            displacement: repeat_n(Vector::zeros(), count).collect(),
+            velocity: repeat_n(Vector::zeros(), count).collect(),
+            displacement_gradient: repeat_n(Matrix::zeros(), count).collect(),
             mass: vec![T::zero(); count].into(),
             reference_volume: filling.volume.iter().map(|&volume| T::of(volume)).collect(),
-            affine: (0..affine).map(|_| Matrix::zeros()).collect(),
-            residual: (0..residual).map(|_| Vector::zeros()).collect(),
+            affine: repeat_n(Matrix::zeros(), affine).collect(),
+            residual: repeat_n(Vector::zeros(), residual).collect(),
         }
     }
 

@@ -185,7 +185,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
             }
             let [momentum, force] = &mut nodes;
             let nodes = [momentum.reborrow(), force.reborrow()];
-            let bunch = Bunch { bunches: &bunches, k, members, stencil };
+            let bunch = Carrier { bunches: &bunches, k, members, stencil };
             bunch.add(machine, carried, scene.lattice, nodes, &mut rest);
         }
         if machine.all_at_most(rest, rest) {
@@ -236,14 +236,14 @@ impl<'a, T: Real, const D: usize> Arrays<'a, T, D> {
 }
 
 /// Some particles beside each other.
-struct Bunch<'a, T: Real, const D: usize, St> {
+struct Carrier<'a, T: Real, const D: usize, St> {
     bunches: &'a Arrays<'a, T, D>,
     k: usize,
     members: Members,
     stencil: &'a St,
 }
 
-impl<T: Real, const D: usize, St: Stencil<T, D>> Bunch<'_, T, D, St> {
+impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     /// Adds what is `carried` to momentum and force of the nodes; and to `rest` zero times the stress.
     #[inline(always)]
     fn add<M: Machine<T>>(

@@ -22,11 +22,11 @@ pub(crate) struct State<'a, T: Real, const D: usize> {
     lag: f64,
     /// The particles' numbers, in their order.
     id: Cow<'a, [u32]>,
-    displacement: Cow<'a, [Vector<T, D>]>,
-    velocity: Cow<'a, [Vector<T, D>]>,
-    displacement_gradient: Cow<'a, [Matrix<T, D>]>,
+    displacement: Vec<Vector<T, D>>,
+    velocity: Vec<Vector<T, D>>,
+    displacement_gradient: Vec<Matrix<T, D>>,
     /// C, with APIC only.
-    affine: Cow<'a, [Matrix<T, D>]>,
+    affine: Vec<Matrix<T, D>>,
     /// The layers and the particles that slabs begin with.
     cuts: Cow<'a, [[usize; 2]]>,
     seconds: Seconds,
@@ -71,11 +71,10 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         self.domains.fill_up();
         self.particles.reorder(&mut order);
         self.slabs.stand(&self.particles.id);
-        self.particles.displacement = state.displacement.iter().copied().collect();
-        self.particles.velocity = state.velocity.iter().copied().collect();
-        self.particles.displacement_gradient =
-            state.displacement_gradient.iter().copied().collect();
-        self.particles.affine = state.affine.iter().copied().collect();
+        self.particles.displacement = state.displacement.into_iter().collect();
+        self.particles.velocity = state.velocity.into_iter().collect();
+        self.particles.displacement_gradient = state.displacement_gradient.into_iter().collect();
+        self.particles.affine = state.affine.into_iter().collect();
         (self.clock.step, self.clock.lag) = (state.step, state.lag);
         self.seconds = state.seconds;
         Ok(())

@@ -54,6 +54,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
             let at = [0, 1]
                 .map(|half| firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]);
             let mut own = along;
+            // Halves that share their nodes are one round, of whole weights: the sums are compiled once for both.
             if !shared {
                 let mut share = [T::zero(); BUNCH];
                 for p in 0..BUNCH {

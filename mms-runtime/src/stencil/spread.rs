@@ -59,8 +59,10 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         let [from, to] = self.members;
         for k in 0..HALF {
             let meant = |p: usize| (from <= p && p < to).then_some(first[p] as usize);
-            let goal = Goal::Apart([meant(k), meant(k + HALF)]);
-            self.of::<W, 1, false>(k, goal, nodes.reborrow());
+            let pair = [meant(k), meant(k + HALF)];
+            if pair != [None; 2] {
+                self.of::<W, 1, false>(k, Goal::Apart(pair), nodes.reborrow());
+            }
         }
     }
 
