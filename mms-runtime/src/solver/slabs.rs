@@ -231,22 +231,19 @@ fn bunch(order: &mut [u32], cell: &[u64], start: usize, scratch: &mut [u32]) {
     let lead = start.next_multiple_of(BUNCH) - start;
     let lead = [lead.min(others), lead.saturating_sub(others).min(halved)];
     let lead_end = lead[0] + lead[1];
-    let ends = [bunched, bunched + halved];
-    let mut taken = [0; 3];
+    // Where the next of each kind goes. Those that lead go on behind the bunches.
+    let mut next = [lead_end, lead[0], 0];
+    let leads_until = [usize::MAX, lead_end, lead[0]];
+    let behind = [0, lead_end + bunched, lead[0] + bunched + halved];
     let mut from = 0;
     for shares in cells() {
         for (share, count) in shares.into_iter().enumerate() {
             for &particle in &order[from..from + count] {
-                let k = taken[share];
-                let place = match share {
-                    0 => lead_end + k,
-                    1 if k < lead[1] => lead[0] + k,
-                    1 => lead[0] + ends[0] + k,
-                    _ if k < lead[0] => k,
-                    _ => ends[1] + k,
-                };
-                scratch[place] = particle;
-                taken[share] += 1;
+                if next[share] == leads_until[share] {
+                    next[share] = behind[share];
+                }
+                scratch[next[share]] = particle;
+                next[share] += 1;
             }
             from += count;
         }
