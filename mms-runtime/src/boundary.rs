@@ -114,8 +114,8 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         self.prescribed.locate(field, time, grid)
     }
 
-    /// Adds the field's tractions at `time` to the forces. `place` says where the piece of a face at X, carried
-    /// by a particle, is.
+    /// Adds this `share` of the field's tractions at `time` to the nodes. `place` says where the piece of a face at
+    /// X, carried by a particle, is.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.
@@ -125,13 +125,14 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         time: T,
         lattice: &Lattice<T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
-        force: &mut [Nodal<T>],
+        share: T,
+        extensive: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
         S: Shape,
     {
-        self.traction.apply::<F, S>(field, time, lattice, place, force)
+        self.traction.apply::<F, S>(field, time, lattice, place, share, extensive)
     }
 
     /// Imposes the velocity at `time`.

@@ -10,13 +10,13 @@ pub struct Grid<T, const D: usize> {
     pub lattice: Lattice<T, D>,
     /// A node with no more mass than this is taken as empty, and nothing is divided by its mass.
     pub mass_floor: T,
-    /// (mv)_i and m_i.
+    /// (mv)_i and m_i; with PIC and APIC after the kick.
     pub momentum: Vec<Nodal<T>>,
-    /// f_i, internal and external.
+    /// f_i, internal and external, where it is not added to momentum at once.
     pub force: Vec<Nodal<T>>,
     /// v_i.
     pub velocity: Vec<Nodal<T>>,
-    /// a_i.
+    /// a_i, where particles take something of it.
     pub acceleration: Vec<Nodal<T>>,
 }
 
@@ -55,6 +55,18 @@ impl<T: Real, const D: usize> Grid<T, D> {
             *velocity += *acceleration * time_step;
         }
     }
+
+    /// a_i, and v_i after a kick: the three above in one pass.
+    pub fn kicked_from_momentum_and_force(&mut self, time_step: T) {
+        let Self { momentum, force, velocity, acceleration, mass_floor, .. } = self;
+        let sums = momentum.iter().zip(force);
+        for ((velocity, acceleration), (momentum, force)) in
+            velocity.iter_mut().zip(acceleration).zip(sums)
+        {
+            *acceleration = over_mass(force, momentum, *mass_floor);
+            *velocity = over_mass(momentum, momentum, *mass_floor) + *acceleration * time_step;
+        }
+    }
 }
 
 /// The vectors of `extensive` over the masses along with `momentum`; 0 on nodes with no more mass than
@@ -66,12 +78,17 @@ pub(crate) fn divide_by_mass<T: Real>(
     out: &mut [Nodal<T>],
 ) {
     for ((out, extensive), momentum) in out.iter_mut().zip(extensive).zip(momentum) {
-        let mass = momentum.last();
-        *out = if mass > mass_floor {
-            let Nodal([x, y, z, _]) = *extensive / mass;
-            Nodal([x, y, z, T::zero()])
-        } else {
-            Nodal::zero()
-        };
+        *out = over_mass(extensive, momentum, mass_floor);
+    }
+}
+
+/// As [`divide_by_mass`], of one node.
+fn over_mass<T: Real>(extensive: &Nodal<T>, momentum: &Nodal<T>, mass_floor: T) -> Nodal<T> {
+    let mass = momentum.last();
+    if mass > mass_floor {
+        let Nodal([x, y, z, _]) = *extensive / mass;
+        Nodal([x, y, z, T::zero()])
+    } else {
+        Nodal::zero()
     }
 }

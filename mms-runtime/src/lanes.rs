@@ -83,6 +83,21 @@ pub fn set_columns<T: Real, M: Machine<T>, const D: usize>(
     }
 }
 
+/// Matrices with these columns, times a number each.
+#[inline(always)]
+pub fn scaled<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    mut columns: [[M::Eight; D]; D],
+    factor: M::Eight,
+) -> [[M::Eight; D]; D] {
+    for j in 0..D {
+        for i in 0..D {
+            columns[j][i] = machine.times(columns[j][i], factor);
+        }
+    }
+    columns
+}
+
 /// The determinants of matrices with these columns; D = 1, 2, 3.
 #[inline(always)]
 pub fn determinants<T: Real, M: Machine<T>, const D: usize>(

@@ -1,11 +1,10 @@
 //! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between
 //! them and their nodes.
 //!
-//! There are two sums, each the transpose of the other: [`Stencil::spread`] adds
-//! w q + sum_a (grad w)_a Q_a to the nodes, and [`Stencil::collect`] returns sum_i w q_i and
-//! sum_i (grad w)_a q_i. Mass, momentum and forces, interpolated velocities and their gradients are all
-//! of that kind, and so is the linear velocity of APIC, with the moments w (x_i - x_p)_a in place of
-//! (grad w)_a.
+//! There are two sums, each the transpose of the other: [`Stencil::spread`] adds w q, and more along each axis a: Q_a
+//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::collect`] returns sum_i w q_i,
+//! sum_i (grad w)_a q_i, and slopes that come of the moments. Mass, momentum and forces, interpolated velocities and
+//! their gradients are all of that kind; moments are for the linear velocity of APIC.
 //!
 //! A bunch is eight particles that stand beside each other, in two halves of four. What is said of particles has one of
 //! them in each lane of a register; what is said of nodes has in each half one of their four numbers in each lane, those
@@ -31,13 +30,22 @@ pub const BUNCH: usize = 8;
 /// And in each half of it.
 pub const HALF: usize = BUNCH / 2;
 
-/// The four numbers of a node for each particle of both halves, and of slopes along each axis.
+/// What a bunch adds to its nodes.
 #[derive(Clone, Copy)]
-pub struct Sloped<F, const D: usize> {
-    /// q.
+pub struct Carried<F, const D: usize> {
+    /// q: the four numbers of a node for each particle of both halves.
     pub value: [F; HALF],
-    /// Q_a.
-    pub slopes: [[F; D]; HALF],
+    /// Q_a for every axis a: vectors, a number for each particle.
+    pub slopes: Option<[[F; D]; D]>,
+    /// M_a, likewise.
+    pub moments: Option<[[F; D]; D]>,
+}
+
+impl<F, const D: usize> Carried<F, D> {
+    /// q alone.
+    pub fn value(value: [F; HALF]) -> Self {
+        Self { value, slopes: None, moments: None }
+    }
 }
 
 /// The vector q that nodes have, as a bunch sees it: a number for each particle.
@@ -72,30 +80,12 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     /// The first of the `members` that has nodes beyond these, if any has.
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize>;
 
-    /// q_i += w q for every node i of the `members`.
-    fn spread_value<M: Machine<T>>(
-        &self,
-        machine: M,
-        value: [M::Eight; HALF],
-        members: Members,
-        nodes: Window<'_, T>,
-    );
-
-    /// q_i += w q + sum_a (grad w)_a Q_a for every node i of the `members`.
+    /// q_i += w q + sum_a ((grad w)_a Q_a + w (x_i - x_p)_a M_a) for every node i of the `members`.
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Eight, D>,
-        members: Members,
-        nodes: Window<'_, T>,
-    );
-
-    /// As [`spread`](Stencil::spread), with the moments w (x_i - x_p)_a in place of (grad w)_a.
-    fn spread_moments<M: Machine<T>>(
-        &self,
-        machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Eight, D>,
+        carried: &Carried<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     );

@@ -48,6 +48,15 @@ impl Transfer {
     /// FLIP that loses nothing, the default.
     pub const FLIP: Self = Transfer::Flip { fraction: 1.0 };
 
+    /// What particles take of the nodes beside v_i after its kick.
+    pub(crate) fn takes(self) -> Taken {
+        match self {
+            Transfer::Pic | Transfer::Apic => Taken::Nothing,
+            Transfer::Flip { .. } => Taken::Acceleration,
+            Transfer::Xpic { .. } => Taken::VelocityBefore,
+        }
+    }
+
     /// What a solver takes it for: itself, but for a defect.
     pub(crate) fn taken(self) -> Self {
         match self {
@@ -65,6 +74,16 @@ impl Transfer {
     /// The names that users write.
     pub const NAMES: &'static [&'static str] =
         &["flip", "pic", "apic", "xpic2", "xpic3", "xpic4", "xpic5"];
+}
+
+/// What particles take of the nodes beside v_i after its kick: each takes what those before it do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Taken {
+    Nothing,
+    /// a_i.
+    Acceleration,
+    /// v_i before the kick.
+    VelocityBefore,
 }
 
 impl Default for Transfer {

@@ -8,9 +8,12 @@ use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, BUNCH, Collected, HALF, Members, Sloped, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, BUNCH, Carried, Collected, HALF, Members, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
+
+/// What a particle carries: a value, and vectors for slopes and for moments along up to three axes.
+const EACH: usize = 1 + 2 * 3;
 
 /// Any numbers, no two alike.
 fn numbers<T: Real>(count: usize) -> Vec<Nodal<T>> {
@@ -24,13 +27,13 @@ struct Sums<'a, T, const D: usize, S> {
     stencil: &'a S,
     lattice: &'a Lattice<T, D>,
     nodes: &'a [Nodal<T>],
-    /// For each particle a value, and its slopes.
+    /// For each particle a value, then what slopes and what moments have along the axes.
     carried: &'a [Nodal<T>],
     members: Members,
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
-    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, and with moments.
+    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, with moments, and with both.
     fn by<M: Machine<T>>(&self, machine: M) -> Vec<T> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let mut all = Vec::new();
@@ -42,17 +45,21 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
                 all.extend(components.iter().flat_map(|&eight| machine.numbers(eight)));
             }
         }
-        let of = |p: usize, k: usize| {
-            machine.halves(&carried[4 * p + k].0, &carried[4 * (p + HALF) + k].0)
+        let value = std::array::from_fn(|p| {
+            machine.halves(&carried[EACH * p].0, &carried[EACH * (p + HALF)].0)
+        });
+        let vectors = |first: usize| {
+            let number = |a: usize, c: usize, p: usize| carried[EACH * p + first + a].0[c];
+            let eight = |a, c| machine.eight(&std::array::from_fn(|p| number(a, c, p)));
+            Some(std::array::from_fn(|a| std::array::from_fn(|c| eight(a, c))))
         };
-        let value = std::array::from_fn(|p| of(p, 0));
-        let slopes = std::array::from_fn(|p| std::array::from_fn(|a| of(p, 1 + a)));
-        let carried = Sloped { value, slopes };
-        let mut sums: [Vec<_>; 3] = std::array::from_fn(|_| nodes.to_vec());
-        let [values, sloping, moments] = sums.each_mut().map(|nodes| Window { start: 0, nodes });
-        stencil.spread_value(machine, value, members, values);
-        stencil.spread(machine, &carried, members, sloping);
-        stencil.spread_moments(machine, lattice, &carried, members, moments);
+        let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
+        for (which, nodes) in sums.iter_mut().enumerate() {
+            let slopes = if which & 1 != 0 { vectors(1) } else { None };
+            let moments = if which & 2 != 0 { vectors(1 + D) } else { None };
+            let carried = Carried { value, slopes, moments };
+            stencil.spread(machine, lattice, &carried, members, Window { start: 0, nodes });
+        }
         all.extend(sums.iter().flatten().flat_map(|node| node.0));
         all
     }
@@ -61,7 +68,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
     fn by_definition(&self, positions: &[Vector<T, D>; BUNCH]) -> Vec<T> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let mut collected = vec![[[T::zero(); BUNCH]; D]; 1 + D];
-        let mut sums: [Vec<_>; 3] = std::array::from_fn(|_| nodes.to_vec());
+        let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
         for p in 0..BUNCH {
             stencil.each(p, |i, w, gradient| {
                 for c in 0..D {
@@ -73,14 +80,18 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
                 if !(members[0]..members[1]).contains(&p) {
                     return;
                 }
-                let carried = |k: usize| carried[4 * p + k];
+                let carried = |k: usize| carried[EACH * p + k];
+                let vector = |k: usize| Nodal::new(&carried(k).vector::<D>(), T::zero());
                 let apart = lattice.position(i) - positions[p];
                 for sum in &mut sums {
                     sum[i] += carried(0) * w;
                 }
                 for a in 0..D {
-                    sums[1][i] += carried(1 + a) * gradient[a];
-                    sums[2][i] += carried(1 + a) * (w * apart[a]);
+                    let sloping = vector(1 + a) * gradient[a];
+                    let moment = vector(1 + D + a) * (w * apart[a]);
+                    sums[1][i] += sloping;
+                    sums[2][i] += moment;
+                    sums[3][i] += sloping + moment;
                 }
             });
         }
@@ -140,7 +151,7 @@ impl<T: Real, const D: usize> ShapeVisitor for Check<T, D> {
 
         for (apart, members) in APART.into_iter().zip([ALL, ALL, ALL, [0, 6], [1, 7]]) {
             let (stencil, positions) = self.particle.bunch::<T, S>(&lattice, apart).unwrap();
-            let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(4 * BUNCH)[..]);
+            let (nodes, carried) = (&numbers(lattice.len())[..], &numbers(EACH * BUNCH)[..]);
             let sums = Sums { stencil: &stencil, lattice: &lattice, nodes, carried, members };
             let expected = sums.by_definition(&positions);
             for [found, _] in [sums.on(T::PlainMachine::from(Plain)), best(&sums)] {

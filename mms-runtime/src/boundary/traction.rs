@@ -12,7 +12,7 @@ use crate::body::Piece;
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window, halves};
 use crate::shape::Shape;
-use crate::stencil::{HALF, Stencil as _};
+use crate::stencil::{Carried, HALF, Stencil as _};
 use crate::tensor::{cofactor, components, jacobian};
 use crate::{
     Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
@@ -69,7 +69,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
         Ok(())
     }
 
-    /// Adds the forces at `time`. `place` says where the piece of a face at X, carried by a particle, is.
+    /// Adds this `share` of the forces at `time`. `place` says where the piece of a face at X, carried by a
+    /// particle, is.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.
@@ -79,7 +80,8 @@ impl<T: Real, const D: usize> Traction<T, D> {
         time: T,
         lattice: &Lattice<T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
-        force: &mut [Nodal<T>],
+        share: T,
+        extensive: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
@@ -106,11 +108,12 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 .map(|cofactor| if on(Defect::TractionArea) { area[k] } else { cofactor * area[k] })
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
             let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { jacobian(exact) };
-            let traction = kirchhoff_stress[k] * present_area / ratio;
+            let traction = kirchhoff_stress[k] * present_area * share / ratio;
             let stencil = S::point(lattice, &position).map_err(fail)?;
             let traction = halves(machine, [&traction; 2], T::zero());
-            let nodes = Window { start: 0, nodes: &mut *force };
-            stencil.spread_value(machine, [traction; HALF], [0, 1], nodes);
+            let nodes = Window { start: 0, nodes: &mut *extensive };
+            let carried = Carried::value([traction; HALF]);
+            stencil.spread(machine, lattice, &carried, [0, 1], nodes);
         }
         Ok(())
     }

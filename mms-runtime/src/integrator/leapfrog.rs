@@ -23,9 +23,9 @@ impl Integrator for Leapfrog {
         let (t_velocity, kick) =
             if solver.step_number() == 0 { (t, first) } else { (t - half, dt) };
         // m_i = sum w m,  v_i = sum w m v / m_i at t^(n-1/2),  a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.map(&[Sum::Mass, Sum::Velocity(t_velocity), Sum::Acceleration(t)])?;
         // v_i += dt a_i, at t^(n+1/2)
-        solver.kick(kick, t + half);
+        let (velocity, kicked) = (Sum::Velocity(t_velocity), Sum::Kick(kick, t + half));
+        solver.map(&[Sum::Mass, velocity, Sum::Acceleration(t), kicked])?;
         // v += dt sum w a_i,  d += dt sum w v_i,  H += dt L F,  L = sum v_i (x) grad w
         solver.advance(&[Update::Velocity(kick), Update::Position(dt), Update::Deformation(dt)])
     }

@@ -43,7 +43,7 @@ pub trait Integrator: 'static {
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure>;
 }
 
-/// A sum over particles, for the nodes; w = w_ip and grad w = grad w_ip are those at t^n throughout a step.
+/// What is found for the nodes, of sums over particles; w = w_ip and grad w = grad w_ip are those at t^n throughout a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sum<T> {
     /// m_i = sum_p w m_p, with weights at the present positions.
@@ -53,6 +53,9 @@ pub enum Sum<T> {
     /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, t) + tractions) / m_i at this time, with the boundary's
     /// acceleration; S is tau(H), or P(H) in the total formulation.
     Acceleration(T),
+    /// v_i += dt a_i with this dt, and the boundary's velocity at this time: after the sums before it, in one
+    /// with them if the transfer takes nothing of v_i and a_i apart.
+    Kick(T, T),
 }
 
 /// A change of the particles' state.
@@ -84,9 +87,6 @@ pub trait Operations<T> {
     /// # Errors
     /// A particle, or a piece of a face, that the grid does not hold; a particle without stress.
     fn map(&mut self, sums: &[Sum<T>]) -> Result<(), Failure>;
-
-    /// v_i += `time_step` a_i, with the boundary's velocity at `time`.
-    fn kick(&mut self, time_step: T, time: T);
 
     /// These changes, in one pass over the particles.
     ///

@@ -17,9 +17,9 @@ impl Integrator for Musl {
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure> {
         let (t, dt) = (solver.time(), solver.time_step());
         // m_i = sum w m,  v_i = sum w m v / m_i,  a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.map(&[Sum::Mass, Sum::Velocity(t), Sum::Acceleration(t)])?;
         // v_i += dt a_i
-        solver.kick(dt, t + dt);
+        let kick = Sum::Kick(dt, t + dt);
+        solver.map(&[Sum::Mass, Sum::Velocity(t), Sum::Acceleration(t), kick])?;
         // v += dt sum w a_i,  d += dt sum w v_i
         solver.advance(&[Update::Velocity(dt), Update::Position(dt)])?;
         // v_i = sum w m v / m_i, with the new v

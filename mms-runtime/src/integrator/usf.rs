@@ -20,9 +20,8 @@ impl Integrator for Usf {
         // H += dt L F,  L = sum v_i (x) grad w
         solver.advance(&[Update::Deformation(dt)])?;
         // a_i = (- sum V0 tau grad w + sum w m b) / m_i
-        solver.map(&[Sum::Acceleration(t)])?;
         // v_i += dt a_i
-        solver.kick(dt, t + dt);
+        solver.map(&[Sum::Acceleration(t), Sum::Kick(dt, t + dt)])?;
         // v += dt sum w a_i,  d += dt sum w v_i
         solver.advance(&[Update::Velocity(dt), Update::Position(dt)])
     }

@@ -14,10 +14,10 @@ use mms_math::machine::Machine;
 use super::Shape;
 use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
-use crate::lanes::columns;
+use crate::lanes::{columns, scaled};
 use crate::nodal::{Nodal, Window};
 use crate::spline;
-use crate::stencil::{BUNCH, Collected, HALF, Members, Sloped, Stencil, Tensor, Wanted};
+use crate::stencil::{BUNCH, Carried, Collected, HALF, Members, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -105,29 +105,6 @@ impl<T: Real, const D: usize> Default for Corners<T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Corners<T, D> {
-    /// 2^-D (q + sum_a l_a Q_a) for each particle, with these l of a corner.
-    #[inline(always)]
-    fn of_corner<M: Machine<T>>(
-        machine: M,
-        along: &[[T; BUNCH]; D],
-        share: M::Eight,
-        carried: &Sloped<M::Eight, D>,
-    ) -> [M::Eight; HALF] {
-        let mut of_corner = carried.value;
-        for k in 0..HALF {
-            of_corner[k] = machine.times(share, of_corner[k]);
-        }
-        for a in 0..D {
-            let along = machine.spread(machine.eight(&along[a]));
-            for k in 0..HALF {
-                of_corner[k] = machine.times_plus(along[k], carried.slopes[k][a], of_corner[k]);
-            }
-        }
-        of_corner
-    }
-}
-
 impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let share = T::ratio(1, 1 << D);
@@ -142,61 +119,44 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
         hats.filter_map(|hats| hats.beyond(members, nodes)).min()
     }
 
-    #[inline(always)]
-    fn spread_value<M: Machine<T>>(
-        &self,
-        machine: M,
-        value: [M::Eight; HALF],
-        members: Members,
-        mut nodes: Window<'_, T>,
-    ) {
-        let share = machine.splat(T::ratio(1, 1 << D));
-        let mut of_corner = value;
-        for k in 0..HALF {
-            of_corner[k] = machine.times(share, value[k]);
-        }
-        for hats in self.hats.iter().take(1 << D) {
-            hats.spread_value(machine, of_corner, members, nodes.reborrow());
-        }
-    }
-
+    /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
+    /// has its own from the particle.
     #[inline(always)]
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Eight, D>,
-        members: Members,
-        mut nodes: Window<'_, T>,
-    ) {
-        let share = machine.splat(T::ratio(1, 1 << D));
-        for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            let of_corner = Self::of_corner(machine, direction, share, carried);
-            hats.spread_value(machine, of_corner, members, nodes.reborrow());
-        }
-    }
-
-    /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
-    /// has its own from the particle.
-    #[inline(always)]
-    fn spread_moments<M: Machine<T>>(
-        &self,
-        machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Eight, D>,
+        carried: &Carried<M::Eight, D>,
         members: Members,
         mut nodes: Window<'_, T>,
     ) {
+        let zero = machine.splat(T::zero());
         let share = machine.splat(T::ratio(1, 1 << D));
-        let mut of_node = *carried;
-        for k in 0..HALF {
+        // What a closure computes is not compiled for the machine.
+        let moments = match carried.moments {
+            Some(moments) => Some(scaled(machine, moments, share)),
+            None => None,
+        };
+        for c in 0..1 << D {
+            let mut rows = [zero; HALF];
             for a in 0..D {
-                of_node.slopes[k][a] = machine.times(share, carried.slopes[k][a]);
+                let direction = machine.eight(&self.direction[c][a]);
+                let apart = machine.eight(&self.apart[c][a]);
+                for i in 0..D {
+                    if let Some(slopes) = &carried.slopes {
+                        rows[i] = machine.times_plus(direction, slopes[a][i], rows[i]);
+                    }
+                    if let Some(moments) = &moments {
+                        rows[i] = machine.times_plus(apart, moments[a][i], rows[i]);
+                    }
+                }
             }
-        }
-        for (hats, apart) in self.hats.iter().zip(&self.apart).take(1 << D) {
-            let at_particle = Sloped { value: carried.value, slopes: of_node.slopes };
-            of_node.value = Self::of_corner(machine, apart, share, &at_particle);
-            hats.spread_moments(machine, lattice, &of_node, members, nodes.reborrow());
+            let mut value = machine.transposed(rows);
+            for k in 0..HALF {
+                value[k] = machine.times_plus(share, carried.value[k], value[k]);
+            }
+            let carried = Carried { value, slopes: None, moments };
+            self.hats[c].spread(machine, lattice, &carried, members, nodes.reborrow());
         }
     }
 

@@ -12,11 +12,11 @@ use super::slabs::Slab;
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::formulation::Configuration;
-use crate::lanes::columns;
+use crate::lanes::{columns, scaled};
 use crate::nodal::{LAST, Window, halves};
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::{ALL, BUNCH, HALF, Members, Sloped, Stencil};
+use crate::stencil::{ALL, BUNCH, Carried, HALF, Members, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 
@@ -29,15 +29,24 @@ const FORCED: usize = 2048;
 
 /// What is added to the nodes.
 #[derive(Clone, Copy)]
-pub(super) enum Carried {
+pub(super) enum Added<T> {
     /// m, and m v with the linear velocity on each particle.
     Momentum,
     /// m, and m r with the residual velocity r.
     Residual,
     /// - V0 S grad w + w m b.
     Force,
-    /// Momentum and force.
-    Everything,
+    /// Momentum and force, each to nodes of its own.
+    Both,
+    /// Momentum, and force times this time, in one sum.
+    Kicked(T),
+}
+
+impl<T> Added<T> {
+    /// Whether forces are.
+    fn has_force(&self) -> bool {
+        matches!(self, Added::Force | Added::Both | Added::Kicked(_))
+    }
 }
 
 /// Why sums are not complete.
@@ -59,7 +68,7 @@ pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape> {
     pub scene: Scene<'a, T, D, S>,
     pub particles: &'a Particles<T, D>,
     pub field: &'a F,
-    pub carried: Carried,
+    pub added: Added<T>,
     pub formulation: Configuration<T, D>,
     /// When the body force is evaluated.
     pub time: T,
@@ -77,23 +86,23 @@ where
         let mut stress = [Matrices::zeros(); PART / BUNCH];
         let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
         let mut room = S::Stencil::default();
-        let is_force = matches!(self.carried, Carried::Force | Carried::Everything);
+        let has_force = self.added.has_force();
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
         let Range { start, end } = slab.particles;
         for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
             let body_force = &mut body_force[..forced.len()];
-            if is_force {
+            if has_force {
                 timed(&mut seconds.forcing, || self.find_body_force(forced.clone(), body_force));
             }
             for part in parts(forced.clone(), PART / BUNCH) {
                 let stress = &mut stress[..part.len()];
-                if is_force {
+                if has_force {
                     timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
                 }
                 let sums = Sums {
                     scene: self.scene,
                     particles: self.particles,
-                    carried: self.carried,
+                    added: self.added,
                     body_force: &body_force[part.start - forced.start..][..part.len()],
                     bunches: part,
                     stress,
@@ -139,7 +148,7 @@ fn parts(range: Range<usize>, count: usize) -> impl Iterator<Item = Range<usize>
 struct Sums<'a, T: Real, const D: usize, S: Shape> {
     scene: Scene<'a, T, D, S>,
     particles: &'a Particles<T, D>,
-    carried: Carried,
+    added: Added<T>,
     bunches: Range<usize>,
     /// From the first one of these on.
     stress: &'a [Matrices<T, D>],
@@ -155,7 +164,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Self { scene, particles, carried, bunches: range, mut nodes, slab, room, .. } = self;
+        let Self { scene, particles, added, bunches: range, mut nodes, slab, room, .. } = self;
         let (stress, body_force) = (self.stress, self.body_force);
         let Slab { particles: own, window } = slab;
         let bunches = Arrays::new(particles, range.clone(), stress, body_force);
@@ -186,7 +195,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
             let [momentum, force] = &mut nodes;
             let nodes = [momentum.reborrow(), force.reborrow()];
             let bunch = Carrier { bunches: &bunches, k, members, stencil };
-            bunch.add(machine, carried, scene.lattice, nodes, &mut rest);
+            bunch.add(machine, added, scene.lattice, nodes, &mut rest);
         }
         if machine.all_at_most(rest, rest) {
             return Ok(());
@@ -244,35 +253,47 @@ struct Carrier<'a, T: Real, const D: usize, St> {
 }
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
-    /// Adds what is `carried` to momentum and force of the nodes; and to `rest` zero times the stress.
+    /// Adds to momentum and force of the nodes; and to `rest` zero times the stress.
     #[inline(always)]
     fn add<M: Machine<T>>(
         self,
         machine: M,
-        carried: Carried,
+        added: Added<T>,
         lattice: &Lattice<T, D>,
-        [momentum, force]: [Window<'_, T>; 2],
+        [mut momentum, force]: [Window<'_, T>; 2],
         rest: &mut M::Eight,
     ) {
         let Self { bunches, k, members, stencil } = self;
-        match (carried, &bunches.affine, &bunches.residual) {
-            (Carried::Force, ..) => {}
-            (Carried::Residual, _, Some(residual)) => {
-                let value = self.momentum(machine, &residual[k]);
-                stencil.spread_value(machine, value, members, momentum);
+        let Arrays { velocity, affine, residual, .. } = bunches;
+        // There is one sum of values alone, and one of all else, so that each is compiled once.
+        let alone = match (added, residual, affine) {
+            (Added::Residual, Some(residual), _) => Some(&residual[k]),
+            (Added::Momentum | Added::Both, _, None) => Some(&velocity[k]),
+            _ => None,
+        };
+        if let Some(velocity) = alone {
+            let carried = Carried::value(self.momentum(machine, velocity));
+            stencil.spread(machine, lattice, &carried, members, momentum.reborrow());
+        }
+        let (share, with_momentum) = match added {
+            Added::Force | Added::Both => (T::one(), false),
+            Added::Kicked(time_step) => (time_step, true),
+            Added::Momentum if affine.is_some() => (T::zero(), true),
+            Added::Momentum | Added::Residual => return,
+        };
+        let mut carried = self.push(machine, machine.splat(share), rest);
+        if with_momentum {
+            let momentum = self.momentum(machine, &velocity[k]);
+            for p in 0..HALF {
+                carried.value[p] = machine.plus(carried.value[p], momentum[p]);
             }
-            (_, Some(affine), _) => {
-                let linear = self.linear(machine, &affine[k]);
-                stencil.spread_moments(machine, lattice, &linear, members, momentum);
-            }
-            _ => {
-                let value = self.momentum(machine, &bunches.velocity[k]);
-                stencil.spread_value(machine, value, members, momentum);
+            if let Some(affine) = affine {
+                let mass = machine.eight(&bunches.mass[k]);
+                carried.moments = Some(scaled(machine, columns(machine, &affine[k]), mass));
             }
         }
-        if let Carried::Force | Carried::Everything = carried {
-            stencil.spread(machine, &self.push(machine, rest), members, force);
-        }
+        let nodes = if with_momentum { momentum } else { force };
+        stencil.spread(machine, lattice, &carried, members, nodes);
     }
 
     /// m v, and m.
@@ -290,67 +311,30 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         machine.transposed(rows)
     }
 
-    /// The momentum of a linear velocity.
+    /// This `share` of m b, and of - V0 S; to `rest` is added zero times that: zero, if it is finite.
     #[inline(always)]
-    fn linear<M: Machine<T>>(&self, machine: M, affine: &Matrices<T, D>) -> Sloped<M::Eight, D> {
-        let value = self.momentum(machine, &self.bunches.velocity[self.k]);
-        let mass = machine.eight(&self.bunches.mass[self.k]);
-        let affine = scaled(machine, columns(machine, affine), mass);
-        Sloped { value, slopes: slopes(machine, &affine) }
-    }
-
-    /// m b, and - V0 S; to `rest` is added zero times that: zero, if it is finite.
-    #[inline(always)]
-    fn push<M: Machine<T>>(&self, machine: M, rest: &mut M::Eight) -> Sloped<M::Eight, D> {
+    fn push<M: Machine<T>>(
+        &self,
+        machine: M,
+        share: M::Eight,
+        rest: &mut M::Eight,
+    ) -> Carried<M::Eight, D> {
         let Arrays { body_force, mass, reference_volume, stress, .. } = self.bunches;
         let body_force = &body_force[self.k];
         let zero = machine.splat(T::zero());
-        let volume = machine.minus(zero, machine.eight(&reference_volume[self.k]));
+        let volume = machine.times(share, machine.eight(&reference_volume[self.k]));
+        let volume = machine.minus(zero, volume);
         let push = scaled(machine, columns(machine, &stress[self.k]), volume);
         for column in push {
             for entry in column {
                 *rest = machine.times_plus(entry, zero, *rest);
             }
         }
-        let mut value = machine.spread(machine.eight(&mass[self.k]));
+        let mut value = machine.spread(machine.times(share, machine.eight(&mass[self.k])));
         for k in 0..HALF {
             let body_force = halves(machine, [&body_force[k], &body_force[k + HALF]], T::zero());
             value[k] = machine.times(body_force, value[k]);
         }
-        Sloped { value, slopes: slopes(machine, &misread::stress(push)) }
+        Carried { value, slopes: Some(misread::stress(push)), moments: None }
     }
-}
-
-/// Matrices, times a number each.
-#[inline(always)]
-fn scaled<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    mut columns: [[M::Eight; D]; D],
-    factor: M::Eight,
-) -> [[M::Eight; D]; D] {
-    for j in 0..D {
-        for i in 0..D {
-            columns[j][i] = machine.times(columns[j][i], factor);
-        }
-    }
-    columns
-}
-
-/// From the columns of the matrices of a bunch, those of each particle in one register.
-#[inline(always)]
-fn slopes<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    columns: &[[M::Eight; D]; D],
-) -> [[M::Eight; D]; HALF] {
-    let zero = machine.splat(T::zero());
-    let mut slopes = [[zero; D]; HALF];
-    for a in 0..D {
-        let mut rows = [zero; HALF];
-        rows[..D].copy_from_slice(&columns[a]);
-        let turned = machine.transposed(rows);
-        for k in 0..HALF {
-            slopes[k][a] = turned[k];
-        }
-    }
-    slopes
 }

@@ -8,7 +8,7 @@ use mms_math::machine::Plain;
 use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
-use super::map::{Carried, Map, Stop};
+use super::map::{Added, Map, Stop};
 use super::scene::Scene;
 use super::threads::each_part;
 use crate::boundary::traction::Place;
@@ -19,6 +19,7 @@ use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
+use crate::transfer::Taken;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
 impl<T: Real, const D: usize, F, S> Operations<T> for Solver<'_, T, D, F, S>
@@ -39,16 +40,20 @@ where
     }
 
     fn map(&mut self, sums: &[Sum<T>]) -> Result<(), Failure> {
-        let with_mass = sums.contains(&Sum::Mass);
-        let velocity = sums.iter().find_map(|sum| match sum {
-            Sum::Velocity(time) => Some(*time),
-            _ => None,
-        });
-        let acceleration = sums.iter().find_map(|sum| match sum {
-            Sum::Acceleration(time) => Some(*time),
-            _ => None,
-        });
-        if with_mass {
+        let (mut mass, mut velocity, mut acceleration, mut kick) = (false, None, None, None);
+        for sum in sums {
+            match *sum {
+                Sum::Mass => mass = true,
+                Sum::Velocity(time) => velocity = Some(time),
+                Sum::Acceleration(time) => acceleration = Some(time),
+                Sum::Kick(time_step, time) => {
+                    let time = if on(Defect::LateWall) { time - time_step } else { time };
+                    let stale = on(Defect::StaleNodalVelocity);
+                    kick = Some((if stale { T::zero() } else { time_step }, time));
+                }
+            }
+        }
+        if mass {
             self.weigh()?;
         }
         if let Some(time) = acceleration {
@@ -57,40 +62,36 @@ where
             let ahead = T::ratio(1, 2) * step;
             self.time_of_force = if on(Defect::ForceAhead) { time + ahead } else { time };
         }
-        let carried = match (with_mass || velocity.is_some(), acceleration.is_some()) {
-            (true, true) => Carried::Everything,
-            (false, true) => Carried::Force,
-            (true, false) => Carried::Momentum,
-            (false, false) => return Ok(()),
-        };
-        self.add_to_nodes(carried)?;
-        if with_mass || velocity.is_some() {
-            let Self { grid, boundary, seconds, .. } = self;
-            timed(&mut seconds.grid, || {
-                boundary.reach(&grid.momentum);
-                boundary.fold(&mut grid.momentum);
-            });
+        let taken = self.transfer.takes();
+        if let (Some(_), Some(force), Some(kick)) = (velocity, acceleration, kick)
+            && taken != Taken::VelocityBefore
+        {
+            return self.map_kicked(mass, force, kick);
         }
-        if with_mass {
-            let time = self.time();
-            let Self { grid, boundary, field, seconds, .. } = self;
-            timed(&mut seconds.grid, || boundary.locate(*field, time, grid))?;
+        let has_momentum = mass || velocity.is_some();
+        match (has_momentum, acceleration.is_some()) {
+            (true, true) if taken == Taken::Nothing => {
+                self.add_to_nodes(Added::Momentum)?;
+                self.add_to_nodes(Added::Force)?;
+            }
+            (true, true) => self.add_to_nodes(Added::Both)?,
+            (true, false) => self.add_to_nodes(Added::Momentum)?,
+            (false, true) => self.add_to_nodes(Added::Force)?,
+            (false, false) => {}
+        }
+        if has_momentum {
+            self.complete_momentum(mass)?;
         }
         if let Some(time) = velocity {
             self.find_velocity(time)?;
         }
-        acceleration.map_or(Ok(()), |time| self.find_acceleration(time))
-    }
-
-    fn kick(&mut self, time_step: T, time: T) {
-        let time = if on(Defect::LateWall) { time - time_step } else { time };
-        let Self { grid, field, boundary, seconds, .. } = self;
-        timed(&mut seconds.grid, || {
-            if !on(Defect::StaleNodalVelocity) {
-                grid.kick(time_step);
-            }
-            boundary.velocity(*field, time, &mut grid.velocity);
-        });
+        if let Some(time) = acceleration {
+            self.find_acceleration(time)?;
+        }
+        if let Some((time_step, time)) = kick {
+            self.kick(time_step, time);
+        }
+        Ok(())
     }
 
     fn advance(&mut self, updates: &[Update<T>]) -> Result<(), Failure> {
@@ -168,10 +169,10 @@ where
     }
 
     /// The sums onto nodes, which hold nothing else afterwards. Particles are sorted if one has left its slab.
-    fn add_to_nodes(&mut self, carried: Carried) -> Result<(), Failure> {
+    fn add_to_nodes(&mut self, added: Added<T>) -> Result<(), Failure> {
         let mut sorted = false;
         loop {
-            match self.try_to_add(carried) {
+            match self.try_to_add(added) {
                 Ok(()) => return Ok(()),
                 Err(Stop::Failed(p, cause)) => return Err(self.failure(p, cause)),
                 Err(Stop::Strayed(p)) if sorted => {
@@ -197,15 +198,15 @@ where
         weights.clear();
     }
 
-    fn try_to_add(&mut self, carried: Carried) -> Result<(), Stop> {
+    fn try_to_add(&mut self, added: Added<T>) -> Result<(), Stop> {
         let Self { grid, particles, domains, weights, slabs, transfer, .. } = self;
         let (field, formulation, time) = (self.field, self.formulation, self.time_of_force);
         let Grid { lattice, momentum, force, .. } = grid;
-        let nodes: [&mut [Nodal<T>]; 2] = match carried {
-            Carried::Momentum => [momentum, &mut []],
-            Carried::Residual => [&mut self.residual[0], &mut []],
-            Carried::Force => [&mut [], force],
-            Carried::Everything => [momentum, force],
+        let nodes: [&mut [Nodal<T>]; 2] = match added {
+            Added::Momentum | Added::Kicked(_) => [momentum, &mut []],
+            Added::Residual => [&mut self.residual[0], &mut []],
+            Added::Force => [&mut [], force],
+            Added::Both => [momentum, force],
         };
         let seconds = &mut self.seconds;
         let [first, second] = nodes;
@@ -222,13 +223,51 @@ where
             domains: domains.bunches(),
             weights,
         };
-        let map = Map { scene, particles, field, carried, formulation, time };
+        let map = Map { scene, particles, field, added, formulation, time };
         let start = Instant::now();
         let taken =
             slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;
         let elapsed = start.elapsed().as_secs_f64();
         self.seconds = self.seconds.sum(taken.within(elapsed));
         Ok(())
+    }
+
+    /// v_i after a kick, where nobody asks for it before: with a_i if somebody does; else momentum and force are one
+    /// sum.
+    fn map_kicked(
+        &mut self,
+        mass: bool,
+        force: T,
+        (time_step, time): (T, T),
+    ) -> Result<(), Failure> {
+        if self.transfer.takes() == Taken::Nothing {
+            self.add_to_nodes(Added::Kicked(time_step))?;
+            self.add_tractions(force, Some(time_step))?;
+            self.complete_momentum(mass)?;
+            return self.find_velocity(time);
+        }
+        self.add_to_nodes(Added::Both)?;
+        self.complete_momentum(mass)?;
+        self.add_tractions(force, None)?;
+        let Self { grid, field, boundary, seconds, .. } = self;
+        timed(&mut seconds.grid, || {
+            boundary.fold(&mut grid.force);
+            grid.kicked_from_momentum_and_force(time_step);
+            boundary.acceleration(*field, force, &mut grid.acceleration);
+            boundary.velocity(*field, time, &mut grid.velocity);
+        });
+        Ok(())
+    }
+
+    /// (mv)_i with that of images, and if there are new masses, what the boundary has to know of them.
+    fn complete_momentum(&mut self, mass: bool) -> Result<(), Failure> {
+        let time = self.time();
+        let Self { grid, boundary, field, seconds, .. } = self;
+        timed(&mut seconds.grid, || {
+            boundary.reach(&grid.momentum);
+            boundary.fold(&mut grid.momentum);
+            if mass { boundary.locate(*field, time, grid) } else { Ok(()) }
+        })
     }
 
     /// v_i, and what XPIC has to know of it.
@@ -277,7 +316,7 @@ where
 
     /// S+ r.
     fn map_residual(&mut self) -> Result<(), Failure> {
-        self.add_to_nodes(Carried::Residual)?;
+        self.add_to_nodes(Added::Residual)?;
         let Self { grid, boundary, residual: [sum, image], seconds, .. } = self;
         timed(&mut seconds.grid, || {
             boundary.fold(sum);
@@ -289,6 +328,18 @@ where
 
     /// a_i, with the tractions at `time`.
     fn find_acceleration(&mut self, time: T) -> Result<(), Failure> {
+        self.add_tractions(time, None)?;
+        let Self { grid, field, boundary, seconds, .. } = self;
+        timed(&mut seconds.grid, || {
+            boundary.fold(&mut grid.force);
+            grid.acceleration_from_force();
+            boundary.acceleration(*field, time, &mut grid.acceleration);
+        });
+        Ok(())
+    }
+
+    /// Adds the tractions at `time` to the forces, or times a kick to momentum.
+    fn add_tractions(&mut self, time: T, kick: Option<T>) -> Result<(), Failure> {
         let Self { grid, particles, slabs, field, boundary, seconds, .. } = self;
         let place = |id: usize, reference: &Vector<T, D>| {
             if !self.formulation.moves {
@@ -301,14 +352,21 @@ where
             let position = particles.position(p) + deformation_gradient(&h) * apart;
             Place { position, carrier: Some(h) }
         };
+        let (share, nodes) = match kick {
+            Some(time_step) => (time_step, &mut grid.momentum),
+            None => (T::one(), &mut grid.force),
+        };
         timed(&mut seconds.forcing, || {
-            boundary.traction::<F, S>(field, time, &grid.lattice, place, &mut grid.force)
-        })?;
+            boundary.traction::<F, S>(field, time, &grid.lattice, place, share, nodes)
+        })
+    }
+
+    /// v_i += dt a_i, with the boundary's velocity at `time`.
+    fn kick(&mut self, time_step: T, time: T) {
+        let Self { grid, field, boundary, seconds, .. } = self;
         timed(&mut seconds.grid, || {
-            boundary.fold(&mut grid.force);
-            grid.acceleration_from_force();
-            boundary.acceleration(*field, time, &mut grid.acceleration);
+            grid.kick(time_step);
+            boundary.velocity(*field, time, &mut grid.velocity);
         });
-        Ok(())
     }
 }

@@ -1,16 +1,20 @@
 //! The sums of a bunch onto its nodes.
 //!
-//! Along an axis with three nodes one cell apart, weights sum to 1 and slopes to 0, and the middle node has the largest
+//! A node takes w0 w1 w2 q, and of what goes along the axes A0 w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a
+//! node is all that stands in place of the weight along axis a: Q_a times the slope of the weight, M_a times its moment.
+//! So there is one sum, whatever asides are made of.
+//!
+//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the largest
 //! weight. So the sum over all three takes no product, and what the outer two leave of it is for the middle one.
 
 use mms_math::machine::Machine;
 
 use super::tensor::{Along, Tensor};
-use super::{ALL, BUNCH, HALF, Members, Sloped};
+use super::{ALL, Carried, HALF, Members};
 use crate::Real;
 use crate::nodal::Window;
 
-/// What is added to the nodes, with slopes or without.
+/// What is added to the nodes, with asides or without.
 pub(super) struct Spread<
     'a,
     M: Machine<T>,
@@ -18,13 +22,13 @@ pub(super) struct Spread<
     const D: usize,
     const LEAST: usize,
     const N: usize,
-    const SLOPES: bool,
+    const ASIDES: bool,
 > {
     pub machine: M,
     pub stencil: &'a Tensor<T, D, LEAST, N>,
-    /// What the slopes are multiplied by, in place of weights, along their axis.
-    pub aside: &'a Along<T, D, N>,
-    pub carried: &'a Sloped<M::Eight, D>,
+    pub carried: &'a Carried<M::Eight, D>,
+    /// Moments of the weights, where such are carried.
+    pub moment: Option<&'a Along<T, D, N>>,
     pub members: Members,
 }
 
@@ -37,8 +41,11 @@ enum Goal {
     Apart([Option<usize>; 2]),
 }
 
-impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize, const SLOPES: bool>
-    Spread<'_, M, T, D, LEAST, N, SLOPES>
+/// For every axis, and `W` nodes along it, the asides of each particle of both halves.
+type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
+
+impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize, const ASIDES: bool>
+    Spread<'_, M, T, D, LEAST, N, ASIDES>
 {
     /// Adds to `W` nodes along every axis: for the particles of each half together where they share their nodes, else
     /// for one of each half after the other.
@@ -50,20 +57,61 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
             let goal =
                 if one == two { Goal::Together(one) } else { Goal::Apart([Some(one), Some(two)]) };
             if W == 3 {
-                self.of::<W, HALF, true>(0, goal, nodes);
+                let asides = self.asides::<W, true>();
+                self.of::<W, HALF, true>(0, goal, &asides, nodes);
             } else {
-                self.of::<W, HALF, false>(0, goal, nodes);
+                let asides = self.asides::<W, false>();
+                self.of::<W, HALF, false>(0, goal, &asides, nodes);
             }
             return;
         }
+        let asides = self.asides::<W, false>();
         let [from, to] = self.members;
         for k in 0..HALF {
             let meant = |p: usize| (from <= p && p < to).then_some(first[p] as usize);
             let pair = [meant(k), meant(k + HALF)];
             if pair != [None; 2] {
-                self.of::<W, 1, false>(k, Goal::Apart(pair), nodes.reborrow());
+                self.of::<W, 1, false>(k, Goal::Apart(pair), &asides, nodes.reborrow());
             }
         }
+    }
+
+    /// The asides of all nodes; those that take the `REST` have none.
+    #[inline(always)]
+    fn asides<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
+        let nothing = self.machine.splat(T::zero());
+        let mut asides = [[[nothing; HALF]; W]; D];
+        if ASIDES {
+            for a in 0..D {
+                for k in 0..W {
+                    if !(REST && k == 1 && a < 2) {
+                        asides[a][k] = self.aside(a, k);
+                    }
+                }
+            }
+        }
+        asides
+    }
+
+    /// The aside of node `k` along an axis, of each particle.
+    #[inline(always)]
+    fn aside(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
+        let Self { machine, stencil, moment, .. } = *self;
+        let Carried { slopes, moments, .. } = self.carried;
+        let mut rows = [machine.splat(T::zero()); HALF];
+        if let Some(slopes) = slopes {
+            let slope = machine.eight(&stencil.slope[axis][k]);
+            for c in 0..D {
+                rows[c] = machine.times(slope, slopes[axis][c]);
+            }
+        }
+        if let (Some(moments), Some(moment)) = (moments, moment) {
+            let moment = machine.eight(&moment[axis][k]);
+            for c in 0..D {
+                rows[c] = machine.times_plus(moment, moments[axis][c], rows[c]);
+            }
+        }
+        machine.transposed(rows)
     }
 
     /// Adds for `P` particles of each half from `from` on; whether the middle ones of three nodes take the `REST`.
@@ -72,24 +120,25 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         &self,
         from: usize,
         goal: Goal,
+        asides: &Asides<M::Eight, D, W>,
         mut nodes: Window<'_, T>,
     ) {
         let Self { machine, stencil: Tensor { stride, .. }, .. } = *self;
-        let mut along = [Factors::none(machine); W];
+        let mut along = [[machine.splat(T::zero()); P]; W];
         for k0 in 0..W {
-            along[k0] = self.factors::<P>(from, 0, k0);
+            along[k0] = self.weights(from, 0, k0);
         }
         for k2 in 0..if D > 2 { W } else { 1 } {
-            let plane = self.plane::<P>(from, k2);
+            let plane = self.plane::<W, P>(from, k2, asides);
             let apart = if D > 2 { k2 * stride[2 % D] } else { 0 };
             if D == 1 {
-                let sums = self.sums::<W, P, REST>(&along, &plane);
+                let sums = self.sums::<W, P, REST>(&along, &plane, None);
                 self.put(&mut nodes, goal, apart, &sums);
             } else if REST {
-                let mut rest = self.sums::<W, P, REST>(&along, &plane);
-                let before = self.sums::<W, P, REST>(&along, &self.row(from, 0, &plane));
+                let mut rest = self.sums::<W, P, REST>(&along, &plane, None);
+                let before = self.sums::<W, P, REST>(&along, &plane, Some((from, 0)));
                 self.put(&mut nodes, goal, apart, &before);
-                let after = self.sums::<W, P, REST>(&along, &self.row(from, 2, &plane));
+                let after = self.sums::<W, P, REST>(&along, &plane, Some((from, 2)));
                 self.put(&mut nodes, goal, apart + 2 * stride[1 % D], &after);
                 for k0 in 0..W {
                     rest[k0] = machine.minus(machine.minus(rest[k0], before[k0]), after[k0]);
@@ -97,93 +146,92 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                 self.put(&mut nodes, goal, apart + stride[1 % D], &rest);
             } else {
                 for k1 in 0..W {
-                    let sums = self.sums::<W, P, REST>(&along, &self.row(from, k1, &plane));
+                    let sums = self.sums::<W, P, REST>(&along, &plane, Some((from, k1)));
                     self.put(&mut nodes, goal, apart + k1 * stride[1 % D], &sums);
                 }
             }
         }
     }
 
-    /// The weights of node `k` along an axis, and what is in place of them where the slopes are.
+    /// The weights of node `k` along an axis, of `P` particles of each half from `from` on, each in all places of its
+    /// half.
     #[inline(always)]
-    fn factors<const P: usize>(&self, from: usize, axis: usize, k: usize) -> Factors<M::Eight, P> {
-        let Self { machine, stencil: Tensor { weight, .. }, aside, .. } = *self;
-        let mut factors = Factors::none(machine);
-        spread(machine, &weight[axis][k], from, &mut factors.weight);
-        if SLOPES {
-            spread(machine, &aside[axis][k], from, &mut factors.aside);
+    fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
+        let Self { machine, stencil: Tensor { weight, .. }, .. } = *self;
+        let weight = &weight[axis % D][k];
+        let mut weights = [machine.splat(T::zero()); P];
+        if P == HALF {
+            weights.copy_from_slice(&machine.spread(machine.eight(weight)));
+        } else {
+            for p in 0..P {
+                weights[p] = machine.splat_halves(weight[from + p], weight[from + p + HALF]);
+            }
         }
-        factors
+        weights
     }
 
     /// What a plane takes.
     #[inline(always)]
-    fn plane<const P: usize>(&self, from: usize, k2: usize) -> Taken<M::Eight, P> {
+    fn plane<const W: usize, const P: usize>(
+        &self,
+        from: usize,
+        k2: usize,
+        asides: &Asides<M::Eight, D, W>,
+    ) -> Plane<M::Eight, W, P> {
         let Self { machine, carried, .. } = *self;
         let zero = machine.splat(T::zero());
-        let mut plane = Taken { value: [zero; P], slopes: [[zero; 2]; P] };
-        let factors =
-            if D > 2 { self.factors::<P>(from, 2 % D, k2) } else { Factors::none(machine) };
+        let mut plane = Plane { value: [zero; P], asides: [[[zero; P]; W]; 2] };
+        let weights = if D > 2 { self.weights::<P>(from, 2, k2) } else { [zero; P] };
         for p in 0..P {
-            plane.value[p] = carried.value[from + p];
-            let slopes = &carried.slopes[from + p];
-            if SLOPES {
-                plane.slopes[p] = [slopes[0], slopes[1 % D]];
-            }
-            if D > 2 {
-                let (w2, s2) = (factors.weight[p], factors.aside[p]);
-                plane.value[p] = machine.times(w2, plane.value[p]);
-                if SLOPES {
-                    plane.value[p] = machine.times_plus(s2, slopes[2 % D], plane.value[p]);
-                    plane.slopes[p] =
-                        [machine.times(w2, slopes[0]), machine.times(w2, slopes[1 % D])];
+            let (value, weight) = (carried.value[from + p], weights[p]);
+            plane.value[p] = match (D > 2, ASIDES) {
+                (false, _) => value,
+                (true, false) => machine.times(weight, value),
+                (true, true) => machine.times_plus(weight, value, asides[2 % D][k2][from + p]),
+            };
+            for a in 0..2 {
+                for k in 0..W {
+                    let aside = asides[a % D][k][from + p];
+                    plane.asides[a][k][p] =
+                        if D > 2 { machine.times(weight, aside) } else { aside };
                 }
             }
         }
         plane
     }
 
-    /// What a row of a plane takes.
-    #[inline(always)]
-    fn row<const P: usize>(
-        &self,
-        from: usize,
-        k1: usize,
-        plane: &Taken<M::Eight, P>,
-    ) -> Taken<M::Eight, P> {
-        let machine = self.machine;
-        let factors = self.factors::<P>(from, 1 % D, k1);
-        let mut row = *plane;
-        for p in 0..P {
-            let (w1, s1) = (factors.weight[p], factors.aside[p]);
-            row.value[p] = machine.times(w1, plane.value[p]);
-            if SLOPES {
-                row.value[p] = machine.times_plus(s1, plane.slopes[p][1], row.value[p]);
-                row.slopes[p][0] = machine.times(w1, plane.slopes[p][0]);
-            }
-        }
-        row
-    }
-
-    /// The sums that the nodes of a row take.
+    /// The sums that the nodes of a row of a plane take, or those of all rows together.
     #[inline(always)]
     fn sums<const W: usize, const P: usize, const REST: bool>(
         &self,
-        along: &[Factors<M::Eight, P>; W],
-        row: &Taken<M::Eight, P>,
+        along: &[[M::Eight; P]; W],
+        plane: &Plane<M::Eight, W, P>,
+        row: Option<(usize, usize)>,
     ) -> [M::Eight; W] {
         let machine = self.machine;
+        let weights = row.map(|(from, k1)| self.weights::<P>(from, 1, k1));
         // A product is added to -0 without an addition.
         let mut sums = [machine.splat(-T::zero()); W];
         for p in 0..P {
-            let taken = [row.value[p], row.slopes[p][0]];
-            if REST {
-                sums[0] = self.node(&along[0], p, taken, sums[0]);
-                sums[2] = self.node(&along[2], p, taken, sums[2]);
-                sums[1] = machine.plus(sums[1], taken[0]);
-            } else {
-                for k0 in 0..W {
-                    sums[k0] = self.node(&along[k0], p, taken, sums[k0]);
+            let value = match (row, &weights) {
+                (Some((_, k1)), Some(weights)) if ASIDES => {
+                    machine.times_plus(weights[p], plane.value[p], plane.asides[1][k1][p])
+                }
+                (Some(_), Some(weights)) => machine.times(weights[p], plane.value[p]),
+                _ => plane.value[p],
+            };
+            for k0 in 0..W {
+                if REST && k0 == 1 {
+                    sums[1] = machine.plus(sums[1], value);
+                } else {
+                    sums[k0] = machine.times_plus(along[k0][p], value, sums[k0]);
+                    if ASIDES {
+                        let aside = plane.asides[0][k0][p];
+                        sums[k0] = match &weights {
+                            Some(weights) => machine.times_plus(weights[p], aside, sums[k0]),
+                            None => machine.plus(sums[k0], aside),
+                        };
+                    }
                 }
             }
         }
@@ -191,19 +239,6 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
             sums[1] = machine.minus(sums[1], machine.plus(sums[0], sums[2]));
         }
         sums
-    }
-
-    /// The sum, and what one node of a row takes of a particle of each half.
-    #[inline(always)]
-    fn node<const P: usize>(
-        &self,
-        factors: &Factors<M::Eight, P>,
-        p: usize,
-        [value, slope]: [M::Eight; 2],
-        sum: M::Eight,
-    ) -> M::Eight {
-        let sum = self.machine.times_plus(factors.weight[p], value, sum);
-        if SLOPES { self.machine.times_plus(factors.aside[p], slope, sum) } else { sum }
     }
 
     /// Adds to the nodes of a row, so far from the first one.
@@ -241,43 +276,10 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     }
 }
 
-/// The factors of a node along an axis, for `P` particles of each half.
+/// What a plane of nodes takes of `P` particles of each half, but for the weights along the first two axes.
 #[derive(Clone, Copy)]
-struct Factors<F, const P: usize> {
-    weight: [F; P],
-    aside: [F; P],
-}
-
-impl<F: Copy, const P: usize> Factors<F, P> {
-    #[inline(always)]
-    fn none<T: Real, M: Machine<T, Eight = F>>(machine: M) -> Self {
-        let nothing = [machine.splat(T::zero()); P];
-        Self { weight: nothing, aside: nothing }
-    }
-}
-
-/// The numbers of `P` particles of each half from `from` on, each in all places of its half.
-#[inline(always)]
-fn spread<T: Real, M: Machine<T>, const P: usize>(
-    machine: M,
-    numbers: &[T; BUNCH],
-    from: usize,
-    to: &mut [M::Eight; P],
-) {
-    if P == HALF {
-        to.copy_from_slice(&machine.spread(machine.eight(numbers)));
-        return;
-    }
-    for p in 0..P {
-        to[p] = machine.splat_halves(numbers[from + p], numbers[from + p + HALF]);
-    }
-}
-
-/// What nodes take of `P` particles of each half, but for the weights along the axes that are left.
-#[derive(Clone, Copy)]
-struct Taken<F, const P: usize> {
-    /// Without the slopes along the first two axes.
+struct Plane<F, const W: usize, const P: usize> {
     value: [F; P],
-    /// These.
-    slopes: [[F; 2]; P],
+    /// Those along the first two axes.
+    asides: [[[F; P]; W]; 2],
 }

@@ -9,7 +9,7 @@ use mms_math::machine::Machine;
 
 use super::collect::{Summed, Sums};
 use super::spread::Spread;
-use super::{BUNCH, Collected, HALF, Members, Sloped, Stencil, Wanted};
+use super::{BUNCH, Carried, Collected, HALF, Members, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
@@ -91,9 +91,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-        moment: &mut Along<T, D, N>,
-    ) -> [M::Eight; D] {
+    ) -> (Along<T, D, N>, [M::Eight; D]) {
         let zero = machine.splat(T::zero());
+        let mut moment = [[[T::zero(); BUNCH]; N]; D];
         let mut per_spread = [zero; D];
         for a in 0..D {
             let (mut weight, mut apart) = ([zero; N], [zero; N]);
@@ -112,7 +112,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             }
             per_spread[a] = machine.over(machine.splat(T::one()), spread);
         }
-        per_spread
+        (moment, per_spread)
     }
 
     /// How far a node is from the first one along an axis.
@@ -170,19 +170,19 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         different == 0
     }
 
-    /// Adds to nodes, with these weights along the axes where the slopes are.
+    /// Adds to nodes; where there is something of the kind, with `ASIDES`.
     #[inline(always)]
-    fn add<M: Machine<T>, const SLOPES: bool>(
+    fn add<M: Machine<T>, const ASIDES: bool>(
         &self,
         machine: M,
-        aside: &Along<T, D, N>,
-        carried: &Sloped<M::Eight, D>,
+        carried: &Carried<M::Eight, D>,
+        moment: Option<&Along<T, D, N>>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let stencil = self;
         let spread =
-            Spread::<M, T, D, LEAST, N, SLOPES> { machine, stencil, aside, carried, members };
+            Spread::<M, T, D, LEAST, N, ASIDES> { machine, stencil, carried, moment, members };
         if LEAST < N && self.width == LEAST {
             spread.add::<LEAST>(nodes);
         } else {
@@ -249,41 +249,26 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
     }
 
     #[inline(always)]
-    fn spread_value<M: Machine<T>>(
-        &self,
-        machine: M,
-        value: [M::Eight; HALF],
-        members: Members,
-        nodes: Window<'_, T>,
-    ) {
-        let slopes = [[machine.splat(T::zero()); D]; HALF];
-        let carried = Sloped { value, slopes };
-        self.add::<M, false>(machine, &self.slope, &carried, members, nodes);
-    }
-
-    #[inline(always)]
     fn spread<M: Machine<T>>(
         &self,
         machine: M,
-        carried: &Sloped<M::Eight, D>,
-        members: Members,
-        nodes: Window<'_, T>,
-    ) {
-        self.add::<M, true>(machine, &self.slope, carried, members, nodes);
-    }
-
-    #[inline(always)]
-    fn spread_moments<M: Machine<T>>(
-        &self,
-        machine: M,
         lattice: &Lattice<T, D>,
-        carried: &Sloped<M::Eight, D>,
+        carried: &Carried<M::Eight, D>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let mut moment = [[[T::zero(); BUNCH]; N]; D];
-        self.moments(machine, lattice, &mut moment);
-        self.add::<M, true>(machine, &moment, carried, members, nodes);
+        let own;
+        let moment = if carried.moments.is_some() {
+            (own, _) = self.moments(machine, lattice);
+            Some(&own)
+        } else {
+            None
+        };
+        if carried.slopes.is_some() || carried.moments.is_some() {
+            self.add::<M, true>(machine, carried, moment, members, nodes);
+        } else {
+            self.add::<M, false>(machine, carried, moment, members, nodes);
+        }
     }
 
     #[inline(always)]
@@ -301,8 +286,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
                 Collected { value, gradient: nothing, slopes: nothing }
             }
             Wanted::Slopes if lattice.degree > 1 => {
-                let mut moment = [[[T::zero(); BUNCH]; N]; D];
-                let per_spread = self.moments(machine, lattice, &mut moment);
+                let (moment, per_spread) = self.moments(machine, lattice);
                 let asides = [&self.slope, &moment];
                 let Summed { value, asides: [gradient, mut slopes] } =
                     self.sum(machine, asides, nodes);
