@@ -60,7 +60,7 @@ pub use lattice::Lattice;
 pub use material::Material;
 pub use method::{Division, Method, Setup};
 pub use shape::ShapeName;
-pub use solver::Solver;
+pub use solver::{AnySolver, Solver};
 pub use study::{Errors, Judgement, Level, Run, Solve, Verdict, run_level};
 pub use transfer::Transfer;
 

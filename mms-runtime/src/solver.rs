@@ -5,6 +5,7 @@
 //! [`Operations`](crate::integrator::Operations). A step allocates nothing.
 
 mod advance;
+mod any;
 mod clock;
 mod map;
 mod misread;
@@ -29,10 +30,12 @@ use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
 use slabs::Slabs;
 
+pub use any::AnySolver;
+pub(crate) use any::of_method;
 pub use clock::Seconds;
 pub use present::Present;
 pub use setup::cell_size;
-pub(crate) use state::State;
+pub use state::State;
 
 /// After so many steps particles are put in order again, for bunches that share their nodes are faster than others.
 const STEPS_IN_ORDER: usize = 32;

@@ -4,32 +4,35 @@
 mod common;
 
 use common::wave::Wave;
-use mms_runtime::integrator::{Integrator, Leapfrog, Musl};
-use mms_runtime::shape::{Cpdi, QuadraticBspline, Shape, Ugimp};
-use mms_runtime::{Condition, Face, FormulationName, Setup, Solver, Transfer};
+use mms_runtime::{
+    Condition, Face, FormulationName, IntegratorName, Method, Setup, ShapeName, Solve, Transfer,
+};
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
 /// Bytes that are allocated in some steps, at the peak and for good.
-fn allocated<S: Shape, I: Integrator>(
+fn allocated(
+    shape: ShapeName,
+    integrator: IntegratorName,
     formulation: FormulationName,
     transfer: Transfer,
 ) -> (usize, usize) {
     let faces = [(Face::Min(0), Condition::Traction), (Face::Max(1), Condition::Free)];
     let wave = Wave::on_box([1.0, 1.0]).with_faces(&faces);
     let setup = Setup { transfer, courant: 0.1, ..Setup::default() };
-    let mut solver = Solver::<f64, 2, _, S>::new(&wave, formulation, &setup, &40.into()).unwrap();
-    solver.step::<I>().unwrap(); // weights that are kept have a place from now on
+    let method = Method { shape, integrator, formulation, setup };
+    let mut solver = <f64 as Solve<2>>::solver(&wave, &method, &40.into()).unwrap();
+    solver.step().unwrap(); // weights that are kept have a place from now on
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
     for _ in 0..40 {
-        solver.step::<I>().unwrap();
+        solver.step().unwrap();
     }
     let seen = (MEMORY.peak_usage() - before, MEMORY.current_usage() - before);
     // The memory of the particles is what they say; their number is one of whole bunches.
-    let particles = solver.particles();
+    let particles = solver.present().particles;
     let before = MEMORY.current_usage();
     let copy = particles.clone();
     let held = MEMORY.current_usage() - before;
@@ -40,10 +43,15 @@ fn allocated<S: Shape, I: Integrator>(
 #[test]
 fn a_step_allocates_nothing_and_particles_hold_what_they_say() {
     let (updated, total) = (FormulationName::Updated, FormulationName::Total);
-    assert_eq!(allocated::<Ugimp, Leapfrog>(updated, Transfer::FLIP), (0, 0));
-    assert_eq!(allocated::<Cpdi, Musl>(updated, Transfer::Apic), (0, 0));
     let xpic = Transfer::Xpic { order: 2 };
-    assert_eq!(allocated::<QuadraticBspline, Leapfrog>(total, xpic), (0, 0));
+    let (leapfrog, musl) = (IntegratorName::Leapfrog, IntegratorName::Musl);
+    for (shape, integrator, formulation, transfer) in [
+        (ShapeName::Ugimp, leapfrog, updated, Transfer::FLIP),
+        (ShapeName::Cpdi, musl, updated, Transfer::Apic),
+        (ShapeName::QuadraticBspline, leapfrog, total, xpic),
+    ] {
+        assert_eq!(allocated(shape, integrator, formulation, transfer), (0, 0), "{shape}");
+    }
     // The count sees what is allocated and given back.
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();

@@ -254,19 +254,17 @@ fn fitted_fills_turn_with_their_sector() {
 /// Particles per cell along each axis, of cells that are not cubes.
 #[test]
 fn particles_per_cell_along_each_axis() {
-    use mms_runtime::FormulationName;
-    use mms_runtime::shape::Cpgimp;
-    use mms_runtime::{Division, Setup, Solver};
+    use mms_runtime::{Division, Method, Setup, Solve};
     let field = common::wave::Wave::on_box([1.0, 0.5]);
     let particles_per_cell: Division = "3x1".parse().unwrap();
     let setup = Setup { particles_per_cell, ..Setup::default() };
     let cells: Division = "4x8".parse().unwrap();
-    let solver =
-        Solver::<f64, 2, _, Cpgimp>::new(&field, FormulationName::Updated, &setup, &cells).unwrap();
-    assert_eq!(solver.particles().len(), 12 * 8);
+    let method = Method { setup, ..Method::default() };
+    let solver = <f64 as Solve<2>>::solver(&field, &method, &cells).unwrap();
+    let particles = solver.present().particles;
+    assert_eq!(particles.len(), 12 * 8);
     assert_eq!(solver.grid().lattice.cell_size, Vector::<f64, 2>::new(0.25, 0.0625));
-    let mut columns: Vec<f64> =
-        solver.particles().reference_position.iter().map(|x| x[0]).collect();
+    let mut columns: Vec<f64> = particles.reference_position.iter().map(|x| x[0]).collect();
     columns.sort_by(f64::total_cmp);
     columns.dedup();
     assert_eq!(columns.len(), 12);

@@ -5,12 +5,11 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Affine, Bar, method, methods, wave::Wave};
-use mms_runtime::shape::Cpgimp;
 use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
     Body, Cause, Condition, Division, Domain, Face, Failure, Fill, FormulationName, IntegratorName,
-    ManufacturedField, Material, Matrix, Method, Refusal, Setup, ShapeName, Solve, Solver,
-    Transfer, Vector,
+    ManufacturedField, Material, Matrix, Method, Refusal, Setup, ShapeName, Solve, Transfer,
+    Vector,
 };
 
 /// The bar, with something spoilt.
@@ -360,7 +359,8 @@ fn a_wall_between_nodes_is_refused() {
     let field: &dyn ManufacturedField<f64, 2> = &field;
     let solver = |cells: usize, offset: f64| {
         let setup = Setup { offset: [0.0, offset, 0.0], ..Setup::default() };
-        Solver::<f64, 2, _, Cpgimp>::new(field, FormulationName::Updated, &setup, &cells.into())
+        let method = Method { setup, ..Method::default() };
+        <f64 as Solve<2>>::solver(field, &method, &cells.into())
     };
     for (cells, offset) in [(8, 0.0), (20, 0.5)] {
         let refused = solver(cells, offset).err();
@@ -369,7 +369,7 @@ fn a_wall_between_nodes_is_refused() {
     // 4.4 cells, and 0.6 of one before them.
     for (cells, offset) in [(20, 0.0), (8, 0.6)] {
         let solver = solver(cells, offset).unwrap_or_else(|refusal| panic!("{refusal}"));
-        let volume: f64 = solver.particles().reference_volume.iter().sum();
+        let volume: f64 = solver.present().particles.reference_volume.iter().sum();
         assert!((volume - 0.55).abs() < 1e-12, "the particles' domains fill the body: {volume}");
     }
 }

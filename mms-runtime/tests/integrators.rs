@@ -4,12 +4,11 @@
 mod common;
 
 use common::{Affine, Bar, levels, method, methods, wave::Wave};
-use mms_runtime::integrator::{Integrator, IntegratorVisitor, Leapfrog};
-use mms_runtime::shape::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Shape};
+use mms_runtime::integrator::{Integrator, IntegratorVisitor};
 use mms_runtime::study::observed_order;
 use mms_runtime::{
-    Condition, Division, Face, FormulationName, IntegratorName, ManufacturedField, Method, Setup,
-    ShapeName, Solve, Solver, Transfer,
+    AnySolver, Condition, Division, Face, FormulationName, IntegratorName, ManufacturedField,
+    Method, Setup, ShapeName, Solve, Transfer,
 };
 
 const EIGHT: Division = Division::Uniform(8);
@@ -55,10 +54,11 @@ fn free_flight_is_exact() {
 fn flip_with_a_fraction_lies_between_flip_and_pic() {
     let wave = Wave::stretched_bar();
     let velocities = |transfer: Transfer| -> Vec<f64> {
-        let (updated, setup) = (FormulationName::Updated, Setup { transfer, ..Setup::default() });
-        let mut solver = Solver::<f64, 1, _, Cpgimp>::new(&wave, updated, &setup, &EIGHT).unwrap();
-        solver.step::<Leapfrog>().unwrap();
-        solver.particles().velocity.iter().map(|v| v[0]).collect()
+        let setup = Setup { transfer, ..Setup::default() };
+        let method = Method { setup, ..Method::default() };
+        let mut solver = <f64 as Solve<1>>::solver(&wave, &method, &EIGHT).unwrap();
+        solver.step().unwrap();
+        solver.present().particles.velocity.iter().map(|v| v[0]).collect()
     };
     let mixed = Transfer::Flip { fraction: 0.75 };
     let [flip, pic, mixed] = [Transfer::FLIP, Transfer::Pic, mixed].map(velocities);
@@ -80,38 +80,15 @@ fn free_flight_is_exact_in_three_dimensions() {
 /// d/dt sum m v = sum m b + sum P N A0, tractions at both ends: internal forces add up to nothing. Any first
 /// step may be a half. In space a point may have passed no weight yet to a node that the face beyond it
 /// has reached, so there points have no tractions here.
-struct MomentumBalance(FormulationName);
-
-impl IntegratorVisitor for MomentumBalance {
-    type Output = ();
-
-    fn visit<I: Integrator>(self) {
-        let moves = self.0 == FormulationName::Updated;
-        let points = if moves { Condition::Free } else { Condition::Traction };
-        balance::<I, Linear>(self.0, Transfer::FLIP, points);
-        balance::<I, QuadraticBspline>(self.0, Transfer::Xpic { order: 2 }, points);
-        balance::<I, CubicBspline>(self.0, Transfer::Pic, points);
-        if moves {
-            balance::<I, Cpgimp>(self.0, Transfer::FLIP, Condition::Traction);
-            balance::<I, Cpdi>(self.0, Transfer::Apic, Condition::Traction);
-        }
-    }
-}
-
-fn balance<I: Integrator, S: Shape>(
-    formulation: FormulationName,
-    transfer: Transfer,
-    faces: Condition,
-) {
+fn balance(method: Method, faces: Condition) {
     let wave = Wave::stretched_bar().with_all_faces(faces);
     let field: &dyn ManufacturedField<f64, 1> = &wave;
-    let setup = Setup { transfer, ..Setup::default() };
-    let mut solver = Solver::<f64, 1, _, S>::new(field, formulation, &setup, &EIGHT).unwrap();
-    solver.step::<I>().unwrap();
+    let mut solver = <f64 as Solve<1>>::solver(field, &method, &EIGHT).unwrap();
+    solver.step().unwrap();
     for _ in 0..5 {
-        let (before, time) = (momentum(&solver), solver.present().time);
-        solver.step::<I>().unwrap();
-        let particles = solver.particles();
+        let (before, time) = (momentum(&*solver), solver.present().time);
+        solver.step().unwrap();
+        let particles = solver.present().particles;
         let mut force = vec![mms_runtime::Vector::zeros(); particles.len()];
         let time_of_force = solver.present().time_of_force;
         field.body_force(time_of_force, &particles.reference_position, &mut force);
@@ -121,27 +98,42 @@ fn balance<I: Integrator, S: Shape>(
             wave.first_piola_kirchhoff(&h)[0]
         };
         let pull = if faces == Condition::Traction { stress(1.0) - stress(0.0) } else { 0.0 };
-        let impulse = solver.time_step_length() * (body + pull);
-        let change = momentum(&solver) - before;
-        let size = solver.time_step_length() * (body.abs() + pull.abs());
-        let names = [std::any::type_name::<S>(), std::any::type_name::<I>()];
+        let time_step = solver.present().time_step;
+        let impulse = time_step * (body + pull);
+        let change = momentum(&*solver) - before;
+        let size = time_step * (body.abs() + pull.abs());
         assert!(faces == Condition::Free || pull.abs() > 1e-3, "a test without tractions");
-        assert!((change - impulse).abs() < 1e-11 * size, "{names:?}: {change:e}, {impulse:e}");
+        assert!((change - impulse).abs() < 1e-11 * size, "{method:?}: {change:e}, {impulse:e}");
     }
 }
 
-fn momentum<F: ManufacturedField<f64, 1> + ?Sized, S: Shape>(
-    solver: &Solver<'_, f64, 1, F, S>,
-) -> f64 {
-    let particles = solver.particles();
+fn momentum(solver: &dyn AnySolver<f64, 1>) -> f64 {
+    let particles = solver.present().particles;
     particles.mass.iter().zip(particles.velocity.iter()).map(|(m, v)| m * v[0]).sum()
 }
 
 #[test]
 fn momentum_balances() {
+    let (traction, xpic) = (Condition::Traction, Transfer::Xpic { order: 2 });
     for integrator in IntegratorName::ALL {
         for formulation in FormulationName::ALL {
-            integrator.visit(MomentumBalance(*formulation));
+            let moves = *formulation == FormulationName::Updated;
+            let points = if moves { Condition::Free } else { traction };
+            let mut scenes = vec![
+                (ShapeName::Linear, Transfer::FLIP, points),
+                (ShapeName::QuadraticBspline, xpic, points),
+                (ShapeName::CubicBspline, Transfer::Pic, points),
+                (ShapeName::QuadraticBspline, Transfer::Apic, points),
+            ];
+            if moves {
+                scenes.push((ShapeName::Cpgimp, Transfer::FLIP, traction));
+                scenes.push((ShapeName::Cpdi, Transfer::Apic, traction));
+            }
+            for (shape, transfer, faces) in scenes {
+                let (formulation, setup) = (*formulation, Setup { transfer, ..Setup::default() });
+                let method = Method { shape, integrator: *integrator, formulation, setup };
+                balance(method, faces);
+            }
         }
     }
 }
@@ -215,35 +207,31 @@ fn uniform_stretch_is_not_in_equilibrium_without_contiguous_domains() {
 
 /// F(t) = F0 + H1 t with L and F that do not commute and are not symmetric: a transposed L, or F L for L F,
 /// gives a wrong H by 10 % and more. Without stress, so that the motion is that of free particles.
-struct ShearedFlow<S>(FormulationName, std::marker::PhantomData<S>);
-
-impl<S: Shape> IntegratorVisitor for ShearedFlow<S> {
-    type Output = ();
-
-    fn visit<I: Integrator>(self) {
-        let h0 = [[0.1, 0.3, 0.0], [0.0, -0.1, 0.0], [0.0, 0.1, 0.0]];
-        let h1 = [[0.0, 0.1, 0.0], [0.2, 0.0, 0.1], [0.0, 0.0, 0.1]];
-        let affine = Affine { h0, h1, mu: 0.0, ..Affine::patch(0.0) };
-        let field: &dyn ManufacturedField<f64, 3> = &affine;
-        let (setup, four) = (Setup::default(), Division::Uniform(4));
-        let mut solver = Solver::<f64, 3, _, S>::new(field, self.0, &setup, &four).unwrap();
-        for _ in 0..solver.steps() {
-            solver.step::<I>().unwrap();
-        }
-        let exact = affine.gradient::<f64, 3>(solver.present().time);
-        for h in solver.particles().displacement_gradient.iter() {
-            assert!((h - exact).amax() < 0.02, "{h}, not {exact}");
-        }
+fn sheared_flow(method: &Method) {
+    let h0 = [[0.1, 0.3, 0.0], [0.0, -0.1, 0.0], [0.0, 0.1, 0.0]];
+    let h1 = [[0.0, 0.1, 0.0], [0.2, 0.0, 0.1], [0.0, 0.0, 0.1]];
+    let affine = Affine { h0, h1, mu: 0.0, ..Affine::patch(0.0) };
+    let mut solver = <f64 as Solve<3>>::solver(&affine, method, &Division::Uniform(4)).unwrap();
+    for _ in 0..solver.steps() {
+        solver.step().unwrap();
+    }
+    let exact = affine.gradient::<f64, 3>(solver.present().time);
+    for h in solver.present().particles.displacement_gradient.iter() {
+        assert!((h - exact).amax() < 0.02, "{method:?}: {h}, not {exact}");
     }
 }
 
 #[test]
 fn deformation_follows_a_sheared_flow() {
-    use std::marker::PhantomData;
     for integrator in IntegratorName::ALL {
-        integrator.visit(ShearedFlow::<Cpgimp>(FormulationName::Updated, PhantomData));
-        integrator.visit(ShearedFlow::<Cpdi>(FormulationName::Updated, PhantomData));
-        integrator.visit(ShearedFlow::<Linear>(FormulationName::Total, PhantomData));
+        for (shape, formulation) in [
+            (ShapeName::Cpgimp, FormulationName::Updated),
+            (ShapeName::Cpdi, FormulationName::Updated),
+            (ShapeName::Linear, FormulationName::Total),
+        ] {
+            let setup = Setup::default();
+            sheared_flow(&Method { shape, integrator: *integrator, formulation, setup });
+        }
     }
 }
 

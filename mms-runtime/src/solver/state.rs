@@ -12,10 +12,10 @@ use super::clock::Seconds;
 use crate::shape::Shape;
 use crate::{Matrix, Real, Refusal, Vector};
 
-/// What changes in a run.
+/// What changes in a run: what a solver of the same scene goes on from, to the bit.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "T: Real")]
-pub(crate) struct State<'a, T: Real, const D: usize> {
+pub struct State<'a, T: Real, const D: usize> {
     /// How many steps have been made.
     step: usize,
     /// How many time steps the velocities are behind.
@@ -34,7 +34,7 @@ pub(crate) struct State<'a, T: Real, const D: usize> {
 
 impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
     /// The state after the last step.
-    pub(crate) fn state(&self) -> State<'_, T, D> {
+    pub fn state(&self) -> State<'_, T, D> {
         let particles = &self.particles;
         State {
             step: self.clock.step,
@@ -53,7 +53,7 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
     ///
     /// # Errors
     /// It is one of another scene.
-    pub(crate) fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal> {
+    pub fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal> {
         let fits = |fits: bool, what: &str| match fits {
             true => Ok(()),
             false => Err(Refusal::NoState { reason: format!("it has other {what}") }),

@@ -2,12 +2,10 @@
 
 use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
-use crate::integrator::{Integrator, IntegratorVisitor};
 use crate::particle::Particles;
-use crate::shape::{Shape, ShapeVisitor};
-use crate::solver::Seconds;
+use crate::solver::{AnySolver, Seconds, of_method};
 use crate::tensor::jacobian;
-use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Solver, Vector};
+use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Vector};
 
 /// Which errors are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +87,16 @@ impl Diagnostics {
 /// A precision that there is a solver for in `D` dimensions. It is compiled in this crate, once: who calls
 /// it through this trait compiles none.
 pub trait Solve<const D: usize>: Real {
+    /// The solver of a method, with the body divided into `cells`, to be taken through its steps one by one.
+    ///
+    /// # Errors
+    /// A scene that cannot be started.
+    fn solver<'f>(
+        field: &'f dyn ManufacturedField<Self, D>,
+        method: &Method,
+        cells: &Division,
+    ) -> Result<Box<dyn AnySolver<'f, Self, D> + 'f>, Refusal>;
+
     /// Runs a method through the time window, with the body divided into `cells`.
     ///
     /// A run that stops has a [`Failure`].
@@ -107,6 +115,14 @@ pub trait Solve<const D: usize>: Real {
 macro_rules! solve {
     ($($float:ident $dimension:literal),*) => {
         $(impl Solve<$dimension> for $float {
+            fn solver<'f>(
+                field: &'f dyn ManufacturedField<Self, $dimension>,
+                method: &Method,
+                cells: &Division,
+            ) -> Result<Box<dyn AnySolver<'f, Self, $dimension> + 'f>, Refusal> {
+                of_method(field, method, cells)
+            }
+
             fn run(
                 field: &dyn ManufacturedField<Self, $dimension>,
                 method: &Method,
@@ -114,8 +130,7 @@ macro_rules! solve {
                 watch: Watch,
                 observer: &mut dyn Observer,
             ) -> Result<Run, Refusal> {
-                method.validate()?;
-                method.shape.visit(WithShape { field, method, cells, watch, observer })
+                run(field, method, cells, watch, observer)
             }
         })*
     };
@@ -123,61 +138,52 @@ macro_rules! solve {
 
 solve!(f32 1, f32 2, f32 3, f64 1, f64 2, f64 3);
 
-/// From names to the solver compiled for them: first the shape function,
-struct WithShape<'a, T, const D: usize> {
-    field: &'a dyn ManufacturedField<T, D>,
-    method: &'a Method,
-    cells: &'a Division,
+/// See [`Solve::run`].
+fn run<T: Solve<D>, const D: usize>(
+    field: &dyn ManufacturedField<T, D>,
+    method: &Method,
+    cells: &Division,
     watch: Watch,
-    observer: &'a mut dyn Observer,
-}
-
-impl<T: Real, const D: usize> ShapeVisitor for WithShape<'_, T, D> {
-    type Output = Result<Run, Refusal>;
-
-    fn visit<S: Shape>(self) -> Self::Output {
-        let Self { field, method, cells, watch, observer } = self;
-        let mut stopwatch = Stopwatch::default();
-        let mut solver =
-            Solver::<T, D, _, S>::new(field, method.formulation, &method.setup, cells)?;
-        let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
-        let saved = match saved {
-            None => None,
-            Some(Saved { state, course }) => {
-                solver.restore(state)?;
-                stopwatch.before = course.elapsed;
-                Some(course)
-            }
-        };
-        let lattice = &solver.grid().lattice;
-        let level = Level {
-            cells: *cells,
-            cell_size: lattice.cell_size.max().to_f64(),
-            time_step: solver.time_step_length(),
-            steps: solver.steps(),
-            particles: solver.particles().len(),
-            errors: Ok(Errors::default()),
-            seconds: 0.0,
-        };
-        let (details, seconds, snapshots) = Default::default();
-        let mut run = Run { level, details, seconds, snapshots };
-        let fastest_wave = method.setup.fastest_wave;
-        let scene = WithIntegrator { solver, fastest_wave, watch, saved, stopwatch, observer };
-        let result = match method.setup.threads {
-            1 => method.integrator.visit(scene),
-            threads => pool(threads)?.install(|| method.integrator.visit(scene)),
-        };
-        run.level.seconds = stopwatch.seconds();
-        run.level.errors = match result {
-            Ok((details, seconds, snapshots)) => {
-                let errors = details.largest.displacement;
-                (run.details, run.seconds, run.snapshots) = (Some(details), seconds, snapshots);
-                Ok(errors)
-            }
-            Err(failure) => Err(failure),
-        };
-        Ok(run)
-    }
+    observer: &mut dyn Observer,
+) -> Result<Run, Refusal> {
+    let mut stopwatch = Stopwatch::default();
+    let mut solver = T::solver(field, method, cells)?;
+    let saved = observer.resume().map(Saved::<T, D>::read).transpose()?;
+    let saved = match saved {
+        None => None,
+        Some(Saved { state, course }) => {
+            solver.restore(state)?;
+            stopwatch.before = course.elapsed;
+            Some(course)
+        }
+    };
+    let level = Level {
+        cells: *cells,
+        cell_size: solver.grid().lattice.cell_size.max().to_f64(),
+        time_step: solver.present().time_step,
+        steps: solver.steps(),
+        particles: solver.present().particles.len(),
+        errors: Ok(Errors::default()),
+        seconds: 0.0,
+    };
+    let (details, seconds, snapshots) = Default::default();
+    let mut run = Run { level, details, seconds, snapshots };
+    let fastest_wave = method.setup.fastest_wave;
+    let rest = Rest { solver, fastest_wave, watch, saved, stopwatch, observer };
+    let result = match method.setup.threads {
+        1 => rest.go(),
+        threads => pool(threads)?.install(|| rest.go()),
+    };
+    run.level.seconds = stopwatch.seconds();
+    run.level.errors = match result {
+        Ok((details, seconds, snapshots)) => {
+            let errors = details.largest.displacement;
+            (run.details, run.seconds, run.snapshots) = (Some(details), seconds, snapshots);
+            Ok(errors)
+        }
+        Err(failure) => Err(failure),
+    };
+    Ok(run)
 }
 
 /// Threads for the passes over particles.
@@ -186,9 +192,9 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
     pool.map_err(|error| Refusal::NoThreads { threads, reason: error.to_string() })
 }
 
-/// and last the integrator.
-struct WithIntegrator<'a, T: Real, const D: usize, S: Shape> {
-    solver: Solver<'a, T, D, dyn ManufacturedField<T, D> + 'a, S>,
+/// What is left of a run when its solver stands.
+struct Rest<'a, 'f, T: Real, const D: usize> {
+    solver: Box<dyn AnySolver<'f, T, D> + 'f>,
     fastest_wave: Option<f64>,
     watch: Watch,
     saved: Option<SavedCourse<'a>>,
@@ -196,19 +202,17 @@ struct WithIntegrator<'a, T: Real, const D: usize, S: Shape> {
     observer: &'a mut dyn Observer,
 }
 
-impl<T: Real, const D: usize, S: Shape> IntegratorVisitor for WithIntegrator<'_, T, D, S> {
-    type Output = Result<(Details, Seconds, Snapshots), Failure>;
-
-    fn visit<I: Integrator>(self) -> Self::Output {
+impl<T: Real, const D: usize> Rest<'_, '_, T, D> {
+    fn go(self) -> Result<(Details, Seconds, Snapshots), Failure> {
         let Self { mut solver, fastest_wave, watch, saved, stopwatch, observer } = self;
-        let (steps, behind) = (solver.steps(), I::LAG > 0.0);
+        let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
         fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
         solver.check()?;
         let mut course =
             Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
         while solver.present().step < steps {
             course.before_step(&solver.present(), behind);
-            solver.step::<I>()?;
+            solver.step()?;
             course.after_step(&solver.present(), behind)?;
             course.keep(&solver.present(), &|| solver.state())?;
         }

@@ -1,0 +1,152 @@
+//! A solver whose shape function and integrator are chosen by name.
+
+use super::{Present, Seconds, Solver, State};
+use crate::integrator::{Integrator, IntegratorVisitor};
+use crate::shape::{Shape, ShapeVisitor};
+use crate::{Division, Failure, Grid, IntegratorName, ManufacturedField, Method, Real, Refusal};
+
+/// A solver of a [`Method`], whatever its shape function and its integrator are. Those of
+/// [`Solve`](crate::Solve) are compiled in this crate: who takes steps with them compiles none.
+pub trait AnySolver<'f, T: Real, const D: usize>: Send {
+    /// Advances by one time step and checks the new state.
+    ///
+    /// # Errors
+    /// What the step led to, or could not do.
+    fn step(&mut self) -> Result<(), Failure>;
+
+    /// Checks the state, as [`Solver::check`] does.
+    ///
+    /// # Errors
+    /// The first particle that is not sound.
+    fn check(&self) -> Result<(), Failure>;
+
+    /// Whether a wave of this speed crosses no edge of a cell in a time step.
+    ///
+    /// # Errors
+    /// It does.
+    fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure>;
+
+    /// The state, as measurements see it.
+    fn present(&self) -> Present<'_, T, D, dyn ManufacturedField<T, D> + 'f>;
+
+    /// The grid, as the last step left it.
+    fn grid(&self) -> &Grid<T, D>;
+
+    /// How many steps the time window takes.
+    fn steps(&self) -> usize;
+
+    /// How many time steps the particles' velocities are behind their positions, once the first step is done.
+    fn lag(&self) -> f64;
+
+    /// What the parts of the steps so far have taken.
+    fn seconds(&self) -> Seconds;
+
+    /// The state after the last step, to go on from.
+    fn state(&self) -> State<'_, T, D>;
+
+    /// Goes on from a state of the same scene.
+    ///
+    /// # Errors
+    /// It is one of another scene.
+    fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal>;
+}
+
+/// The solver of a method, with the body divided into `cells`.
+///
+/// # Errors
+/// A scene that cannot be started.
+pub(crate) fn of_method<'f, T: Real, const D: usize>(
+    field: &'f dyn ManufacturedField<T, D>,
+    method: &Method,
+    cells: &Division,
+) -> Result<Box<dyn AnySolver<'f, T, D> + 'f>, Refusal> {
+    method.validate()?;
+    method.shape.visit(WithShape { field, method, cells })
+}
+
+struct WithShape<'a, 'f, T, const D: usize> {
+    field: &'f dyn ManufacturedField<T, D>,
+    method: &'a Method,
+    cells: &'a Division,
+}
+
+impl<'f, T: Real, const D: usize> ShapeVisitor for WithShape<'_, 'f, T, D> {
+    type Output = Result<Box<dyn AnySolver<'f, T, D> + 'f>, Refusal>;
+
+    fn visit<S: Shape>(self) -> Self::Output {
+        let Method { formulation, setup, integrator, .. } = self.method;
+        let solver = Solver::<_, D, _, S>::new(self.field, *formulation, setup, self.cells)?;
+        Ok(Box::new(Chosen { solver, integrator: *integrator }))
+    }
+}
+
+struct Chosen<'f, T: Real, const D: usize, S: Shape> {
+    solver: Solver<'f, T, D, dyn ManufacturedField<T, D> + 'f, S>,
+    integrator: IntegratorName,
+}
+
+impl<'f, T: Real, const D: usize, S: Shape> AnySolver<'f, T, D> for Chosen<'f, T, D, S> {
+    fn step(&mut self) -> Result<(), Failure> {
+        self.integrator.visit(Step(&mut self.solver))
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        self.solver.check()
+    }
+
+    fn check_time_step(&self, fastest_wave: f64) -> Result<(), Failure> {
+        self.solver.check_time_step(fastest_wave)
+    }
+
+    fn present(&self) -> Present<'_, T, D, dyn ManufacturedField<T, D> + 'f> {
+        self.solver.present()
+    }
+
+    fn grid(&self) -> &Grid<T, D> {
+        self.solver.grid()
+    }
+
+    fn steps(&self) -> usize {
+        self.solver.steps()
+    }
+
+    fn lag(&self) -> f64 {
+        self.integrator.visit(Lag)
+    }
+
+    fn seconds(&self) -> Seconds {
+        self.solver.seconds()
+    }
+
+    fn state(&self) -> State<'_, T, D> {
+        self.solver.state()
+    }
+
+    fn restore(&mut self, state: State<'_, T, D>) -> Result<(), Refusal> {
+        self.solver.restore(state)
+    }
+}
+
+struct Step<'s, S>(&'s mut S);
+
+impl<T: Real, const D: usize, F, S> IntegratorVisitor for Step<'_, Solver<'_, T, D, F, S>>
+where
+    F: ManufacturedField<T, D> + ?Sized,
+    S: Shape,
+{
+    type Output = Result<(), Failure>;
+
+    fn visit<I: Integrator>(self) -> Self::Output {
+        self.0.step::<I>()
+    }
+}
+
+struct Lag;
+
+impl IntegratorVisitor for Lag {
+    type Output = f64;
+
+    fn visit<I: Integrator>(self) -> f64 {
+        I::LAG
+    }
+}
