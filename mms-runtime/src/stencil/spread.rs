@@ -79,15 +79,34 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     /// The asides of all nodes; those that take the `REST` have none.
     #[inline(always)]
     fn asides<const W: usize, const REST: bool>(&self) -> Asides<M::Eight, D, W> {
-        let nothing = self.machine.splat(T::zero());
+        // A question that is asked once, and not for every node.
+        match (ASIDES, self.moment) {
+            (true, Some(_)) => self.asides_with::<W, REST, true>(),
+            (true, None) => self.asides_with::<W, REST, false>(),
+            (false, _) => [[[self.machine.splat(T::zero()); HALF]; W]; D],
+        }
+    }
+
+    /// Those, with `MOMENTS` or without.
+    #[inline(always)]
+    fn asides_with<const W: usize, const REST: bool, const MOMENTS: bool>(
+        &self,
+    ) -> Asides<M::Eight, D, W> {
+        let machine = self.machine;
+        let nothing = machine.splat(T::zero());
         let mut asides = [[[nothing; HALF]; W]; D];
-        if ASIDES {
-            for a in 0..D {
-                for k in 0..W {
-                    if !(REST && k == 1 && a < 2) {
-                        asides[a][k] = self.aside(a, k);
-                    }
+        for a in 0..D {
+            for k in 0..W {
+                if !(REST && k == 1) {
+                    asides[a][k] = self.aside::<MOMENTS>(a, k);
                 }
+            }
+        }
+        if REST && D > 2 {
+            // No plane is left over: the middle one has its aside, which makes their sum 0.
+            for p in 0..HALF {
+                let outer = machine.plus(asides[2 % D][0][p], asides[2 % D][W - 1][p]);
+                asides[2 % D][1][p] = machine.minus(nothing, outer);
             }
         }
         asides
@@ -95,7 +114,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
 
     /// The aside of node `k` along an axis, of each particle.
     #[inline(always)]
-    fn aside(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
+    fn aside<const MOMENTS: bool>(&self, axis: usize, k: usize) -> [M::Eight; HALF] {
         let Self { machine, stencil, moment, .. } = *self;
         let Carried { slopes, moments, .. } = self.carried;
         let mut rows = [machine.splat(T::zero()); HALF];
@@ -105,7 +124,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                 rows[c] = machine.times(slope, slopes[axis][c]);
             }
         }
-        if let (Some(moments), Some(moment)) = (moments, moment) {
+        if let (true, Some(moments), Some(moment)) = (MOMENTS, moments, moment) {
             let moment = machine.eight(&moment[axis][k]);
             for c in 0..D {
                 rows[c] = machine.times_plus(moment, moments[axis][c], rows[c]);
