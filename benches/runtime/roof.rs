@@ -35,39 +35,37 @@ impl Count {
     /// FLIP with `width` nodes along each of `axes`: mass, momentum and acceleration without slopes, forces
     /// and velocity with them.
     pub fn flip(axes: usize, width: usize) -> Self {
-        let [onto, over] = [Sums { axes, width, onto: true }, Sums { axes, width, onto: false }];
-        Count(onto.of(axes + 1, 0) + onto.of(axes, 1) + over.of(axes, 0) + over.of(axes, 1))
+        let momentum = (axes + 1) * onto(axes, width, 0);
+        let force = axes * onto(axes, width, 1);
+        Count(momentum + force + axes * (over(axes, width, 0) + over(axes, width, 1)))
     }
 
-    /// APIC: all sums with slopes, that of the velocity with two kinds of them.
+    /// APIC: mass, and momentum with force, and the velocity, with slopes and moments.
     pub fn apic(axes: usize, width: usize) -> Self {
-        let [onto, over] = [Sums { axes, width, onto: true }, Sums { axes, width, onto: false }];
-        Count(onto.of(axes + 1, 1) + onto.of(axes, 1) + over.of(axes, 2))
+        Count((axes + 1) * onto(axes, width, 2) + axes * over(axes, width, 2))
     }
 }
 
-/// Sums onto nodes or over them.
-struct Sums {
-    axes: usize,
-    width: usize,
-    onto: bool,
+/// The sum of one number onto nodes, with asides of so many kinds, if any: for every node one product of the value and
+/// one of the aside, for every row one, for every plane one and those of the asides along the axes before; and what the
+/// asides are made of.
+fn onto(axes: usize, width: usize, kinds: usize) -> usize {
+    // Of three nodes the middle one takes what is left, and so does its row of a plane.
+    let outer = if width == 3 { 2 } else { width };
+    let aside = kinds.min(1);
+    let along = |axis: usize| {
+        let products = if axis < 2 { 1 + aside * (1 - axis) } else { 1 + aside * axis * outer };
+        let multiplied = if axis < 2 { outer } else { width };
+        products * width.pow((axes - axis - 1) as u32) * multiplied
+    };
+    kinds * axes * outer + (0..axes).map(along).sum::<usize>()
 }
 
-impl Sums {
-    /// Of so many numbers, with so many kinds of slopes along every axis: 1 for every node, row and plane, and for each
-    /// kind 1 more for a node, 2 for a row, 3 for a plane.
-    fn of(&self, numbers: usize, kinds: usize) -> usize {
-        let along = |axis: usize| {
-            let products = 1 + kinds * (axis + 1);
-            products * self.width.pow((self.axes - axis - 1) as u32) * self.multiplied(axis)
-        };
-        numbers * (0..self.axes).map(along).sum::<usize>()
-    }
-
-    /// How many of the nodes along an axis take products: of three in a plane the middle one takes what is left.
-    fn multiplied(&self, axis: usize) -> usize {
-        if self.onto && self.width == 3 && axis < 2 { 2 } else { self.width }
-    }
+/// The sum of one number over nodes, with so many kinds of slopes along every axis: 1 for every node, row and plane, and
+/// for each kind 1 more for a node, 2 for a row, 3 for a plane.
+fn over(axes: usize, width: usize, kinds: usize) -> usize {
+    let along = |axis: usize| (1 + kinds * (axis + 1)) * width.pow((axes - axis) as u32);
+    (0..axes).map(along).sum()
 }
 
 /// The best that was seen of the machine in one precision.

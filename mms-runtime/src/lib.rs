@@ -6,7 +6,8 @@
 //! * [`Solver`] advances a body of particles through a background grid. It is written once for one
 //!   to three dimensions and for `f32` and `f64`; one is compiled per dimension, precision and shape
 //!   function, and none per field. Formulation and transfer are values, looked at once per pass, and a
-//!   time integrator is compiled once per precision.
+//!   time integrator is compiled once per precision. [`AnySolver`] is one for the names of a [`Method`]
+//!   ([`Solve::solver`]), compiled here.
 //! * [`study`] runs a method over levels of refinement, measures the errors against the field, and
 //!   judges the observed orders.
 //!

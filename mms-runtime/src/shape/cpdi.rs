@@ -132,11 +132,10 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     ) {
         let zero = machine.splat(T::zero());
         let share = machine.splat(T::ratio(1, 1 << D));
-        // What a closure computes is not compiled for the machine.
-        let moments = match carried.moments {
-            Some(moments) => Some(scaled(machine, moments, share)),
-            None => None,
-        };
+        let mut moments = carried.moments;
+        if let Some(moments) = &mut moments {
+            *moments = scaled(machine, *moments, share);
+        }
         for c in 0..1 << D {
             let mut rows = [zero; HALF];
             for a in 0..D {
