@@ -48,12 +48,13 @@ impl Transfer {
     /// FLIP that loses nothing, the default.
     pub const FLIP: Self = Transfer::Flip { fraction: 1.0 };
 
-    /// What particles take of the nodes beside v_i after its kick.
-    pub(crate) fn takes(self) -> Taken {
+    /// What particles read of the nodes beside v_i after its kick.
+    #[inline(always)]
+    pub(crate) fn reads(self) -> Reads {
         match self {
-            Transfer::Pic | Transfer::Apic => Taken::Nothing,
-            Transfer::Flip { .. } => Taken::Acceleration,
-            Transfer::Xpic { .. } => Taken::VelocityBefore,
+            Transfer::Pic | Transfer::Apic => Reads::Nothing,
+            Transfer::Flip { .. } => Reads::Acceleration,
+            Transfer::Xpic { .. } => Reads::VelocityBefore,
         }
     }
 
@@ -76,13 +77,13 @@ impl Transfer {
         &["flip", "pic", "apic", "xpic2", "xpic3", "xpic4", "xpic5"];
 }
 
-/// What particles take of the nodes beside v_i after its kick: each takes what those before it do.
+/// What particles read of the nodes beside v_i after its kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Taken {
+pub(crate) enum Reads {
     Nothing,
     /// a_i.
     Acceleration,
-    /// v_i before the kick.
+    /// a_i, and v_i before the kick.
     VelocityBefore,
 }
 

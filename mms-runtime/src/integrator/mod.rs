@@ -43,7 +43,8 @@ pub trait Integrator: 'static {
     fn step<T: Real>(solver: &mut dyn Operations<T>) -> Result<(), Failure>;
 }
 
-/// What is found for the nodes, of sums over particles; w = w_ip and grad w = grad w_ip are those at t^n throughout a step.
+/// What is found for the nodes, of sums over particles; w = w_ip and grad w = grad w_ip are those at t^n
+/// throughout a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sum<T> {
     /// m_i = sum_p w m_p, with weights at the present positions.
@@ -53,8 +54,8 @@ pub enum Sum<T> {
     /// a_i = (- sum_p V0 S grad w + sum_p w m_p b(X_p, t) + tractions) / m_i at this time, with the boundary's
     /// acceleration; S is tau(H), or P(H) in the total formulation.
     Acceleration(T),
-    /// v_i += dt a_i with this dt, and the boundary's velocity at this time: after the sums before it, in one
-    /// with them if the transfer takes nothing of v_i and a_i apart.
+    /// v_i += dt a_i, with this dt and then the boundary's velocity at this time; a_i and v_i are those found along
+    /// with it, or before. Where particles read neither v_i before the kick nor a_i, all are one sum.
     Kick(T, T),
 }
 

@@ -11,6 +11,7 @@ use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::shape::Shape;
 use crate::stencil::{Stencil as _, Wanted};
+use crate::transfer::Reads;
 use crate::{Cause, Real, Transfer};
 
 /// What of the particles' state follows the nodes, and how far.
@@ -140,7 +141,7 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         stencil: &S::Stencil<T, D>,
     ) -> [M::Eight; D] {
         let Self { scene, acceleration, .. } = self;
-        if let Transfer::Pic | Transfer::Apic = scene.transfer {
+        if scene.transfer.reads() == Reads::Nothing {
             return mapped;
         }
         let acceleration = stencil.collect(machine, scene.lattice, Wanted::Value, acceleration);

@@ -36,7 +36,7 @@ pub(super) enum Added<T> {
     Residual,
     /// - V0 S grad w + w m b.
     Force,
-    /// Momentum and force, each to nodes of its own.
+    /// Momentum without a linear velocity, and force, each to nodes of its own.
     Both,
     /// Momentum, and force times this time, in one sum.
     Kicked(T),
@@ -278,6 +278,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         let (share, with_momentum) = match added {
             Added::Force | Added::Both => (T::one(), false),
             Added::Kicked(time_step) => (time_step, true),
+            // Its slopes are 0.
             Added::Momentum if affine.is_some() => (T::zero(), true),
             Added::Momentum | Added::Residual => return,
         };

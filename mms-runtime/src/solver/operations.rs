@@ -19,7 +19,7 @@ use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::tensor::deformation_gradient;
-use crate::transfer::Taken;
+use crate::transfer::Reads;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 
 impl<T: Real, const D: usize, F, S> Operations<T> for Solver<'_, T, D, F, S>
@@ -62,30 +62,20 @@ where
             let ahead = T::ratio(1, 2) * step;
             self.time_of_force = if on(Defect::ForceAhead) { time + ahead } else { time };
         }
-        let taken = self.transfer.takes();
         if let (Some(_), Some(force), Some(kick)) = (velocity, acceleration, kick)
-            && taken != Taken::VelocityBefore
+            && self.transfer.reads() != Reads::VelocityBefore
         {
             return self.map_kicked(mass, force, kick);
         }
-        let has_momentum = mass || velocity.is_some();
-        match (has_momentum, acceleration.is_some()) {
-            (true, true) if taken == Taken::Nothing => {
-                self.add_to_nodes(Added::Momentum)?;
-                self.add_to_nodes(Added::Force)?;
-            }
-            (true, true) => self.add_to_nodes(Added::Both)?,
-            (true, false) => self.add_to_nodes(Added::Momentum)?,
-            (false, true) => self.add_to_nodes(Added::Force)?,
-            (false, false) => {}
-        }
-        if has_momentum {
+        if mass || velocity.is_some() {
+            self.add_to_nodes(Added::Momentum)?;
             self.complete_momentum(mass)?;
         }
         if let Some(time) = velocity {
             self.find_velocity(time)?;
         }
         if let Some(time) = acceleration {
+            self.add_to_nodes(Added::Force)?;
             self.find_acceleration(time)?;
         }
         if let Some((time_step, time)) = kick {
@@ -232,15 +222,14 @@ where
         Ok(())
     }
 
-    /// v_i after a kick, where nobody asks for it before: with a_i if somebody does; else momentum and force are one
-    /// sum.
+    /// v_i after a kick where nobody reads it before: with a_i if that is read; else momentum and force are one sum.
     fn map_kicked(
         &mut self,
         mass: bool,
         force: T,
         (time_step, time): (T, T),
     ) -> Result<(), Failure> {
-        if self.transfer.takes() == Taken::Nothing {
+        if self.transfer.reads() == Reads::Nothing {
             self.add_to_nodes(Added::Kicked(time_step))?;
             self.add_tractions(force, Some(time_step))?;
             self.complete_momentum(mass)?;

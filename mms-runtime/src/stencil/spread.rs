@@ -155,9 +155,11 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                 self.put(&mut nodes, goal, apart, &sums);
             } else if REST {
                 let mut rest = self.sums::<W, P, REST>(&along, &plane, None);
-                let before = self.sums::<W, P, REST>(&along, &plane, Some((from, 0)));
+                let before =
+                    self.sums::<W, P, REST>(&along, &plane, Some((0, self.weights(from, 1, 0))));
                 self.put(&mut nodes, goal, apart, &before);
-                let after = self.sums::<W, P, REST>(&along, &plane, Some((from, 2)));
+                let after =
+                    self.sums::<W, P, REST>(&along, &plane, Some((2, self.weights(from, 1, 2))));
                 self.put(&mut nodes, goal, apart + 2 * stride[1 % D], &after);
                 for k0 in 0..W {
                     rest[k0] = machine.minus(machine.minus(rest[k0], before[k0]), after[k0]);
@@ -165,7 +167,8 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                 self.put(&mut nodes, goal, apart + stride[1 % D], &rest);
             } else {
                 for k1 in 0..W {
-                    let sums = self.sums::<W, P, REST>(&along, &plane, Some((from, k1)));
+                    let row = Some((k1, self.weights(from, 1, k1)));
+                    let sums = self.sums::<W, P, REST>(&along, &plane, row);
                     self.put(&mut nodes, goal, apart + k1 * stride[1 % D], &sums);
                 }
             }
@@ -219,25 +222,24 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         plane
     }
 
-    /// The sums that the nodes of a row of a plane take, or those of all rows together.
+    /// The sums that the nodes of a row of a plane take, with its number and weights, or those of all rows together.
     #[inline(always)]
     fn sums<const W: usize, const P: usize, const REST: bool>(
         &self,
         along: &[[M::Eight; P]; W],
         plane: &Plane<M::Eight, W, P>,
-        row: Option<(usize, usize)>,
+        row: Option<(usize, [M::Eight; P])>,
     ) -> [M::Eight; W] {
         let machine = self.machine;
-        let weights = row.map(|(from, k1)| self.weights::<P>(from, 1, k1));
         // A product is added to -0 without an addition.
         let mut sums = [machine.splat(-T::zero()); W];
         for p in 0..P {
-            let value = match (row, &weights) {
-                (Some((_, k1)), Some(weights)) if ASIDES => {
+            let value = match row {
+                Some((k1, weights)) if ASIDES => {
                     machine.times_plus(weights[p], plane.value[p], plane.asides[1][k1][p])
                 }
-                (Some(_), Some(weights)) => machine.times(weights[p], plane.value[p]),
-                _ => plane.value[p],
+                Some((_, weights)) => machine.times(weights[p], plane.value[p]),
+                None => plane.value[p],
             };
             for k0 in 0..W {
                 if REST && k0 == 1 {
@@ -246,8 +248,8 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                     sums[k0] = machine.times_plus(along[k0][p], value, sums[k0]);
                     if ASIDES {
                         let aside = plane.asides[0][k0][p];
-                        sums[k0] = match &weights {
-                            Some(weights) => machine.times_plus(weights[p], aside, sums[k0]),
+                        sums[k0] = match row {
+                            Some((_, weights)) => machine.times_plus(weights[p], aside, sums[k0]),
                             None => machine.plus(sums[k0], aside),
                         };
                     }

@@ -87,7 +87,8 @@ impl Diagnostics {
 /// A precision that there is a solver for in `D` dimensions. It is compiled in this crate, once: who calls
 /// it through this trait compiles none.
 pub trait Solve<const D: usize>: Real {
-    /// The solver of a method, with the body divided into `cells`, to be taken through its steps one by one.
+    /// The solver of a method, with the body divided into `cells`, to be taken through its steps one by one: on the
+    /// threads of the pool that they are taken in, whatever number of them the method has.
     ///
     /// # Errors
     /// A scene that cannot be started.
@@ -169,10 +170,10 @@ fn run<T: Solve<D>, const D: usize>(
     let (details, seconds, snapshots) = Default::default();
     let mut run = Run { level, details, seconds, snapshots };
     let fastest_wave = method.setup.fastest_wave;
-    let rest = Rest { solver, fastest_wave, watch, saved, stopwatch, observer };
+    let go = || take_steps(&mut *solver, fastest_wave, watch, saved, stopwatch, observer);
     let result = match method.setup.threads {
-        1 => rest.go(),
-        threads => pool(threads)?.install(|| rest.go()),
+        1 => go(),
+        threads => pool(threads)?.install(go),
     };
     run.level.seconds = stopwatch.seconds();
     run.level.errors = match result {
@@ -192,31 +193,25 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Refusal> {
     pool.map_err(|error| Refusal::NoThreads { threads, reason: error.to_string() })
 }
 
-/// What is left of a run when its solver stands.
-struct Rest<'a, 'f, T: Real, const D: usize> {
-    solver: Box<dyn AnySolver<'f, T, D> + 'f>,
+/// Takes a solver through its steps, from where it is.
+fn take_steps<T: Real, const D: usize>(
+    solver: &mut dyn AnySolver<'_, T, D>,
     fastest_wave: Option<f64>,
     watch: Watch,
-    saved: Option<SavedCourse<'a>>,
+    saved: Option<SavedCourse<'_>>,
     stopwatch: Stopwatch,
-    observer: &'a mut dyn Observer,
-}
-
-impl<T: Real, const D: usize> Rest<'_, '_, T, D> {
-    fn go(self) -> Result<(Details, Seconds, Snapshots), Failure> {
-        let Self { mut solver, fastest_wave, watch, saved, stopwatch, observer } = self;
-        let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
-        fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
-        solver.check()?;
-        let mut course =
-            Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
-        while solver.present().step < steps {
-            course.before_step(&solver.present(), behind);
-            solver.step()?;
-            course.after_step(&solver.present(), behind)?;
-            course.keep(&solver.present(), &|| solver.state())?;
-        }
-        let (details, snapshots) = course.close(&solver.present());
-        Ok((details, solver.seconds(), snapshots))
+    observer: &mut dyn Observer,
+) -> Result<(Details, Seconds, Snapshots), Failure> {
+    let (steps, behind) = (solver.steps(), solver.lag() > 0.0);
+    fastest_wave.map_or(Ok(()), |fastest| solver.check_time_step(fastest))?;
+    solver.check()?;
+    let mut course = Course::begin(watch, &solver.present(), steps, saved, stopwatch, observer)?;
+    while solver.present().step < steps {
+        course.before_step(&solver.present(), behind);
+        solver.step()?;
+        course.after_step(&solver.present(), behind)?;
+        course.keep(&solver.present(), &|| solver.state())?;
     }
+    let (details, snapshots) = course.close(&solver.present());
+    Ok((details, solver.seconds(), snapshots))
 }
