@@ -92,8 +92,8 @@ pub trait Machine<T>: Copy {
     /// Eight pairs of a first and a second number, four in each row.
     fn zipped(self, columns: [Self::Eight; 2]) -> [Self::Eight; 2];
 
-    /// Has this value brought near, for it is soon needed.
-    fn fetch<V>(self, value: &V);
+    /// Has the value in that place brought near, for it is soon needed; if there is none, nothing comes of it.
+    fn fetch<V>(self, values: &[V], place: usize);
 }
 
 /// One number after the other: every processor can do that.

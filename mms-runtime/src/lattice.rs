@@ -49,6 +49,8 @@ pub struct Lattice<T, const D: usize> {
     pub axes: [Axis; D],
     /// [`Axis::ends`] as lengths in cells.
     pub ends: [[T; 2]; D],
+    /// The first and the last cell along each axis whose splines have no knot at the ends: as lengths in cells.
+    pub inner: [[T; 2]; D],
     /// The period along each axis, in cells, where there is one.
     pub period: [Option<T>; D],
     /// The coordinates of the nodes along each axis.
@@ -79,6 +81,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             cell_size: Vector::from_fn(|a, _| T::of(axes[a].cell_size)),
             per_length: Vector::from_fn(|a, _| T::of(1.0 / axes[a].cell_size)),
             ends: std::array::from_fn(|a| axes[a].ends.map(|end| T::of(end as f64))),
+            inner: axes.each_ref().map(|axis| {
+                let [first, last] = axis.ends.map(|end| end as f64);
+                let reach = degree as f64 - 1.0;
+                [T::of(first + reach), T::of(last - 1.0 - reach)]
+            }),
             stride: std::array::from_fn(|a| count[..a].iter().product()),
             period: std::array::from_fn(|a| {
                 periodic[a].then(|| T::of(axes[a].body[1] - axes[a].body[0]))

@@ -84,8 +84,10 @@ impl<'a, T> Window<'a, T> {
 
     /// `W` nodes from this one on.
     #[inline(always)]
-    pub fn row<const W: usize>(&mut self, first: usize) -> &mut [Nodal<T>; W] {
-        self.nodes[first - self.start..].first_chunk_mut().expect("a row of nodes")
+    pub fn row<const W: usize>(&mut self, first: u32) -> &mut [Nodal<T>; W] {
+        // With 64 bits, a number of 32 and W are no less than it: one question, for the last node, is enough.
+        let first = first.wrapping_sub(self.start as u32) as usize;
+        self.nodes[first..first + W].first_chunk_mut().expect("as many")
     }
 
     /// Those before a node, and those from it on.

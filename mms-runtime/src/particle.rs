@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::iter::repeat_n;
 
+use mms_math::machine::Machine;
+
 use crate::body::Filling;
 use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
 use crate::stencil::BUNCH;
@@ -120,6 +122,14 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.residual.fill_up();
     }
 
+    /// Has what is mapped of a bunch brought near.
+    #[inline(always)]
+    pub(crate) fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
+        machine.fetch(self.displacement.bunches(), bunch);
+        machine.fetch(self.velocity.bunches(), bunch);
+        machine.fetch(self.affine.bunches(), bunch);
+    }
+
     /// X, and what a step changes.
     pub(crate) fn columns(&mut self) -> (&[[Vector<T, D>; BUNCH]], Columns<'_, T, D>) {
         let columns = Columns {
@@ -178,9 +188,24 @@ pub(crate) struct Columns<'a, T, const D: usize> {
 }
 
 impl<T, const D: usize> Columns<'_, T, D> {
+    /// Has what changes of a bunch brought near.
+    #[inline(always)]
+    pub fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
+        machine.fetch(self.displacement, bunch);
+        machine.fetch(self.velocity, bunch);
+        machine.fetch(self.displacement_gradient, bunch);
+        machine.fetch(self.affine, bunch);
+    }
+
     /// How many bunches there are.
     pub fn len(&self) -> usize {
         self.displacement.len()
+    }
+
+    /// The displacements and the displacement gradients of a bunch.
+    #[inline(always)]
+    pub fn moved(&self, k: usize) -> (&Vectors<T, D>, &Matrices<T, D>) {
+        (&self.displacement[k], &self.displacement_gradient[k])
     }
 
     /// The first `count` bunches, and the others.

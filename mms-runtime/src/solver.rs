@@ -40,6 +40,10 @@ pub use state::State;
 /// After so many steps particles are put in order again, for bunches that share their nodes are faster than others.
 const STEPS_IN_ORDER: usize = 32;
 
+/// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
+/// left the caches since the last pass.
+const AHEAD: usize = 3;
+
 /// A body of particles, its grid, and the field that drives it, with the shape function `S`.
 pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     field: &'f F,

@@ -63,16 +63,12 @@ where
     M: Machine<T>,
 {
     const { assert!(N == P + 1) };
-    let reach = T::of(P as f64 - 1.0);
     let [mut cells, mut cell] = [[machine.splat(T::zero()); D]; 2];
-    let mut inner = [[T::zero(); 2]; D];
     for a in 0..D {
-        let [first, last] = lattice.ends[a];
         cells[a] = lattice.cells_along(machine, a, position[a]);
         cell[a] = machine.floor(cells[a]);
-        inner[a] = [first + reach, last - T::one() - reach];
     }
-    if !machine.all_between(&cell, &inner) {
+    if !machine.all_between(&cell, &lattice.inner) {
         let numbers = |along: &[M::Eight; D]| along.map(|eight| machine.numbers(eight));
         let (position, cells) = (numbers(position), numbers(&cells));
         return place_near_ends::<T, D, P, N>(stencil, lattice, position, cells);

@@ -181,7 +181,7 @@ macro_rules! arrays {
                 }
 
                 #[inline(always)]
-                fn fetch<V>(self, _: &V) {}
+                fn fetch<V>(self, _: &[V], _: usize) {}
             }
         )*
     };

@@ -4,6 +4,9 @@
 //! Safety, of all that is unsafe here: a [`Fused`](super::Fused) is a proof that the processor has AVX2 and FMA, and a
 //! [`Wide`](super::Wide) that it has AVX-512.
 
+/// Bytes that come from memory together.
+const LINE: usize = 64;
+
 // What one instruction does to every number, with the registers that there are for each value.
 macro_rules! alike {
     (one: $($method:ident($($argument:ident),*) $instruction:ident;)*) => {
@@ -40,8 +43,12 @@ macro_rules! common {
         }
 
         #[inline(always)]
-        fn fetch<V>(self, value: &V) {
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(core::ptr::from_ref(value).cast()) };
+        fn fetch<V>(self, values: &[V], place: usize) {
+            // A hint may point anywhere.
+            let start = values.as_ptr().wrapping_add(place).cast::<i8>();
+            for line in (0..size_of::<V>()).step_by(super::LINE) {
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(line)) };
+            }
         }
     };
 }

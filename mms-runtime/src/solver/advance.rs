@@ -3,8 +3,8 @@
 use mms_math::dispatch::Work;
 use mms_math::machine::Machine;
 
-use super::misread;
-use super::scene::Scene;
+use super::scene::{Room, Scene};
+use super::{AHEAD, misread};
 use crate::defect::{Defect, on};
 use crate::lanes::{columns, components, determinants, set_columns, set_components};
 use crate::nodal::Nodal;
@@ -49,14 +49,19 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Advance<'_, '_, T, D, S> {
             velocity: self.velocity,
             acceleration: self.acceleration,
         };
-        let mut room = S::Stencil::default();
+        let mut room = Room::<T, D, S>::default();
         // Zero times all new numbers: zero, if these are finite.
         let mut rest = machine.splat(T::zero());
         let mut sound = true;
-        for k in 0..particles.len() {
-            let moved = (&particles.displacement[k], &particles.displacement_gradient[k]);
-            let stencil = self.scene.weigh(machine, start + k, moved, &mut room)?;
-            sound &= nodes.update(machine, &mut particles, k, stencil, &mut rest);
+        let count = particles.len();
+        for next in 0..=count {
+            if next < count {
+                let moved = particles.moved(next);
+                self.scene.weigh(machine, start + next, moved, &mut room[next % 2])?;
+            }
+            let Some(k) = next.checked_sub(1) else { continue };
+            particles.fetch(machine, k + AHEAD);
+            sound &= nodes.update(machine, &mut particles, k, &room[k % 2], &mut rest);
         }
         Ok(sound & machine.all_at_most(rest, rest))
     }
@@ -221,10 +226,9 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Residual<'_, '_, T, D, S> {
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
         let Self { scene, particles, nodal, source, .. } = self;
-        let mut room = S::Stencil::default();
+        let mut stencil = S::Stencil::default();
         for k in 0..particles.len() {
-            let moved = (&particles.displacement[k], &particles.displacement_gradient[k]);
-            let stencil = scene.weigh(machine, particles.start + k, moved, &mut room)?;
+            scene.weigh(machine, particles.start + k, particles.moved(k), &mut stencil)?;
             let from = match source {
                 Source::Velocity => &particles.velocity[k],
                 Source::Residual => &particles.residual[k],

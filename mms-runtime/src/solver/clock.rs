@@ -86,3 +86,22 @@ pub(super) fn timed<R>(seconds: &mut f64, part: impl FnOnce() -> R) -> R {
     *seconds += start.elapsed().as_secs_f64();
     result
 }
+
+/// Times parts that follow each other: each begins where the one before ended.
+pub(super) struct Laps {
+    since: Instant,
+}
+
+impl Laps {
+    /// The first part begins.
+    pub fn start() -> Self {
+        Self { since: Instant::now() }
+    }
+
+    /// A part ends: adds what it took.
+    pub fn end(&mut self, seconds: &mut f64) {
+        let now = Instant::now();
+        *seconds += (now - self.since).as_secs_f64();
+        self.since = now;
+    }
+}

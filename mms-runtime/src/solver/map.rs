@@ -5,18 +5,18 @@ use std::ops::Range;
 use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
-use super::clock::{Seconds, timed};
-use super::misread;
-use super::scene::Scene;
+use super::clock::{Laps, Seconds};
+use super::scene::{Room, Scene};
 use super::slabs::Slab;
+use super::{AHEAD, misread};
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::formulation::Configuration;
-use crate::lanes::{columns, scaled};
-use crate::nodal::{LAST, Window, halves};
+use crate::lanes::{columns, scaled, turned};
+use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
 use crate::shape::Shape;
-use crate::stencil::{ALL, BUNCH, Carried, HALF, Members, Stencil};
+use crate::stencil::{BUNCH, Carried, HALF, Members, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 
@@ -85,19 +85,21 @@ where
         let mut seconds = Seconds::default();
         let mut stress = [Matrices::zeros(); PART / BUNCH];
         let mut body_force = [[Vector::zeros(); BUNCH]; FORCED / BUNCH];
-        let mut room = S::Stencil::default();
         let has_force = self.added.has_force();
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
         let Range { start, end } = slab.particles;
+        let mut laps = Laps::start();
         for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
             let body_force = &mut body_force[..forced.len()];
             if has_force {
-                timed(&mut seconds.forcing, || self.find_body_force(forced.clone(), body_force));
+                self.find_body_force(forced.clone(), body_force);
+                laps.end(&mut seconds.forcing);
             }
             for part in parts(forced.clone(), PART / BUNCH) {
                 let stress = &mut stress[..part.len()];
                 if has_force {
-                    timed(&mut seconds.stress, || self.find_stress(part.clone(), stress))?;
+                    self.find_stress(part.clone(), stress)?;
+                    laps.end(&mut seconds.stress);
                 }
                 let sums = Sums {
                     scene: self.scene,
@@ -108,9 +110,9 @@ where
                     stress,
                     nodes: [momentum.reborrow(), force.reborrow()],
                     slab,
-                    room: &mut room,
                 };
-                timed(&mut seconds.transfer, || best(sums))?;
+                best(sums)?;
+                laps.end(&mut seconds.transfer);
             }
         }
         Ok(seconds)
@@ -156,7 +158,6 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     /// Momentum and force.
     nodes: [Window<'a, T>; 2],
     slab: &'a Slab,
-    room: &'a mut S::Stencil<T, D>,
 }
 
 impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
@@ -164,38 +165,31 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Self { scene, particles, added, bunches: range, mut nodes, slab, room, .. } = self;
+        let Self { scene, particles, added, bunches: range, mut nodes, slab, .. } = self;
         let (stress, body_force) = (self.stress, self.body_force);
-        let Slab { particles: own, window } = slab;
         let bunches = Arrays::new(particles, range.clone(), stress, body_force);
-        // For the stress of the next part.
-        let next = &particles.displacement_gradient.bunches()[range.end..];
+        let mut room = Room::<T, D, S>::default();
         let mut rest = machine.splat(T::zero());
-        for k in 0..range.len() {
-            let bunch = range.start + k;
-            if let Some(next) = next.get(k) {
-                for column in &next.0 {
-                    for entry in column {
-                        machine.fetch(entry);
-                    }
-                }
+        let count = range.len();
+        for next in 0..=count {
+            if next < count {
+                let moved = (&bunches.displacement[next], &bunches.displacement_gradient[next]);
+                scene.weigh(machine, range.start + next, moved, &mut room[next % 2])?;
             }
-            let moved = (&bunches.displacement[k], &bunches.displacement_gradient[k]);
-            let stencil = scene.weigh(machine, bunch, moved, room)?;
+            let Some(k) = next.checked_sub(1) else { continue };
+            let (bunch, stencil) = (range.start + k, &room[k % 2]);
+            particles.fetch(machine, bunch + AHEAD);
+            // For the stress of the next part.
+            machine.fetch(particles.displacement_gradient.bunches(), bunch + count);
             let first = BUNCH * bunch;
-            let whole = own.start <= first && first + BUNCH <= own.end;
-            let members = if whole {
-                ALL
-            } else {
-                [own.start, own.end].map(|p| p.clamp(first, first + BUNCH) - first)
-            };
-            if let Some(p) = stencil.beyond(members, window) {
+            let members = slab.members(first);
+            if let Some(p) = stencil.beyond(members, &slab.window) {
                 return Err(Stop::Strayed(first + p));
             }
             let [momentum, force] = &mut nodes;
             let nodes = [momentum.reborrow(), force.reborrow()];
-            let bunch = Carrier { bunches: &bunches, k, members, stencil };
-            bunch.add(machine, added, scene.lattice, nodes, &mut rest);
+            let carrier = Carrier { bunches: &bunches, k, members, stencil };
+            carrier.add(machine, added, scene.lattice, nodes, &mut rest);
         }
         if machine.all_at_most(rest, rest) {
             return Ok(());
@@ -272,7 +266,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             _ => None,
         };
         if let Some(velocity) = alone {
-            let carried = Carried::value(self.momentum(machine, velocity));
+            let carried = Carried::value(machine.transposed(self.momentum(machine, velocity)));
             stencil.spread(machine, lattice, &carried, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
@@ -282,17 +276,18 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             Added::Momentum if affine.is_some() => (T::zero(), true),
             Added::Momentum | Added::Residual => return,
         };
-        let mut carried = self.push(machine, machine.splat(share), rest);
+        let mut numbers = [machine.splat(T::zero()); HALF];
+        let mut moments = None;
         if with_momentum {
-            let momentum = self.momentum(machine, &velocity[k]);
-            for p in 0..HALF {
-                carried.value[p] = machine.plus(carried.value[p], momentum[p]);
-            }
+            numbers = self.momentum(machine, &velocity[k]);
             if let Some(affine) = affine {
                 let mass = machine.eight(&bunches.mass[k]);
-                carried.moments = Some(scaled(machine, columns(machine, &affine[k]), mass));
+                moments = Some(scaled(machine, columns(machine, &affine[k]), mass));
             }
         }
+        self.add_body_force(machine, machine.splat(share), &mut numbers);
+        let slopes = Some(self.stress(machine, machine.splat(share), rest));
+        let carried = Carried { value: machine.transposed(numbers), slopes, moments };
         let nodes = if with_momentum { momentum } else { force };
         stencil.spread(machine, lattice, &carried, members, nodes);
     }
@@ -301,27 +296,39 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     #[inline(always)]
     fn momentum<M: Machine<T>>(&self, machine: M, velocity: &Vectors<T, D>) -> [M::Eight; HALF] {
         let mass = machine.eight(&self.bunches.mass[self.k]);
-        let mut rows = [mass; HALF];
-        for i in 0..LAST {
-            rows[i] = if i < D {
-                machine.times(mass, machine.eight(&velocity.0[i % D]))
-            } else {
-                machine.splat(T::zero())
-            };
+        let mut numbers = [machine.splat(T::zero()); HALF];
+        for i in 0..D {
+            numbers[i] = machine.times(mass, machine.eight(&velocity.0[i]));
         }
-        machine.transposed(rows)
+        numbers[LAST] = mass;
+        numbers
     }
 
-    /// This `share` of m b, and of - V0 S; to `rest` is added zero times that: zero, if it is finite.
+    /// Adds this `share` of m b.
     #[inline(always)]
-    fn push<M: Machine<T>>(
+    fn add_body_force<M: Machine<T>>(
+        &self,
+        machine: M,
+        share: M::Eight,
+        numbers: &mut [M::Eight; HALF],
+    ) {
+        let Arrays { body_force, mass, .. } = self.bunches;
+        let mass = machine.times(share, machine.eight(&mass[self.k]));
+        let body_force: [M::Eight; D] = turned(machine, &body_force[self.k]);
+        for i in 0..D {
+            numbers[i] = machine.times_plus(mass, body_force[i], numbers[i]);
+        }
+    }
+
+    /// This `share` of - V0 S; to `rest` is added zero times that: zero, if it is finite.
+    #[inline(always)]
+    fn stress<M: Machine<T>>(
         &self,
         machine: M,
         share: M::Eight,
         rest: &mut M::Eight,
-    ) -> Carried<M::Eight, D> {
-        let Arrays { body_force, mass, reference_volume, stress, .. } = self.bunches;
-        let body_force = &body_force[self.k];
+    ) -> [[M::Eight; D]; D] {
+        let Arrays { reference_volume, stress, .. } = self.bunches;
         let zero = machine.splat(T::zero());
         let volume = machine.times(share, machine.eight(&reference_volume[self.k]));
         let volume = machine.minus(zero, volume);
@@ -331,11 +338,6 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
                 *rest = machine.times_plus(entry, zero, *rest);
             }
         }
-        let mut value = machine.spread(machine.times(share, machine.eight(&mass[self.k])));
-        for k in 0..HALF {
-            let body_force = halves(machine, [&body_force[k], &body_force[k + HALF]], T::zero());
-            value[k] = machine.times(body_force, value[k]);
-        }
-        Carried { value, slopes: Some(misread::stress(push)), moments: None }
+        misread::stress(push)
     }
 }

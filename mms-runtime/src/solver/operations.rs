@@ -150,7 +150,7 @@ where
             let h = particles.displacement_gradient.bunches();
             d.iter().zip(h).enumerate().try_for_each(|(bunch, moved)| {
                 let mut stencil = S::Stencil::default();
-                scene.weigh(machine, bunch, moved, &mut stencil)?;
+                scene.place(machine, bunch, moved, &mut stencil)?;
                 weights.push(stencil);
                 Ok(())
             })

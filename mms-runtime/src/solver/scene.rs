@@ -31,22 +31,43 @@ impl<T: Real, const D: usize, S: Shape> Copy for Scene<'_, T, D, S> {}
 /// The displacements and the displacement gradients of a bunch.
 pub(super) type Moved<'a, T, const D: usize> = (&'a Vectors<T, D>, &'a Matrices<T, D>);
 
+/// Room for the weights of a bunch and for those of the next one, which are found before those of the first are used: so
+/// there is something to do while numbers are awaited. Weights of bunch k are in place k % 2.
+pub(super) type Room<T, const D: usize, S> = [<S as Shape>::Stencil<T, D>; 2];
+
 impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
-    /// The weights of one bunch: those that are kept, or those of its state in a `room` for them.
+    /// Finds the weights of a bunch: those that are kept, or those of its state.
     ///
     /// # Errors
     /// A particle has none.
     #[inline(always)]
-    pub fn weigh<'b, M: Machine<T>>(
-        &'b self,
+    pub fn weigh<M: Machine<T>>(
+        &self,
+        machine: M,
+        bunch: usize,
+        moved: Moved<'_, T, D>,
+        stencil: &mut S::Stencil<T, D>,
+    ) -> Result<(), (usize, Cause)> {
+        if let Some(kept) = self.weights.get(bunch) {
+            // A copy, for what the sums read is faster where nobody else can have it.
+            stencil.clone_from(kept);
+            return Ok(());
+        }
+        self.place(machine, bunch, moved, stencil)
+    }
+
+    /// The weights of one bunch in its state.
+    ///
+    /// # Errors
+    /// A particle has none.
+    #[inline(always)]
+    pub fn place<M: Machine<T>>(
+        &self,
         machine: M,
         bunch: usize,
         (displacement, displacement_gradient): Moved<'_, T, D>,
-        room: &'b mut S::Stencil<T, D>,
-    ) -> Result<&'b S::Stencil<T, D>, (usize, Cause)> {
-        if let Some(kept) = self.weights.get(bunch) {
-            return Ok(kept);
-        }
+        stencil: &mut S::Stencil<T, D>,
+    ) -> Result<(), (usize, Cause)> {
         let mut position = turned(machine, &self.reference_position[bunch]);
         let unmoved;
         let h = if self.moves {
@@ -60,8 +81,8 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
             &unmoved
         };
         let domains = &self.domains[bunch];
-        match S::place(machine, room, self.lattice, &position, domains, h) {
-            Ok(()) => Ok(room),
+        match S::place(machine, stencil, self.lattice, &position, domains, h) {
+            Ok(()) => Ok(()),
             Err(cause) => {
                 let (p, cause) = self.blamed(&vectors(machine, position), domains, h, cause);
                 Err((BUNCH * bunch + p, cause))

@@ -12,7 +12,7 @@ use std::ops::Range;
 use crate::column::{Bunch, Bunches};
 use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder, reorder_bunches};
-use crate::stencil::{BUNCH, HALF};
+use crate::stencil::{ALL, BUNCH, HALF, Members};
 use crate::{Lattice, Real, Vector};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
@@ -35,6 +35,18 @@ pub(super) struct Slab {
     pub particles: Range<usize>,
     /// Indices of nodes.
     pub window: Range<usize>,
+}
+
+impl Slab {
+    /// Which particles of a bunch are its own, by the first one of the bunch.
+    #[inline(always)]
+    pub fn members(&self, first: usize) -> Members {
+        let Range { start, end } = self.particles;
+        if start <= first && first + BUNCH <= end {
+            return ALL;
+        }
+        [start, end].map(|p| p.clamp(first, first + BUNCH) - first)
+    }
 }
 
 /// What is done for a slab, with its part of two arrays of nodes.

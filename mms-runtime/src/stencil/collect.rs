@@ -2,7 +2,7 @@
 
 use mms_math::machine::Machine;
 
-use super::tensor::{Along, Tensor};
+use super::tensor::{Along, Sharing, Tensor};
 use super::{BUNCH, HALF};
 use crate::Real;
 use crate::nodal::Nodal;
@@ -40,8 +40,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
         let along = self.axis::<M, W>(machine, 0);
         let firsts = self.stencil.first;
-        let shared = self.stencil.is_shared();
-        if shared && firsts[0] == firsts[HALF] {
+        let sharing = self.stencil.sharing();
+        if sharing == Sharing::All {
             return self.space::<M, W, true>(machine, &along, [firsts[0]; 2]);
         }
         let nothing = machine.splat(T::zero());
@@ -55,7 +55,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
                 .map(|half| firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]);
             let mut own = along;
             // Halves that share their nodes are one round, of whole weights: the sums are compiled once for both.
-            if !shared {
+            if sharing == Sharing::Any {
                 let mut share = [T::zero(); BUNCH];
                 for p in 0..BUNCH {
                     if firsts[p] == at[p / HALF] && left >> p & 1 == 1 {
@@ -73,7 +73,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
                 }
             }
             let theirs = self.space::<M, W, false>(machine, &own, at);
-            if shared {
+            if sharing == Sharing::Halves {
                 return theirs;
             }
             for c in 0..D {
@@ -106,10 +106,12 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     #[inline(always)]
     fn nodes<const W: usize>(&self, first: [u32; 2], [k1, k2]: [usize; 2]) -> Row<'_, T, W> {
         let stride = |a: usize| if a < D { self.stencil.stride[a] } else { 0 };
-        let apart = k1 * stride(1) + k2 * stride(2);
-        let [one, two] = first;
-        let [one, two] = [&self.nodes[one as usize + apart..], &self.nodes[two as usize + apart..]];
-        [one.first_chunk().expect("a row of nodes"), two.first_chunk().expect("a row of nodes")]
+        let apart = k1 as u32 * stride(1) + k2 as u32 * stride(2);
+        first.map(|first| {
+            // As in [`Window::row`](crate::nodal::Window::row), one question is enough.
+            let first = first.wrapping_add(apart) as usize;
+            self.nodes[first..first + W].first_chunk().expect("as many")
+        })
     }
 
     /// The sums over the nodes from `first` on, which are the `SAME` for both halves or not: of planes.

@@ -9,7 +9,7 @@
 
 use mms_math::machine::Machine;
 
-use super::tensor::{Along, Tensor};
+use super::tensor::{Along, Sharing, Tensor};
 use super::{ALL, Carried, HALF, Members};
 use crate::Real;
 use crate::nodal::Window;
@@ -36,9 +36,9 @@ pub(super) struct Spread<
 #[derive(Clone, Copy)]
 enum Goal {
     /// Both to the nodes from one on.
-    Together(usize),
+    Together(u32),
     /// Each to nodes of its own, but for those that are not meant.
-    Apart([Option<usize>; 2]),
+    Apart([Option<u32>; 2]),
 }
 
 /// For every axis, and `W` nodes along it, the asides of each particle of both halves.
@@ -52,10 +52,12 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     #[inline(always)]
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
         let Tensor { first, regular, .. } = *self.stencil;
-        if self.members == ALL && self.stencil.is_shared() && (W != 3 || regular) {
-            let [one, two] = [first[0], first[HALF]].map(|first| first as usize);
-            let goal =
-                if one == two { Goal::Together(one) } else { Goal::Apart([Some(one), Some(two)]) };
+        let sharing = self.stencil.sharing();
+        if sharing != Sharing::Any && self.members == ALL && (W != 3 || regular) {
+            let goal = match sharing {
+                Sharing::All => Goal::Together(first[0]),
+                _ => Goal::Apart([Some(first[0]), Some(first[HALF])]),
+            };
             if W == 3 {
                 let asides = self.asides::<W, true>();
                 self.of::<W, HALF, true>(0, goal, &asides, nodes);
@@ -68,7 +70,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         let asides = self.asides::<W, false>();
         let [from, to] = self.members;
         for k in 0..HALF {
-            let meant = |p: usize| (from <= p && p < to).then_some(first[p] as usize);
+            let meant = |p: usize| (from <= p && p < to).then_some(first[p]);
             let pair = [meant(k), meant(k + HALF)];
             if pair != [None; 2] {
                 self.of::<W, 1, false>(k, Goal::Apart(pair), &asides, nodes.reborrow());
@@ -149,7 +151,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         }
         for k2 in 0..if D > 2 { W } else { 1 } {
             let plane = self.plane::<W, P>(from, k2, asides);
-            let apart = if D > 2 { k2 * stride[2 % D] } else { 0 };
+            let apart = if D > 2 { k2 as u32 * stride[2 % D] } else { 0 };
             if D == 1 {
                 let sums = self.sums::<W, P, REST>(&along, &plane, None);
                 self.put(&mut nodes, goal, apart, &sums);
@@ -169,7 +171,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
                 for k1 in 0..W {
                     let row = Some((k1, self.weights(from, 1, k1)));
                     let sums = self.sums::<W, P, REST>(&along, &plane, row);
-                    self.put(&mut nodes, goal, apart + k1 * stride[1 % D], &sums);
+                    self.put(&mut nodes, goal, apart + k1 as u32 * stride[1 % D], &sums);
                 }
             }
         }
@@ -268,26 +270,26 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         &self,
         nodes: &mut Window<'_, T>,
         goal: Goal,
-        apart: usize,
+        apart: u32,
         sums: &[M::Eight; W],
     ) {
         let machine = self.machine;
         match goal {
             Goal::Together(first) => {
-                let row = nodes.row::<W>(first + apart);
+                let row = nodes.row::<W>(first.wrapping_add(apart));
                 for k0 in 0..W {
                     machine.add_halves(&mut row[k0].0, sums[k0]);
                 }
             }
             Goal::Apart([one, two]) => {
                 if let Some(first) = one {
-                    let row = nodes.row::<W>(first + apart);
+                    let row = nodes.row::<W>(first.wrapping_add(apart));
                     for k0 in 0..W {
                         machine.add_first(&mut row[k0].0, sums[k0]);
                     }
                 }
                 if let Some(first) = two {
-                    let row = nodes.row::<W>(first + apart);
+                    let row = nodes.row::<W>(first.wrapping_add(apart));
                     for k0 in 0..W {
                         machine.add_second(&mut row[k0].0, sums[k0]);
                     }

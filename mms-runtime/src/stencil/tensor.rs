@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use mms_math::machine::Machine;
+use mms_math::machine::{Machine, Plain};
 
 use super::collect::{Summed, Sums};
 use super::spread::Spread;
@@ -17,8 +17,19 @@ use crate::{Lattice, Real, Vector};
 /// For every axis, and the first, second, .. node along it, a number for each particle of a bunch.
 pub(super) type Along<T, const D: usize, const N: usize> = [[[T; BUNCH]; N]; D];
 
+/// Which particles of a bunch have the same nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sharing {
+    /// All.
+    All,
+    /// Those of each half.
+    Halves,
+    /// Any.
+    Any,
+}
+
 /// A stencil that is the product of the weights along the axes: of `N` nodes along each, or where that is enough
-/// for the whole bunch, of `LEAST`.
+/// for the whole bunch, of `LEAST`. Where that is no less, the weights are B-splines of degree N - 1.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
@@ -30,7 +41,11 @@ pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
     /// Index of the first node in the grid's arrays.
     pub(super) first: [u32; BUNCH],
     /// Distance in the grid's arrays between neighbours along each axis.
-    pub(super) stride: [usize; D],
+    pub(super) stride: [u32; D],
+    /// Sum of those.
+    strides: u32,
+    /// Whether all of each half have the same nodes.
+    shared: bool,
     /// How many nodes along each axis have a weight, at most: N or LEAST.
     width: usize,
     /// Whether all nodes are one cell apart, and along each axis weights sum to 1.
@@ -47,6 +62,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             start: [[0; BUNCH]; D],
             first: [0; BUNCH],
             stride: [0; D],
+            strides: 0,
+            shared: true,
             width: N,
             regular: true,
         }
@@ -56,7 +73,10 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     #[inline(always)]
     pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, regular: bool) {
         const { assert!(W == LEAST || W == N) };
-        (self.first, self.stride) = ([0; BUNCH], lattice.stride);
+        self.first = [0; BUNCH];
+        // There are fewer than 2^32 nodes.
+        self.stride = lattice.stride.map(|stride| stride as u32);
+        self.strides = self.stride.iter().sum();
         (self.width, self.regular) = (W, regular);
     }
 
@@ -78,16 +98,80 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             self.slope[axis][k] = machine.numbers(machine.times(slope[k], per_length));
         }
         self.start[axis] = machine.whole(first);
-        let stride = lattice.stride[axis] as u32;
         for p in 0..BUNCH {
-            let along = (self.start[axis][p] as u32).wrapping_mul(stride);
+            let along = (self.start[axis][p] as u32).wrapping_mul(self.stride[axis]);
             self.first[p] = self.first[p].wrapping_add(along);
+        }
+        if axis + 1 == D {
+            let mut different = 0;
+            for p in 0..BUNCH {
+                different |= self.first[p] ^ self.first[p / HALF * HALF];
+            }
+            self.shared = different == 0;
+        }
+    }
+
+    /// Which particles have the same nodes.
+    #[inline(always)]
+    pub(super) fn sharing(&self) -> Sharing {
+        if !self.shared {
+            Sharing::Any
+        } else if self.first[0] == self.first[HALF] {
+            Sharing::All
+        } else {
+            Sharing::Halves
         }
     }
 
     /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis.
     #[inline(always)]
     fn moments<M: Machine<T>>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+    ) -> (Along<T, D, N>, [M::Eight; D]) {
+        if LEAST < N {
+            return self.moments_of_any(machine, lattice);
+        }
+        if !self.regular {
+            let (moment, per_spread) = self.moments_near_ends(lattice);
+            return (moment, per_spread.map(|numbers| machine.eight(&numbers)));
+        }
+        let mut moment = [[[T::zero(); BUNCH]; N]; D];
+        let mut per_spread = [machine.splat(T::zero()); D];
+        for a in 0..D {
+            let h = lattice.cell_size[a];
+            let mut weight = [machine.splat(T::zero()); N];
+            let mut middle = machine.splat(T::zero());
+            for k in 0..N {
+                weight[k] = machine.eight(&self.weight[a][k]);
+                if k > 0 {
+                    let apart = machine.splat(h * T::of(k as f64));
+                    middle = machine.times_plus(weight[k], apart, middle);
+                }
+            }
+            for k in 0..N {
+                let apart = machine.minus(machine.splat(h * T::of(k as f64)), middle);
+                moment[a][k] = machine.numbers(machine.times(weight[k], apart));
+            }
+            // The variance of N lengths that are evenly distributed over a cell, whose sum is a B-spline's.
+            per_spread[a] = machine.splat(T::ratio(12, N as i32) / (h * h));
+        }
+        (moment, per_spread)
+    }
+
+    /// As [`moments`](Self::moments), near the ends of splines.
+    #[cold]
+    fn moments_near_ends(&self, lattice: &Lattice<T, D>) -> (Along<T, D, N>, [[T; BUNCH]; D]) {
+        // What is not inlined into a loop knows no better machine.
+        let machine = T::PlainMachine::from(Plain);
+        let (moment, per_spread) = self.moments_of_any(machine, lattice);
+        (moment, per_spread.map(|eight| machine.numbers(eight)))
+    }
+
+    /// As [`moments`](Self::moments), whatever the weights are.
+    #[inline(always)]
+    fn moments_of_any<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -139,11 +223,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     /// How far the last node is behind the first one, in the grid's arrays.
     #[inline(always)]
     fn extent(&self) -> usize {
-        let mut extent = 0;
-        for stride in self.stride {
-            extent += (self.width() - 1) * stride;
-        }
-        extent
+        (self.width() - 1) * self.strides as usize
     }
 
     /// How many nodes along each axis have a weight, at most.
@@ -157,17 +237,6 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     #[inline(never)]
     fn first_beyond(&self, [from, to]: Members, start: u32, room: u32) -> Option<usize> {
         (from..to).find(|&p| self.first[p].wrapping_sub(start) >= room)
-    }
-
-    /// Whether all of each half have the same nodes.
-    #[inline(always)]
-    pub(super) fn is_shared(&self) -> bool {
-        let mut different = 0;
-        for k in 1..HALF {
-            different |= self.first[0] ^ self.first[k];
-            different |= self.first[HALF] ^ self.first[HALF + k];
-        }
-        different == 0
     }
 
     /// Adds to nodes; where there is something of the kind, with `ASIDES`.
@@ -224,7 +293,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
             for k1 in 0..width(1) {
                 for k0 in 0..width(0) {
                     let k = [k0, k1, k2];
-                    let from_first: usize = (0..D).map(|a| k[a] * self.stride[a]).sum();
+                    let from_first: usize = (0..D).map(|a| k[a] * self.stride[a] as usize).sum();
                     let product = |skip: usize| {
                         let others = (0..D).filter(|&a| a != skip);
                         others.fold(T::one(), |product, a| product * self.weight[a][k[a]][particle])
