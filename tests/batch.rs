@@ -1,7 +1,9 @@
 //! Evaluation at many points: the same values as one by one, wherever a point stands in a batch,
 //! however it is stored, and where the quick functions do not know.
 
-use mms::gallery::{axis_aligned_3d, bar_1d, generalized_vortex, twisted_column};
+use mms::gallery::{
+    axis_aligned_3d, bar_1d, cyclic_shear_3d, generalized_vortex, quiet_boundary_2d, twisted_column,
+};
 use mms_runtime::math::batch::BLOCK;
 
 // With numbers for what it depends on, its angle is proved to be at most 1.
@@ -134,6 +136,30 @@ fn many_points_of_a_twist() {
         strain_energy strain_energy_batch strain_energy_batch_aos strain_energy_batch_at |w| [w], 1;
         body_force body_force_batch body_force_batch_aos body_force_batch_at |b| b, 3;
     );
+}
+
+/// Where much of what X determines is made of little, at every time anew.
+#[test]
+fn many_points_of_polynomials() {
+    let plane = |count| [0.819, 0.671].map(|step| spread(count, step, [0.0, 1.0]));
+    in_both_precisions!(quiet_boundary_2d, plane, 0.01,
+        displacement_gradient displacement_gradient_batch displacement_gradient_batch_aos
+            displacement_gradient_batch_at |h| h.into_iter().flatten(), 4;
+        body_force body_force_batch body_force_batch_aos body_force_batch_at |b| b, 2;
+    );
+    let space = |count| [0.819, 0.671, 0.549].map(|step| spread(count, step, [0.0, 1.0]));
+    in_both_precisions!(cyclic_shear_3d, space, 0.01,
+        body_force body_force_batch body_force_batch_aos body_force_batch_at |b| b, 3;
+    );
+}
+
+/// What a few sums and products make of the rest does not come from memory.
+#[test]
+fn few_numbers_are_kept_of_many_points() {
+    assert_eq!(quiet_boundary_2d::Point::<f64>::BYTES, 8 * 51);
+    assert_eq!(quiet_boundary_2d::Points::<f64>::BYTES, 8 * 21);
+    // X, Y, (R - 1)^2, h and one number more.
+    assert_eq!(frozen_vortex::Points::<f64>::BYTES, 8 * 5);
 }
 
 #[test]

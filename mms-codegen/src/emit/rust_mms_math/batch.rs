@@ -1,8 +1,11 @@
 //! Quantities at many points: the functions of a point, driven over slices.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
+use super::cut::Cut;
 use super::quantity::at;
 use super::{Emitter, MATH, Place, RUNTIME, input};
 use crate::expr::Symbol;
@@ -17,6 +20,13 @@ pub(super) struct Columns {
     pub values: Vec<Value>,
 }
 
+impl Columns {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.axes.len() + self.values.len()
+    }
+}
+
 impl Emitter<'_> {
     /// The module of batches.
     pub(super) fn math(&self) -> TokenStream {
@@ -27,8 +37,10 @@ impl Emitter<'_> {
     /// What the loops over points need: the prepared field in the scalar of a loop, the cache of many
     /// points, and a kernel for each quantity.
     pub(super) fn batches(&self) -> TokenStream {
-        let (stand_ins, points) = (self.stand_ins(), self.points());
-        let kernels = self.quantities().map(|quantity| self.kernels_of(quantity));
+        let kept = self.quantities().flat_map(|quantity| self.kept_for(quantity).columns.values);
+        let kept = Vec::from_iter(BTreeSet::from_iter(kept));
+        let (stand_ins, points) = (self.stand_ins(), self.points(&kept));
+        let kernels = self.quantities().map(|quantity| self.kernels_of(quantity, &kept));
         quote!(#stand_ins #points #(#kernels)*)
     }
 
@@ -65,11 +77,11 @@ impl Emitter<'_> {
     }
 
     /// The cache of many points.
-    fn points(&self) -> TokenStream {
-        let kept: Vec<_> = self.kept_in(Stage::Point);
+    fn points(&self, kept: &[Value]) -> TokenStream {
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let dimension = self.dimension();
-        let axes = self.axes().map(Literal::usize_unsuffixed);
+        let place = Place { scalar: quote!(S), ..Place::at_points(quote!(self.0), &[Stage::Point]) };
+        let body = self.statements(kept.iter().copied(), &place);
+        let (dimension, position) = (self.dimension(), self.position());
         let count = self.axes().len() + kept.len();
         let size = format!(
             " {count} values of `T` a point, {} bytes in double precision: see `BYTES`.",
@@ -120,9 +132,9 @@ impl Emitter<'_> {
 
             impl<S: Real> batch::Function<S, #dimension, #count> for PointsOf<'_, S> {
                 #[inline(always)]
-                fn at(&self, position: [S; #dimension]) -> [S; #count] {
-                    let point = self.0.at_point(position);
-                    [#(point.reference_position[#axes],)* #(point.#names),*]
+                fn at(&self, [#(#position),*]: [S; #dimension]) -> [S; #count] {
+                    #body
+                    [#(#position,)* #(#names),*]
                 }
             }
 
@@ -138,8 +150,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The kernels of a quantity, and the functions that drive them.
-    fn kernels_of(&self, quantity: Quantity) -> TokenStream {
+    /// The kernels of a quantity, and the functions that drive them; `all` that is kept of many points.
+    fn kernels_of(&self, quantity: Quantity, all: &[Value]) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
         let is_traction = quantity == Quantity::Traction;
@@ -152,13 +164,14 @@ impl Emitter<'_> {
         let function = format_ident!("{name}");
         let position = self.position();
         let normal = normal(normals);
-        let columns = self.columns(quantity);
+        let (columns, kept) = (self.columns(quantity), self.kept_for(quantity));
         let inputs = count(dimension + normals);
-        let inputs_at = count(columns.axes.len() + columns.values.len() + normals);
+        let inputs_at = count(kept.columns.len() + normals);
         let with_normals = is_traction.then(|| (quote!(normals #inputs,), quote!(, #inputs_at)));
         let (with_normals, with_count) = with_normals.unzip();
-        let indices = columns.axes.iter().copied();
-        let indices = indices.chain(columns.values.iter().map(|value| self.column(*value)));
+        let Columns { axes: kept_axes, values } = &kept.columns;
+        let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
+        let indices = kept_axes.iter().copied().chain(values.iter().map(column));
         let indices = indices.map(count);
         let from_position = if self.is_worth_two_loops(quantity) {
             self.two_loops(quantity, &columns)
@@ -172,7 +185,7 @@ impl Emitter<'_> {
                 } }
             }
         };
-        let over_columns = self.over_columns(quantity, &cached, &columns, &columns, &[]);
+        let over_columns = self.over_columns(quantity, &cached, &columns, &kept);
         quote! {
             #from_position
             #over_columns
@@ -184,14 +197,13 @@ impl Emitter<'_> {
         }
     }
 
-    /// A kernel that takes these columns, and finds a quantity's own `columns` by products first.
+    /// A kernel of a quantity that needs these `columns` of a point, and makes them of what it takes.
     pub(super) fn over_columns(
         &self,
         quantity: Quantity,
         kernel: &Ident,
         columns: &Columns,
-        taken: &Columns,
-        products: &[(Value, [Value; 2])],
+        taken: &Cut,
     ) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
@@ -203,18 +215,14 @@ impl Emitter<'_> {
         let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
         let place =
             Place { scalar: quote!(S), ..Place::at_points(quote!(at.field), &[Stage::Point]) };
-        let products = products.iter().map(|(product, factors)| {
-            let [a, b] = factors.map(|factor| self.operand(factor, &place));
-            let product = self.name(*product);
-            quote!(let #product = #a * #b;)
-        });
-        let axes = taken.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
-        let taken = axes.chain(taken.values.iter().map(|value| self.name(*value)));
+        let made = self.one_by_one(&taken.made, &place);
+        let axes = taken.columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
+        let taken = axes.chain(taken.columns.values.iter().map(|value| self.name(*value)));
         let taken: Vec<_> = taken.chain(normal).collect();
         let inputs = count(taken.len());
         quote! {
             #math::kernel! { #kernel<S>, #inputs -> #results, |at, [#(#taken),*]| {
-                #(#products)*
+                #made
                 #result
             } }
         }
@@ -252,7 +260,7 @@ impl Emitter<'_> {
     }
 
     /// What a quantity reads of the cache of a point; something, so that a batch has a length.
-    fn columns(&self, quantity: Quantity) -> Columns {
+    pub(super) fn columns(&self, quantity: Quantity) -> Columns {
         let roots = self.values(Output::Quantity(quantity));
         let needed = self.program.needed_for(roots.iter().copied());
         let mut read = vec![false; self.program.instrs.len()];
@@ -272,12 +280,6 @@ impl Emitter<'_> {
             columns.axes.push(0);
         }
         columns
-    }
-
-    /// The position of a value in the cache of many points.
-    fn column(&self, value: Value) -> usize {
-        let place = self.kept_in(Stage::Point).iter().position(|kept| *kept == value);
-        self.axes().len() + place.expect("what a quantity reads is kept")
     }
 
     /// A point of which only these columns are known.

@@ -39,6 +39,12 @@ impl Emitter<'_> {
             (0..computed.len()).filter(|index| computed[*index] && body.is_written(*index));
         written.map(|index| body.statement(Value(index as u32))).collect()
     }
+
+    /// These values, and nothing else.
+    pub(super) fn one_by_one(&self, values: &[Value], place: &Place) -> TokenStream {
+        let body = Body { emitter: self, place, fusion: Fusion::none(self.program) };
+        values.iter().map(|value| body.statement(*value)).collect()
+    }
 }
 
 /// A function, and what its processor does in one go.

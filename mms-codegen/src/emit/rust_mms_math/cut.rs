@@ -1,9 +1,9 @@
-//! Two loops over the points of a batch, and what the first one hands to the second one.
+//! What is taken from memory at a point, and what is made of it first.
 //!
-//! A number that is handed over is written and read again. So products of numbers that are there anyway are taken
-//! where they are read; and where several products have one factor, that is handed over in their place.
+//! A number that is kept is written once and read every time. So sums and products of numbers that are there anyway are
+//! computed where they are read; and where several can be made of one number, that is kept in their place.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -14,12 +14,18 @@ use crate::expr::Symbol;
 use crate::program::{Op, Stage, Value};
 use crate::quantity::Quantity;
 
-/// What the second loop starts from.
-struct Cut {
-    /// What it reads: coordinates, and what the first loop found.
-    columns: Columns,
-    /// The products that it begins with, in order, and their factors.
-    products: Vec<(Value, [Value; 2])>,
+/// How many sums and products a number is worth that one loop over points leaves to the next one.
+const WORTH_IN_CACHE: usize = 1;
+
+/// And one that is kept of a point: it comes from memory.
+const WORTH_IN_MEMORY: usize = 3;
+
+/// What a function of a point starts from.
+pub(super) struct Cut {
+    /// What it reads: coordinates, and values that were found before.
+    pub columns: Columns,
+    /// What it makes of those, operands first.
+    pub made: Vec<Value>,
 }
 
 impl Emitter<'_> {
@@ -30,7 +36,7 @@ impl Emitter<'_> {
         let normals = if quantity == Quantity::Traction { dimension } else { 0 };
         let [whole, first, then] = ["", "Of", "Then"].map(|suffix| kernel(quantity, suffix));
         let found = format_ident!("{}_of", quantity.name());
-        let cut = self.cut(columns);
+        let cut = self.cut(columns, WORTH_IN_CACHE);
         let handed = &cut.columns.values;
         let body = self
             .statements(handed.iter().copied(), &Place::at_points(quote!(self), &[Stage::Point]));
@@ -42,7 +48,7 @@ impl Emitter<'_> {
         let between = count(handed.len());
         let results = count(quantity.shape().components(dimension));
         let (point, position, normal) = (self.point(), self.position(), normal(normals));
-        let second = self.over_columns(quantity, &then, columns, &cut.columns, &cut.products);
+        let second = self.over_columns(quantity, &then, columns, &cut);
         quote! {
             impl<T: Real> Field<T> {
                 #[inline(always)]
@@ -56,44 +62,94 @@ impl Emitter<'_> {
         }
     }
 
-    /// Where loops part of which the second one needs these columns.
-    fn cut(&self, columns: &Columns) -> Cut {
-        let mut handed: BTreeSet<Value> = columns.values.iter().copied().collect();
-        let mut products = BTreeMap::new();
+    /// What a quantity reads of the cache of many points: no more columns than it needs.
+    pub(super) fn kept_for(&self, quantity: Quantity) -> Cut {
+        let columns = self.columns(quantity);
+        let cut = self.cut(&columns, WORTH_IN_MEMORY);
+        if cut.columns.len() < columns.len() { cut } else { Cut { columns, made: Vec::new() } }
+    }
+
+    /// What is taken in place of these columns, where a number is `worth` so many operations.
+    fn cut(&self, columns: &Columns, worth: usize) -> Cut {
+        let mut taken: BTreeSet<Value> = columns.values.iter().copied().collect();
+        let mut made = BTreeSet::new();
         loop {
-            let mut made = BTreeMap::new();
-            let mut of_factor: BTreeMap<Value, usize> = BTreeMap::new();
-            for value in &handed {
-                let Op::Multiply(a, b) = self.program.instr(*value).op else { continue };
-                let is_there = |factor: &Value| {
-                    let known = handed.contains(factor) || products.contains_key(factor);
-                    known || !self.is_found_at_points(*factor)
+            let makes = |value: &Value| {
+                let there = |other: Value| {
+                    other != *value && taken.contains(&other) || made.contains(&other)
                 };
-                let missing: BTreeSet<Value> =
-                    [a, b].into_iter().filter(|factor| !is_there(factor)).collect();
-                match Vec::from_iter(missing)[..] {
-                    [] => drop(made.insert(*value, [a, b])),
-                    [factor] => *of_factor.entry(factor).or_default() += 1,
-                    _ => {}
-                }
+                self.steps(*value, worth, &there).map(|steps| (*value, steps))
+            };
+            if let Some((value, steps)) = taken.iter().find_map(makes) {
+                taken.remove(&value);
+                made.extend(steps);
+                continue;
             }
-            handed.retain(|value| !made.contains_key(value));
-            let shared = of_factor.into_iter().filter(|(_, products)| *products > 1);
-            let best = shared.max_by_key(|(_, products)| *products);
-            handed.extend(best.map(|(factor, _)| factor));
-            if made.is_empty() && best.is_none() {
-                break;
+            // How many could be made if there were another one.
+            let of_it = |another: Value| {
+                let there = |other: Value| {
+                    other == another || taken.contains(&other) || made.contains(&other)
+                };
+                let is_made = |value: &&Value| {
+                    let there = |other: Value| other != **value && there(other);
+                    self.steps(**value, worth, &there).is_some()
+                };
+                taken.iter().filter(is_made).count()
+            };
+            let others = taken.iter().flat_map(|value| self.behind(*value, worth));
+            let others: BTreeSet<Value> = others.filter(|other| !taken.contains(other)).collect();
+            let best = others.into_iter().map(|other| (of_it(other), other)).max();
+            match best {
+                Some((several, other)) if several > 1 => drop(taken.insert(other)),
+                _ => break,
             }
-            products.extend(made);
         }
         let mut axes: BTreeSet<usize> = columns.axes.iter().copied().collect();
-        for factor in products.values().flatten() {
-            if let Op::Input(Symbol::Coordinate(axis)) = self.program.instr(*factor).op {
-                axes.insert(axis);
+        for value in &made {
+            for operand in self.program.instr(*value).op.operands() {
+                if let Op::Input(Symbol::Coordinate(axis)) = self.program.instr(operand).op {
+                    axes.insert(axis);
+                }
             }
         }
-        let columns = Columns { axes: Vec::from_iter(axes), values: Vec::from_iter(handed) };
-        Cut { columns, products: Vec::from_iter(products) }
+        let columns = Columns { axes: Vec::from_iter(axes), values: Vec::from_iter(taken) };
+        Cut { columns, made: Vec::from_iter(made) }
+    }
+
+    /// The sums and products, no more than `most`, that make a value of what is `there`.
+    fn steps(
+        &self,
+        value: Value,
+        most: usize,
+        there: &dyn Fn(Value) -> bool,
+    ) -> Option<BTreeSet<Value>> {
+        let mut steps = BTreeSet::new();
+        let mut open = vec![value];
+        while let Some(value) = open.pop() {
+            if !self.is_found_at_points(value) || there(value) || !steps.insert(value) {
+                continue;
+            }
+            let op = &self.program.instr(value).op;
+            let counted = steps.iter().filter(|step| self.program.instr(**step).op.is_counted());
+            if !is_cheap(op) || counted.count() > most {
+                return None;
+            }
+            open.extend(op.operands());
+        }
+        Some(steps)
+    }
+
+    /// What comes before a value, up to so many sums and products.
+    fn behind(&self, value: Value, most: usize) -> BTreeSet<Value> {
+        let op = &self.program.instr(value).op;
+        let mut behind = BTreeSet::new();
+        if most > 0 && is_cheap(op) {
+            for operand in op.operands().filter(|operand| self.is_found_at_points(*operand)) {
+                behind.insert(operand);
+                behind.extend(self.behind(operand, most - 1));
+            }
+        }
+        behind
     }
 
     /// Whether a value has to be computed from a position.
@@ -101,4 +157,9 @@ impl Emitter<'_> {
         let instr = self.program.instr(value);
         instr.stage == Stage::Point && !matches!(instr.op, Op::Input(_))
     }
+}
+
+/// Whether an operation takes no longer than a sum or a product.
+fn is_cheap(op: &Op) -> bool {
+    matches!(op, Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Negate(_))
 }
