@@ -127,6 +127,8 @@ impl<T: Real, const D: usize> Particles<T, D> {
     pub(crate) fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
         machine.fetch(self.displacement.bunches(), bunch);
         machine.fetch(self.velocity.bunches(), bunch);
+        machine.fetch(self.mass.bunches(), bunch);
+        machine.fetch(self.reference_volume.bunches(), bunch);
         machine.fetch(self.affine.bunches(), bunch);
     }
 

@@ -60,6 +60,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Advance<'_, '_, T, D, S> {
                 self.scene.weigh(machine, start + next, moved, &mut room[next % 2])?;
             }
             let Some(k) = next.checked_sub(1) else { continue };
+            self.scene.fetch(machine, start + k + AHEAD);
             particles.fetch(machine, k + AHEAD);
             sound &= nodes.update(machine, &mut particles, k, &room[k % 2], &mut rest);
         }

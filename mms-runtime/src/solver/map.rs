@@ -178,6 +178,7 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
             }
             let Some(k) = next.checked_sub(1) else { continue };
             let (bunch, stencil) = (range.start + k, &room[k % 2]);
+            scene.fetch(machine, bunch + AHEAD);
             particles.fetch(machine, bunch + AHEAD);
             // For the stress of the next part.
             machine.fetch(particles.displacement_gradient.bunches(), bunch + count);

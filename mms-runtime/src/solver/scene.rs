@@ -36,6 +36,13 @@ pub(super) type Moved<'a, T, const D: usize> = (&'a Vectors<T, D>, &'a Matrices<
 pub(super) type Room<T, const D: usize, S> = [<S as Shape>::Stencil<T, D>; 2];
 
 impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
+    /// Has what weights are found of brought near, but for the state.
+    #[inline(always)]
+    pub fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
+        machine.fetch(self.reference_position, bunch);
+        machine.fetch(self.domains, bunch);
+    }
+
     /// Finds the weights of a bunch: those that are kept, or those of its state.
     ///
     /// # Errors
