@@ -79,7 +79,8 @@ impl Emitter<'_> {
     /// The cache of many points.
     fn points(&self, kept: &[Value]) -> TokenStream {
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place { scalar: quote!(S), ..Place::at_points(quote!(self.0), &[Stage::Point]) };
+        let place =
+            Place { scalar: quote!(S), ..Place::at_points(quote!(self.0), &[Stage::Point]) };
         let body = self.statements(kept.iter().copied(), &place);
         let (dimension, position) = (self.dimension(), self.position());
         let count = self.axes().len() + kept.len();
