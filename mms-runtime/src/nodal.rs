@@ -85,9 +85,9 @@ impl<'a, T> Window<'a, T> {
     /// `W` nodes from this one on.
     #[inline(always)]
     pub fn row<const W: usize>(&mut self, first: u32) -> &mut [Nodal<T>; W] {
-        // With 64 bits, a number of 32 and W are no less than it: one question, for the last node, is enough.
+        // A number of 32 bits and W do not overflow 64: so the last node is all that has to be asked for.
         let first = first.wrapping_sub(self.start as u32) as usize;
-        self.nodes[first..first + W].first_chunk_mut().expect("as many")
+        self.nodes[first..first + W].first_chunk_mut().expect("a range of W nodes")
     }
 
     /// Those before a node, and those from it on.

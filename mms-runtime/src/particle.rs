@@ -122,7 +122,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
         self.residual.fill_up();
     }
 
-    /// Has what is mapped of a bunch brought near.
+    /// Has what is mapped of a bunch brought near, but for X and H, which others need sooner.
     #[inline(always)]
     pub(crate) fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
         machine.fetch(self.displacement.bunches(), bunch);

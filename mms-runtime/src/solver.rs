@@ -28,6 +28,7 @@ use crate::shape::Shape;
 use crate::tensor::{is_finite, jacobian, matrix_is_finite};
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
+use scene::Kept;
 use slabs::Slabs;
 
 pub use any::AnySolver;
@@ -54,9 +55,9 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     boundary: Boundary<T, D>,
     transfer: Transfer,
     slabs: Slabs,
-    /// The weights at the beginning of the step, if the integrator asks for them once more when the state has
-    /// changed; or for good, in the total formulation.
-    weights: Vec<S::Stencil<T, D>>,
+    /// What weights follow, as it was at the beginning of the step, if the integrator asks for those once more when it
+    /// has changed.
+    kept: Vec<Kept<T, D>>,
     keeps_weights: bool,
     /// XPIC: what is left of the velocity, mapped to nodes, and over their mass.
     residual: [Vec<Nodal<T>>; 2],
@@ -79,7 +80,7 @@ where
     /// What the step led to, or could not do.
     pub fn step<I: Integrator>(&mut self) -> Result<(), Failure> {
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
-        self.keeps_weights = I::KEEPS_WEIGHTS || !self.formulation.moves;
+        self.keeps_weights = I::KEEPS_WEIGHTS && self.formulation.moves;
         if self.formulation.moves && self.clock.step % STEPS_IN_ORDER == STEPS_IN_ORDER - 1 {
             self.sort();
         }

@@ -24,7 +24,7 @@ fn allocated(
     let setup = Setup { transfer, courant: 0.1, ..Setup::default() };
     let method = Method { shape, integrator, formulation, setup };
     let mut solver = <f64 as Solve<2>>::solver(&wave, &method, &40.into()).unwrap();
-    solver.step().unwrap(); // weights that are kept have a place from now on
+    solver.step().unwrap(); // what is kept has a place from now on
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
     for _ in 0..40 {

@@ -14,7 +14,7 @@ extension_list! {
 /// In which configuration weights and stresses are taken.
 pub trait Formulation: Send + Sync + 'static {
     /// Whether weights follow the present positions, and dF/dt = L F with L = sum_i v_i (x) grad w;
-    /// otherwise weights are those of the reference positions, computed once, and dF/dt is that sum.
+    /// otherwise weights are those of the reference positions, and dF/dt is that sum.
     const MOVES: bool;
 
     /// From tau and H of some bunches of particles the stresses that work on grad w per reference volume.

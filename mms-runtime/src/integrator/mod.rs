@@ -30,8 +30,8 @@ pub trait Integrator: 'static {
     const LAG: f64 = 0.0;
 
     /// Whether a step asks for weights after it has moved or deformed the particles: they are those at t^n, and
-    /// so have to be kept. Else they are computed where they are used, twice a step, which takes less time
-    /// than to read them.
+    /// so what they follow has to be kept. Weights themselves are computed where they are used, which takes less
+    /// time than to read them.
     const KEEPS_WEIGHTS: bool = false;
 
     /// Advances particles and grid from t^n = `solver.time()` by one time step dt.

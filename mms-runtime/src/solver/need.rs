@@ -15,15 +15,14 @@ pub(super) struct Need {
 
 impl Need {
     /// What is kept in this scene, if so many bytes are `available`.
-    pub fn new<T: Real, S: Shape, const D: usize>(moves: bool, available: Option<u64>) -> Self {
+    pub fn new<T: Real, S: Shape, const D: usize>(available: Option<u64>) -> Self {
         let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
         let matrix = size_of::<Matrix<T, D>>();
-        // Id, X, d, v, H, C, m, V0 and the domain, and weights that stay.
-        let weights = if moves { 0 } else { size_of::<S::Stencil<T, D>>() / BUNCH };
+        // Id, X, d, v, H, C, m, V0 and the domain.
         // d and v, H and C: of a bunch, they are padded.
         let bunch = 2 * size_of::<Vectors<T, D>>() + 2 * size_of::<Matrices<T, D>>();
         let bunch = (bunch + size_of::<S::Domain<T, D>>()) / BUNCH;
-        let state = size_of::<u32>() + vector + bunch + 2 * number + weights;
+        let state = size_of::<u32>() + vector + bunch + 2 * number;
         // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
         let measured = 3 * vector + 3 * matrix + number;
         let filling = size_of::<f64>() * (D + 1 + D * D);

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use mms_math::dispatch::best;
-use mms_math::machine::Plain;
 
 use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
@@ -54,7 +53,7 @@ where
             }
         }
         if mass {
-            self.weigh()?;
+            self.keep();
         }
         if let Some(time) = acceleration {
             let step = self.time_step();
@@ -93,7 +92,7 @@ where
                 Update::Deformation(time_step) => steps.deformation = Some(time_step),
             }
         }
-        let Self { grid, particles, domains, weights, transfer, seconds, .. } = self;
+        let Self { grid, particles, domains, kept, transfer, seconds, .. } = self;
         let Grid { lattice, velocity, acceleration, .. } = &*grid;
         let (reference_position, columns) = particles.columns();
         let scene = Scene::<T, D, S> {
@@ -102,7 +101,7 @@ where
             transfer: *transfer,
             reference_position,
             domains: domains.bunches(),
-            weights,
+            kept,
         };
         let sound = timed(&mut seconds.transfer, || {
             each_part(
@@ -128,34 +127,16 @@ where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
 {
-    /// Finds the particles' weights if those are kept.
-    fn weigh(&mut self) -> Result<(), Failure> {
-        let once = !self.formulation.moves && !self.weights.is_empty();
-        if !self.keeps_weights || once {
-            return Ok(());
+    /// Keeps what the weights follow, if the integrator asks for them once more when that has changed.
+    fn keep(&mut self) {
+        let Self { particles, kept, seconds, .. } = self;
+        kept.clear();
+        if self.keeps_weights {
+            timed(&mut seconds.transfer, || {
+                let gradients = particles.displacement_gradient.bunches().iter().copied();
+                kept.extend(particles.displacement.bunches().iter().copied().zip(gradients));
+            });
         }
-        let Self { grid, particles, domains, weights, transfer, seconds, .. } = self;
-        let scene = Scene::<T, D, S> {
-            lattice: &grid.lattice,
-            moves: self.formulation.moves,
-            transfer: *transfer,
-            reference_position: particles.reference_position.bunches(),
-            domains: domains.bunches(),
-            weights: &[],
-        };
-        weights.clear();
-        let found = timed(&mut seconds.transfer, || {
-            let machine = T::PlainMachine::from(Plain);
-            let d = particles.displacement.bunches();
-            let h = particles.displacement_gradient.bunches();
-            d.iter().zip(h).enumerate().try_for_each(|(bunch, moved)| {
-                let mut stencil = S::Stencil::default();
-                scene.place(machine, bunch, moved, &mut stencil)?;
-                weights.push(stencil);
-                Ok(())
-            })
-        });
-        found.map_err(|(p, cause)| self.failure(p, cause))
     }
 
     /// The sums onto nodes, which hold nothing else afterwards. Particles are sorted if one has left its slab.
@@ -170,26 +151,26 @@ where
                 }
                 Err(Stop::Strayed(_)) => {
                     self.sort();
-                    // Nothing has changed since they were found.
-                    self.weigh()?;
+                    // Nothing has changed since.
+                    self.keep();
                 }
             }
             sorted = true;
         }
     }
 
-    /// Puts the particles in the order of the cells they are in now. Weights that were kept are gone.
+    /// Puts the particles in the order of the cells they are in now. What was kept of them is gone.
     pub(super) fn sort(&mut self) {
-        let Self { grid, particles, domains, weights, slabs, seconds, .. } = self;
+        let Self { grid, particles, domains, kept, slabs, seconds, .. } = self;
         let position = |all: &Particles<T, D>, p| all.position(p);
         timed(&mut seconds.transfer, || {
             slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, position);
         });
-        weights.clear();
+        kept.clear();
     }
 
     fn try_to_add(&mut self, added: Added<T>) -> Result<(), Stop> {
-        let Self { grid, particles, domains, weights, slabs, transfer, .. } = self;
+        let Self { grid, particles, domains, kept, slabs, transfer, .. } = self;
         let (field, formulation, time) = (self.field, self.formulation, self.time_of_force);
         let Grid { lattice, momentum, force, .. } = grid;
         let nodes: [&mut [Nodal<T>]; 2] = match added {
@@ -211,7 +192,7 @@ where
             transfer: *transfer,
             reference_position,
             domains: domains.bunches(),
-            weights,
+            kept,
         };
         let map = Map { scene, particles, field, added, formulation, time };
         let start = Instant::now();
@@ -277,7 +258,7 @@ where
 
     /// r = v - S v_i, or r -= S S+ r.
     fn find_residual(&mut self, source: Source) -> Result<(), Failure> {
-        let Self { grid, particles, domains, weights, transfer, residual, seconds, .. } = self;
+        let Self { grid, particles, domains, kept, transfer, residual, seconds, .. } = self;
         let (reference_position, columns) = particles.columns();
         let lattice = &grid.lattice;
         let scene = Scene::<T, D, S> {
@@ -286,7 +267,7 @@ where
             transfer: *transfer,
             reference_position,
             domains: domains.bunches(),
-            weights,
+            kept,
         };
         let nodal = match source {
             Source::Velocity => &grid.velocity,

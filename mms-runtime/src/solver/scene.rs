@@ -8,7 +8,7 @@ use crate::shape::Shape;
 use crate::stencil::BUNCH;
 use crate::{Cause, Lattice, Real, Transfer, Vector};
 
-/// The grid's geometry, and the particles' domains and weights.
+/// The grid's geometry, and what the particles' weights follow.
 pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
     pub lattice: &'a Lattice<T, D>,
     /// Whether weights follow the present positions ([`Formulation::MOVES`](crate::formulation::Formulation)).
@@ -16,8 +16,8 @@ pub(super) struct Scene<'a, T: Real, const D: usize, S: Shape> {
     pub transfer: Transfer,
     pub reference_position: &'a [[Vector<T, D>; BUNCH]],
     pub domains: &'a [S::Domain<T, D>],
-    /// The weights of every bunch, where they are kept.
-    pub weights: &'a [S::Stencil<T, D>],
+    /// What weights follow of every bunch, if that is not its present state.
+    pub kept: &'a [Kept<T, D>],
 }
 
 impl<T: Real, const D: usize, S: Shape> Clone for Scene<'_, T, D, S> {
@@ -31,6 +31,9 @@ impl<T: Real, const D: usize, S: Shape> Copy for Scene<'_, T, D, S> {}
 /// The displacements and the displacement gradients of a bunch.
 pub(super) type Moved<'a, T, const D: usize> = (&'a Vectors<T, D>, &'a Matrices<T, D>);
 
+/// Those of a bunch at another time.
+pub(super) type Kept<T, const D: usize> = (Vectors<T, D>, Matrices<T, D>);
+
 /// Room for the weights of a bunch and for those of the next one, which are found before those of the first are used: so
 /// there is something to do while numbers are awaited. Weights of bunch k are in place k % 2.
 pub(super) type Room<T, const D: usize, S> = [<S as Shape>::Stencil<T, D>; 2];
@@ -43,7 +46,7 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
         machine.fetch(self.domains, bunch);
     }
 
-    /// Finds the weights of a bunch: those that are kept, or those of its state.
+    /// Finds the weights of a bunch, in this state if none was kept.
     ///
     /// # Errors
     /// A particle has none.
@@ -52,29 +55,13 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
         &self,
         machine: M,
         bunch: usize,
-        moved: Moved<'_, T, D>,
+        present: Moved<'_, T, D>,
         stencil: &mut S::Stencil<T, D>,
     ) -> Result<(), (usize, Cause)> {
-        if let Some(kept) = self.weights.get(bunch) {
-            // A copy, for what the sums read is faster where nobody else can have it.
-            stencil.clone_from(kept);
-            return Ok(());
-        }
-        self.place(machine, bunch, moved, stencil)
-    }
-
-    /// The weights of one bunch in its state.
-    ///
-    /// # Errors
-    /// A particle has none.
-    #[inline(always)]
-    pub fn place<M: Machine<T>>(
-        &self,
-        machine: M,
-        bunch: usize,
-        (displacement, displacement_gradient): Moved<'_, T, D>,
-        stencil: &mut S::Stencil<T, D>,
-    ) -> Result<(), (usize, Cause)> {
+        let (displacement, displacement_gradient) = match self.kept.get(bunch) {
+            Some((displacement, gradient)) => (displacement, gradient),
+            None => present,
+        };
         let mut position = turned(machine, &self.reference_position[bunch]);
         let unmoved;
         let h = if self.moves {

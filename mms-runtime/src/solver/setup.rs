@@ -51,7 +51,7 @@ where
         let domain = field.domain();
         let [lower, upper] = bounding_box(&domain.body)?;
         let cell_size = cell_size(&(upper - lower), cells)?;
-        let need = Need::new::<T, S, D>(moves, setup.memory);
+        let need = Need::new::<T, S, D>(setup.memory);
         let spacing = spacing::<D>(setup, &cell_size)?;
         let expected = (upper - lower).component_div(&spacing).iter().product();
         need.check(expected, 0.0)?;
@@ -110,7 +110,7 @@ where
             boundary,
             transfer: setup.transfer.taken(),
             slabs,
-            weights: Vec::new(),
+            kept: Vec::new(),
             keeps_weights: false,
             residual: std::array::from_fn(|_| vec![Nodal::zero(); residual_nodes]),
             time_of_force: T::zero(),

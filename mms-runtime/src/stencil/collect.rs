@@ -55,7 +55,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
                 .map(|half| firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]);
             let mut own = along;
             // Halves that share their nodes are one round, of whole weights: the sums are compiled once for both.
-            if sharing == Sharing::Any {
+            if sharing == Sharing::Apart {
                 let mut share = [T::zero(); BUNCH];
                 for p in 0..BUNCH {
                     if firsts[p] == at[p / HALF] && left >> p & 1 == 1 {
@@ -108,9 +108,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
         let stride = |a: usize| if a < D { self.stencil.stride[a] } else { 0 };
         let apart = k1 as u32 * stride(1) + k2 as u32 * stride(2);
         first.map(|first| {
-            // As in [`Window::row`](crate::nodal::Window::row), one question is enough.
+            // With 32 bits, as in [`Window::row`](crate::nodal::Window::row).
             let first = first.wrapping_add(apart) as usize;
-            self.nodes[first..first + W].first_chunk().expect("as many")
+            self.nodes[first..first + W].first_chunk().expect("a range of W nodes")
         })
     }
 

@@ -53,7 +53,7 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
         let Tensor { first, regular, .. } = *self.stencil;
         let sharing = self.stencil.sharing();
-        if sharing != Sharing::Any && self.members == ALL && (W != 3 || regular) {
+        if sharing != Sharing::Apart && self.members == ALL && (W != 3 || regular) {
             let goal = match sharing {
                 Sharing::All => Goal::Together(first[0]),
                 _ => Goal::Apart([Some(first[0]), Some(first[HALF])]),

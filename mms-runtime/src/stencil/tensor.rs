@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use mms_math::machine::{Machine, Plain};
+use mms_math::machine::Machine;
 
 use super::collect::{Summed, Sums};
 use super::spread::Spread;
@@ -24,8 +24,8 @@ pub(super) enum Sharing {
     All,
     /// Those of each half.
     Halves,
-    /// Any.
-    Any,
+    /// Not even those.
+    Apart,
 }
 
 /// A stencil that is the product of the weights along the axes: of `N` nodes along each, or where that is enough
@@ -115,7 +115,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     #[inline(always)]
     pub(super) fn sharing(&self) -> Sharing {
         if !self.shared {
-            Sharing::Any
+            Sharing::Apart
         } else if self.first[0] == self.first[HALF] {
             Sharing::All
         } else {
@@ -126,52 +126,6 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis.
     #[inline(always)]
     fn moments<M: Machine<T>>(
-        &self,
-        machine: M,
-        lattice: &Lattice<T, D>,
-    ) -> (Along<T, D, N>, [M::Eight; D]) {
-        if LEAST < N {
-            return self.moments_of_any(machine, lattice);
-        }
-        if !self.regular {
-            let (moment, per_spread) = self.moments_near_ends(lattice);
-            return (moment, per_spread.map(|numbers| machine.eight(&numbers)));
-        }
-        let mut moment = [[[T::zero(); BUNCH]; N]; D];
-        let mut per_spread = [machine.splat(T::zero()); D];
-        for a in 0..D {
-            let h = lattice.cell_size[a];
-            let mut weight = [machine.splat(T::zero()); N];
-            let mut middle = machine.splat(T::zero());
-            for k in 0..N {
-                weight[k] = machine.eight(&self.weight[a][k]);
-                if k > 0 {
-                    let apart = machine.splat(h * T::of(k as f64));
-                    middle = machine.times_plus(weight[k], apart, middle);
-                }
-            }
-            for k in 0..N {
-                let apart = machine.minus(machine.splat(h * T::of(k as f64)), middle);
-                moment[a][k] = machine.numbers(machine.times(weight[k], apart));
-            }
-            // The variance of N lengths that are evenly distributed over a cell, whose sum is a B-spline's.
-            per_spread[a] = machine.splat(T::ratio(12, N as i32) / (h * h));
-        }
-        (moment, per_spread)
-    }
-
-    /// As [`moments`](Self::moments), near the ends of splines.
-    #[cold]
-    fn moments_near_ends(&self, lattice: &Lattice<T, D>) -> (Along<T, D, N>, [[T; BUNCH]; D]) {
-        // What is not inlined into a loop knows no better machine.
-        let machine = T::PlainMachine::from(Plain);
-        let (moment, per_spread) = self.moments_of_any(machine, lattice);
-        (moment, per_spread.map(|eight| machine.numbers(eight)))
-    }
-
-    /// As [`moments`](Self::moments), whatever the weights are.
-    #[inline(always)]
-    fn moments_of_any<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -194,7 +148,13 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
                 spread = machine.times_plus(weight[k], apart[k], spread);
                 moment[a][k] = machine.numbers(weight[k]);
             }
-            per_spread[a] = machine.over(machine.splat(T::one()), spread);
+            per_spread[a] = if LEAST == N && N > 2 && self.regular {
+                // The variance of N lengths that are evenly distributed over a cell: their sum is a B-spline's.
+                let h = lattice.cell_size[a];
+                machine.splat(T::ratio(12, N as i32) / (h * h))
+            } else {
+                machine.over(machine.splat(T::one()), spread)
+            };
         }
         (moment, per_spread)
     }

@@ -13,6 +13,7 @@ use crate::program::{Op, Output, Stage, Value};
 use crate::quantity::{Quantity, Shape};
 
 /// What a function of a point takes from the cache of the point.
+#[derive(Clone)]
 pub(super) struct Columns {
     /// Coordinates, by axis.
     pub axes: Vec<usize>,
@@ -37,10 +38,20 @@ impl Emitter<'_> {
     /// What the loops over points need: the prepared field in the scalar of a loop, the cache of many
     /// points, and a kernel for each quantity.
     pub(super) fn batches(&self) -> TokenStream {
-        let kept = self.quantities().flat_map(|quantity| self.kept_for(quantity).columns.values);
-        let kept = Vec::from_iter(BTreeSet::from_iter(kept));
+        let reads: Vec<_> = self
+            .quantities()
+            .map(|quantity| {
+                let columns = self.columns(quantity);
+                (quantity, self.kept_for(&columns), columns)
+            })
+            .collect();
+        let kept: BTreeSet<Value> =
+            reads.iter().flat_map(|(_, kept, _)| &kept.columns.values).copied().collect();
+        let kept = Vec::from_iter(kept);
         let (stand_ins, points) = (self.stand_ins(), self.points(&kept));
-        let kernels = self.quantities().map(|quantity| self.kernels_of(quantity, &kept));
+        let kernels = reads
+            .iter()
+            .map(|(quantity, own, columns)| self.kernels_of(*quantity, columns, own, &kept));
         quote!(#stand_ins #points #(#kernels)*)
     }
 
@@ -151,8 +162,15 @@ impl Emitter<'_> {
         }
     }
 
-    /// The kernels of a quantity, and the functions that drive them; `all` that is kept of many points.
-    fn kernels_of(&self, quantity: Quantity, all: &[Value]) -> TokenStream {
+    /// The kernels of a quantity that needs these `columns` of a point, and the functions that drive them: what it takes
+    /// of `all` that is kept of many points is its own.
+    fn kernels_of(
+        &self,
+        quantity: Quantity,
+        columns: &Columns,
+        own: &Cut,
+        all: &[Value],
+    ) -> TokenStream {
         let math = self.math();
         let dimension = self.axes().len();
         let is_traction = quantity == Quantity::Traction;
@@ -165,17 +183,16 @@ impl Emitter<'_> {
         let function = format_ident!("{name}");
         let position = self.position();
         let normal = normal(normals);
-        let (columns, kept) = (self.columns(quantity), self.kept_for(quantity));
         let inputs = count(dimension + normals);
-        let inputs_at = count(kept.columns.len() + normals);
+        let inputs_at = count(own.columns.len() + normals);
         let with_normals = is_traction.then(|| (quote!(normals #inputs,), quote!(, #inputs_at)));
         let (with_normals, with_count) = with_normals.unzip();
-        let Columns { axes: kept_axes, values } = &kept.columns;
+        let Columns { axes: own_axes, values } = &own.columns;
         let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
-        let indices = kept_axes.iter().copied().chain(values.iter().map(column));
+        let indices = own_axes.iter().copied().chain(values.iter().map(column));
         let indices = indices.map(count);
         let from_position = if self.is_worth_two_loops(quantity) {
-            self.two_loops(quantity, &columns)
+            self.two_loops(quantity, columns)
         } else {
             let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
             let result =
@@ -186,7 +203,7 @@ impl Emitter<'_> {
                 } }
             }
         };
-        let over_columns = self.over_columns(quantity, &cached, &columns, &kept);
+        let over_columns = self.over_columns(quantity, &cached, columns, own);
         quote! {
             #from_position
             #over_columns
@@ -261,7 +278,7 @@ impl Emitter<'_> {
     }
 
     /// What a quantity reads of the cache of a point; something, so that a batch has a length.
-    pub(super) fn columns(&self, quantity: Quantity) -> Columns {
+    fn columns(&self, quantity: Quantity) -> Columns {
         let roots = self.values(Output::Quantity(quantity));
         let needed = self.program.needed_for(roots.iter().copied());
         let mut read = vec![false; self.program.instrs.len()];

@@ -62,11 +62,13 @@ impl Emitter<'_> {
         }
     }
 
-    /// What a quantity reads of the cache of many points: no more columns than it needs.
-    pub(super) fn kept_for(&self, quantity: Quantity) -> Cut {
-        let columns = self.columns(quantity);
-        let cut = self.cut(&columns, WORTH_IN_MEMORY);
-        if cut.columns.len() < columns.len() { cut } else { Cut { columns, made: Vec::new() } }
+    /// What a quantity that needs these `columns` of a point reads of the cache of many: these, or fewer.
+    pub(super) fn kept_for(&self, columns: &Columns) -> Cut {
+        let cut = self.cut(columns, WORTH_IN_MEMORY);
+        if cut.columns.len() < columns.len() {
+            return cut;
+        }
+        Cut { columns: columns.clone(), made: Vec::new() }
     }
 
     /// What is taken in place of these columns, where a number is `worth` so many operations.
@@ -74,31 +76,23 @@ impl Emitter<'_> {
         let mut taken: BTreeSet<Value> = columns.values.iter().copied().collect();
         let mut made = BTreeSet::new();
         loop {
-            let makes = |value: &Value| {
-                let there = |other: Value| {
-                    other != *value && taken.contains(&other) || made.contains(&other)
-                };
-                self.steps(*value, worth, &there).map(|steps| (*value, steps))
-            };
-            if let Some((value, steps)) = taken.iter().find_map(makes) {
+            let there = &taken | &made;
+            let steps = |value: &Value| Some((*value, self.steps(*value, worth, &there)?));
+            if let Some((value, steps)) = taken.iter().find_map(steps) {
                 taken.remove(&value);
                 made.extend(steps);
                 continue;
             }
             // How many could be made if there were another one.
-            let of_it = |another: Value| {
-                let there = |other: Value| {
-                    other == another || taken.contains(&other) || made.contains(&other)
-                };
-                let is_made = |value: &&Value| {
-                    let there = |other: Value| other != **value && there(other);
-                    self.steps(**value, worth, &there).is_some()
-                };
+            let of_it = |another: &Value| {
+                let mut there = there.clone();
+                there.insert(*another);
+                let is_made = |value: &&Value| self.steps(**value, worth, &there).is_some();
                 taken.iter().filter(is_made).count()
             };
-            let others = taken.iter().flat_map(|value| self.behind(*value, worth));
-            let others: BTreeSet<Value> = others.filter(|other| !taken.contains(other)).collect();
-            let best = others.into_iter().map(|other| (of_it(other), other)).max();
+            let others: BTreeSet<Value> =
+                taken.iter().flat_map(|value| self.behind(*value, worth)).collect();
+            let best = others.iter().map(|other| (of_it(other), *other)).max();
             match best {
                 Some((several, other)) if several > 1 => drop(taken.insert(other)),
                 _ => break,
@@ -116,25 +110,18 @@ impl Emitter<'_> {
         Cut { columns, made: Vec::from_iter(made) }
     }
 
-    /// The sums and products, no more than `most`, that make a value of what is `there`.
-    fn steps(
-        &self,
-        value: Value,
-        most: usize,
-        there: &dyn Fn(Value) -> bool,
-    ) -> Option<BTreeSet<Value>> {
-        let mut steps = BTreeSet::new();
+    /// The sums and products, no more than `most`, that make a value of others that are `there`.
+    fn steps(&self, value: Value, most: usize, there: &BTreeSet<Value>) -> Option<BTreeSet<Value>> {
+        let mut steps = BTreeSet::from([value]);
         let mut open = vec![value];
-        while let Some(value) = open.pop() {
-            if !self.is_found_at_points(value) || there(value) || !steps.insert(value) {
-                continue;
-            }
-            let op = &self.program.instr(value).op;
+        while let Some(step) = open.pop() {
+            let op = &self.program.instr(step).op;
             let counted = steps.iter().filter(|step| self.program.instr(**step).op.is_counted());
             if !is_cheap(op) || counted.count() > most {
                 return None;
             }
-            open.extend(op.operands());
+            let missing = |other: &Value| self.is_found_at_points(*other) && !there.contains(other);
+            open.extend(op.operands().filter(missing).filter(|other| steps.insert(*other)));
         }
         Some(steps)
     }
