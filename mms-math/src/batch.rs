@@ -174,8 +174,9 @@ where
     #[inline(always)]
     fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
         self.first.on_block(inputs, &mut self.between);
-        let column = |k: usize| if k < I { inputs[k] } else { &self.between.0[k - I] };
-        self.second.on_block(&self.reads.map(column), outputs);
+        let there = |k: usize| if k < I { inputs[k] } else { &self.between.0[k - I] };
+        let columns = core::array::from_fn(|k| there(self.reads[k]));
+        self.second.on_block(&columns, outputs);
     }
 }
 
@@ -197,7 +198,8 @@ pub trait Source<T, const N: usize> {
 pub trait Sink<T, const N: usize> {
     /// How many points there is room for.
     fn room(&self) -> usize;
-    /// Writes the points from `start` on, as many as there is room for. Whether all that is written are numbers.
+    /// Writes the points from `start` on, as many as there is room for. Whether all that is written are numbers, which is
+    /// asked of their sum: so it may be denied where infinite ones are among them.
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool;
 }
 
@@ -215,8 +217,9 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
         if self.iter().all(|column| column.len() >= start + BLOCK) {
-            return self
-                .map(|column| column[start..].first_chunk().expect("as many points are left"));
+            return core::array::from_fn(|k| {
+                self[k][start..].first_chunk().expect("as many points are left")
+            });
         }
         for (column, lane) in self.iter().zip(&mut room.0) {
             let rest = &column[start..];
@@ -296,14 +299,25 @@ impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) -> bool {
-        let mut known = true;
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
+        let mut sum = machine.splat(T::from_f64(0.0));
         for (column, lane) in self.iter_mut().zip(&block.0) {
-            // A length that the compiler knows would have it write the loop out, number by number.
-            let count = BLOCK.min(column.len() - start);
-            known &= copy_known(&lane[..count], &mut column[start..start + count]);
+            let to = &mut column[start..];
+            let Some(to) = to.first_chunk_mut::<BLOCK>() else {
+                to.copy_from_slice(&lane[..to.len()]);
+                sum = machine.plus(sum, sum_of(machine, lane));
+                continue;
+            };
+            let mut own = machine.splat(T::from_f64(0.0));
+            // After a call that copies, all constants of the kernel would have to be loaded again.
+            for (to, eight) in to.as_chunks_mut().0.iter_mut().zip(lane.as_chunks().0) {
+                let eight = machine.eight(eight);
+                *to = machine.numbers(eight);
+                own = machine.plus(own, eight);
+            }
+            sum = machine.plus(sum, own);
         }
-        known
+        machine.all_at_most(sum, sum)
     }
 }
 
@@ -315,26 +329,32 @@ impl<T: Float, const N: usize> Sink<T, N> for &mut [[T; N]] {
     #[inline(always)]
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
         turn_back(machine, &block.0, &mut self[start..]);
-        block.0.as_flattened().iter().fold(true, |known, value| known & is_number(value))
+        are_numbers(machine, block)
     }
 }
 
-/// Copies values. Whether all are numbers: asked on the way, for it would take as long again afterwards.
+/// Whether all values are numbers, as [`Sink::store`] says it: past the last point there are copies of the first one,
+/// of which as much is known.
 #[inline(always)]
-fn copy_known<T: Float>(from: &[T], to: &mut [T]) -> bool {
-    let mut known = true;
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-        known &= is_number(from);
+pub(crate) fn are_numbers<T: Float, M: Machine<T>, const N: usize>(
+    machine: M,
+    block: &Block<T, N>,
+) -> bool {
+    let mut sum = machine.splat(T::from_f64(0.0));
+    for lane in &block.0 {
+        sum = machine.plus(sum, sum_of(machine, lane));
     }
-    known
+    machine.all_at_most(sum, sum)
 }
 
-/// Only not-a-number differs from itself.
-#[allow(clippy::eq_op)]
+/// The sums of every eighth value of a lane. Lanes are summed apart, for a sum waits for the one before.
 #[inline(always)]
-pub(crate) fn is_number<T: Float>(value: &T) -> bool {
-    *value == *value
+fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &[T; BLOCK]) -> M::Eight {
+    let mut sum = machine.splat(T::from_f64(0.0));
+    for eight in lane.as_chunks().0 {
+        sum = machine.plus(sum, machine.eight(eight));
+    }
+    sum
 }
 
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there

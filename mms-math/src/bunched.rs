@@ -1,6 +1,6 @@
 //! Points in bunches of eight, whose numbers are kept number by number.
 
-use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source, is_number};
+use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source, are_numbers};
 use crate::machine::Machine;
 
 /// A bunch of eight points with `N` numbers each.
@@ -59,14 +59,13 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
     }
 
     #[inline(always)]
-    fn store<M: Machine<T>>(&mut self, _: M, start: usize, block: &Block<T, N>) -> bool {
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
         for (bunch, place) in self.0[start / 8..].iter_mut().zip((0..BLOCK).step_by(8)) {
             for (to, lane) in bunch.numbers_mut().into_iter().zip(&block.0) {
                 to.copy_from_slice(&lane[place..place + 8]);
             }
         }
-        // Past the last bunch there are copies of the first point, of which as much is known.
-        block.0.as_flattened().iter().fold(true, |known, value| known & is_number(value))
+        are_numbers(machine, block)
     }
 }
 

@@ -119,12 +119,12 @@ macro_rules! arrays {
 
                 #[inline(always)]
                 fn root(self, a: [$float; 8]) -> [$float; 8] {
-                    a.map($float::sqrt)
+                    core::array::from_fn(|k| a[k].sqrt())
                 }
 
                 #[inline(always)]
                 fn floor(self, a: [$float; 8]) -> [$float; 8] {
-                    a.map($float::floor)
+                    core::array::from_fn(|k| a[k].floor())
                 }
 
                 #[inline(always)]
@@ -147,7 +147,7 @@ macro_rules! arrays {
 
                 #[inline(always)]
                 fn whole(self, a: [$float; 8]) -> [i32; 8] {
-                    a.map(|number| number as i32)
+                    core::array::from_fn(|k| a[k] as i32)
                 }
 
                 #[inline(always)]
