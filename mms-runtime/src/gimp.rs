@@ -82,7 +82,8 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             stencil.set(machine, lattice, a, first[a], weights);
         }
         // What is not a number is on no grid.
-        let on_grid = lattice.nodes.map(|nodes| [T::zero(), nodes - T::of(NEAREST as f64)]);
+        let last = T::of(NEAREST as f64);
+        let on_grid = std::array::from_fn(|a| [T::zero(), lattice.nodes[a] - last]);
         if machine.all_between(&first, &on_grid) { Ok(()) } else { Err(lost(machine, position)) }
     }
 
@@ -154,7 +155,8 @@ fn around_nearest<T: Real, M: Machine<T>>(
     position: M::Eight,
     half_width: M::Eight,
 ) -> (M::Eight, [[M::Eight; NEAREST]; 2]) {
-    let [zero, half, one] = [0, 1, 2].map(|halves| machine.splat(T::ratio(halves, 2)));
+    let halves = |count: i32| machine.splat(T::ratio(count, 2));
+    let (zero, half, one) = (halves(0), halves(1), halves(2));
     let nearest = machine.floor(machine.plus(position, half));
     let offset = machine.minus(position, nearest);
     let [before, after] = [machine.minus(zero, half_width), half_width];

@@ -42,7 +42,8 @@ impl Clock {
     }
 }
 
-/// Wall-clock seconds of the parts of all steps. Where threads work on two of them, they share the time.
+/// Wall-clock seconds of the parts of all steps. Where threads work on two of them, or one after the other many times,
+/// they share the time as a sample of it was shared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
     /// The field's body force and tractions.
@@ -89,19 +90,21 @@ pub(super) fn timed<R>(seconds: &mut f64, part: impl FnOnce() -> R) -> R {
 
 /// Times parts that follow each other: each begins where the one before ended.
 pub(super) struct Laps {
-    since: Instant,
+    since: Option<Instant>,
 }
 
 impl Laps {
-    /// The first part begins.
-    pub fn start() -> Self {
-        Self { since: Instant::now() }
+    /// The first part begins; if they are not `timed`, nothing is ever added.
+    pub fn start(timed: bool) -> Self {
+        Self { since: timed.then(Instant::now) }
     }
 
     /// A part ends: adds what it took.
     pub fn end(&mut self, seconds: &mut f64) {
-        let now = Instant::now();
-        *seconds += (now - self.since).as_secs_f64();
-        self.since = now;
+        if let Some(since) = &mut self.since {
+            let now = Instant::now();
+            *seconds += (now - *since).as_secs_f64();
+            *since = now;
+        }
     }
 }

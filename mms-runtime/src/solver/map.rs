@@ -20,12 +20,14 @@ use crate::stencil::{BUNCH, Carried, HALF, Members, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 
-/// Particles whose stresses are computed together: so many that it is nothing to ask what time it is, and so few that
-/// their stresses stay near.
+/// Particles whose stresses are computed together: so few that their stresses stay near.
 const PART: usize = 256;
 
 /// Particles whose body forces are computed together: so many that it is nothing to begin with a time.
 const FORCED: usize = 2048;
+
+/// One in so many of those is asked where its time goes: the processor stops to look at the clock.
+const TIMED: usize = 8;
 
 /// What is added to the nodes.
 #[derive(Clone, Copy)]
@@ -79,7 +81,7 @@ where
     F: ManufacturedField<T, D> + ?Sized,
     S: Shape,
 {
-    /// Adds to momentum and force of the nodes in the slab's window.
+    /// Adds to momentum and force of the nodes in the slab's window. Returns what the parts of it took of a sample.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
@@ -88,8 +90,8 @@ where
         let has_force = self.added.has_force();
         // Bunches are the same whatever the slabs are: the first and the last one may have others' particles.
         let Range { start, end } = slab.particles;
-        let mut laps = Laps::start();
         for forced in parts(start / BUNCH..end.div_ceil(BUNCH), FORCED / BUNCH) {
+            let mut laps = Laps::start((forced.start * BUNCH / FORCED).is_multiple_of(TIMED));
             let body_force = &mut body_force[..forced.len()];
             if has_force {
                 self.find_body_force(forced.clone(), body_force);

@@ -51,8 +51,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
         while left != 0 {
             // The first ones that are left, if there are such, of each half.
             let next = [left % (1 << HALF), left >> HALF];
-            let at = [0, 1]
-                .map(|half| firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]);
+            let at = std::array::from_fn(|half| {
+                firsts[half * HALF + next[half].trailing_zeros() as usize % HALF]
+            });
             let mut own = along;
             // Halves that share their nodes are one round, of whole weights: the sums are compiled once for both.
             if sharing == Sharing::Apart {
@@ -107,9 +108,9 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
     fn nodes<const W: usize>(&self, first: [u32; 2], [k1, k2]: [usize; 2]) -> Row<'_, T, W> {
         let stride = |a: usize| if a < D { self.stencil.stride[a] } else { 0 };
         let apart = k1 as u32 * stride(1) + k2 as u32 * stride(2);
-        first.map(|first| {
+        std::array::from_fn(|half| {
             // With 32 bits, as in [`Window::row`](crate::nodal::Window::row).
-            let first = first.wrapping_add(apart) as usize;
+            let first = first[half].wrapping_add(apart) as usize;
             self.nodes[first..first + W].first_chunk().expect("a range of W nodes")
         })
     }

@@ -75,7 +75,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         const { assert!(W == LEAST || W == N) };
         self.first = [0; BUNCH];
         // There are fewer than 2^32 nodes.
-        self.stride = lattice.stride.map(|stride| stride as u32);
+        self.stride = std::array::from_fn(|a| lattice.stride[a] as u32);
         self.strides = self.stride.iter().sum();
         (self.width, self.regular) = (W, regular);
     }
@@ -172,8 +172,8 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
             return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
         }
         let coordinate = &lattice.coordinate[axis];
-        let apart = self.start[axis].map(|start| {
-            let start = start as usize;
+        let apart = std::array::from_fn(|p| {
+            let start = self.start[axis][p] as usize;
             // Past the width weights are 0, and nodes may not be there.
             coordinate.get(start + k).map_or(T::zero(), |&there| there - coordinate[start])
         });
