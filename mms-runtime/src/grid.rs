@@ -14,7 +14,7 @@ pub struct Grid<T, const D: usize> {
     pub momentum: Vec<Nodal<T>>,
     /// f_i, internal and external, where it is not added to momentum at once.
     pub force: Vec<Nodal<T>>,
-    /// v_i.
+    /// v_i. What is along with it means nothing.
     pub velocity: Vec<Nodal<T>>,
     /// a_i, where particles take something of it.
     pub acceleration: Vec<Nodal<T>>,
@@ -63,8 +63,9 @@ impl<T: Real, const D: usize> Grid<T, D> {
         for ((velocity, acceleration), (momentum, force)) in
             velocity.iter_mut().zip(acceleration).zip(sums)
         {
-            *acceleration = over_mass(force, momentum, *mass_floor);
-            *velocity = over_mass(momentum, momentum, *mass_floor) + *acceleration * time_step;
+            let per_mass = per_mass(momentum, *mass_floor);
+            *acceleration = *force * per_mass;
+            *velocity = *momentum * per_mass + *acceleration * time_step;
         }
     }
 }
@@ -78,17 +79,12 @@ pub(crate) fn divide_by_mass<T: Real>(
     out: &mut [Nodal<T>],
 ) {
     for ((out, extensive), momentum) in out.iter_mut().zip(extensive).zip(momentum) {
-        *out = over_mass(extensive, momentum, mass_floor);
+        *out = *extensive * per_mass(momentum, mass_floor);
     }
 }
 
-/// As [`divide_by_mass`], of one node.
-fn over_mass<T: Real>(extensive: &Nodal<T>, momentum: &Nodal<T>, mass_floor: T) -> Nodal<T> {
+/// 1/m_i, which the numbers of a node are multiplied by: one division for up to eight. It is 0 on empty nodes.
+fn per_mass<T: Real>(momentum: &Nodal<T>, mass_floor: T) -> T {
     let mass = momentum.last();
-    if mass > mass_floor {
-        let Nodal([x, y, z, _]) = *extensive / mass;
-        Nodal([x, y, z, T::zero()])
-    } else {
-        Nodal::zero()
-    }
+    if mass > mass_floor { T::one() / mass } else { T::zero() }
 }

@@ -1,6 +1,6 @@
 //! What a node of the grid carries: four numbers that go through the processor as one.
 
-use std::ops::{Add, AddAssign, Div, Mul};
+use std::ops::{Add, AddAssign, Mul};
 
 use mms_math::machine::Machine;
 
@@ -57,13 +57,6 @@ impl<T: Real> Mul<T> for Nodal<T> {
     type Output = Self;
     fn mul(self, factor: T) -> Self {
         Self(self.0.map(|number| number * factor))
-    }
-}
-
-impl<T: Real> Div<T> for Nodal<T> {
-    type Output = Self;
-    fn div(self, divisor: T) -> Self {
-        Self(self.0.map(|number| number / divisor))
     }
 }
 

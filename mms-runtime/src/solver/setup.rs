@@ -92,7 +92,9 @@ where
         let widest = grid.lattice.count.iter().fold(0, |a, &b| a.max(b));
         // A domain that overlaps a node by the round-off of its position gives it that, squared.
         let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
-        grid.mass_floor = smallest * round_off * round_off;
+        // And 1/m is to be finite.
+        let least = T::max_value().map_or(T::zero(), |most| T::one() / most);
+        grid.mass_floor = (smallest * round_off * round_off).max(least);
         if on(Defect::MassCutOff) {
             grid.mass_floor = smallest * T::ratio(1, 100);
         }
