@@ -563,3 +563,31 @@ impl<T: Float, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T,
         Two { first, second, reads, between }.on_block(self.inputs, self.outputs);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::vec;
+    use std::vec::Vec;
+
+    use super::run;
+    use crate::bunched::tests::Both;
+
+    #[test]
+    fn infinities_and_what_is_not_a_number_are_written_as_they_are() {
+        for count in [1, 64, 100, 128, 130] {
+            let mut x: Vec<f64> = (0..count).map(|k| 0.7 + 0.3 * k as f64).collect();
+            for (place, value) in
+                [f64::INFINITY, f64::NEG_INFINITY, f64::NAN].into_iter().enumerate()
+            {
+                x[(place + 1) * count / 4] = value;
+            }
+            let y = vec![0.5; count];
+            let (mut products, mut sums) = (y.clone(), y.clone());
+            run(&Both, &[&x[..], &y], &mut [&mut products[..], &mut sums]);
+            for (k, x) in x.iter().enumerate() {
+                let found = [products[k], sums[k]].map(f64::to_bits);
+                assert_eq!(found, [x * 0.5, x + 1.0].map(f64::to_bits), "{x} of {count}");
+            }
+        }
+    }
+}

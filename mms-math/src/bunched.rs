@@ -70,7 +70,7 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::vec::Vec;
 
     use super::{Bunched, Numbers};
@@ -86,7 +86,7 @@ mod tests {
     }
 
     /// x y and x + 2 y.
-    struct Both;
+    pub(crate) struct Both;
 
     impl<S: crate::Real> Function<S, 2, 2> for Both {
         #[inline(always)]

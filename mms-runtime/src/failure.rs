@@ -75,6 +75,17 @@ pub enum Refusal {
         /// The body's dimension.
         dimension: usize,
     },
+    /// A particle so light that what it adds to nodes has no inverse.
+    #[error(
+        "a particle has a mass of {mass:e}, and needs {least:e} in this precision: use double precision, or a unit of \
+         mass that is smaller"
+    )]
+    TooLight {
+        /// The least mass of a particle.
+        mass: f64,
+        /// What it has to be at least.
+        least: f64,
+    },
     /// A number outside its range.
     #[error("{what} is {value}, and has to be between {from} and {to}")]
     OutOfRange {

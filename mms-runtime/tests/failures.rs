@@ -130,6 +130,23 @@ fn what_memory_cannot_hold_is_refused_before_it_is_taken() {
     assert!(few.unwrap().errors.is_ok());
 }
 
+#[test]
+fn a_body_too_light_for_the_precision_is_refused_and_a_light_one_moves_as_a_heavy_one() {
+    // Moduli go with the density, and so the motion is the same.
+    let bar = |rho0: f64| Bar { rho0, young: 1e3 * rho0, ..Bar::default() };
+    let errors = |rho0: f64| {
+        let bar: &dyn ManufacturedField<f64, 1> = &bar(rho0);
+        run_level(bar, &Method::default(), &8.into(), &mut ()).unwrap().errors.unwrap().linf
+    };
+    let (light, heavy) = (errors(2_f64.powi(-950)), errors(2_f64.powi(10)));
+    assert!((light - heavy).abs() <= 1e-12 * heavy, "{light:e} and {heavy:e}");
+    match refused(&bar(2_f64.powi(-980)), Setup::default(), &8.into()) {
+        // 1/16 of that is a particle's.
+        Refusal::TooLight { mass, least } => assert!(mass == 2_f64.powi(-984) && mass < least),
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Particles on a lattice of boxes do not lie along a circle; only boxes have rollers.
 #[test]
 fn conditions_that_an_annulus_cannot_meet_are_refused_by_name() {

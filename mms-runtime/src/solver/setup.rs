@@ -88,16 +88,7 @@ where
         initialise(field, &mut particles, T::of(clock.start))?;
         particles.fill_up();
         let mut grid = Grid::new(lattice);
-        let smallest = particles.mass.iter().fold(particles.mass[0], |a, &b| a.min(b));
-        let widest = grid.lattice.count.iter().fold(0, |a, &b| a.max(b));
-        // A domain that overlaps a node by the round-off of its position gives it that, squared.
-        let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
-        // And 1/m is to be finite.
-        let least = T::max_value().map_or(T::zero(), |most| T::one() / most);
-        grid.mass_floor = (smallest * round_off * round_off).max(least);
-        if on(Defect::MassCutOff) {
-            grid.mass_floor = smallest * T::ratio(1, 100);
-        }
+        grid.mass_floor = mass_floor(&particles, &grid.lattice)?;
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Bunches<_> = domains.collect();
         slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, |all, p| {
@@ -280,6 +271,29 @@ fn largest_wave_speed<T: Real, const D: usize, F: ManufacturedField<T, D> + ?Siz
         largest = positive("the wave speed", speed.to_f64())?.max(largest);
     }
     Ok(largest)
+}
+
+/// The mass of nodes that are taken as empty: with any more, 1/m is finite.
+///
+/// # Errors
+/// A particle of which nodes with a round-off of its mass would be empty.
+fn mass_floor<T: Real, const D: usize>(
+    particles: &Particles<T, D>,
+    lattice: &Lattice<T, D>,
+) -> Result<T, Refusal> {
+    let smallest = particles.mass.iter().fold(particles.mass[0], |a, &b| a.min(b));
+    if on(Defect::MassCutOff) {
+        return Ok(smallest * T::ratio(1, 100));
+    }
+    let invertible = T::max_value().map_or(T::zero(), |most| T::one() / most);
+    let least = invertible / T::default_epsilon();
+    if smallest < least {
+        return Err(Refusal::TooLight { mass: smallest.to_f64(), least: least.to_f64() });
+    }
+    let widest = lattice.count.iter().fold(0, |a, &b| a.max(b));
+    // A domain that overlaps a node by the round-off of its position gives it that, squared.
+    let round_off = T::default_epsilon() * T::of(4.0 * widest as f64);
+    Ok((smallest * round_off * round_off).max(invertible))
 }
 
 /// The smallest and the largest coordinates that the field moves a particle to.
