@@ -1,6 +1,7 @@
 //! The background grid: what its nodes carry.
 
 use crate::nodal::Nodal;
+use crate::threads::each_node;
 use crate::{Lattice, Real};
 
 /// The nodes of a [`Lattice`]; entry `i` of every array belongs to node `i`.
@@ -51,22 +52,30 @@ impl<T: Real, const D: usize> Grid<T, D> {
 
     /// v_i += dt a_i.
     pub fn kick(&mut self, time_step: T) {
-        for (velocity, acceleration) in self.velocity.iter_mut().zip(&self.acceleration) {
-            *velocity += *acceleration * time_step;
-        }
+        let nodes = (&mut self.velocity[..], &self.acceleration[..]);
+        each_node(nodes, &|(velocity, acceleration)| {
+            for (velocity, acceleration) in velocity.iter_mut().zip(acceleration) {
+                *velocity += *acceleration * time_step;
+            }
+        });
     }
 
     /// a_i, and v_i after a kick: the three above in one pass.
     pub fn kicked_from_momentum_and_force(&mut self, time_step: T) {
         let Self { momentum, force, velocity, acceleration, mass_floor, .. } = self;
-        let sums = momentum.iter().zip(force);
-        for ((velocity, acceleration), (momentum, force)) in
-            velocity.iter_mut().zip(acceleration).zip(sums)
-        {
-            let per_mass = per_mass(momentum, *mass_floor);
-            *acceleration = *force * per_mass;
-            *velocity = *momentum * per_mass + *acceleration * time_step;
-        }
+        let mass_floor = *mass_floor;
+        let found = (&mut velocity[..], &mut acceleration[..]);
+        let sums = (&momentum[..], &force[..]);
+        each_node((found, sums), &|((velocity, acceleration), (momentum, force))| {
+            let sums = momentum.iter().zip(force);
+            for ((velocity, acceleration), (momentum, force)) in
+                velocity.iter_mut().zip(acceleration).zip(sums)
+            {
+                let per_mass = per_mass(momentum, mass_floor);
+                *acceleration = *force * per_mass;
+                *velocity = *momentum * per_mass + *acceleration * time_step;
+            }
+        });
     }
 }
 
@@ -78,9 +87,11 @@ pub(crate) fn divide_by_mass<T: Real>(
     mass_floor: T,
     out: &mut [Nodal<T>],
 ) {
-    for ((out, extensive), momentum) in out.iter_mut().zip(extensive).zip(momentum) {
-        *out = *extensive * per_mass(momentum, mass_floor);
-    }
+    each_node((out, (extensive, momentum)), &|(out, (extensive, momentum))| {
+        for ((out, extensive), momentum) in out.iter_mut().zip(extensive).zip(momentum) {
+            *out = *extensive * per_mass(momentum, mass_floor);
+        }
+    });
 }
 
 /// 1/m_i, which the numbers of a node are multiplied by: one division for up to eight. It is 0 on empty nodes.

@@ -45,6 +45,7 @@ pub mod solver;
 pub mod stencil;
 pub mod study;
 pub mod tensor;
+mod threads;
 pub mod transfer;
 
 pub use mms_math as math;

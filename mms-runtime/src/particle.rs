@@ -8,6 +8,7 @@ use mms_math::machine::Machine;
 use crate::body::Filling;
 use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
 use crate::stencil::BUNCH;
+use crate::threads::Parts;
 use crate::{Matrix, Real, Transfer, Vector};
 
 /// The state of all particles.
@@ -189,7 +190,7 @@ pub(crate) struct Columns<'a, T, const D: usize> {
     pub residual: &'a mut [Vectors<T, D>],
 }
 
-impl<T, const D: usize> Columns<'_, T, D> {
+impl<T: Real, const D: usize> Columns<'_, T, D> {
     /// Has what changes of a bunch brought near.
     #[inline(always)]
     pub fn fetch<M: Machine<T>>(&self, machine: M, bunch: usize) {
@@ -199,19 +200,19 @@ impl<T, const D: usize> Columns<'_, T, D> {
         machine.fetch(self.affine, bunch);
     }
 
-    /// How many bunches there are.
-    pub fn len(&self) -> usize {
-        self.displacement.len()
-    }
-
     /// The displacements and the displacement gradients of a bunch.
     #[inline(always)]
     pub fn moved(&self, k: usize) -> (&Vectors<T, D>, &Matrices<T, D>) {
         (&self.displacement[k], &self.displacement_gradient[k])
     }
+}
 
-    /// The first `count` bunches, and the others.
-    pub fn split(self, count: usize) -> [Self; 2] {
+impl<T: Real, const D: usize> Parts for Columns<'_, T, D> {
+    fn len(&self) -> usize {
+        self.displacement.len()
+    }
+
+    fn split(self, count: usize) -> [Self; 2] {
         let (displacement, displacements) = self.displacement.split_at_mut(count);
         let (velocity, velocities) = self.velocity.split_at_mut(count);
         let (gradient, gradients) = self.displacement_gradient.split_at_mut(count);

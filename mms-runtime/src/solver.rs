@@ -16,7 +16,6 @@ mod scene;
 mod setup;
 mod slabs;
 mod state;
-mod threads;
 
 use crate::boundary::Boundary;
 use crate::column::Bunches;

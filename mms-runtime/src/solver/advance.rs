@@ -11,6 +11,7 @@ use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::shape::Shape;
 use crate::stencil::{Stencil as _, Wanted};
+use crate::threads::Parts as _;
 use crate::transfer::Reads;
 use crate::{Cause, Real, Transfer};
 

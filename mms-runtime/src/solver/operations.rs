@@ -9,7 +9,6 @@ use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
 use super::map::{Added, Map, Stop};
 use super::scene::Scene;
-use super::threads::each_part;
 use crate::boundary::traction::Place;
 use crate::defect::{Defect, on};
 use crate::grid::divide_by_mass;
@@ -17,9 +16,14 @@ use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
+use crate::stencil::BUNCH;
 use crate::tensor::deformation_gradient;
+use crate::threads::{each_node, each_part};
 use crate::transfer::Reads;
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
+
+/// Bunches that are updated by one thread at a time.
+const PART: usize = 2048 / BUNCH;
 
 impl<T: Real, const D: usize, F, S> Operations<T> for Solver<'_, T, D, F, S>
 where
@@ -106,6 +110,7 @@ where
         let sound = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
+                PART,
                 &|particles| best(Advance { scene, particles, steps, velocity, acceleration }),
                 &both_sound,
             )
@@ -182,8 +187,9 @@ where
         let seconds = &mut self.seconds;
         let [first, second] = nodes;
         timed(&mut seconds.grid, || {
-            first.fill(Nodal::zero());
-            second.fill(Nodal::zero());
+            for nodes in [&mut *first, &mut *second] {
+                each_node(nodes, &|part| part.fill(Nodal::zero()));
+            }
         });
         let reference_position = particles.reference_position.bunches();
         let scene = Scene::<T, D, S> {
@@ -276,6 +282,7 @@ where
         let found = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
+                PART,
                 &|particles| best(Residual { scene, particles, nodal, source }),
                 &both_sound,
             )

@@ -2,17 +2,20 @@
 //!
 //! Particles stand in the order of the cells they were in when they were sorted: in a slab first those that make a bunch
 //! with others of their cell, then those that make half of one, then the others. The layers of cells along the last
-//! axis are cut into slabs with about as many particles each, which stand together; the nodes that they can reach
-//! are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
+//! axis are cut into slabs with as many particles each, also within a layer; they stand together, and the nodes that
+//! they can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
 //! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
 //! whatever the number of threads is.
 
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::column::{Bunch, Bunches};
 use crate::nodal::{Nodal, Window};
 use crate::particle::{Particles, reorder, reorder_bunches};
 use crate::stencil::{ALL, BUNCH, HALF, Members};
+use crate::threads::both;
 use crate::{Lattice, Real, Vector};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
@@ -21,7 +24,7 @@ const REACH: [usize; 2] = [2, 3];
 /// Layers that particles may at least drift before they have to be sorted.
 const DRIFT: usize = 1;
 
-/// At least so many layers in a slab, and ...
+/// At least so many layers that an inner slab has alone, and ...
 const FEWEST_LAYERS: usize = REACH[0] + REACH[1] + 2 * DRIFT;
 
 /// ... at most so many slabs.
@@ -49,14 +52,25 @@ impl Slab {
     }
 }
 
+/// Where a slab ends and the next one begins.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Cut {
+    /// The layer of the first particle after it.
+    from: usize,
+    /// Behind the layer of the last particle before it: another one if the cut is within a layer.
+    until: usize,
+    /// How many particles are before it.
+    particle: usize,
+}
+
 /// What is done for a slab, with its part of two arrays of nodes.
 type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Sync + 'a;
 
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
     pub all: Vec<Slab>,
-    /// The layer and the particle that each slab but the first one begins with. There is room for the most slabs.
-    cuts: Vec<[usize; 2]>,
+    /// What each slab but the first one begins with. There is room for the most slabs.
+    cuts: Vec<Cut>,
     /// Nodes of a layer, and how many layers there are.
     layer: usize,
     layers: usize,
@@ -94,17 +108,23 @@ impl Slabs {
         self.place.get(id).map_or(id, |&place| place as usize)
     }
 
-    /// The layers and the particles that slabs begin with, but for the first one.
-    pub fn cuts(&self) -> &[[usize; 2]] {
+    /// What slabs begin with, but for the first one.
+    pub fn cuts(&self) -> &[Cut] {
         &self.cuts
     }
 
     /// Takes the slabs that these cuts make of so many particles, if there may be such.
-    pub fn accept(&mut self, cuts: &[[usize; 2]], particles: usize) -> bool {
-        let apart = |pair: &[[usize; 2]]| {
-            pair[0][0] + FEWEST_LAYERS <= pair[1][0] && pair[0][1] <= pair[1][1]
+    pub fn accept(&mut self, cuts: &[Cut], particles: usize) -> bool {
+        let apart = |pair: &[Cut]| {
+            pair[0].until.checked_add(FEWEST_LAYERS).is_some_and(|least| least <= pair[1].from)
+                && pair[0].particle <= pair[1].particle
         };
-        let within = |cut: &[usize; 2]| cut[0] <= self.layers && cut[1] <= particles;
+        let within = |cut: &Cut| {
+            let thick = cut.until.checked_sub(cut.from);
+            thick.is_some_and(|thick| thick <= 1)
+                && cut.until <= self.layers
+                && cut.particle <= particles
+        };
         let fit = cuts.windows(2).all(apart) && cuts.iter().all(within);
         if !fit || self.place.is_empty() && !cuts.is_empty() {
             return false;
@@ -120,12 +140,13 @@ impl Slabs {
         let Self { all, cuts, layer, layers, .. } = self;
         let last = cuts.len();
         // How far the particles of the neighbours of an inner slab may drift into it.
-        let drift = |s: usize| (cuts[s][0] - cuts[s - 1][0] - REACH[0] - REACH[1]) / 2;
+        let drift = |s: usize| (cuts[s].from - cuts[s - 1].until - REACH[0] - REACH[1]) / 2;
         let slab = |s: usize| {
-            let before = if s > 1 { cuts[s - 1][0] - REACH[0] - drift(s - 1) } else { 0 };
-            let after = if s + 1 < last { cuts[s][0] + REACH[1] + drift(s + 1) } else { *layers };
-            let from = if s > 0 { cuts[s - 1][1] } else { 0 };
-            let to = if s < last { cuts[s][1] } else { particles };
+            let before = if s > 1 { cuts[s - 1].from - REACH[0] - drift(s - 1) } else { 0 };
+            let after =
+                if s + 1 < last { cuts[s].until + REACH[1] + drift(s + 1) } else { *layers };
+            let from = if s > 0 { cuts[s - 1].particle } else { 0 };
+            let to = if s < last { cuts[s].particle } else { particles };
             let after = after.min(*layers);
             Slab { particles: from..to, window: before * *layer..after * *layer }
         };
@@ -173,7 +194,7 @@ impl Slabs {
         self.stand(&particles.id);
     }
 
-    /// Makes an even number of slabs with about as many particles each; three, where there are too few layers.
+    /// Makes an even number of slabs with as many particles each, to a cell; three, where there are too few layers.
     fn cut_evenly(&mut self) {
         let Self { cuts, cell, layer: nodes, .. } = self;
         let particles = cell.len();
@@ -182,15 +203,27 @@ impl Slabs {
         let number = match last + 1 - first {
             few if few < FEWEST_LAYERS + 2 => 1,
             some if some < 4 * FEWEST_LAYERS => 3,
-            many => (many / FEWEST_LAYERS).min(MOST_SLABS) / 2 * 2,
+            // A cut within a layer takes one more.
+            many => (many / (FEWEST_LAYERS + 1)).clamp(4, MOST_SLABS) / 2 * 2,
         };
+        let begin = |of: u64| cell.partition_point(|&cell| cell < of);
+        let between =
+            |layer| Cut { from: layer, until: layer, particle: begin((layer * *nodes) as u64) };
         cuts.clear();
         for s in 1..number {
-            let least = cuts.last().map_or(first + 1, |cut| cut[0] + FEWEST_LAYERS);
+            let least = cuts.last().map_or(first + 1, |cut| cut.until + FEWEST_LAYERS);
             let most = last - (number - 1 - s) * FEWEST_LAYERS;
-            let at = layer(s * particles / number).min(most).max(least);
-            let before = |&cell: &u64| (cell as usize) < at * *nodes;
-            cuts.push([at, cell.partition_point(before)]);
+            let fair = cell[s * particles / number];
+            let from = fair as usize / *nodes;
+            // There are particles before that layer.
+            let cut = if from < least {
+                between(least)
+            } else {
+                let particle = begin(fair);
+                let until = from + usize::from(layer(particle - 1) == from);
+                if until <= most { Cut { from, until, particle } } else { between(most) }
+            };
+            cuts.push(cut);
         }
         self.cut(particles);
     }
@@ -298,7 +331,7 @@ impl Colour<'_> {
         let at = self.get(middle).window.start;
         let [[before, after], [more_before, more_after]] = nodes.map(|nodes| nodes.split(at));
         let (before, after) = ([before, more_before], [after, more_after]);
-        let (first, second) = super::threads::both(
+        let (first, second) = both(
             || self.each(numbers.start..middle, before, work, join),
             || self.each(middle..numbers.end, after, work, join),
         );
@@ -308,13 +341,14 @@ impl Colour<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{REACH, Slabs, bunch};
+    use super::{Cut, REACH, Slabs, bunch};
 
-    /// Of layers with so many particles each, beginning with layer 5, in rows of ten nodes.
+    /// Of layers with so many particles each, beginning with layer 5, in rows of ten cells with as many.
     fn slabs(particles_of_layers: &[usize]) -> Slabs {
-        let cells = particles_of_layers.iter().zip(5..);
-        let cell: Vec<u64> =
-            cells.flat_map(|(&count, layer)| vec![10 * layer + 3; count]).collect();
+        let cells = particles_of_layers.iter().zip(5_u64..);
+        let layer =
+            |(&count, layer)| (0..count as u64).map(move |k| 10 * layer + 10 * k / count as u64);
+        let cell: Vec<u64> = cells.flat_map(layer).collect();
         let count = cell.len() as u32;
         let (place, order): (Vec<_>, Vec<_>) = ((0..count).collect(), (0..count).collect());
         let layers = particles_of_layers.len() + 10;
@@ -348,7 +382,7 @@ mod tests {
             assert_eq!(next, slabs.cell.len());
             if layers.iter().all(|&count| count == 100) && layers.len() > 28 {
                 let fair = slabs.cell.len() / number;
-                assert!(all.iter().all(|slab| slab.particles.len().abs_diff(fair) <= 200));
+                assert!(all.iter().all(|slab| slab.particles.len().abs_diff(fair) <= 11));
             }
         }
     }
@@ -381,7 +415,17 @@ mod tests {
         let windows: Vec<_> = slabs.all.iter().map(|slab| slab.window.clone()).collect();
         assert!(slabs.accept(&cuts, 3100));
         assert!(slabs.all.iter().zip(&windows).all(|(slab, window)| slab.window == *window));
-        for wrong in [vec![[9, 100], [15, 200]], vec![[9, 200], [20, 100]], vec![[60, 100]]] {
+        let cut = |from, until, particle| Cut { from, until, particle };
+        for wrong in [
+            vec![cut(9, 9, 100), cut(15, 15, 200)],
+            vec![cut(9, 10, 100), cut(16, 16, 200)],
+            vec![cut(9, 9, 200), cut(20, 20, 100)],
+            vec![cut(60, 60, 100)],
+            vec![cut(9, 8, 100)],
+            vec![cut(9, 11, 100)],
+            vec![cut(9, usize::MAX, 100)],
+            vec![cut(9, 9, 3101)],
+        ] {
             assert!(!slabs.accept(&wrong, 3100), "{wrong:?}");
         }
     }

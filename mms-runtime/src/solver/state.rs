@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Solver;
 use super::clock::Seconds;
+use super::slabs::Cut;
 use crate::shape::Shape;
 use crate::{Matrix, Real, Refusal, Vector};
 
@@ -27,8 +28,8 @@ pub struct State<'a, T: Real, const D: usize> {
     displacement_gradient: Vec<Matrix<T, D>>,
     /// C, with APIC only.
     affine: Vec<Matrix<T, D>>,
-    /// The layers and the particles that slabs begin with.
-    cuts: Cow<'a, [[usize; 2]]>,
+    /// Where slabs begin.
+    cuts: Cow<'a, [Cut]>,
     seconds: Seconds,
 }
 

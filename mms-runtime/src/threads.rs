@@ -1,0 +1,82 @@
+//! Two things at once, if there are threads for it.
+//!
+//! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Everything is cut
+//! into the same parts, whatever their number: so results do not depend on it.
+
+/// Nodes that are worked on by one thread at a time.
+const NODES: usize = 2048;
+
+/// Both results; at the same time in a pool of more than one thread.
+pub fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    if alone() { (first(), second()) } else { rayon::join(first, second) }
+}
+
+/// Whether there is one thread.
+fn alone() -> bool {
+    rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1
+}
+
+/// What can be cut in two.
+pub trait Parts: Sized + Send {
+    /// How much there is of it.
+    fn len(&self) -> usize;
+    /// So much of it from its beginning, and what is left.
+    fn split(self, at: usize) -> [Self; 2];
+}
+
+impl<V: Sync> Parts for &[V] {
+    fn len(&self) -> usize {
+        (**self).len()
+    }
+
+    fn split(self, at: usize) -> [Self; 2] {
+        self.split_at(at).into()
+    }
+}
+
+impl<V: Send> Parts for &mut [V] {
+    fn len(&self) -> usize {
+        (**self).len()
+    }
+
+    fn split(self, at: usize) -> [Self; 2] {
+        self.split_at_mut(at).into()
+    }
+}
+
+/// As long as each other.
+impl<A: Parts, B: Parts> Parts for (A, B) {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn split(self, at: usize) -> [Self; 2] {
+        let ([a, b], [others_of_a, others_of_b]) = (self.0.split(at), self.1.split(at));
+        [(a, others_of_a), (b, others_of_b)]
+    }
+}
+
+/// Does `work` for all there is, in parts of at most `size`, and joins what comes of it.
+pub fn each_part<P: Parts, R: Send>(
+    all: P,
+    size: usize,
+    work: &(dyn Fn(P) -> R + Sync),
+    join: &(dyn Fn(R, R) -> R + Sync),
+) -> R {
+    let count = all.len();
+    if count <= size {
+        return work(all);
+    }
+    let [first, others] = all.split(count / 2);
+    let (first, others) =
+        both(|| each_part(first, size, work, join), || each_part(others, size, work, join));
+    join(first, others)
+}
+
+/// Does `work` for arrays of nodes, each of which has nothing to do with the others.
+pub fn each_node<P: Parts>(nodes: P, work: &(dyn Fn(P) + Sync)) {
+    if alone() { work(nodes) } else { each_part(nodes, NODES, work, &|(), ()| ()) }
+}
