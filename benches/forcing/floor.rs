@@ -21,6 +21,8 @@ type Slots = [usize; 2];
 const SINE_AND_COSINE: Slots = [27, 24];
 /// The same where nothing is taken off the angle.
 const NEAR_ZERO: Slots = [20, 13];
+/// The same of an angle that is at most 1.
+const WITHIN_ONE: Slots = [18, 12];
 /// The same in half turns.
 const OF_HALF_TURNS: Slots = [21, 15];
 /// The logarithm.
@@ -166,6 +168,12 @@ impl Scalar for Counted<'_> {
     }
     fn cos_near_zero(self) -> Self {
         self.turned(NEAR_ZERO, self.value.cos())
+    }
+    fn sin_within_one(self) -> Self {
+        self.turned(WITHIN_ONE, self.value.sin())
+    }
+    fn cos_within_one(self) -> Self {
+        self.turned(WITHIN_ONE, self.value.cos())
     }
     fn sin_pi(self) -> Self {
         self.turned(OF_HALF_TURNS, Scalar::sin_pi(self.value))

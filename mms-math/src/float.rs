@@ -45,6 +45,12 @@ macro_rules! scalar {
             fn cos_near_zero(self) -> Self {
                 known(Lane::<_, false>(self).cos_near_zero(), || Scalar::cos(self))
             }
+            fn sin_within_one(self) -> Self {
+                known(Lane::<_, false>(self).sin_within_one(), || Scalar::sin_near_zero(self))
+            }
+            fn cos_within_one(self) -> Self {
+                known(Lane::<_, false>(self).cos_within_one(), || Scalar::cos_near_zero(self))
+            }
             #[inline]
             fn sin_pi(self) -> Self {
                 known(Lane::<_, false>(self).sin_pi(), || Lane::<_, false>(self % 2.0).sin_pi().0)

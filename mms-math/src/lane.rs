@@ -20,6 +20,10 @@ pub struct Lane<T, const FUSED: bool>(pub T);
 /// less than a quarter turn.
 pub const NEAR_ZERO: f64 = 1.57;
 
+/// The largest magnitude of which a [`Lane`] knows [`Scalar::sin_within_one`] and [`Scalar::cos_within_one`]: just
+/// more than 1.
+pub const WITHIN_ONE: f64 = 1.0625;
+
 macro_rules! operators {
     ($($trait:ident $method:ident $operator:tt),*) => {
         $(
@@ -98,6 +102,6 @@ scalar! {
     power: cbrt;
     exponential: exp exp_m1 sinh cosh tanh;
     logarithm: ln ln_1p ln_1p_rest;
-    trigonometric: sin cos sin_near_zero cos_near_zero sin_pi cos_pi tan;
+    trigonometric: sin cos sin_near_zero cos_near_zero sin_within_one cos_within_one sin_pi cos_pi tan;
     inverse: asin acos atan;
 }

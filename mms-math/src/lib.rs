@@ -34,7 +34,7 @@ pub mod structures;
 
 pub use double::Double;
 #[cfg(feature = "std")]
-pub use lane::{Lane, NEAR_ZERO};
+pub use lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -111,6 +111,15 @@ pub trait Scalar:
     /// The cosine of such an angle.
     fn cos_near_zero(self) -> Self {
         self.cos()
+    }
+    /// The sine of an angle in radians that is expected to be at most 1, or what a computed 1 may be: as near zero, with
+    /// fewer terms.
+    fn sin_within_one(self) -> Self {
+        self.sin_near_zero()
+    }
+    /// The cosine of such an angle.
+    fn cos_within_one(self) -> Self {
+        self.cos_near_zero()
     }
     /// The sine of an angle in half turns, sin(pi self): whole turns are taken off without error.
     fn sin_pi(self) -> Self {

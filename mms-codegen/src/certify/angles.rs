@@ -1,4 +1,5 @@
-//! Sines and cosines whose angle is proved to be less than a quarter turn: nothing need be taken off it.
+//! Sines and cosines whose angle is proved to be less than a quarter turn: nothing need be taken off it; and where it is
+//! at most 1, fewer terms are enough.
 //!
 //! The proof is for the body, the time window and the ranges of parameters. Elsewhere the functions are right
 //! too, only slower (`mms_math::batch`), so an angle that depends on a parameter without a range, which may be
@@ -17,9 +18,12 @@ use crate::program::interval::Interval;
 use crate::program::{Output, Stage};
 use crate::spec::FieldSpec;
 
-/// What is proved of the magnitude of an angle: less than `mms_math::NEAR_ZERO`, since a computed angle has
-/// errors.
-const LIMIT: f64 = 1.5;
+/// What is proved of the magnitude of an angle, and the sine and the cosine of such: less than they know
+/// (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
+const KINDS: [(f64, [Function; 2]); 2] = [
+    (1.0 + 1.0 / 32.0, [Function::SinWithinOne, Function::CosWithinOne]),
+    (1.5, [Function::SinNearZero, Function::CosNearZero]),
+];
 
 /// How many cells and operations a proof may take.
 const CELLS: usize = 128;
@@ -37,19 +41,20 @@ pub fn near_zero(
     if candidates.is_empty() {
         return;
     }
-    let small: BTreeSet<Expr> = graph.aside(|graph| {
+    let small: BTreeMap<Expr, [Function; 2]> = graph.aside(|graph| {
         let chart = Chart::new(graph, field, model, None);
-        candidates.into_iter().filter(|angle| is_small(graph, &chart, *angle)).collect()
+        let kind = |angle: Expr| Some((angle, kind(graph, &chart, angle)?));
+        candidates.into_iter().filter_map(kind).collect()
     });
     for components in outputs.values_mut() {
-        *components = rebuild(graph, components, |graph, node| match node {
-            Node::Call(Function::Sin, angle) if small.contains(&angle[0]) => {
-                graph.call(Function::SinNearZero, &angle)
+        *components = rebuild(graph, components, |graph, node| {
+            if let Node::Call(function @ (Function::Sin | Function::Cos), angle) = &node
+                && let Some([sin, cos]) = small.get(&angle[0])
+            {
+                let own = if *function == Function::Sin { sin } else { cos };
+                return graph.call(*own, angle);
             }
-            Node::Call(Function::Cos, angle) if small.contains(&angle[0]) => {
-                graph.call(Function::CosNearZero, &angle)
-            }
-            other => graph.remake(other),
+            graph.remake(node)
         });
     }
 }
@@ -81,12 +86,16 @@ fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
     })
 }
 
-fn is_small(graph: &mut Graph, chart: &Chart, angle: Expr) -> bool {
+/// The sine and the cosine of an angle that is proved to be small.
+fn kind(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Function; 2]> {
     let angle = chart.pull_back(graph, &[angle]);
     let formulas = Formulas::new(graph, chart, &angle);
     let (mut bounds, mut values) = (formulas.run::<Interval>(chart), formulas.run::<f64>(chart));
     let limit = (OPERATIONS / formulas.size()).min(CELLS);
-    let enough = |bound: f64, attained: f64| bound <= LIMIT || attained > LIMIT;
+    // The smallest limit that is not refuted is proved.
+    let enough = |bound: f64, attained: f64| {
+        KINDS.iter().find(|(limit, _)| attained <= *limit).is_none_or(|(limit, _)| bound <= *limit)
+    };
     let found = largest(chart.variables().len(), limit, enough, |cell| {
         let place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
@@ -100,5 +109,5 @@ fn is_small(graph: &mut Graph, chart: &Chart, angle: Expr) -> bool {
             at,
         }
     });
-    found.bound <= LIMIT
+    KINDS.into_iter().find_map(|(limit, kind)| (found.bound <= limit).then_some(kind))
 }

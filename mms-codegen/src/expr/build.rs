@@ -357,6 +357,7 @@ fn value_at_zero(function: Function) -> Option<i32> {
         | Function::SinPi
         | Function::Sin
         | Function::SinNearZero
+        | Function::SinWithinOne
         | Function::Tan
         | Function::Sinh
         | Function::Tanh
@@ -365,6 +366,7 @@ fn value_at_zero(function: Function) -> Option<i32> {
         Function::Exp
         | Function::Cos
         | Function::CosNearZero
+        | Function::CosWithinOne
         | Function::CosPi
         | Function::Cosh => Some(1),
         Function::Sqrt | Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,

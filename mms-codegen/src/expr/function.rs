@@ -37,6 +37,8 @@ functions! {
     Cos "cos" 1 "The cosine.",
     SinNearZero "sin_near_zero" 1 "The sine of an angle that is proved to be less than a quarter turn.",
     CosNearZero "cos_near_zero" 1 "The cosine of such an angle.",
+    SinWithinOne "sin_within_one" 1 "The sine of an angle that is proved to be at most 1, but for errors.",
+    CosWithinOne "cos_within_one" 1 "The cosine of such an angle.",
     SinPi "sin_pi" 1 "sin(pi x).",
     CosPi "cos_pi" 1 "cos(pi x).",
     Tan "tan" 1 "The tangent.",
@@ -54,8 +56,8 @@ impl Function {
     /// The same function for whoever expects nothing of its argument.
     pub fn of_any_argument(self) -> Self {
         match self {
-            Function::SinNearZero => Function::Sin,
-            Function::CosNearZero => Function::Cos,
+            Function::SinNearZero | Function::SinWithinOne => Function::Sin,
+            Function::CosNearZero | Function::CosWithinOne => Function::Cos,
             other => other,
         }
     }

@@ -292,6 +292,8 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
         | Function::CosPi
         | Function::SinNearZero
         | Function::CosNearZero
+        | Function::SinWithinOne
+        | Function::CosWithinOne
         | Function::Ln1pRest => graph.sub(whole, limit),
     };
     Some(Term { limit, rest, whole })

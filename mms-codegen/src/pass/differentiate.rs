@@ -160,6 +160,11 @@ fn partial(
             let sin = graph.call(Function::SinNearZero, &[x]);
             graph.scale(sin, -1)
         }
+        Function::SinWithinOne => graph.call(Function::CosWithinOne, &[x]),
+        Function::CosWithinOne => {
+            let sin = graph.call(Function::SinWithinOne, &[x]);
+            graph.scale(sin, -1)
+        }
         Function::Sin => graph.call(Function::Cos, &[x]),
         Function::Cos => {
             let sin = graph.call(Function::Sin, &[x]);

@@ -189,6 +189,8 @@ pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
         Function::Cos => x.cos(),
         Function::SinNearZero => x.sin_near_zero(),
         Function::CosNearZero => x.cos_near_zero(),
+        Function::SinWithinOne => x.sin_within_one(),
+        Function::CosWithinOne => x.cos_within_one(),
         Function::SinPi => x.sin_pi(),
         Function::CosPi => x.cos_pi(),
         Function::Tan => x.tan(),

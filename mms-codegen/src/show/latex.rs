@@ -231,6 +231,8 @@ fn command(function: Function) -> String {
         | Function::Ln1pRest
         | Function::SinNearZero
         | Function::CosNearZero
+        | Function::SinWithinOne
+        | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
         | Function::Atan2

@@ -242,6 +242,8 @@ pub(super) fn word(function: Function) -> &'static str {
         Function::Cos => "cos",
         Function::SinNearZero => "sin_near_zero",
         Function::CosNearZero => "cos_near_zero",
+        Function::SinWithinOne => "sin_within_one",
+        Function::CosWithinOne => "cos_within_one",
         Function::SinPi => "sin_pi",
         Function::CosPi => "cos_pi",
         Function::Tan => "tan",

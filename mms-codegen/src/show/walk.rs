@@ -269,6 +269,8 @@ impl Writer<'_> {
             | Function::Cos
             | Function::SinNearZero
             | Function::CosNearZero
+            | Function::SinWithinOne
+            | Function::CosWithinOne
             | Function::SinPi
             | Function::CosPi
             | Function::Tan

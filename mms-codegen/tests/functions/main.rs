@@ -1,7 +1,7 @@
 //! The quick functions of `Lane` and the careful ones of `f32` and `f64` against 77 digits.
 
 use mms_codegen::program::precise::Precise;
-use mms_math::{Lane, NEAR_ZERO, Scalar};
+use mms_math::{Lane, NEAR_ZERO, Scalar, WITHIN_ONE};
 
 type Real = fn(f64) -> f64;
 
@@ -312,30 +312,58 @@ fn powers(format: usize, base: f64, exponent: f64) -> [(f64, f64); 2] {
     }
 }
 
+/// Functions of [`Scalar`], in the scalars that have their own.
+macro_rules! everywhere {
+    ($($function:ident),*) => {
+        [$((
+            |x| Lane::<f64, false>(x).$function().0,
+            |x| Lane::<f64, true>(x).$function().0,
+            |x| Lane::<f32, false>(x).$function().0,
+            |x| Lane::<f32, true>(x).$function().0,
+            |x| Scalar::$function(x),
+        )),*]
+    };
+}
+
 #[test]
-fn near_zero_no_reduction_is_needed() {
+fn of_a_small_angle_no_reduction_is_needed() {
+    type Everywhere =
+        (fn(f64) -> f64, fn(f64) -> f64, fn(f32) -> f32, fn(f32) -> f32, fn(f64) -> f64);
+    let near_zero: [Everywhere; 2] = everywhere!(sin_near_zero, cos_near_zero);
+    let within_one: [Everywhere; 2] = everywhere!(sin_within_one, cos_within_one);
     let mut random = Random(3);
-    for _ in 0..1000 {
-        let x = random.signed() * NEAR_ZERO;
-        let (sin, cos) = (of(x).sin(), of(x).cos());
-        let whole = of(0.75);
-        for (sine, cosine) in [
-            (Lane::<_, false>(x).sin_near_zero().0, Lane::<_, false>(x).cos_near_zero().0),
-            (Lane::<_, true>(x).sin_near_zero().0, Lane::<_, true>(x).cos_near_zero().0),
-        ] {
-            assert!(FORMATS[0].is_right(sine, &sin, 2.0), "sin({x})");
-            let error = (of(cosine) - cos.clone()).magnitude();
-            assert!(error.at_most(&(FORMATS[0].unit(&whole) * of(2.0))), "cos({x})");
+    for (limit, [sine, cosine]) in [(NEAR_ZERO, near_zero), (WITHIN_ONE, within_one)] {
+        for _ in 0..1000 {
+            let single = (random.signed() * limit) as f32;
+            let x = f64::from(single) * (1.0 - f64::EPSILON);
+            // An error of the cosine counts as one of a number near 1.
+            let is_cosine = |format: usize, found: f64, x: f64| {
+                let error = (of(found) - of(x).cos()).magnitude();
+                error.at_most(&(FORMATS[format].unit(&of(0.75)) * of(2.0)))
+            };
+            for (sine, cosine) in [(sine.0(x), cosine.0(x)), (sine.1(x), cosine.1(x))] {
+                assert!(FORMATS[0].is_right(sine, &of(x).sin(), 2.0), "sin({x})");
+                assert!(is_cosine(0, cosine, x), "cos({x})");
+            }
+            let x = f64::from(single);
+            for (sine, cosine) in
+                [(sine.2(single), cosine.2(single)), (sine.3(single), cosine.3(single))]
+            {
+                assert!(FORMATS[1].is_right(sine.into(), &of(x).sin(), 2.0), "sin({x})");
+                assert!(is_cosine(1, cosine.into(), x), "cos({x})");
+            }
+        }
+        for x in [limit + 1e-6, -2.0, f64::NAN, f64::INFINITY] {
+            assert!(sine.0(x).is_nan() && cosine.1(x).is_nan());
+            assert!(sine.2(x as f32).is_nan() && cosine.3(x as f32).is_nan());
+        }
+        for x in [NEAR_ZERO + 1e-6, -2.0, 1e5, 1e300] {
+            assert_eq!([sine.4(x), cosine.4(x)], [Scalar::sin(x), Scalar::cos(x)], "{x}");
         }
     }
-    for x in [NEAR_ZERO + 1e-6, -2.0, f64::NAN, f64::INFINITY] {
-        assert!(Lane::<_, false>(x).sin_near_zero().0.is_nan());
-        assert!(Lane::<_, true>(x).cos_near_zero().0.is_nan());
-    }
-    for x in [NEAR_ZERO + 1e-6, -2.0, 1e5, 1e300] {
-        let careful = [Scalar::sin(x), Scalar::cos(x)];
-        assert_eq!([Scalar::sin_near_zero(x), Scalar::cos_near_zero(x)], careful, "{x}");
-    }
+    let between = 0.5 * (NEAR_ZERO + WITHIN_ONE);
+    assert_eq!(Scalar::sin_within_one(between), Scalar::sin_near_zero(between));
+    assert_eq!(Scalar::cos_within_one(between), Scalar::cos_near_zero(between));
 }
 
 #[test]

@@ -221,7 +221,9 @@ fn a_field_at_rest_has_no_code_for_its_motion() {
 fn a_field_of_one_dimension_has_no_three_by_three_algebra() {
     let emitted = rust::file(&compiled(&moving(), &Selection::default())).text;
     assert!(emitted.contains("[[T; 1]; 1]"));
-    assert!(!emitted.contains("; 3]") && !emitted.contains("; 2]; 2]"), "{emitted}");
+    for of_more in ["[T; 3]", "; 2]; 2]", "; 3]; 3]"] {
+        assert!(!emitted.contains(of_more), "{of_more}: {emitted}");
+    }
     // The inverse of F is one division, and its determinant is its entry.
     let jacobian = compiled(&moving(), &selection(&[Quantity::Jacobian], &[], &[]));
     let counts = jacobian.program.operations(&[Output::Quantity(Quantity::Jacobian)]);
@@ -319,7 +321,14 @@ fn subsets_are_not_dearer_than_the_whole() {
 
 /// Which of the functions of angles the program calls.
 fn functions_of_angles(compiled: &Compiled) -> BTreeSet<Function> {
-    let angles = [Function::Sin, Function::Cos, Function::SinNearZero, Function::CosNearZero];
+    let angles = [
+        Function::Sin,
+        Function::Cos,
+        Function::SinNearZero,
+        Function::CosNearZero,
+        Function::SinWithinOne,
+        Function::CosWithinOne,
+    ];
     let called = compiled.program.instrs.iter().filter_map(|instr| match instr.op {
         Op::Unary(function, _) if instr.stage >= Stage::Point => Some(function),
         _ => None,
@@ -329,15 +338,18 @@ fn functions_of_angles(compiled: &Compiled) -> BTreeSet<Function> {
 
 #[test]
 fn nothing_is_taken_off_an_angle_that_is_proved_small() {
-    let (any, near_zero) = (
+    let (any, near_zero, within_one) = (
         BTreeSet::from([Function::Sin, Function::Cos]),
         BTreeSet::from([Function::SinNearZero, Function::CosNearZero]),
+        BTreeSet::from([Function::SinWithinOne, Function::CosWithinOne]),
     );
     // The angle grows to `size`, which may be set to anything unless it is frozen or has a range.
     let text = FIELD.replace("size*X*(1 - X)*TIME", "sin(size*X^2*t)/10");
     let free = compiled(&text, &Selection::default());
     assert_eq!(functions_of_angles(&free), any);
-    for (size, expected) in [("1.49", &near_zero), ("1.51", &any)] {
+    for (size, expected) in
+        [("1", &within_one), ("1.04", &near_zero), ("1.49", &near_zero), ("1.51", &any)]
+    {
         let frozen = compiled(&text, &selection(&[], &[("size", size)], &["size"]));
         assert_eq!(functions_of_angles(&frozen), *expected, "{size}");
     }

@@ -184,6 +184,8 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::Cos => a.cos(),
                 Function::SinNearZero => a.sin_near_zero(),
                 Function::CosNearZero => a.cos_near_zero(),
+                Function::SinWithinOne => a.sin_within_one(),
+                Function::CosWithinOne => a.cos_within_one(),
                 Function::SinPi => a.sin_pi(),
                 Function::CosPi => a.cos_pi(),
                 Function::Tan => a.tan(),

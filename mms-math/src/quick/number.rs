@@ -39,6 +39,10 @@ pub struct Polynomials<T: 'static> {
     pub sin_near_zero: &'static [T],
     /// As `cos`, on twice the range.
     pub cos_near_zero: &'static [T],
+    /// As `sin`, up to [`WITHIN_ONE`](crate::WITHIN_ONE).
+    pub sin_within_one: &'static [T],
+    /// As `cos`, up to there.
+    pub cos_within_one: &'static [T],
     /// (exp(r) - 1 - r)/r^2 in r.
     pub exp: &'static [T],
     /// (sinh(r)/r - 1)/s in s = r^2.

@@ -5,7 +5,7 @@
 //! argument share all of that.
 
 use super::number::Float;
-use crate::lane::{Lane, NEAR_ZERO};
+use crate::lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 
 /// The sine and the cosine of what is left, not yet turned, and the number of quarter turns in the
 /// lowest bits.
@@ -113,20 +113,50 @@ pub fn cos_pi<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> 
 /// At most 1.7 ulp, for |x| <= [`NEAR_ZERO`].
 #[inline(always)]
 pub fn sin_near_zero<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
-    let s = square_near_zero(x);
-    (x * s).times_plus(s.polynomial(T::POLYNOMIALS.sin_near_zero), x)
+    unreduced_sine(x, NEAR_ZERO, T::POLYNOMIALS.sin_near_zero)
 }
 
 /// For |x| <= [`NEAR_ZERO`]. The error is at most 0.9 of the format's epsilon, also near the zero.
 #[inline(always)]
 pub fn cos_near_zero<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
-    let s = square_near_zero(x);
-    let cos = s.times_plus(s.polynomial(T::POLYNOMIALS.cos_near_zero), Lane::of(-0.5));
+    unreduced_cosine(x, NEAR_ZERO, T::POLYNOMIALS.cos_near_zero)
+}
+
+/// At most 1.7 ulp, for |x| <= [`WITHIN_ONE`].
+#[inline(always)]
+pub fn sin_within_one<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
+    unreduced_sine(x, WITHIN_ONE, T::POLYNOMIALS.sin_within_one)
+}
+
+/// At most 0.9 of the format's epsilon, for |x| <= [`WITHIN_ONE`].
+#[inline(always)]
+pub fn cos_within_one<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
+    unreduced_cosine(x, WITHIN_ONE, T::POLYNOMIALS.cos_within_one)
+}
+
+#[inline(always)]
+fn unreduced_sine<T: Float, const FUSED: bool>(
+    x: Lane<T, FUSED>,
+    limit: f64,
+    polynomial: &[T],
+) -> Lane<T, FUSED> {
+    let s = square_within(x, limit);
+    (x * s).times_plus(s.polynomial(polynomial), x)
+}
+
+#[inline(always)]
+fn unreduced_cosine<T: Float, const FUSED: bool>(
+    x: Lane<T, FUSED>,
+    limit: f64,
+    polynomial: &[T],
+) -> Lane<T, FUSED> {
+    let s = square_within(x, limit);
+    let cos = s.times_plus(s.polynomial(polynomial), Lane::of(-0.5));
     s.times_plus(cos, Lane::of(1.0))
 }
 
 /// x^2, or not a number where no polynomial is for x.
 #[inline(always)]
-fn square_near_zero<T: Float, const FUSED: bool>(x: Lane<T, FUSED>) -> Lane<T, FUSED> {
-    x.times_plus(x, x.zero_within(T::of(NEAR_ZERO)))
+fn square_within<T: Float, const FUSED: bool>(x: Lane<T, FUSED>, limit: f64) -> Lane<T, FUSED> {
+    x.times_plus(x, x.zero_within(T::of(limit)))
 }

@@ -63,6 +63,8 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
         Function::Ln1pRest
         | Function::SinNearZero
         | Function::CosNearZero
+        | Function::SinWithinOne
+        | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi => None,
         Function::Sqrt

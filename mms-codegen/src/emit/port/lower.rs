@@ -161,7 +161,10 @@ impl Lowering<'_> {
             | Function::Sin
             | Function::Cos
             | Function::Tan => unreachable!("every language has {}", function.name()),
-            Function::SinNearZero | Function::CosNearZero => unreachable!("angles may be any"),
+            Function::SinNearZero
+            | Function::CosNearZero
+            | Function::SinWithinOne
+            | Function::CosWithinOne => unreachable!("angles may be any"),
             Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
         }
     }

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 
 use flat::{Flat, Grouping, Item, Scaling};
 use lower::Builder;
+use share::Scope;
 
 use super::{Instr, Output, Program, Stage, Value};
 use crate::expr::{Expr, Graph};
@@ -33,7 +34,7 @@ pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program
     let outputs = outputs
         .iter()
         .map(|(output, components)| {
-            let (flat, roots) = scaled(graph, components, cheapest(graph, components));
+            let (flat, roots) = cheapest_of_all(graph, components);
             (*output, builder.lower(&flat, &roots))
         })
         .collect();
@@ -60,39 +61,46 @@ const WORTH_SCALING: usize = 2;
 /// How many operations that are done once may save one at every point.
 const ONCE_FOR_EVERY_POINT: usize = 8;
 
-/// What the components of one output cost, at most: numbers may still move into sums.
+/// What the components of one output cost, at most: more ways are tried of what is emitted.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
-    let (flat, roots) = cheapest(graph, components);
+    let (flat, roots) = cheapest(graph, components, Scaling::Factors, Scope::Made);
     cost_of(&flat, &roots)
 }
 
-/// The cheapest way to compute `components`; of equals, the first.
-fn cheapest(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
-    let staged = Flat::new(graph, components, Grouping::Staged, Scaling::Factors);
-    let joint = Flat::new(graph, components, Grouping::Joint, Scaling::Factors);
+/// The cheapest way to compute `components` with numbers moved as far as that; of equals, the first.
+fn cheapest(
+    graph: &Graph,
+    components: &[Expr],
+    scaling: Scaling,
+    scope: Scope,
+) -> (Flat, Vec<Item>) {
+    let staged = Flat::new(graph, components, Grouping::Staged, scaling);
+    let joint = Flat::new(graph, components, Grouping::Joint, scaling);
     let distinct = joint.0.forms != staged.0.forms;
     let plain = staged.clone();
     let mut ways = vec![staged];
     ways.extend(Some(joint).filter(|_| distinct));
-    ways.iter_mut().for_each(|(flat, _)| share::share(flat));
+    ways.iter_mut().for_each(|(flat, roots)| share::share(flat, roots, scope));
     ways.push(plain);
+    cheapest_of(ways)
+}
+
+fn cheapest_of(ways: Vec<(Flat, Vec<Item>)>) -> (Flat, Vec<Item>) {
     ways.into_iter().min_by_key(|(flat, roots)| cost_of(flat, roots)).expect("there are ways")
 }
 
-/// The same way, or one with numbers moved into sums, where that saves operations at a point. It seldom does,
-/// so it is tried of what is emitted, and not of all that is compared.
-fn scaled(
-    graph: &Graph,
-    components: &[Expr],
-    (flat, roots): (Flat, Vec<Item>),
-) -> (Flat, Vec<Item>) {
-    let mut scaled = Flat::new(graph, components, Grouping::Staged, Scaling::Sums);
-    share::share(&mut scaled.0);
-    let (cost, other) = (cost_of(&flat, &roots), cost_of(&scaled.0, &scaled.1));
+/// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
+/// what is emitted, and not of all that is compared.
+fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
+    let [plain, scaled] = [Scaling::Factors, Scaling::Sums].map(|scaling| {
+        let ways = [Scope::Made, Scope::Needed];
+        cheapest_of(ways.map(|scope| cheapest(graph, components, scaling, scope)).into())
+    });
+    let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =
         saved >= WORTH_SCALING && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
-    if is_worth_it { scaled } else { (flat, roots) }
+    if is_worth_it { scaled } else { plain }
 }
 
 fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {

@@ -69,22 +69,48 @@ impl Pair {
     }
 }
 
+/// Where pairs are counted. The greedy rule does better with the one or with the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scope {
+    /// In all operations, with those that numbers have moved out of since.
+    Made,
+    /// In those that the roots need.
+    Needed,
+}
+
 /// Extracts shared pairs until no pair occurs twice.
-pub(super) fn share(flat: &mut Flat) {
-    let mut table = Table { common: common(flat), ..Table::default() };
-    for index in 0..flat.forms.len() {
-        table.enter(flat, Item(index as u32), |_| true);
+pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope) {
+    let counted = match scope {
+        Scope::Made => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
+        Scope::Needed => needed(flat, roots),
+    };
+    let mut table = Table { common: common(flat, &counted), ..Table::default() };
+    for item in counted {
+        table.enter(flat, item, |_| true);
     }
     while let Some(pair) = table.best() {
         table.extract(flat, &pair);
     }
 }
 
-/// Operands of more than one sum or product, or of one more than once: only they can be shared.
-fn common(flat: &Flat) -> Vec<bool> {
+/// The roots and all that they are made of, in order.
+fn needed(flat: &Flat, roots: &[Item]) -> BTreeSet<Item> {
+    let mut needed = BTreeSet::new();
+    let mut open = roots.to_vec();
+    while let Some(item) = open.pop() {
+        if needed.insert(item) {
+            open.extend(flat.form(item).operands());
+        }
+    }
+    needed
+}
+
+/// Operands of more than one of the sums and products that are counted, or of one more than once: only they can be
+/// shared.
+fn common(flat: &Flat, counted: &BTreeSet<Item>) -> Vec<bool> {
     let mut uses = vec![0_u64; flat.forms.len()];
-    for form in &flat.forms {
-        match form {
+    for item in counted {
+        match flat.form(*item) {
             Form::Sum(terms) => terms.iter().for_each(|(item, _)| uses[item.index()] += 1),
             Form::Product(factors) => factors.iter().for_each(|(item, exponent)| {
                 uses[item.index()] += u64::from(exponent.unsigned_abs());
@@ -204,4 +230,28 @@ fn factor_pair((a, first): (Item, i32), (b, second): (Item, i32)) -> (Pair, u64)
         _ => Pair::Product(a, b),
     };
     (pair, u64::from(first.unsigned_abs().min(second.unsigned_abs())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::flat::{Flat, Form, Grouping, Scaling};
+    use super::{Scope, share};
+    use crate::expr::{Graph, Symbol};
+
+    /// X Y is a part of t X Y, and of nothing that is needed.
+    #[test]
+    fn what_nobody_needs_is_no_reason_to_share() {
+        let mut graph = Graph::default();
+        let t = graph.symbol(Symbol::Time);
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let product = graph.product(vec![(t, 1.into()), (x, 1.into()), (y, 1.into())]);
+        let (mut flat, roots) = Flat::new(&graph, &[product], Grouping::Joint, Scaling::Factors);
+        let whole = flat.form(roots[0]).clone();
+        let Form::Product(factors) = &whole else { panic!("{whole:?}") };
+        flat.intern(Form::Product(factors[1..].to_vec()));
+        share(&mut flat, &roots, Scope::Needed);
+        assert_eq!(*flat.form(roots[0]), whole);
+        share(&mut flat, &roots, Scope::Made);
+        assert_ne!(*flat.form(roots[0]), whole);
+    }
 }

@@ -28,6 +28,10 @@ impl Float for f32 {
         sin_near_zero: &[-0.1666666, 0.008333069, -0.00019809777, 2.606097e-06],
         // Minimax on [0, (pi/2)^2], absolute error 4.4e-10.
         cos_near_zero: &[0.041666657, -0.0013888585, 2.477018e-05, -2.6209028e-07],
+        // Minimax on [0, 1.0625^2], relative error 1.1e-10.
+        sin_within_one: &[-0.16666666, 0.008333309, -0.00019834696, 2.6869745e-06],
+        // Minimax on [0, 1.0625^2], absolute error 1.9e-9.
+        cos_within_one: &[0.041666545, -0.0013883833, 2.4140885e-05],
         // Minimax on [-0.347, 0.347], relative error 3.3e-9.
         exp: &[0.49999994, 0.16666515, 0.041668084, 0.008369379, 0.0013841015],
         // Minimax on [0, 0.347^2], relative error 4.7e-11.
