@@ -25,6 +25,9 @@ use serde_json::json;
 /// How often every case takes a turn.
 const ROUNDS: usize = 7;
 
+/// Steps of a turn, so many that the solver looks at the order of the particles as often as in a long run.
+const STEPS: usize = 32;
+
 /// Particles of every case, about.
 const PARTICLES: usize = 250_000;
 
@@ -90,7 +93,7 @@ where
         rayon::ThreadPoolBuilder::new().num_threads(threads).start_handler(roof::pin).build();
     let pool = pool.unwrap_or_else(|error| panic!("{threads} threads: {error}"));
     pool.install(|| turn(&mut solver, 2));
-    let turn = move || pool.install(|| turn(&mut solver, 4));
+    let turn = move || pool.install(|| turn(&mut solver, STEPS));
     Some(Row {
         case,
         precision: if size_of::<T>() == 4 { "f32" } else { "f64" },

@@ -11,6 +11,7 @@ mod map;
 mod misread;
 mod need;
 mod operations;
+mod order;
 mod present;
 mod scene;
 mod setup;
@@ -37,8 +38,9 @@ pub use present::Present;
 pub use setup::cell_size;
 pub use state::State;
 
-/// After so many steps particles are put in order again, for bunches that share their nodes are faster than others.
-const STEPS_IN_ORDER: usize = 32;
+/// After so many steps it is seen whether particles are to be put in order again, for bunches that share their nodes
+/// are faster than others.
+const STEPS_IN_ORDER: usize = 16;
 
 /// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
 /// left the caches since the last pass.
@@ -81,7 +83,7 @@ where
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
         self.keeps_weights = I::KEEPS_WEIGHTS && self.formulation.moves;
         if self.formulation.moves && self.clock.step % STEPS_IN_ORDER == STEPS_IN_ORDER - 1 {
-            self.sort();
+            self.sort(false);
         }
         I::step::<T>(self).map_err(|failure| Failure { step, time, ..failure })?;
         self.clock.step += 1;

@@ -47,6 +47,17 @@ impl<V: Send> Parts for &mut [V] {
     }
 }
 
+impl Parts for std::ops::Range<usize> {
+    fn len(&self) -> usize {
+        ExactSizeIterator::len(self)
+    }
+
+    fn split(self, at: usize) -> [Self; 2] {
+        let middle = self.start + at;
+        [self.start..middle, middle..self.end]
+    }
+}
+
 /// As long as each other.
 impl<A: Parts, B: Parts> Parts for (A, B) {
     fn len(&self) -> usize {

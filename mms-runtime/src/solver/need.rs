@@ -22,7 +22,9 @@ impl Need {
         // d and v, H and C: of a bunch, they are padded.
         let bunch = 2 * size_of::<Vectors<T, D>>() + 2 * size_of::<Matrices<T, D>>();
         let bunch = (bunch + size_of::<S::Domain<T, D>>()) / BUNCH;
-        let state = size_of::<u32>() + vector + bunch + 2 * number;
+        // Some integrators keep d and H of the beginning of a step. An order is found with three numbers more.
+        let kept = (size_of::<Vectors<T, D>>() + size_of::<Matrices<T, D>>()) / BUNCH;
+        let state = 4 * size_of::<u32>() + vector + bunch + kept + 2 * number;
         // Measured are vectors, tensors and a number; bodies are filled with X, V0 and half edges.
         let measured = 3 * vector + 3 * matrix + number;
         let filling = size_of::<f64>() * (D + 1 + D * D);

@@ -14,7 +14,6 @@ use crate::defect::{Defect, on};
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
-use crate::particle::Particles;
 use crate::shape::Shape;
 use crate::stencil::BUNCH;
 use crate::tensor::deformation_gradient;
@@ -155,7 +154,7 @@ where
                     return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
                 }
                 Err(Stop::Strayed(_)) => {
-                    self.sort();
+                    self.sort(true);
                     // Nothing has changed since.
                     self.keep();
                 }
@@ -164,12 +163,13 @@ where
         }
     }
 
-    /// Puts the particles in the order of the cells they are in now. What was kept of them is gone.
-    pub(super) fn sort(&mut self) {
+    /// Puts the particles in the order of the cells they are in now, if it is `needed` or worth it. What was kept of them
+    /// is gone.
+    pub(super) fn sort(&mut self, needed: bool) {
         let Self { grid, particles, domains, kept, slabs, seconds, .. } = self;
-        let position = |all: &Particles<T, D>, p| all.position(p);
+        let moves = self.formulation.moves;
         timed(&mut seconds.transfer, || {
-            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, position);
+            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, moves, needed);
         });
         kept.clear();
     }
@@ -322,7 +322,7 @@ where
             if !self.formulation.moves {
                 return Place { position: *reference, carrier: None };
             }
-            let p = slabs.place_of(id);
+            let p = slabs.order.place_of(id);
             let h = particles.displacement_gradient.get(p);
             let apart = reference - particles.reference_position[p];
             let apart = if on(Defect::TractionAtParticle) { Vector::zeros() } else { apart };

@@ -91,9 +91,7 @@ where
         grid.mass_floor = mass_floor(&particles, &grid.lattice)?;
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Bunches<_> = domains.collect();
-        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, |all, p| {
-            if moves { all.position(p) } else { all.reference_position[p] }
-        });
+        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, moves, true);
         Ok(Self {
             field,
             clock,

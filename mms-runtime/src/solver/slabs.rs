@@ -1,8 +1,7 @@
 //! The order of the particles, and which of them may be added to the nodes at the same time.
 //!
-//! Particles stand in the order of the cells they were in when they were sorted: in a slab first those that make a bunch
-//! with others of their cell, then those that make half of one, then the others. The layers of cells along the last
-//! axis are cut into slabs with as many particles each, also within a layer; they stand together, and the nodes that
+//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the last axis
+//! are cut into slabs with as many particles each, also within a layer; they stand together, and the nodes that
 //! they can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
 //! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
 //! whatever the number of threads is.
@@ -11,12 +10,13 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use super::order::Order;
 use crate::column::{Bunch, Bunches};
 use crate::nodal::{Nodal, Window};
-use crate::particle::{Particles, reorder, reorder_bunches};
-use crate::stencil::{ALL, BUNCH, HALF, Members};
+use crate::particle::Particles;
+use crate::stencil::{ALL, BUNCH, Members};
 use crate::threads::both;
-use crate::{Lattice, Real, Vector};
+use crate::{Lattice, Real};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
 const REACH: [usize; 2] = [2, 3];
@@ -74,11 +74,7 @@ pub(super) struct Slabs {
     /// Nodes of a layer, and how many layers there are.
     layer: usize,
     layers: usize,
-    /// Where each particle is, by its number; empty if they are in their first order.
-    place: Vec<u32>,
-    order: Vec<u32>,
-    /// The cell of each particle.
-    cell: Vec<u64>,
+    pub order: Order,
 }
 
 impl Slabs {
@@ -95,17 +91,10 @@ impl Slabs {
             cuts: Vec::with_capacity(MOST_SLABS),
             layer: lattice.stride[D - 1],
             layers: lattice.count[D - 1],
-            place: (0..sorted as u32).collect(),
-            order: (0..sorted as u32).collect(),
-            cell: vec![0; sorted],
+            order: Order::new(sorted, lattice.len()),
         };
         slabs.cut(particles);
         slabs
-    }
-
-    /// Where the particle of that number is.
-    pub fn place_of(&self, id: usize) -> usize {
-        self.place.get(id).map_or(id, |&place| place as usize)
     }
 
     /// What slabs begin with, but for the first one.
@@ -126,7 +115,7 @@ impl Slabs {
                 && cut.particle <= particles
         };
         let fit = cuts.windows(2).all(apart) && cuts.iter().all(within);
-        if !fit || self.place.is_empty() && !cuts.is_empty() {
+        if !fit || self.order.is_fixed() && !cuts.is_empty() {
             return false;
         }
         self.cuts.clear();
@@ -154,49 +143,32 @@ impl Slabs {
         all.extend((0..=last).map(slab));
     }
 
-    /// Remembers where each particle stands, where they do not stand in their first order.
-    pub fn stand(&mut self, ids: &[u32]) {
-        if !self.place.is_empty() {
-            ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
-        }
-    }
-
-    /// Sorts the particles, with their `domains`, by the cells of their positions from an origin, in cells.
+    /// Sorts the particles, with their `domains`, by their cells, which begin at an origin, in cells: at present, or of X
+    /// if nothing `moves`. It is done if it is `needed`, or worth it.
     pub fn sort<T: Real, B: Bunch, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
         origin: f64,
         particles: &mut Particles<T, D>,
         domains: &mut Bunches<B>,
-        position: impl Fn(&Particles<T, D>, usize) -> Vector<T, D>,
+        moves: bool,
+        needed: bool,
     ) {
-        if self.place.is_empty() {
+        if self.order.is_fixed() {
             return;
         }
-        for (p, cell) in self.cell.iter_mut().enumerate() {
-            let cells = lattice.in_cells(&position(particles, p));
-            let from_origin = |a: usize| (cells[a].to_f64() - origin).max(0.0) as usize;
-            let along = |a: usize| from_origin(a).min(lattice.count[a] - 1);
-            *cell = (0..D).map(|a| along(a) * lattice.stride[a]).sum::<usize>() as u64;
+        self.order.locate(lattice, origin, particles, moves);
+        if needed || self.order.is_loose() {
+            self.order.arrange();
+            self.cut_evenly();
+            self.order.apply(&self.all, particles, domains);
         }
-        let Self { order, cell, .. } = self;
-        arrange(order, cell, &particles.id);
-        reorder(cell, order);
-        self.cut_evenly();
-        let Self { all, order, cell, place, .. } = self;
-        for Slab { particles, .. } in all {
-            let own = particles.clone();
-            bunch(&mut order[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
-        }
-        reorder_bunches(domains, order);
-        domains.fill_up();
-        particles.reorder(order);
-        self.stand(&particles.id);
     }
 
     /// Makes an even number of slabs with as many particles each, to a cell; three, where there are too few layers.
     fn cut_evenly(&mut self) {
-        let Self { cuts, cell, layer: nodes, .. } = self;
+        let Self { cuts, order, layer: nodes, .. } = self;
+        let cell = order.cells();
         let particles = cell.len();
         let layer = |p: usize| cell[p] as usize / *nodes;
         let (first, last) = (layer(0), layer(particles - 1));
@@ -206,9 +178,9 @@ impl Slabs {
             // A cut within a layer takes one more.
             many => (many / (FEWEST_LAYERS + 1)).clamp(4, MOST_SLABS) / 2 * 2,
         };
-        let begin = |of: u64| cell.partition_point(|&cell| cell < of);
+        let begin = |of: u32| cell.partition_point(|&cell| cell < of);
         let between =
-            |layer| Cut { from: layer, until: layer, particle: begin((layer * *nodes) as u64) };
+            |layer| Cut { from: layer, until: layer, particle: begin((layer * *nodes) as u32) };
         cuts.clear();
         for s in 1..number {
             let least = cuts.last().map_or(first + 1, |cut| cut.until + FEWEST_LAYERS);
@@ -253,47 +225,6 @@ impl Slabs {
         }
         Ok(done)
     }
-}
-
-/// The order of the particles by their cells, and within a cell by their numbers.
-fn arrange(order: &mut [u32], cell: &[u64], id: &[u32]) {
-    order.iter_mut().zip(0..).for_each(|(from, p)| *from = p);
-    order.sort_unstable_by_key(|&p| (cell[p as usize], id[p as usize]));
-}
-
-/// Puts those of each cell that make a bunch first, then those that make half of one, then the others, so that most
-/// bunches are of one cell, and most halves. The first place has the number `start`; bunches begin at every eighth.
-fn bunch(order: &mut [u32], cell: &[u64], start: usize, scratch: &mut [u32]) {
-    /// How many of a cell's particles make bunches, halves of bunches, and neither.
-    fn shares(count: usize) -> [usize; 3] {
-        let [bunched, halved] = [count / BUNCH * BUNCH, count / HALF * HALF];
-        [bunched, halved - bunched, count - halved]
-    }
-    let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
-    let total = |share: usize| cells().map(|shares| shares[share]).sum::<usize>();
-    let [bunched, halved, others] = [total(0), total(1), total(2)];
-    // Before the first bunch stands what there is, others first.
-    let lead = start.next_multiple_of(BUNCH) - start;
-    let lead = [lead.min(others), lead.saturating_sub(others).min(halved)];
-    let lead_end = lead[0] + lead[1];
-    // Where the next of each kind goes. Those that lead go on behind the bunches.
-    let mut next = [lead_end, lead[0], 0];
-    let leads_until = [usize::MAX, lead_end, lead[0]];
-    let behind = [0, lead_end + bunched, lead[0] + bunched + halved];
-    let mut from = 0;
-    for shares in cells() {
-        for (share, count) in shares.into_iter().enumerate() {
-            for &particle in &order[from..from + count] {
-                if next[share] == leads_until[share] {
-                    next[share] = behind[share];
-                }
-                scratch[next[share]] = particle;
-                next[share] += 1;
-            }
-            from += count;
-        }
-    }
-    order.copy_from_slice(scratch);
 }
 
 /// Every other slab.
@@ -341,19 +272,18 @@ impl Colour<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cut, REACH, Slabs, bunch};
+    use super::super::order::Order;
+    use super::{Cut, REACH, Slabs};
 
     /// Of layers with so many particles each, beginning with layer 5, in rows of ten cells with as many.
     fn slabs(particles_of_layers: &[usize]) -> Slabs {
-        let cells = particles_of_layers.iter().zip(5_u64..);
+        let cells = particles_of_layers.iter().zip(5_u32..);
         let layer =
-            |(&count, layer)| (0..count as u64).map(move |k| 10 * layer + 10 * k / count as u64);
-        let cell: Vec<u64> = cells.flat_map(layer).collect();
-        let count = cell.len() as u32;
-        let (place, order): (Vec<_>, Vec<_>) = ((0..count).collect(), (0..count).collect());
+            |(&count, layer)| (0..count as u32).map(move |k| 10 * layer + 10 * k / count as u32);
+        let cell: Vec<u32> = cells.flat_map(layer).collect();
+        let order = Order::of_cells(&cell);
         let layers = particles_of_layers.len() + 10;
-        let mut slabs =
-            Slabs { all: Vec::new(), cuts: Vec::new(), layer: 10, layers, place, order, cell };
+        let mut slabs = Slabs { all: Vec::new(), cuts: Vec::new(), layer: 10, layers, order };
         slabs.cut_evenly();
         slabs
     }
@@ -373,39 +303,18 @@ mod tests {
             for slab in all {
                 assert_eq!(slab.particles.start, next);
                 next = slab.particles.end;
-                for &cell in &slabs.cell[slab.particles.clone()] {
+                for &cell in &slabs.order.cells()[slab.particles.clone()] {
                     let layer = cell as usize / 10;
                     let reach = 10 * (layer - REACH[0])..10 * (layer + REACH[1] + 1);
                     assert!(slab.window.start <= reach.start && reach.end <= slab.window.end);
                 }
             }
-            assert_eq!(next, slabs.cell.len());
+            assert_eq!(next, slabs.order.cells().len());
             if layers.iter().all(|&count| count == 100) && layers.len() > 28 {
-                let fair = slabs.cell.len() / number;
+                let fair = slabs.order.cells().len() / number;
                 assert!(all.iter().all(|slab| slab.particles.len().abs_diff(fair) <= 11));
             }
         }
-    }
-
-    #[test]
-    fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
-        let cell: Vec<u64> =
-            [(0, 9), (1, 4), (2, 2), (3, 13)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
-        let mut order: Vec<u32> = (20..48).collect();
-        bunch(&mut order, &cell, 6, &mut [0; 28]);
-        // Two others, the bunches of the first and the last cell, halves of bunches, others.
-        let expected: Vec<u32> = [28..29, 33..34, 20..28, 35..43, 29..33, 43..47, 34..35, 47..48]
-            .into_iter()
-            .flatten()
-            .collect();
-        assert_eq!(order, expected);
-
-        // Halves of bunches go before the first bunch where others are too few.
-        let cell: Vec<u64> = [(0, 12), (1, 8)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
-        let mut order: Vec<u32> = (0..20).collect();
-        bunch(&mut order, &cell, 12, &mut [0; 20]);
-        let expected: Vec<u32> = [8..12, 0..8, 12..20].into_iter().flatten().collect();
-        assert_eq!(order, expected);
     }
 
     #[test]

@@ -67,11 +67,11 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         fits(state.affine.len() == self.particles.affine.len(), "transfers")?;
         fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =
-            state.id.iter().map(|&id| self.slabs.place_of(id as usize) as u32).collect();
+            state.id.iter().map(|&id| self.slabs.order.place_of(id as usize) as u32).collect();
         crate::particle::reorder_bunches(&mut self.domains, &mut order);
         self.domains.fill_up();
         self.particles.reorder(&mut order);
-        self.slabs.stand(&self.particles.id);
+        self.slabs.order.stand(&self.particles.id);
         self.particles.displacement = state.displacement.into_iter().collect();
         self.particles.velocity = state.velocity.into_iter().collect();
         self.particles.displacement_gradient = state.displacement_gradient.into_iter().collect();

@@ -1,0 +1,257 @@
+//! The order in which particles stand: that of the cells they are in, and in a slab first those that make a bunch with
+//! others of their cell, then those that make half of one, then the others.
+
+use mms_math::machine::{Machine as _, Plain};
+
+use super::slabs::Slab;
+use crate::column::{Bunch, Bunches};
+use crate::lanes::{components, turned};
+use crate::particle::{Particles, reorder_bunches};
+use crate::stencil::{BUNCH, HALF};
+use crate::threads::each_part;
+use crate::{Lattice, Real};
+
+/// Bunches that are located by one thread at a time.
+const PART: usize = 512;
+
+/// An order is worth finding when so many bunches and halves of a hundred could be of one cell and are not: to find it
+/// takes about as long as a step.
+const LOOSE: usize = 5;
+
+/// Who stands where.
+pub(super) struct Order {
+    /// Where each particle is, by its number; empty if they stay in their first order.
+    place: Vec<u32>,
+    /// Which particle comes to each place, while an order is found.
+    from: Vec<u32>,
+    /// The cells of every bunch.
+    cell: Vec<[u32; BUNCH]>,
+    /// How many particles each cell has.
+    count: Vec<u32>,
+}
+
+impl Order {
+    /// Of particles in as many cells as there are nodes; they stay as they are if there are none.
+    pub fn new(particles: usize, nodes: usize) -> Self {
+        Self {
+            place: (0..particles as u32).collect(),
+            from: vec![0; particles],
+            cell: vec![[0; BUNCH]; particles.div_ceil(BUNCH)],
+            count: vec![0; if particles > 0 { nodes } else { 0 }],
+        }
+    }
+
+    /// Of particles in these cells.
+    #[cfg(test)]
+    pub fn of_cells(cell: &[u32]) -> Self {
+        let mut order = Self::new(cell.len(), 0);
+        order.cell.as_flattened_mut()[..cell.len()].copy_from_slice(cell);
+        order
+    }
+
+    /// Whether particles stay in their first order.
+    pub fn is_fixed(&self) -> bool {
+        self.place.is_empty()
+    }
+
+    /// Where the particle of that number is.
+    pub fn place_of(&self, id: usize) -> usize {
+        self.place.get(id).map_or(id, |&place| place as usize)
+    }
+
+    /// Remembers where each particle stands, where they do not stay in their first order.
+    pub fn stand(&mut self, ids: &[u32]) {
+        if !self.is_fixed() {
+            ids.iter().zip(0..).for_each(|(&id, p)| self.place[id as usize] = p);
+        }
+    }
+
+    /// The cell of each particle: since the last order where they stand, since then in the order that is being found.
+    pub fn cells(&self) -> &[u32] {
+        &self.cell.as_flattened()[..self.place.len()]
+    }
+
+    /// Finds the cells of the particles, which begin at an origin, in cells: at present, or of X if nothing `moves`.
+    pub fn locate<T: Real, const D: usize>(
+        &mut self,
+        lattice: &Lattice<T, D>,
+        origin: f64,
+        particles: &Particles<T, D>,
+        moves: bool,
+    ) {
+        let (reference, displacement) =
+            (particles.reference_position.bunches(), particles.displacement.bunches());
+        let cells_of = |bunch: usize| {
+            let machine = T::PlainMachine::from(Plain);
+            let position = turned(machine, &reference[bunch]);
+            let apart = components(machine, &displacement[bunch]);
+            let mut cells = [0; BUNCH];
+            for a in 0..D {
+                let present = machine.plus(position[a], apart[a]);
+                let position = if moves { present } else { position[a] };
+                let along = machine.numbers(lattice.cells_along(machine, a, position));
+                for (cell, along) in cells.iter_mut().zip(along) {
+                    let along = (along.to_f64() - origin).max(0.0) as usize;
+                    *cell += (along.min(lattice.count[a] - 1) * lattice.stride[a]) as u32;
+                }
+            }
+            cells
+        };
+        let all = (&mut self.cell[..], 0..reference.len());
+        each_part(
+            all,
+            PART,
+            &|(cells, bunches)| {
+                cells.iter_mut().zip(bunches).for_each(|(cells, bunch)| *cells = cells_of(bunch));
+            },
+            &|(), ()| (),
+        );
+        let Self { place, cell, count, .. } = self;
+        count.fill(0);
+        let cells = &cell.as_flattened()[..place.len()];
+        for alike in cells.chunk_by(|a, b| a == b) {
+            count[alike[0] as usize] += alike.len() as u32;
+        }
+    }
+
+    /// Whether fewer bunches and halves are of one cell than could be.
+    pub fn is_loose(&self) -> bool {
+        let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
+        let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<BUNCH>(self.cells());
+        100 * are < (100 - LOOSE) * could
+    }
+
+    /// Finds the order of the cells; particles of one cell stay in the order they are in.
+    pub fn arrange(&mut self) {
+        let Self { place, from, cell, count } = self;
+        let cell = &mut cell.as_flattened_mut()[..place.len()];
+        // Where the next particle of each cell comes.
+        let mut first = 0;
+        for next in &mut *count {
+            first += std::mem::replace(next, first);
+        }
+        for (&cell, p) in cell.iter().zip(0..) {
+            let next = &mut count[cell as usize];
+            from[*next as usize] = p;
+            *next += 1;
+        }
+        let mut first = 0;
+        for (&end, number) in count.iter().zip(0..) {
+            cell[first..end as usize].fill(number);
+            first = end as usize;
+        }
+    }
+
+    /// Puts the particles, with their `domains`, in the order that was found, bunches of a slab's cells first.
+    pub fn apply<T: Real, B: Bunch, const D: usize>(
+        &mut self,
+        slabs: &[Slab],
+        particles: &mut Particles<T, D>,
+        domains: &mut Bunches<B>,
+    ) {
+        let Self { from, cell, place, .. } = self;
+        let cell = cell.as_flattened();
+        for Slab { particles, .. } in slabs {
+            let own = particles.clone();
+            bunch(&mut from[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
+        }
+        reorder_bunches(domains, from);
+        domains.fill_up();
+        particles.reorder(from);
+        self.stand(&particles.id);
+    }
+}
+
+/// How many halves and whole bunches so many particles of a cell make.
+fn wholes(count: usize) -> usize {
+    count / HALF + count / BUNCH
+}
+
+/// How many groups of `N` particles beside each other are in one cell.
+fn of_one_cell<const N: usize>(cell: &[u32]) -> usize {
+    let groups = cell.as_chunks::<N>().0.iter();
+    groups.filter(|group| group.iter().all(|cell| *cell == group[0])).count()
+}
+
+/// Puts those of each cell that make a bunch first, then those that make half of one, then the others, so that most
+/// bunches are of one cell, and most halves. The first place has the number `start`; bunches begin at every eighth.
+fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
+    /// How many of a cell's particles make bunches, halves of bunches, and neither.
+    fn shares(count: usize) -> [usize; 3] {
+        let [bunched, halved] = [count / BUNCH * BUNCH, count / HALF * HALF];
+        [bunched, halved - bunched, count - halved]
+    }
+    let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
+    let total = |share: usize| cells().map(|shares| shares[share]).sum::<usize>();
+    let [bunched, halved, others] = [total(0), total(1), total(2)];
+    // Before the first bunch stands what there is, others first.
+    let lead = start.next_multiple_of(BUNCH) - start;
+    let lead = [lead.min(others), lead.saturating_sub(others).min(halved)];
+    let lead_end = lead[0] + lead[1];
+    // Where the next of each kind goes. Those that lead go on behind the bunches.
+    let mut next = [lead_end, lead[0], 0];
+    let leads_until = [usize::MAX, lead_end, lead[0]];
+    let behind = [0, lead_end + bunched, lead[0] + bunched + halved];
+    let mut from = 0;
+    for shares in cells() {
+        for (share, count) in shares.into_iter().enumerate() {
+            for &particle in &order[from..from + count] {
+                if next[share] == leads_until[share] {
+                    next[share] = behind[share];
+                }
+                scratch[next[share]] = particle;
+                next[share] += 1;
+            }
+            from += count;
+        }
+    }
+    order.copy_from_slice(scratch);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Order, bunch};
+
+    #[test]
+    fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
+        let cell: Vec<u32> =
+            [(0, 9), (1, 4), (2, 2), (3, 13)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
+        let mut order: Vec<u32> = (20..48).collect();
+        bunch(&mut order, &cell, 6, &mut [0; 28]);
+        // Two others, the bunches of the first and the last cell, halves of bunches, others.
+        let expected: Vec<u32> = [28..29, 33..34, 20..28, 35..43, 29..33, 43..47, 34..35, 47..48]
+            .into_iter()
+            .flatten()
+            .collect();
+        assert_eq!(order, expected);
+
+        // Halves of bunches go before the first bunch where others are too few.
+        let cell: Vec<u32> = [(0, 12), (1, 8)].iter().flat_map(|&(c, n)| vec![c; n]).collect();
+        let mut order: Vec<u32> = (0..20).collect();
+        bunch(&mut order, &cell, 12, &mut [0; 20]);
+        let expected: Vec<u32> = [8..12, 0..8, 12..20].into_iter().flatten().collect();
+        assert_eq!(order, expected);
+    }
+
+    #[test]
+    fn an_order_of_cells_keeps_that_of_their_particles() {
+        let mut order = Order::of_cells(&[3, 0, 3, 1, 0, 3]);
+        order.count = vec![2, 1, 0, 3];
+        order.arrange();
+        assert_eq!(order.from, [1, 4, 3, 0, 2, 5]);
+        assert_eq!(order.cells(), [0, 0, 1, 3, 3, 3]);
+    }
+
+    #[test]
+    fn an_order_is_loose_when_bunches_are_of_many_cells() {
+        let mut cell: Vec<u32> = (0..80).map(|p| p / 8).collect();
+        let of =
+            |cell: &[u32], count: [u32; 10]| Order { count: count.into(), ..Order::of_cells(cell) };
+        assert!(!of(&cell, [8; 10]).is_loose());
+        // A bunch and a half of 30, and twice as many.
+        cell[7] = 9;
+        assert!(!of(&cell, [7, 8, 8, 8, 8, 8, 8, 8, 8, 9]).is_loose());
+        cell[79] = 0;
+        assert!(of(&cell, [8; 10]).is_loose());
+    }
+}
