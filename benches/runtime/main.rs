@@ -25,7 +25,7 @@ use serde_json::json;
 /// How often every case takes a turn.
 const ROUNDS: usize = 7;
 
-/// Steps of a turn, so many that the solver looks at the order of the particles as often as in a long run.
+/// Steps of a turn: a multiple of those after which the solver looks at the order of the particles.
 const STEPS: usize = 32;
 
 /// Particles of every case, about.

@@ -112,8 +112,8 @@ pub trait Scalar:
     fn cos_near_zero(self) -> Self {
         self.cos()
     }
-    /// The sine of an angle in radians that is expected to be at most 1, or what a computed 1 may be: as near zero, with
-    /// fewer terms.
+    /// The sine of an angle in radians that is expected to be at most 1, or a little more: as near zero, with fewer terms
+    /// of it or of its cosine.
     fn sin_within_one(self) -> Self {
         self.sin_near_zero()
     }

@@ -1,5 +1,5 @@
 //! Sines and cosines whose angle is proved to be less than a quarter turn: nothing need be taken off it; and where it is
-//! at most 1, fewer terms are enough.
+//! at most 1, or a little more, fewer terms are enough.
 //!
 //! The proof is for the body, the time window and the ranges of parameters. Elsewhere the functions are right
 //! too, only slower (`mms_math::batch`), so an angle that depends on a parameter without a range, which may be

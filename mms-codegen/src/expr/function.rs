@@ -37,7 +37,7 @@ functions! {
     Cos "cos" 1 "The cosine.",
     SinNearZero "sin_near_zero" 1 "The sine of an angle that is proved to be less than a quarter turn.",
     CosNearZero "cos_near_zero" 1 "The cosine of such an angle.",
-    SinWithinOne "sin_within_one" 1 "The sine of an angle that is proved to be at most 1, but for errors.",
+    SinWithinOne "sin_within_one" 1 "The sine of an angle that is proved to be at most 1, or a little more.",
     CosWithinOne "cos_within_one" 1 "The cosine of such an angle.",
     SinPi "sin_pi" 1 "sin(pi x).",
     CosPi "cos_pi" 1 "cos(pi x).",

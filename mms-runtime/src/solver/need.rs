@@ -30,8 +30,8 @@ impl Need {
         let filling = size_of::<f64>() * (D + 1 + D * D);
         Self {
             particle: state + measured + filling,
-            // Momentum, force, velocity and acceleration.
-            node: 4 * size_of::<Nodal<T>>(),
+            // Momentum, force, velocity and acceleration, and how many particles there are.
+            node: 4 * size_of::<Nodal<T>>() + size_of::<u32>(),
             available,
         }
     }

@@ -1,4 +1,4 @@
-//! The order in which particles stand: that of the cells they are in, and in a slab first those that make a bunch with
+//! The order in which particles stand: that of the cells they were in when it was found, and in a slab first those that make a bunch with
 //! others of their cell, then those that make half of one, then the others.
 
 use mms_math::machine::{Machine as _, Plain};
@@ -14,8 +14,8 @@ use crate::{Lattice, Real};
 /// Bunches that are located by one thread at a time.
 const PART: usize = 512;
 
-/// An order is worth finding when so many bunches and halves of a hundred could be of one cell and are not: to find it
-/// takes about as long as a step.
+/// An order is worth finding when so many bunches and halves of a hundred could be of one cell and are not: that is lost
+/// again every step, and to find an order takes about as long as one step.
 const LOOSE: usize = 5;
 
 /// Who stands where.
@@ -24,9 +24,9 @@ pub(super) struct Order {
     place: Vec<u32>,
     /// Which particle comes to each place, while an order is found.
     from: Vec<u32>,
-    /// The cells of every bunch.
+    /// The cell of every particle, as they stand; sorted once an order is found.
     cell: Vec<[u32; BUNCH]>,
-    /// How many particles each cell has.
+    /// How many particles each cell has; where those of it end, once an order is found.
     count: Vec<u32>,
 }
 
@@ -66,7 +66,7 @@ impl Order {
         }
     }
 
-    /// The cell of each particle: since the last order where they stand, since then in the order that is being found.
+    /// The cell of each particle, sorted once an order is found.
     pub fn cells(&self) -> &[u32] {
         &self.cell.as_flattened()[..self.place.len()]
     }
@@ -114,7 +114,7 @@ impl Order {
         }
     }
 
-    /// Whether fewer bunches and halves are of one cell than could be.
+    /// Whether fewer bunches and halves are of one cell than could be, of particles that are located.
     pub fn is_loose(&self) -> bool {
         let could: usize = self.count.iter().map(|&count| wholes(count as usize)).sum();
         let are = of_one_cell::<HALF>(self.cells()) + of_one_cell::<BUNCH>(self.cells());
@@ -182,27 +182,30 @@ fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
         [bunched, halved - bunched, count - halved]
     }
     let cells = || cell.chunk_by(|a, b| a == b).map(|cell| shares(cell.len()));
-    let total = |share: usize| cells().map(|shares| shares[share]).sum::<usize>();
-    let [bunched, halved, others] = [total(0), total(1), total(2)];
-    // Before the first bunch stands what there is, others first.
-    let lead = start.next_multiple_of(BUNCH) - start;
-    let lead = [lead.min(others), lead.saturating_sub(others).min(halved)];
-    let lead_end = lead[0] + lead[1];
-    // Where the next of each kind goes. Those that lead go on behind the bunches.
-    let mut next = [lead_end, lead[0], 0];
-    let leads_until = [usize::MAX, lead_end, lead[0]];
-    let behind = [0, lead_end + bunched, lead[0] + bunched + halved];
-    let mut from = 0;
+    let mut whole = [0, 1, 2].map(|share| cells().map(|shares| shares[share]).sum::<usize>());
+    // Before the first bunch stands what there is, others first. The rest of what that breaks goes to the end.
+    let mut lead = start.next_multiple_of(BUNCH) - start;
+    let (mut front, mut back) = (0, order.len());
+    let mut places = [const { [0..0, 0..0, 0..0] }; 3];
+    for (share, group) in [(2, 1), (1, HALF), (0, BUNCH)] {
+        let leading = lead.min(whole[share]);
+        let rest = leading.next_multiple_of(group) - leading;
+        places[share][0] = front..front + leading;
+        places[share][1] = back - rest..back;
+        (front, back, lead) = (front + leading, back - rest, lead - leading);
+        whole[share] -= leading + rest;
+    }
+    for share in 0..3 {
+        places[share][2] = front..front + whole[share];
+        front += whole[share];
+    }
+    let mut places = places.map(|ranges| ranges.into_iter().flatten());
+    let mut particles = order.iter();
     for shares in cells() {
         for (share, count) in shares.into_iter().enumerate() {
-            for &particle in &order[from..from + count] {
-                if next[share] == leads_until[share] {
-                    next[share] = behind[share];
-                }
-                scratch[next[share]] = particle;
-                next[share] += 1;
+            for (particle, place) in particles.by_ref().take(count).zip(&mut places[share]) {
+                scratch[place] = *particle;
             }
-            from += count;
         }
     }
     order.copy_from_slice(scratch);
@@ -210,7 +213,7 @@ fn bunch(order: &mut [u32], cell: &[u32], start: usize, scratch: &mut [u32]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Order, bunch};
+    use super::{BUNCH, HALF, Order, bunch, of_one_cell, wholes};
 
     #[test]
     fn bunches_are_of_one_cell_as_far_as_there_are_enough() {
@@ -244,14 +247,40 @@ mod tests {
 
     #[test]
     fn an_order_is_loose_when_bunches_are_of_many_cells() {
-        let mut cell: Vec<u32> = (0..80).map(|p| p / 8).collect();
-        let of =
-            |cell: &[u32], count: [u32; 10]| Order { count: count.into(), ..Order::of_cells(cell) };
-        assert!(!of(&cell, [8; 10]).is_loose());
-        // A bunch and a half of 30, and twice as many.
-        cell[7] = 9;
-        assert!(!of(&cell, [7, 8, 8, 8, 8, 8, 8, 8, 8, 9]).is_loose());
-        cell[79] = 0;
-        assert!(of(&cell, [8; 10]).is_loose());
+        let mut cell: Vec<u32> = (0..320).map(|p| p / 8).collect();
+        let is_loose = |cell: &[u32]| {
+            let order = Order { count: vec![8; 40], ..Order::of_cells(cell) };
+            order.is_loose()
+        };
+        assert!(!is_loose(&cell));
+        // Two bunches and two halves of 120 are missing, then four and four.
+        cell.swap(0, 8);
+        assert!(!is_loose(&cell));
+        cell.swap(16, 24);
+        assert!(is_loose(&cell));
+    }
+
+    #[test]
+    fn wherever_a_slab_begins_bunches_are_of_one_cell() {
+        for counts in [vec![8; 9], vec![4; 20], vec![12; 7], vec![9; 8], vec![13; 5]] {
+            let cells = (0..).zip(&counts);
+            let cell: Vec<u32> = cells.flat_map(|(c, &n)| vec![c; n]).collect();
+            let of = |p: u32| cell[p as usize];
+            for start in 0..BUNCH {
+                let mut order: Vec<u32> = (0..cell.len() as u32).collect();
+                let sorted = order.clone();
+                bunch(&mut order, &cell, start, &mut vec![0; cell.len()]);
+                // As they stand, after a number of particles of another slab.
+                let others = u32::MAX - start as u32;
+                let stand: Vec<u32> =
+                    (others..).take(start).chain(order.iter().map(|p| of(*p))).collect();
+                let could: usize = counts.iter().map(|&count| wholes(count)).sum();
+                let are = of_one_cell::<HALF>(&stand) + of_one_cell::<BUNCH>(&stand);
+                // What is before the first bunch breaks at most one bunch of a cell, with its halves.
+                assert!(are + 3 >= could, "{start}, {counts:?}: {are} of {could}");
+                order.sort_unstable();
+                assert_eq!(order, sorted);
+            }
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! The order of the particles, and which of them may be added to the nodes at the same time.
 //!
 //! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the last axis
-//! are cut into slabs with as many particles each, also within a layer; they stand together, and the nodes that
-//! they can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at the
-//! same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
+//! are cut into slabs with about as many particles each, also within a layer; they stand together, and the nodes that they
+//! can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at
+//! the same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
 //! whatever the number of threads is.
 
 use std::ops::Range;
@@ -165,7 +165,8 @@ impl Slabs {
         }
     }
 
-    /// Makes an even number of slabs with as many particles each, to a cell; three, where there are too few layers.
+    /// Makes an even number of slabs with as many particles each, to a cell where there are layers enough; three, where
+    /// there are too few.
     fn cut_evenly(&mut self) {
         let Self { cuts, order, layer: nodes, .. } = self;
         let cell = order.cells();
@@ -175,7 +176,7 @@ impl Slabs {
         let number = match last + 1 - first {
             few if few < FEWEST_LAYERS + 2 => 1,
             some if some < 4 * FEWEST_LAYERS => 3,
-            // A cut within a layer takes one more.
+            // With one more, cuts within layers have room.
             many => (many / (FEWEST_LAYERS + 1)).clamp(4, MOST_SLABS) / 2 * 2,
         };
         let begin = |of: u32| cell.partition_point(|&cell| cell < of);

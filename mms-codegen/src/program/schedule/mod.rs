@@ -63,7 +63,7 @@ const ONCE_FOR_EVERY_POINT: usize = 8;
 
 /// What the components of one output cost, at most: more ways are tried of what is emitted.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
-    let (flat, roots) = cheapest(graph, components, Scaling::Factors, Scope::Made);
+    let (flat, roots) = cheapest(graph, components, Scaling::Factors, &[Scope::Made]);
     cost_of(&flat, &roots)
 }
 
@@ -72,30 +72,28 @@ fn cheapest(
     graph: &Graph,
     components: &[Expr],
     scaling: Scaling,
-    scope: Scope,
+    scopes: &[Scope],
 ) -> (Flat, Vec<Item>) {
-    let staged = Flat::new(graph, components, Grouping::Staged, scaling);
+    let mut plain = vec![Flat::new(graph, components, Grouping::Staged, scaling)];
     let joint = Flat::new(graph, components, Grouping::Joint, scaling);
-    let distinct = joint.0.forms != staged.0.forms;
-    let plain = staged.clone();
-    let mut ways = vec![staged];
-    ways.extend(Some(joint).filter(|_| distinct));
-    ways.iter_mut().for_each(|(flat, roots)| share::share(flat, roots, scope));
-    ways.push(plain);
-    cheapest_of(ways)
-}
-
-fn cheapest_of(ways: Vec<(Flat, Vec<Item>)>) -> (Flat, Vec<Item>) {
+    plain.extend(Some(joint).filter(|joint| joint.0.forms != plain[0].0.forms));
+    let mut ways = Vec::new();
+    for scope in scopes {
+        let shared = plain.iter().cloned().map(|(mut flat, roots)| {
+            share::share(&mut flat, &roots, *scope);
+            (flat, roots)
+        });
+        ways.extend(shared);
+    }
+    ways.extend(plain.into_iter().next());
     ways.into_iter().min_by_key(|(flat, roots)| cost_of(flat, roots)).expect("there are ways")
 }
 
 /// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
 /// what is emitted, and not of all that is compared.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
-    let [plain, scaled] = [Scaling::Factors, Scaling::Sums].map(|scaling| {
-        let ways = [Scope::Made, Scope::Needed];
-        cheapest_of(ways.map(|scope| cheapest(graph, components, scaling, scope)).into())
-    });
+    let [plain, scaled] = [Scaling::Factors, Scaling::Sums]
+        .map(|scaling| cheapest(graph, components, scaling, &[Scope::Made, Scope::Needed]));
     let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =
