@@ -32,6 +32,24 @@ pub fn components<T: Real, M: Machine<T>, const D: usize>(
     components
 }
 
+/// The components of the positions X + d of a bunch; of X if nothing `moves`.
+#[inline(always)]
+pub fn positions<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    reference: &[Vector<T, D>; BUNCH],
+    displacement: &Vectors<T, D>,
+    moves: bool,
+) -> [M::Eight; D] {
+    let mut positions = turned(machine, reference);
+    if moves {
+        let apart = components(machine, displacement);
+        for a in 0..D {
+            positions[a] = machine.plus(positions[a], apart[a]);
+        }
+    }
+    positions
+}
+
 /// Gives the vectors of a bunch these components.
 #[inline(always)]
 pub fn set_components<T: Real, M: Machine<T>, const D: usize>(

@@ -28,6 +28,7 @@ use crate::shape::Shape;
 use crate::tensor::{is_finite, jacobian, matrix_is_finite};
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
+use order::When;
 use scene::Kept;
 use slabs::Slabs;
 
@@ -83,7 +84,7 @@ where
         let (step, time) = (self.clock.step + 1, self.clock.time_of(self.clock.step));
         self.keeps_weights = I::KEEPS_WEIGHTS && self.formulation.moves;
         if self.formulation.moves && self.clock.step % STEPS_IN_ORDER == STEPS_IN_ORDER - 1 {
-            self.sort(false);
+            self.sort(When::Loose);
         }
         I::step::<T>(self).map_err(|failure| Failure { step, time, ..failure })?;
         self.clock.step += 1;

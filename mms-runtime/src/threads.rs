@@ -1,7 +1,7 @@
 //! Two things at once, if there are threads for it.
 //!
 //! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Results do not depend on their
-//! number: what is joined is cut into the same parts whatever it is, and nodes have nothing to do with each other.
+//! number: what is joined is cut into the same parts whatever it is, and other parts have nothing to do with each other.
 
 /// Nodes that are worked on by one thread at a time.
 const NODES: usize = 2048;
@@ -87,7 +87,13 @@ pub fn each_part<P: Parts, R: Send>(
     join(first, others)
 }
 
-/// Does `work` for arrays of nodes, each of which has nothing to do with the others.
+/// Does `work` for all there is, whose entries have nothing to do with each other: in parts of at most `size` if there
+/// are threads for them.
+pub fn each<P: Parts>(all: P, size: usize, work: &(dyn Fn(P) + Sync)) {
+    if alone() { work(all) } else { each_part(all, size, work, &|(), ()| ()) }
+}
+
+/// Does `work` for arrays of nodes, as [`each`] does.
 pub fn each_node<P: Parts>(nodes: P, work: &(dyn Fn(P) + Sync)) {
-    if alone() { work(nodes) } else { each_part(nodes, NODES, work, &|(), ()| ()) }
+    each(nodes, NODES, work);
 }

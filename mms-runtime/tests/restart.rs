@@ -47,7 +47,8 @@ impl Observer for Keeper {
 }
 
 fn method(shape: ShapeName, formulation: FormulationName, transfer: Transfer) -> Method {
-    let setup = Setup { transfer, end_time: Some(0.15), ..Setup::default() };
+    // So many steps that particles are put in order again before and after a stop.
+    let setup = Setup { transfer, end_time: Some(0.45), ..Setup::default() };
     Method { shape, formulation, setup, ..Method::default() }
 }
 
@@ -65,6 +66,7 @@ fn interrupted(faces: Condition, method: &Method) {
     let whole = run(faces, method, &mut straight).unwrap();
     let steps = whole.level.steps;
     assert!(whole.level.particles >= 4800, "in one slab nothing is sorted");
+    assert!(steps >= 40, "particles are looked at every 16 steps");
     assert_eq!(straight.records.len(), steps);
 
     let (mut from, mut records) = (None, Vec::new());
@@ -133,4 +135,15 @@ fn what_is_no_checkpoint_of_this_scene_is_refused() {
     assert_eq!(refused(whole, &shorter), "it has other steps");
     let affine = method(ShapeName::Ugimp, FormulationName::Updated, Transfer::Apic);
     assert_eq!(refused(checkpoint(&affine), &own), "it has other transfers");
+}
+
+/// With stencils that have no bound, particles stay as they were numbered.
+#[test]
+fn an_order_that_particles_cannot_be_in_is_refused() {
+    let fixed = method(ShapeName::Cpdi, FormulationName::Updated, Transfer::FLIP);
+    let mut forged = checkpoint(&fixed);
+    let numbers: Vec<u8> = (0..100).collect();
+    let at = forged.windows(100).position(|part| part == numbers).expect("numbers in order");
+    forged.swap(at, at + 1);
+    assert_eq!(refused(forged, &fixed), "it has other particles");
 }

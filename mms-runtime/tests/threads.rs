@@ -11,7 +11,8 @@ use mms_runtime::{
 fn run(faces: Condition, method: &Method, threads: usize) -> Run {
     let mut method = method.clone();
     method.setup.threads = threads;
-    method.setup.end_time = Some(0.15);
+    // Particles are put in order again on the way.
+    method.setup.end_time = Some(0.45);
     f64::run(&Wave::sliding(faces), &method, &40.into(), Watch::Everything, &mut ()).unwrap()
 }
 
@@ -58,7 +59,7 @@ impl Observer for Ends {
 /// However particles are sorted, those of a state are in the order of their numbers: each has the X that it had.
 #[test]
 fn states_have_their_particles_in_the_first_order() {
-    let setup = Setup { end_time: Some(0.15), ..Setup::default() };
+    let setup = Setup { end_time: Some(0.45), ..Setup::default() };
     let method = Method { setup, ..Method::default() };
     let mut ends = Ends(Vec::new());
     let wave = Wave::sliding(Condition::Prescribed);

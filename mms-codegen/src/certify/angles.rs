@@ -43,8 +43,8 @@ pub fn near_zero(
     }
     let small: BTreeMap<Expr, [Function; 2]> = graph.aside(|graph| {
         let chart = Chart::new(graph, field, model, None);
-        let kind = |angle: Expr| Some((angle, kind(graph, &chart, angle)?));
-        candidates.into_iter().filter_map(kind).collect()
+        let with_functions = |angle| Some((angle, functions_of(graph, &chart, angle)?));
+        candidates.into_iter().filter_map(with_functions).collect()
     });
     for components in outputs.values_mut() {
         *components = rebuild(graph, components, |graph, node| {
@@ -87,7 +87,7 @@ fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
 }
 
 /// The sine and the cosine of an angle that is proved to be small.
-fn kind(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Function; 2]> {
+fn functions_of(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Function; 2]> {
     let angle = chart.pull_back(graph, &[angle]);
     let formulas = Formulas::new(graph, chart, &angle);
     let (mut bounds, mut values) = (formulas.run::<Interval>(chart), formulas.run::<f64>(chart));

@@ -329,14 +329,7 @@ impl Graph {
 
     /// Everything that `roots` depend on, themselves included, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> BTreeSet<Expr> {
-        let mut seen = BTreeSet::new();
-        let mut open = roots.to_vec();
-        while let Some(expr) = open.pop() {
-            if seen.insert(expr) {
-                open.extend(self.node(expr).children());
-            }
-        }
-        seen
+        reachable(roots, |expr| self.node(expr).children())
     }
 
     /// The symbols that `root` depends on.
@@ -347,4 +340,20 @@ impl Graph {
         };
         self.reachable(&[root]).into_iter().filter_map(symbol).collect()
     }
+}
+
+/// Everything that `roots` are made of, themselves included, where these are the `operands` of each.
+pub(crate) fn reachable<N, O>(roots: &[N], operands: impl Fn(N) -> O) -> BTreeSet<N>
+where
+    N: Copy + Ord,
+    O: IntoIterator<Item = N>,
+{
+    let mut seen = BTreeSet::new();
+    let mut open = roots.to_vec();
+    while let Some(next) = open.pop() {
+        if seen.insert(next) {
+            open.extend(operands(next));
+        }
+    }
+    seen
 }

@@ -8,6 +8,7 @@ use super::Solver;
 use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
 use super::map::{Added, Map, Stop};
+use super::order::When;
 use super::scene::Scene;
 use crate::boundary::traction::Place;
 use crate::defect::{Defect, on};
@@ -154,7 +155,7 @@ where
                     return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
                 }
                 Err(Stop::Strayed(_)) => {
-                    self.sort(true);
+                    self.sort(When::Now);
                     // Nothing has changed since.
                     self.keep();
                 }
@@ -163,13 +164,12 @@ where
         }
     }
 
-    /// Puts the particles in the order of the cells they are in now, if it is `needed` or worth it. What was kept of them
-    /// is gone.
-    pub(super) fn sort(&mut self, needed: bool) {
+    /// Puts the particles in the order of the cells they are in now. What was kept of them is gone.
+    pub(super) fn sort(&mut self, when: When) {
         let Self { grid, particles, domains, kept, slabs, seconds, .. } = self;
         let moves = self.formulation.moves;
         timed(&mut seconds.transfer, || {
-            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, moves, needed);
+            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, moves, when);
         });
         kept.clear();
     }

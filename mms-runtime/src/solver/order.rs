@@ -1,14 +1,14 @@
-//! The order in which particles stand: that of the cells they were in when it was found, and in a slab first those that make a bunch with
-//! others of their cell, then those that make half of one, then the others.
+//! The order in which particles stand: that of the cells they were in when it was found, and in a slab first those that
+//! make a bunch with others of their cell, then those that make half of one, then the others.
 
 use mms_math::machine::{Machine as _, Plain};
 
 use super::slabs::Slab;
 use crate::column::{Bunch, Bunches};
-use crate::lanes::{components, turned};
+use crate::lanes::positions;
 use crate::particle::{Particles, reorder_bunches};
 use crate::stencil::{BUNCH, HALF};
-use crate::threads::each_part;
+use crate::threads::each;
 use crate::{Lattice, Real};
 
 /// Bunches that are located by one thread at a time.
@@ -17,6 +17,15 @@ const PART: usize = 512;
 /// An order is worth finding when so many bunches and halves of a hundred could be of one cell and are not: that is lost
 /// again every step, and to find an order takes about as long as one step.
 const LOOSE: usize = 5;
+
+/// When particles are put in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum When {
+    /// Whatever their order is.
+    Now,
+    /// If many bunches are of several cells that could be of one.
+    Loose,
+}
 
 /// Who stands where.
 pub(super) struct Order {
@@ -83,13 +92,10 @@ impl Order {
             (particles.reference_position.bunches(), particles.displacement.bunches());
         let cells_of = |bunch: usize| {
             let machine = T::PlainMachine::from(Plain);
-            let position = turned(machine, &reference[bunch]);
-            let apart = components(machine, &displacement[bunch]);
+            let position = positions(machine, &reference[bunch], &displacement[bunch], moves);
             let mut cells = [0; BUNCH];
             for a in 0..D {
-                let present = machine.plus(position[a], apart[a]);
-                let position = if moves { present } else { position[a] };
-                let along = machine.numbers(lattice.cells_along(machine, a, position));
+                let along = machine.numbers(lattice.cells_along(machine, a, position[a]));
                 for (cell, along) in cells.iter_mut().zip(along) {
                     let along = (along.to_f64() - origin).max(0.0) as usize;
                     *cell += (along.min(lattice.count[a] - 1) * lattice.stride[a]) as u32;
@@ -97,15 +103,9 @@ impl Order {
             }
             cells
         };
-        let all = (&mut self.cell[..], 0..reference.len());
-        each_part(
-            all,
-            PART,
-            &|(cells, bunches)| {
-                cells.iter_mut().zip(bunches).for_each(|(cells, bunch)| *cells = cells_of(bunch));
-            },
-            &|(), ()| (),
-        );
+        each((&mut self.cell[..], 0..reference.len()), PART, &|(cells, bunches)| {
+            cells.iter_mut().zip(bunches).for_each(|(cells, bunch)| *cells = cells_of(bunch));
+        });
         let Self { place, cell, count, .. } = self;
         count.fill(0);
         let cells = &cell.as_flattened()[..place.len()];

@@ -3,7 +3,7 @@
 use mms_math::machine::Machine;
 
 use crate::column::{Bunch as _, Matrices, Vectors};
-use crate::lanes::{components, turned, vectors};
+use crate::lanes::{positions, vectors};
 use crate::shape::Shape;
 use crate::stencil::BUNCH;
 use crate::{Cause, Lattice, Real, Transfer, Vector};
@@ -62,13 +62,10 @@ impl<T: Real, const D: usize, S: Shape> Scene<'_, T, D, S> {
             Some((displacement, gradient)) => (displacement, gradient),
             None => present,
         };
-        let mut position = turned(machine, &self.reference_position[bunch]);
+        let reference = &self.reference_position[bunch];
+        let position = positions(machine, reference, displacement, self.moves);
         let unmoved;
         let h = if self.moves {
-            let apart = components(machine, displacement);
-            for a in 0..D {
-                position[a] = machine.plus(position[a], apart[a]);
-            }
             displacement_gradient
         } else {
             unmoved = Matrices::zeros();

@@ -3,6 +3,7 @@
 use super::Solver;
 use super::clock::{Clock, Seconds};
 use super::need::Need;
+use super::order::When;
 use super::slabs::Slabs;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
@@ -91,7 +92,7 @@ where
         grid.mass_floor = mass_floor(&particles, &grid.lattice)?;
         let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
         let mut domains: Bunches<_> = domains.collect();
-        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, moves, true);
+        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, moves, When::Now);
         Ok(Self {
             field,
             clock,

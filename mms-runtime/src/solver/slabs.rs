@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::order::Order;
+use super::order::{Order, When};
 use crate::column::{Bunch, Bunches};
 use crate::nodal::{Nodal, Window};
 use crate::particle::Particles;
@@ -144,7 +144,7 @@ impl Slabs {
     }
 
     /// Sorts the particles, with their `domains`, by their cells, which begin at an origin, in cells: at present, or of X
-    /// if nothing `moves`. It is done if it is `needed`, or worth it.
+    /// if nothing `moves`.
     pub fn sort<T: Real, B: Bunch, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
@@ -152,13 +152,13 @@ impl Slabs {
         particles: &mut Particles<T, D>,
         domains: &mut Bunches<B>,
         moves: bool,
-        needed: bool,
+        when: When,
     ) {
         if self.order.is_fixed() {
             return;
         }
         self.order.locate(lattice, origin, particles, moves);
-        if needed || self.order.is_loose() {
+        if when == When::Now || self.order.is_loose() {
             self.order.arrange();
             self.cut_evenly();
             self.order.apply(&self.all, particles, domains);

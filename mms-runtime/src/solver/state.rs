@@ -63,8 +63,8 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         fits(state.step <= self.clock.steps, "steps")?;
         let lengths =
             [state.displacement.len(), state.velocity.len(), state.displacement_gradient.len()];
-        let stand = !self.slabs.order.is_fixed() || state.id.is_sorted();
-        fits(lengths == [count; 3] && is_order(&state.id, count) && stand, "particles")?;
+        let orders = !self.slabs.order.is_fixed() || state.id.is_sorted();
+        fits(lengths == [count; 3] && is_order(&state.id, count) && orders, "particles")?;
         fits(state.affine.len() == self.particles.affine.len(), "transfers")?;
         fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =

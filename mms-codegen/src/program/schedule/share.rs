@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::flat::{Flat, Form, Item};
-use crate::expr::Rational;
+use crate::expr::{Rational, reachable};
 
 /// What can be shared.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -82,7 +82,7 @@ pub(super) enum Scope {
 pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope) {
     let counted = match scope {
         Scope::Made => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
-        Scope::Needed => needed(flat, roots),
+        Scope::Needed => reachable(roots, |item| flat.form(item).operands()),
     };
     let mut table = Table { common: common(flat, &counted), ..Table::default() };
     for item in counted {
@@ -91,18 +91,6 @@ pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope) {
     while let Some(pair) = table.best() {
         table.extract(flat, &pair);
     }
-}
-
-/// The roots and all that they are made of, in order.
-fn needed(flat: &Flat, roots: &[Item]) -> BTreeSet<Item> {
-    let mut needed = BTreeSet::new();
-    let mut open = roots.to_vec();
-    while let Some(item) = open.pop() {
-        if needed.insert(item) {
-            open.extend(flat.form(item).operands());
-        }
-    }
-    needed
 }
 
 /// Operands of more than one of the sums and products that are counted, or of one more than once: only they can be
