@@ -78,10 +78,18 @@ impl<T: Float, const FUSED: bool> Lane<T, FUSED> {
         sum
     }
 
-    /// 0 where |self| <= limit, else not a number: the product is infinite there.
+    /// 0 where |self| <= limit, else not a number.
     #[inline(always)]
     fn zero_within(self, limit: T) -> Self {
-        Lane(self.0 * (T::MAX / limit) * T::of(0.0))
+        Lane(T::from_bits(self.abs().bits_beyond(limit)))
+    }
+
+    /// All bits where self > limit >= 0, or where self is not a number, else none; for self >= 0. Integers are compared, as
+    /// what multiplies has more to do than what does this.
+    #[inline(always)]
+    fn bits_beyond(self, limit: T) -> T::Bits {
+        let excess = limit.bits() - self.0.bits();
+        T::of(0.0).bits() - (excess >> (8 * size_of::<T>() - 1))
     }
 
     /// The integer n nearest to `self * factor`, and a number whose lowest bits are those of

@@ -158,5 +158,6 @@ fn unreduced_cosine<T: Float, const FUSED: bool>(
 /// x^2, or not a number where no polynomial is for x.
 #[inline(always)]
 fn square_within<T: Float, const FUSED: bool>(x: Lane<T, FUSED>, limit: f64) -> Lane<T, FUSED> {
-    x.times_plus(x, x.zero_within(T::of(limit)))
+    let s = x * x;
+    Lane(T::from_bits(s.0.bits() | s.bits_beyond(T::of(limit * limit))))
 }
