@@ -13,6 +13,8 @@ use crate::machine::{self, Machine};
 use crate::structures::{put_columns, take_columns};
 use crate::{Lane, Real};
 
+pub use crate::kept::{Beside, Kept, KeptColumns};
+
 /// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
 /// first cache.
 pub const BLOCK: usize = 64;
@@ -25,7 +27,7 @@ pub struct Block<T, const N: usize>(pub(crate) [[T; BLOCK]; N]);
 
 impl<T: Copy, const N: usize> Block<T, N> {
     /// The same value everywhere.
-    fn of(value: T) -> Self {
+    pub(crate) fn of(value: T) -> Self {
         Self([[value; BLOCK]; N])
     }
 }
@@ -216,18 +218,27 @@ impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
         start: usize,
         room: &'a mut Block<T, N>,
     ) -> Columns<'a, T, N> {
-        if self.iter().all(|column| column.len() >= start + BLOCK) {
-            return core::array::from_fn(|k| {
-                self[k][start..].first_chunk().expect("as many points are left")
-            });
-        }
-        for (column, lane) in self.iter().zip(&mut room.0) {
-            let rest = &column[start..];
-            lane[..rest.len()].copy_from_slice(rest);
-            lane[rest.len()..].fill(rest[0]);
-        }
-        room.0.each_ref()
+        let mut lanes = room.0.iter_mut();
+        core::array::from_fn(|k| {
+            column_block(self[k], start, lanes.next().expect("there is one for each number"))
+        })
     }
+}
+
+/// The numbers of a column from `start` on, in a `lane` of their own where there are not as many as a block has.
+#[inline(always)]
+pub(crate) fn column_block<'a, T: Copy>(
+    column: &'a [T],
+    start: usize,
+    lane: &'a mut [T; BLOCK],
+) -> &'a [T; BLOCK] {
+    let rest = &column[start..];
+    if let Some(block) = rest.first_chunk() {
+        return block;
+    }
+    lane[..rest.len()].copy_from_slice(rest);
+    lane[rest.len()..].fill(rest[0]);
+    lane
 }
 
 /// Array of structures: the numbers of a point beside each other.
@@ -410,7 +421,7 @@ fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
 }
 
 /// The length that all columns have.
-fn one_length(mut lengths: impl Iterator<Item = usize>) -> usize {
+pub(crate) fn one_length(mut lengths: impl Iterator<Item = usize>) -> usize {
     let first = lengths.next().unwrap_or(0);
     for length in lengths {
         assert_eq!(length, first, "the slices of a batch have different lengths");

@@ -90,15 +90,14 @@ macro_rules! batches {
             ///
             /// If the slices have different lengths.
             pub fn $batch_at(&self, points: &Points<T>, mut out: [&mut [T]; $results]) {
-                let kept = $columns.map(|column: usize| &points.columns[column][..]);
-                $crate::batch::run(&$cached(self), &kept, &mut out);
+                $crate::batch::run(&$cached(self), &points.kept.columns($columns), &mut out);
             }
         }
     };
     (
         $name:literal, normals $inputs:tt, $dimension:tt -> $results:tt;
         $whole:ident: $batch:ident, $batch_aos:ident;
-        $cached:ident: $batch_at:ident, $columns:tt, $count:tt;
+        $cached:ident: $batch_at:ident, $columns:tt;
     ) => {
         impl<T: $crate::batch::Float> AtTime<'_, T> {
             #[doc = concat!(" As `", $name, "`, at many points: a slice for each coordinate and each component of the normals and of the result.")]
@@ -141,8 +140,7 @@ macro_rules! batches {
                 normals: [&[T]; $dimension],
                 mut out: [&mut [T]; $results],
             ) {
-                let kept = $columns.map(|column: usize| &points.columns[column][..]);
-                let both: [&[T]; $count] = $crate::batch::join(kept, normals);
+                let both = points.kept.columns($columns).beside(normals);
                 $crate::batch::run(&$cached(self), &both, &mut out);
             }
         }

@@ -24,6 +24,8 @@ mod float;
 #[cfg(feature = "std")]
 mod generate;
 #[cfg(feature = "std")]
+mod kept;
+#[cfg(feature = "std")]
 mod lane;
 #[cfg(feature = "std")]
 pub mod machine;

@@ -101,14 +101,14 @@ impl Emitter<'_> {
         );
         let count = Literal::usize_unsuffixed(count);
         quote! {
-            /// What many reference positions determine, as one column for each value.
+            /// What many reference positions determine, in blocks of columns.
             ///
             #[doc = #size]
             /// It pays where computing those values costs more than reading them from
             /// memory: for sines, exponentials and roots, not for a product or two.
             #[derive(Clone, Debug)]
             pub struct Points<T> {
-                columns: [::std::vec::Vec<T>; #count],
+                kept: batch::Kept<T, #count>,
             }
 
             impl<T> Points<T> {
@@ -117,12 +117,12 @@ impl Emitter<'_> {
 
                 /// How many points there are.
                 pub fn len(&self) -> usize {
-                    self.columns[0].len()
+                    self.kept.len()
                 }
 
                 /// Whether there is no point.
                 pub fn is_empty(&self) -> bool {
-                    self.columns[0].is_empty()
+                    self.kept.is_empty()
                 }
             }
 
@@ -133,10 +133,9 @@ impl Emitter<'_> {
                 ///
                 /// If the slices have different lengths.
                 pub fn at_points(&self, points: [&[T]; #dimension]) -> Points<T> {
-                    let room = || ::std::vec![T::from_f64(0.0); points[0].len()];
-                    let mut columns = ::core::array::from_fn(|_| room());
-                    batch::run(&PointsOf(self), &points, &mut columns.each_mut().map(|c| &mut c[..]));
-                    Points { columns }
+                    let mut kept = batch::Kept::room_for(points[0].len());
+                    batch::run(&PointsOf(self), &points, &mut kept);
+                    Points { kept }
                 }
             }
 
@@ -184,9 +183,7 @@ impl Emitter<'_> {
         let position = self.position();
         let normal = normal(normals);
         let inputs = count(dimension + normals);
-        let inputs_at = count(own.columns.len() + normals);
-        let with_normals = is_traction.then(|| (quote!(normals #inputs,), quote!(, #inputs_at)));
-        let (with_normals, with_count) = with_normals.unzip();
+        let with_normals = is_traction.then(|| quote!(normals #inputs,));
         let Columns { axes: own_axes, values } = &own.columns;
         let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
         let indices = own_axes.iter().copied().chain(values.iter().map(column));
@@ -210,7 +207,7 @@ impl Emitter<'_> {
             #math::batches! {
                 #name, #with_normals #axes -> #results;
                 #whole: #batch, #batch_aos;
-                #cached: #batch_at, [#(#indices),*] #with_count;
+                #cached: #batch_at, [#(#indices),*];
             }
         }
     }

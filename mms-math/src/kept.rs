@@ -1,0 +1,161 @@
+//! What is kept of many points, to be read again and again: a column for each number, in whole lines of the cache.
+
+use std::vec;
+use std::vec::Vec;
+
+use crate::batch::{
+    BLOCK, Block, Columns, Float, Sink, Source, are_numbers, column_block, one_length,
+};
+use crate::machine::Machine;
+
+/// `N` numbers of each of many points.
+#[derive(Clone, Debug)]
+pub struct Kept<T, const N: usize> {
+    /// Column after column. The last block of each goes on with copies of its first point.
+    blocks: Vec<Block<T, 1>>,
+    /// How many points there are.
+    count: usize,
+}
+
+/// From which block of a column the next column is. It is odd: columns that begin at the same place of their pages would
+/// compete for the same lines of the first cache.
+fn stride(count: usize) -> usize {
+    count.div_ceil(BLOCK) | 1
+}
+
+impl<T, const N: usize> Kept<T, N> {
+    /// How many points there are.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The numbers with these indices, as a source of points.
+    pub fn columns<const K: usize>(&self, indices: [usize; K]) -> KeptColumns<'_, T, K> {
+        let stride = stride(self.count);
+        KeptColumns {
+            columns: indices.map(|index| &self.blocks[index * stride..][..stride]),
+            count: self.count,
+        }
+    }
+}
+
+impl<T: Float, const N: usize> Kept<T, N> {
+    /// Room for so many points.
+    pub fn room_for(count: usize) -> Self {
+        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride(count)], count }
+    }
+}
+
+impl<T: Float, const N: usize> Sink<T, N> for Kept<T, N> {
+    fn room(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
+        let columns = self.blocks.chunks_exact_mut(stride(self.count));
+        for (column, lane) in columns.zip(&block.0) {
+            column[start / BLOCK] = Block([*lane]);
+        }
+        are_numbers(machine, block)
+    }
+}
+
+/// Some of the numbers that are kept.
+#[derive(Clone, Copy, Debug)]
+pub struct KeptColumns<'a, T, const K: usize> {
+    columns: [&'a [Block<T, 1>]; K],
+    count: usize,
+}
+
+impl<'a, T, const K: usize> KeptColumns<'a, T, K> {
+    /// The same, and other numbers of the points after them.
+    pub fn beside<const D: usize>(self, others: [&'a [T]; D]) -> Beside<'a, T, K, D> {
+        Beside { kept: self, others }
+    }
+}
+
+impl<T: Copy, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
+    fn count(&self) -> usize {
+        self.count
+    }
+
+    #[inline(always)]
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        _: M,
+        start: usize,
+        _: &'a mut Block<T, K>,
+    ) -> Columns<'a, T, K> {
+        core::array::from_fn(|k| &self.columns[k][start / BLOCK].0[0])
+    }
+}
+
+/// Some of the numbers that are kept, and others.
+#[derive(Clone, Copy, Debug)]
+pub struct Beside<'a, T, const K: usize, const D: usize> {
+    kept: KeptColumns<'a, T, K>,
+    others: [&'a [T]; D],
+}
+
+impl<T: Copy, const K: usize, const D: usize, const N: usize> Source<T, N> for Beside<'_, T, K, D> {
+    fn count(&self) -> usize {
+        one_length(self.others.iter().map(|column| column.len()).chain([self.kept.count]))
+    }
+
+    #[inline(always)]
+    fn block<'a, M: Machine<T>>(
+        &'a self,
+        _: M,
+        start: usize,
+        room: &'a mut Block<T, N>,
+    ) -> Columns<'a, T, N> {
+        const { assert!(K + D == N) };
+        let mut lanes = room.0.iter_mut();
+        core::array::from_fn(|k| {
+            let lane = lanes.next().expect("there is one for each number");
+            match k.checked_sub(K) {
+                None => &self.kept.columns[k][start / BLOCK].0[0],
+                Some(other) => column_block(self.others[other], start, lane),
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec;
+    use std::vec::Vec;
+
+    use super::{BLOCK, Kept};
+    use crate::batch::run;
+    use crate::bunched::tests::Both;
+
+    #[test]
+    fn what_is_kept_is_read_as_slices_are() {
+        for count in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5] {
+            let column = |from: f64| (0..count).map(|k| (from + 0.7 * k as f64).sin()).collect();
+            let [x, y]: [Vec<f64>; 2] = [0.3, 0.4].map(column);
+            let mut kept = Kept::<f64, 2>::room_for(count);
+            run(&Both, &[&x[..], &y], &mut kept);
+            assert_eq!((kept.len(), kept.is_empty()), (count, count == 0));
+            let results = || [vec![0.0; count], vec![0.0; count]];
+            let [mut slices, mut columns, mut mixed] = [results(), results(), results()];
+            let [xy, sum] = [0, 1].map(|n| -> Vec<f64> {
+                (0..count).map(|k| [x[k] * y[k], x[k] + 2.0 * y[k]][n]).collect()
+            });
+            run(&Both, &[&sum[..], &xy], &mut slices.each_mut().map(|column| &mut column[..]));
+            let taken = kept.columns([1, 0]);
+            run(&Both, &taken, &mut columns.each_mut().map(|column| &mut column[..]));
+            let beside = kept.columns([1]).beside([&xy[..]]);
+            run(&Both, &beside, &mut mixed.each_mut().map(|column| &mut column[..]));
+            assert_eq!(columns, slices, "{count}");
+            assert_eq!(mixed, slices, "{count}");
+        }
+    }
+}
