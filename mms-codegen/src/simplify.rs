@@ -17,9 +17,19 @@ use crate::pass::factor::factor;
 use crate::pass::nest::nest;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::{Relations, lateness};
+use crate::pass::separate::separate;
 use crate::program::schedule::{Cost, cost};
 use crate::quantity::Quantity;
 use crate::selection::Form;
+
+/// What a solver asks for at every step, and may keep of points as far as X determines it; and what that is made of.
+const FORCES: [Quantity; 5] = [
+    Quantity::DivP,
+    Quantity::DivSigma,
+    Quantity::BodyForce,
+    Quantity::BodyForceDensity,
+    Quantity::CurrentBodyForceDensity,
+];
 
 /// The components of quantities.
 type Quantities = BTreeMap<Quantity, Vec<Expr>>;
@@ -45,17 +55,24 @@ pub fn simplify(
     let all = [of_gradient.clone(), of_deformation].concat();
     let mut quantities = plain.quantities.clone();
     quantities.extend(cheapest(graph, only(&all, coarse), &relations));
+    // The fast form loses digits at small amplitudes anyway.
+    let amplitude = match form {
+        Form::Fast => None,
+        Form::Stable => Amplitude::find(graph, model),
+    };
     match form {
-        // It loses digits at small amplitudes anyway.
         Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations)),
         Form::Stable => {
-            let amplitude = Amplitude::find(graph, model);
             let settled = settled(graph, model, &relations, amplitude.as_ref(), fine);
             quantities.extend(
                 settled.unwrap_or_else(|| cheapest(graph, only(&of_gradient, fine), &relations)),
             );
             mend(graph, model, &relations, amplitude.as_ref(), &mut quantities, coarse);
         }
+    }
+    for quantity in FORCES.into_iter().filter(|quantity| wanted(*quantity)) {
+        let Some(components) = quantities.get_mut(&quantity) else { continue };
+        *components = parted(graph, std::mem::take(components), amplitude.as_ref());
     }
     Derivation {
         quantities,
@@ -231,6 +248,18 @@ fn cheapest_of<K: Ord + Copy>(
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
     best
+}
+
+/// Components with what X determines apart from what t does, where that is worth it and keeps as many digits.
+fn parted(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>) -> Vec<Expr> {
+    let is_better = |graph: &Graph, parted: &[Expr]| {
+        let keeps = amplitude.is_none_or(|it| it.keeps(graph, parted));
+        keeps && cost(graph, &components).is_worth(cost(graph, parted))
+    };
+    match graph.attempt(|graph| separate(graph, &components)) {
+        Some(parted) if parted != components && is_better(graph, &parted) => parted,
+        _ => components,
+    }
 }
 
 /// Expressions as they are, and with factors taken out or in; no sum is multiplied out.

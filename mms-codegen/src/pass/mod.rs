@@ -13,5 +13,6 @@ pub mod nest;
 mod polynomial;
 pub mod reduce;
 pub mod relations;
+pub mod separate;
 pub mod settle;
 pub mod substitute;

@@ -9,6 +9,7 @@ use mms_codegen::pass::factor::factor;
 use mms_codegen::pass::nest::nest;
 use mms_codegen::pass::reduce::reduce;
 use mms_codegen::pass::relations::{Relations, lateness};
+use mms_codegen::pass::separate::separate;
 use mms_codegen::program::schedule::{cost, schedule_plainly};
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::simplify::ways;
@@ -67,6 +68,7 @@ proptest! {
             nest(&mut graph, &[root], &lateness),
             reduce(&mut graph, &[root], &relations),
             expand(&mut graph, &[root], &symbols),
+            separate(&mut graph, &[root]),
         ];
         if let Some(thorough) = relations.thorough() {
             written.push(reduce(&mut graph, &[root], &thorough));

@@ -122,19 +122,22 @@ impl Builder {
         if one { factor } else { self.push(Op::Multiply(factor, value)) }
     }
 
-    /// Factors that are known early are multiplied first; one division serves all that divide.
+    /// Factors of one stage are multiplied first, then the stages, earliest first; one division serves all that divide.
     fn product(&mut self, factors: impl Iterator<Item = (Value, i32)>) -> Value {
-        let mut factors: Vec<_> = factors.collect();
-        factors.sort_by_key(|(value, _)| self.stage(*value));
-        let (mut numerator, mut denominator) = (None, None);
+        let [mut above, mut below] = [(); 2].map(|()| BTreeMap::<Stage, Value>::new());
         for (base, exponent) in factors {
             let power = self.integer_power(base, exponent.unsigned_abs());
-            let product = if exponent > 0 { &mut numerator } else { &mut denominator };
-            *product = Some(match *product {
-                Some(product) => self.push(Op::Multiply(product, power)),
+            let groups = if exponent > 0 { &mut above } else { &mut below };
+            let stage = self.stage(power);
+            let product = match groups.get(&stage) {
+                Some(product) => self.push(Op::Multiply(*product, power)),
                 None => power,
-            });
+            };
+            groups.insert(stage, product);
         }
+        let [numerator, denominator] = [above, below].map(|groups| {
+            groups.into_values().reduce(|product, group| self.push(Op::Multiply(product, group)))
+        });
         let numerator = numerator.unwrap_or_else(|| self.constant(1));
         match denominator {
             Some(denominator) => self.push(Op::Divide(numerator, denominator)),

@@ -26,7 +26,26 @@ pub struct Cost {
     pub per_point: usize,
     /// Operations of all stages.
     pub total: usize,
+    /// Operations of the stage PointTime: all that is left to whoever keeps what X determines.
+    pub late: usize,
 }
+
+impl Cost {
+    /// Whether `other` is worth taking in place of this, where an operation that needs t counts twice: those who keep what
+    /// X determines do it too. Those who do not shall have about as much to do as before.
+    pub fn is_worth(self, other: Cost) -> bool {
+        let more = other.per_point.saturating_sub(self.per_point);
+        let weight = |cost: Cost| cost.per_point + cost.late;
+        ROOM * more <= self.per_point && weight(other) + 2 * WORTH_APART <= weight(self)
+    }
+}
+
+/// How many operations at a point must be saved before an output is written in a way of its own: it has less in common
+/// with others then.
+const WORTH_APART: usize = 2;
+
+/// Of how many operations that depend on X one more is about as much.
+const ROOM: usize = 16;
 
 /// The program of `outputs`, without anything that they do not need.
 pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program {
@@ -53,10 +72,6 @@ pub fn schedule_plainly(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) ->
         .collect();
     in_stage_order(Program { instrs: builder.instrs, outputs })
 }
-
-/// How many operations at a point must be saved before numbers are moved into sums: an output has less in common
-/// with others then.
-const WORTH_SCALING: usize = 2;
 
 /// How many operations that are done once may save one at every point.
 const ONCE_FOR_EVERY_POINT: usize = 8;
@@ -97,7 +112,7 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
     let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =
-        saved >= WORTH_SCALING && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
+        saved >= WORTH_APART && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
     if is_worth_it { scaled } else { plain }
 }
 
@@ -105,8 +120,13 @@ fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
     let mut builder = Builder::default();
     builder.lower(flat, roots);
     let counted = builder.instrs.iter().filter(|instr| instr.op.is_counted());
-    let at_point = |instr: &&Instr| matches!(instr.stage, Stage::Point | Stage::PointTime);
-    Cost { per_point: counted.clone().filter(at_point).count(), total: counted.count() }
+    let of =
+        |stages: &[Stage]| counted.clone().filter(|instr| stages.contains(&instr.stage)).count();
+    Cost {
+        per_point: of(&[Stage::Point, Stage::PointTime]),
+        total: of(&Stage::ALL),
+        late: of(&[Stage::PointTime]),
+    }
 }
 
 /// Drops what no output needs, and sorts by stage; within a stage the order stays.
