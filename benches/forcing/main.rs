@@ -13,6 +13,7 @@ mod peer;
 mod single;
 
 use std::error::Error;
+use std::time::{Duration, Instant};
 
 use floor::Slot;
 use mms_codegen::compile::compile;
@@ -45,6 +46,22 @@ const COMPARED: usize = 1_000;
 
 /// How often everyone takes a turn.
 const ROUNDS: usize = 15;
+
+/// For how long everyone works untimed at the beginning of a turn, at least once. Others have had the caches, and the
+/// processor has slept while a program ran.
+const WARM: Duration = Duration::from_millis(1);
+
+/// The seconds that a turn takes.
+pub fn timed(mut work: impl FnMut()) -> f64 {
+    let start = Instant::now();
+    work();
+    while start.elapsed() < WARM {
+        work();
+    }
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
 
 /// What someone computed, and how long each round of it took.
 pub struct Run {

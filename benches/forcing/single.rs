@@ -1,8 +1,6 @@
 //! Contenders that compute one point after the other.
 
-use std::time::Instant;
-
-use crate::{COUNT, Case, Contender, Run};
+use crate::{COUNT, Case, Contender, Run, timed};
 
 /// b at all points: parameters, time, coordinates by axis, and the components to write.
 pub type Forcing = fn(&[f64], f64, &[Vec<f64>], &mut [Vec<f64>]);
@@ -35,11 +33,8 @@ impl Single {
 
 impl Contender for Single {
     fn round(&mut self) -> Result<(), Box<dyn std::error::Error>> {
-        // Once untimed, as in the peers' programs.
-        (self.forcing)(self.parameters, self.time, &self.points, &mut self.out);
-        let start = Instant::now();
-        (self.forcing)(self.parameters, self.time, &self.points, &mut self.out);
-        self.seconds.push(start.elapsed().as_secs_f64());
+        let all = || (self.forcing)(self.parameters, self.time, &self.points, &mut self.out);
+        self.seconds.push(timed(all));
         Ok(())
     }
 

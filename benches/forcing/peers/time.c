@@ -51,7 +51,10 @@ int main(void) {
         out[k] = malloc(n * sizeof *out[k]);
         if (!x[k] || !out[k] || fread(x[k], sizeof *x[k], n, stdin) != n) return 1;
     }
-    all(n, t, p, x, out);
+    /* Untimed for a millisecond, as the others. */
+    double begun = now();
+    do all(n, t, p, x, out);
+    while (now() - begun < 1e-3);
     for (size_t round = 0; round < rounds; round++) {
         double start = now();
         all(n, t, p, x, out);
