@@ -1,7 +1,8 @@
 //! Points in bunches of eight, whose numbers are kept number by number.
 
-use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source, are_numbers};
+use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;
+use crate::places::are_numbers;
 
 /// A bunch of eight points with `N` numbers each.
 pub trait Numbers<T, const N: usize> {

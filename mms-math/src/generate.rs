@@ -95,7 +95,7 @@ macro_rules! batches {
         }
     };
     (
-        $name:literal, normals $inputs:tt, $dimension:tt -> $results:tt;
+        $name:literal, normals, $dimension:tt -> $results:tt;
         $whole:ident: $batch:ident, $batch_aos:ident;
         $cached:ident: $batch_at:ident, $columns:tt;
     ) => {
@@ -111,8 +111,7 @@ macro_rules! batches {
                 normals: [&[T]; $dimension],
                 mut out: [&mut [T]; $results],
             ) {
-                let both: [&[T]; $inputs] = $crate::batch::join(points, normals);
-                $crate::batch::run(&$whole(self), &both, &mut out);
+                $crate::batch::run(&$whole(self), &(points, normals), &mut out);
             }
 
             #[doc = concat!(" As `", $name, "_batch`, with the numbers of a point beside each other.")]
@@ -140,8 +139,8 @@ macro_rules! batches {
                 normals: [&[T]; $dimension],
                 mut out: [&mut [T]; $results],
             ) {
-                let both = points.kept.columns($columns).beside(normals);
-                $crate::batch::run(&$cached(self), &both, &mut out);
+                let points = points.kept.columns($columns);
+                $crate::batch::run(&$cached(self), &(points, normals), &mut out);
             }
         }
     };

@@ -3,15 +3,14 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::batch::{
-    BLOCK, Block, Columns, Float, Sink, Source, are_numbers, column_block, one_length,
-};
+use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;
+use crate::places::are_numbers;
 
 /// `N` numbers of each of many points.
 #[derive(Clone, Debug)]
 pub struct Kept<T, const N: usize> {
-    /// Column after column. The last block of each goes on with copies of its first point.
+    /// Column after column. The block with the last points of one goes on with copies of its first point.
     blocks: Vec<Block<T, 1>>,
     /// How many points there are.
     count: usize,
@@ -73,13 +72,6 @@ pub struct KeptColumns<'a, T, const K: usize> {
     count: usize,
 }
 
-impl<'a, T, const K: usize> KeptColumns<'a, T, K> {
-    /// The same, and other numbers of the points after them.
-    pub fn beside<const D: usize>(self, others: [&'a [T]; D]) -> Beside<'a, T, K, D> {
-        Beside { kept: self, others }
-    }
-}
-
 impl<T: Copy, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
     fn count(&self) -> usize {
         self.count
@@ -96,34 +88,18 @@ impl<T: Copy, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
     }
 }
 
-/// Some of the numbers that are kept, and others.
-#[derive(Clone, Copy, Debug)]
-pub struct Beside<'a, T, const K: usize, const D: usize> {
-    kept: KeptColumns<'a, T, K>,
-    others: [&'a [T]; D],
-}
+impl<T: Copy, const K: usize> Copied<T> for KeptColumns<'_, T, K> {
+    const NUMBERS: usize = K;
 
-impl<T: Copy, const K: usize, const D: usize, const N: usize> Source<T, N> for Beside<'_, T, K, D> {
-    fn count(&self) -> usize {
-        one_length(self.others.iter().map(|column| column.len()).chain([self.kept.count]))
+    fn points(&self) -> usize {
+        self.count
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        _: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
-        const { assert!(K + D == N) };
-        let mut lanes = room.0.iter_mut();
-        core::array::from_fn(|k| {
-            let lane = lanes.next().expect("there is one for each number");
-            match k.checked_sub(K) {
-                None => &self.kept.columns[k][start / BLOCK].0[0],
-                Some(other) => column_block(self.others[other], start, lane),
-            }
-        })
+    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+        for (column, lane) in self.columns.iter().zip(lanes) {
+            *lane = column[start / BLOCK].0[0];
+        }
     }
 }
 
@@ -152,8 +128,8 @@ mod tests {
             run(&Both, &[&sum[..], &xy], &mut slices.each_mut().map(|column| &mut column[..]));
             let taken = kept.columns([1, 0]);
             run(&Both, &taken, &mut columns.each_mut().map(|column| &mut column[..]));
-            let beside = kept.columns([1]).beside([&xy[..]]);
-            run(&Both, &beside, &mut mixed.each_mut().map(|column| &mut column[..]));
+            let both = (kept.columns([1]), [&xy[..]]);
+            run(&Both, &both, &mut mixed.each_mut().map(|column| &mut column[..]));
             assert_eq!(columns, slices, "{count}");
             assert_eq!(mixed, slices, "{count}");
         }

@@ -30,6 +30,8 @@ mod lane;
 #[cfg(feature = "std")]
 pub mod machine;
 #[cfg(feature = "std")]
+mod places;
+#[cfg(feature = "std")]
 mod quick;
 #[cfg(feature = "std")]
 pub mod structures;

@@ -72,14 +72,11 @@ impl Parts {
             without = graph.number(0);
         }
         let mut sum = Sum::from([(one, without)]);
-        let others = both.into_iter().flat_map(|(term, number)| {
-            let opened = self.opened(graph, term);
-            opened.into_iter().map(move |(late, factor)| (late, factor, number.clone()))
-        });
-        let others: Vec<_> = others.collect();
-        for (late, factor, number) in [(of_time, one, Rational::ONE)].into_iter().chain(others) {
-            let before = sum.get(&late).copied().unwrap_or_else(|| graph.number(0));
-            sum.insert(late, graph.sum([(before, Rational::ONE), (factor, number)]));
+        add(graph, &mut sum, (of_time, one), &Rational::ONE);
+        for (term, number) in both {
+            for product in self.opened(graph, term) {
+                add(graph, &mut sum, product, &number);
+            }
         }
         sum.retain(|late, factor| !graph.is_zero(*late) && !graph.is_zero(*factor));
         sum
@@ -97,8 +94,12 @@ impl Parts {
             }
         };
         let [without, of_time] = [without, of_time].map(|factors| graph.product(factors));
-        let times = |(late, factor)| (graph.mul(late, of_time), graph.mul(factor, without));
-        opened.into_iter().map(times).collect()
+        let mut sum = Sum::new();
+        for (late, factor) in opened {
+            let product = (graph.mul(late, of_time), graph.mul(factor, without));
+            add(graph, &mut sum, product, &Rational::ONE);
+        }
+        sum
     }
 
     /// The sum that an operand is: one term, where others read it too.
@@ -138,6 +139,13 @@ fn by_stage(graph: &Graph, operands: Operands) -> [Operands; 3] {
         by_stage[part].push(operand);
     }
     by_stage
+}
+
+/// Adds a number times a product to a sum.
+fn add(graph: &mut Graph, sum: &mut Sum, (late, factor): (Expr, Expr), number: &Rational) {
+    let zero = graph.number(0);
+    let total = sum.entry(late).or_insert(zero);
+    *total = graph.sum([(*total, Rational::ONE), (factor, number.clone())]);
 }
 
 /// A sum of one term.

@@ -101,7 +101,7 @@ impl Emitter<'_> {
         );
         let count = Literal::usize_unsuffixed(count);
         quote! {
-            /// What many reference positions determine, in blocks of columns.
+            /// What many reference positions determine, as one column for each value.
             ///
             #[doc = #size]
             /// It pays where computing those values costs more than reading them from
@@ -183,7 +183,7 @@ impl Emitter<'_> {
         let position = self.position();
         let normal = normal(normals);
         let inputs = count(dimension + normals);
-        let with_normals = is_traction.then(|| quote!(normals #inputs,));
+        let with_normals = is_traction.then(|| quote!(normals,));
         let Columns { axes: own_axes, values } = &own.columns;
         let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
         let indices = own_axes.iter().copied().chain(values.iter().map(column));

@@ -19,7 +19,7 @@ use super::{Instr, Output, Program, Stage, Value};
 use crate::expr::{Expr, Graph};
 
 /// What operations cost: those that depend on X first, since they are done at every point, then
-/// all.
+/// all; of two that are alike in both, the one that leaves less to t.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cost {
     /// Operations of the stages Point and PointTime.
