@@ -4,7 +4,7 @@
 use mms::gallery::{
     axis_aligned_3d, bar_1d, cyclic_shear_3d, generalized_vortex, quiet_boundary_2d, twisted_column,
 };
-use mms_runtime::math::batch::BLOCK;
+use mms_runtime::math::batch::Float;
 
 // With numbers for what it depends on, its angle is proved to be at most 1.
 mms_macros::field!(
@@ -14,8 +14,13 @@ mms_macros::field!(
     name = frozen_vortex
 );
 
+/// How many numbers of double precision are in a block.
+const BLOCK: usize = f64::BLOCK;
+
 /// Counts around a whole number of blocks, so that the last block is full, short, or absent.
-const COUNTS: [usize; 7] = [0, 1, 7, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5];
+fn counts<T: Float>() -> [usize; 7] {
+    [0, 1, 7, T::BLOCK - 1, T::BLOCK, T::BLOCK + 1, 3 * T::BLOCK + 5]
+}
 
 /// Numbers spread evenly over an interval, by the fractional parts of multiples of an irrational
 /// number.
@@ -82,10 +87,11 @@ macro_rules! agree {
 
 macro_rules! in_both_precisions {
     ($module:ident, $columns:expr, $time:expr, $($rest:tt)*) => {
-        for count in COUNTS {
-            let columns = $columns(count);
-            agree!($module, f64, count, columns, $time, $($rest)*);
-            agree!($module, f32, count, columns, $time, $($rest)*);
+        for count in counts::<f64>() {
+            agree!($module, f64, count, $columns(count), $time, $($rest)*);
+        }
+        for count in counts::<f32>() {
+            agree!($module, f32, count, $columns(count), $time, $($rest)*);
         }
     };
 }

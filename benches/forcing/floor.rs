@@ -18,15 +18,15 @@ use crate::median;
 type Slots = [usize; 2];
 
 /// Sine and cosine of an angle: one reduction, two polynomials.
-const SINE_AND_COSINE: Slots = [27, 24];
+const SINE_AND_COSINE: Slots = [25, 22];
 /// The same where nothing is taken off the angle.
-const NEAR_ZERO: Slots = [20, 13];
+const NEAR_ZERO: Slots = [18, 11];
 /// The same of an angle that is at most 1.
-const WITHIN_ONE: Slots = [18, 12];
+const WITHIN_ONE: Slots = [16, 10];
 /// The same in half turns.
-const OF_HALF_TURNS: Slots = [21, 15];
+const OF_HALF_TURNS: Slots = [19, 13];
 /// The logarithm.
-const LN: Slots = [18, 14];
+const LN: Slots = [16, 12];
 
 /// The operations that were done with numbers of a point.
 #[derive(Debug, Default)]

@@ -8,6 +8,8 @@
 //! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
 //! value is computed again, number by number, with the careful functions of the scalar itself.
 
+use core::fmt::Debug;
+
 use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};
 use crate::{Lane, Real};
@@ -15,25 +17,21 @@ use crate::{Lane, Real};
 pub use crate::kept::{Kept, KeptColumns};
 pub use crate::places::{Copied, Sink, Source};
 
-/// How many points go through a kernel at a time. The blocks of all inputs and outputs stay in the
-/// first cache.
-pub const BLOCK: usize = 64;
-
 /// The values of `N` numbers at the points of a block, in whole lines of the cache: a vector that is in two takes
 /// twice as long.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Block<T, const N: usize>(pub(crate) [[T; BLOCK]; N]);
+pub struct Block<T: Float, const N: usize>(pub(crate) [T::Column; N]);
 
-impl<T: Copy, const N: usize> Block<T, N> {
+impl<T: Float, const N: usize> Block<T, N> {
     /// The same value everywhere.
     pub(crate) fn of(value: T) -> Self {
-        Self([[value; BLOCK]; N])
+        Self([T::column_of(value); N])
     }
 }
 
 /// The same, wherever they are.
-pub type Columns<'a, T, const N: usize> = [&'a [T; BLOCK]; N];
+pub type Columns<'a, T, const N: usize> = [&'a <T as Float>::Column; N];
 
 /// A scalar that stands for a number of type `T` in a loop over points.
 pub trait Stand<T>: Real {
@@ -51,10 +49,48 @@ pub trait Float: Real + Stand<Self> + PartialOrd + Send + Sync {
     type FusedMachine: Machine<Self> + From<machine::Fused>;
     /// Elsewhere.
     type PlainMachine: Machine<Self> + From<machine::Plain>;
+
+    /// How many points go through a kernel at a time. It is what eight registers of 512 bits hold: of fewer, the compiler
+    /// writes the loop over them out, and what waits is no longer beside what works; the copy of more is a call. The
+    /// blocks of all inputs and outputs stay in the first cache.
+    const BLOCK: usize;
+    /// So many numbers.
+    type Column: Copy + Debug;
+    /// The same number everywhere.
+    fn column_of(number: Self) -> Self::Column;
+    /// The first numbers of many, if there are as many.
+    fn first_of(numbers: &[Self]) -> Option<&Self::Column>;
+    /// The same, to write to.
+    fn first_of_mut(numbers: &mut [Self]) -> Option<&mut Self::Column>;
+    /// The numbers.
+    fn numbers(column: &Self::Column) -> &[Self];
+    /// The same, to write to.
+    fn numbers_mut(column: &mut Self::Column) -> &mut [Self];
+
+    /// A function at all points of a block.
+    fn on_block<S: Stand<Self>, const I: usize, const O: usize>(
+        function: &impl Function<S, I, O>,
+        inputs: &Columns<'_, Self, I>,
+        results: &mut Block<Self, O>,
+    );
+
+    /// Two functions in one loop: the second one at all points of a block, from what the first one `made` of them, and
+    /// the first one at those of the block that is `coming`. What it makes of a point takes the place of what was just
+    /// read.
+    fn side_by_side<S, const I: usize, const M: usize, const N: usize, const O: usize>(
+        functions: (&impl Function<S, I, M>, &impl Function<S, N, O>),
+        blocks: (&Columns<'_, Self, I>, &Columns<'_, Self, I>),
+        made: &mut Block<Self, M>,
+        results: &mut Block<Self, O>,
+        reads: [usize; N],
+    ) where
+        S: Stand<Self>;
 }
 
+// The loops are written for each type: it is plain then that a block is apart from the inputs. Of what a function or a
+// closure has had, the compiler does not know that any more, and would ask at every block.
 macro_rules! float {
-    ($float:ident, $wide:ident) => {
+    ($float:ident, $block:literal, $wide:ident) => {
         impl Stand<$float> for $float {
             #[inline(always)]
             fn standing_for(value: $float) -> Self {
@@ -81,36 +117,90 @@ macro_rules! float {
             type WideMachine = machine::$wide;
             type FusedMachine = machine::Fused;
             type PlainMachine = machine::Plain;
+
+            const BLOCK: usize = $block;
+            type Column = [$float; $block];
+            #[inline(always)]
+            fn column_of(number: $float) -> Self::Column {
+                [number; $block]
+            }
+            #[inline(always)]
+            fn first_of(numbers: &[$float]) -> Option<&Self::Column> {
+                numbers.first_chunk()
+            }
+            #[inline(always)]
+            fn first_of_mut(numbers: &mut [$float]) -> Option<&mut Self::Column> {
+                numbers.first_chunk_mut()
+            }
+            #[inline(always)]
+            fn numbers(column: &Self::Column) -> &[$float] {
+                column
+            }
+            #[inline(always)]
+            fn numbers_mut(column: &mut Self::Column) -> &mut [$float] {
+                column
+            }
+
+            #[inline(always)]
+            fn on_block<S: Stand<$float>, const I: usize, const O: usize>(
+                function: &impl Function<S, I, O>,
+                inputs: &Columns<'_, $float, I>,
+                results: &mut Block<$float, O>,
+            ) {
+                for place in 0..$block {
+                    let number = |k: usize| S::standing_for(inputs[k][place]);
+                    let found = function.at(core::array::from_fn(number));
+                    for k in 0..O {
+                        results.0[k][place] = found[k].value();
+                    }
+                }
+            }
+
+            #[inline(always)]
+            fn side_by_side<S, const I: usize, const M: usize, const N: usize, const O: usize>(
+                (first, second): (&impl Function<S, I, M>, &impl Function<S, N, O>),
+                (inputs, coming): (&Columns<'_, $float, I>, &Columns<'_, $float, I>),
+                made: &mut Block<$float, M>,
+                results: &mut Block<$float, O>,
+                reads: [usize; N],
+            ) where
+                S: Stand<$float>,
+            {
+                for place in 0..$block {
+                    let mut before = [S::from_f64(0.0); M];
+                    for k in 0..M {
+                        before[k] = S::standing_for(made.0[k][place]);
+                    }
+                    let found =
+                        second.at(core::array::from_fn(|k| match reads[k].checked_sub(I) {
+                            None => S::standing_for(inputs[reads[k]][place]),
+                            Some(k) => before[k],
+                        }));
+                    let number = |k: usize| S::standing_for(coming[k][place]);
+                    let next = first.at(core::array::from_fn(number));
+                    for k in 0..M {
+                        made.0[k][place] = next[k].value();
+                    }
+                    for k in 0..O {
+                        results.0[k][place] = found[k].value();
+                    }
+                }
+            }
         }
     };
 }
 
 // Eight single ones fill a register of 256 bits.
-float!(f32, Fused);
+float!(f32, 128, Fused);
 #[cfg(target_arch = "x86_64")]
-float!(f64, Wide);
+float!(f64, 64, Wide);
 #[cfg(not(target_arch = "x86_64"))]
-float!(f64, Fused);
+float!(f64, 64, Fused);
 
 /// A function of `I` numbers with `O` results.
 pub trait Function<S, const I: usize, const O: usize> {
     /// Its results. To be inlined always: a call in the loop over points would end all vectors.
     fn at(&self, point: [S; I]) -> [S; O];
-
-    /// Its results at all points of a block.
-    #[inline(always)]
-    fn on_block<T: Copy>(&self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>)
-    where
-        S: Stand<T>,
-    {
-        for place in 0..BLOCK {
-            let point = core::array::from_fn(|input| S::standing_for(inputs[input][place]));
-            let results = self.at(point);
-            for output in 0..O {
-                outputs.0[output][place] = results[output].value();
-            }
-        }
-    }
 }
 
 /// The same function in any stand-in of `T`.
@@ -125,61 +215,37 @@ pub trait Points<S, const I: usize, const O: usize> {
     fn each(&mut self, function: &impl Function<S, I, O>);
 
     /// Applies the second function to what there is of every point then: its own numbers and, after them, what the
-    /// first function makes of it. It takes those that it `reads`. Each has a loop of its own: the elements of a
-    /// short loop wait less for each other, so that more of them are under way at a time.
+    /// first function makes of it. It takes those that it `reads`.
     fn each_then<const M: usize, const N: usize>(
         &mut self,
         first: &impl Function<S, I, M>,
         second: &impl Function<S, N, O>,
         reads: [usize; N],
+        loops: Loops,
     );
 }
 
-/// What is done with a block.
-trait OnBlock<S, T, const I: usize, const O: usize> {
-    /// Its results.
-    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>);
+/// How two functions of which one needs the other share the work on many points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loops {
+    /// Each has a loop of its own over every block: the elements of a short loop wait less for each other, so that more
+    /// of them are under way at a time.
+    Apart,
+    /// The second one has a block while the first one has the next, in one loop: so divisions and roots of the first one,
+    /// one of which takes as long as many products, are done beside the products of the second one.
+    Together,
 }
 
-/// One function.
-struct One<'a, F>(&'a F);
-
-impl<S, T, F, const I: usize, const O: usize> OnBlock<S, T, I, O> for One<'_, F>
-where
-    S: Stand<T>,
-    T: Copy,
-    F: Function<S, I, O>,
-{
-    #[inline(always)]
-    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
-        self.0.on_block(inputs, outputs);
-    }
-}
-
-/// A function of a point and of another's results.
-struct Two<'a, F, G, T, const M: usize, const N: usize> {
-    first: &'a F,
-    second: &'a G,
+/// Of a block's numbers, and of what a first function made of them, those that the second one `reads`.
+#[inline(always)]
+fn taken<'a, T: Float, const I: usize, const M: usize, const N: usize>(
+    inputs: &Columns<'a, T, I>,
+    made: &'a Block<T, M>,
     reads: [usize; N],
-    /// A place for the first one's results, made once for all blocks.
-    between: Block<T, M>,
-}
-
-impl<S, T, F, G, const I: usize, const M: usize, const N: usize, const O: usize> OnBlock<S, T, I, O>
-    for Two<'_, F, G, T, M, N>
-where
-    S: Stand<T>,
-    T: Copy,
-    F: Function<S, I, M>,
-    G: Function<S, N, O>,
-{
-    #[inline(always)]
-    fn on_block(&mut self, inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>) {
-        self.first.on_block(inputs, &mut self.between);
-        let there = |k: usize| if k < I { inputs[k] } else { &self.between.0[k - I] };
-        let columns = core::array::from_fn(|k| there(self.reads[k]));
-        self.second.on_block(&columns, outputs);
-    }
+) -> Columns<'a, T, N> {
+    // `map` is not always inlined.
+    let there = |k: usize| if k < I { inputs[k] } else { &made.0[k - I] };
+    core::array::from_fn(|k| there(reads[k]))
 }
 
 /// Applies a kernel to every point of a source.
@@ -217,32 +283,28 @@ where
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) {
-        let Self { kernel, source, sink, count, .. } = self;
-        let zero = T::from_f64(0.0);
+        let Self { kernel, source, sink, count, scalar } = self;
         kernel.drive::<M::Lane>(&mut Blocks {
             machine,
             source,
             sink,
             count,
-            room: Block::of(zero),
-            outputs: Block::of(zero),
             careful: |inputs: &Columns<'_, T, I>, outputs: &mut Block<T, O>| {
                 kernel.drive::<T>(&mut Single { inputs, outputs });
             },
+            scalar,
         });
     }
 }
 
 /// All points, block by block.
-struct Blocks<'a, M, T, In, Out, Careful, const I: usize, const O: usize> {
+struct Blocks<'a, M, T: Float, In, Out, Careful, const I: usize, const O: usize> {
     machine: M,
     source: &'a In,
     sink: &'a mut Out,
     count: usize,
-    /// For inputs that do not stand in columns.
-    room: Block<T, I>,
-    outputs: Block<T, O>,
     careful: Careful,
+    scalar: core::marker::PhantomData<T>,
 }
 
 impl<M, T, In, Out, Careful, const I: usize, const O: usize>
@@ -250,21 +312,17 @@ impl<M, T, In, Out, Careful, const I: usize, const O: usize>
 where
     M: Machine<T>,
     T: Float,
-    In: Source<T, I>,
     Out: Sink<T, O>,
     Careful: Fn(&Columns<'_, T, I>, &mut Block<T, O>),
 {
+    /// Stores the results of the block that begins there; computes them again if the quick functions did not know, in a
+    /// place of their own: what others have been told of is not known to be apart from the inputs any more.
     #[inline(always)]
-    fn all<S>(&mut self, work: &mut impl OnBlock<S, T, I, O>) {
-        let mut start = 0;
-        while start < self.count {
-            let inputs = self.source.block(self.machine, start, &mut self.room);
-            work.on_block(&inputs, &mut self.outputs);
-            if !self.sink.store(self.machine, start, &self.outputs) {
-                (self.careful)(&inputs, &mut self.outputs);
-                self.sink.store(self.machine, start, &self.outputs);
-            }
-            start += BLOCK;
+    fn store(&mut self, start: usize, inputs: &Columns<'_, T, I>, results: &Block<T, O>) {
+        if !self.sink.store(self.machine, start, results) {
+            let mut again = Block::of(T::from_f64(0.0));
+            (self.careful)(inputs, &mut again);
+            self.sink.store(self.machine, start, &again);
         }
     }
 }
@@ -281,7 +339,16 @@ where
 {
     #[inline(always)]
     fn each(&mut self, function: &impl Function<S, I, O>) {
-        self.all(&mut One(function));
+        let zero = T::from_f64(0.0);
+        let (mut room, mut results) = (Block::of(zero), Block::of(zero));
+        let mut start = 0;
+        while start < self.count {
+            self.source.bring(self.machine, start, &mut room);
+            let inputs = self.source.columns(start, &room);
+            T::on_block(function, &inputs, &mut results);
+            self.store(start, &inputs, &results);
+            start += T::BLOCK;
+        }
     }
 
     #[inline(always)]
@@ -290,21 +357,45 @@ where
         first: &impl Function<S, I, B>,
         second: &impl Function<S, N, O>,
         reads: [usize; N],
+        loops: Loops,
     ) {
-        let between = Block::<T, B>::of(T::from_f64(0.0));
-        self.all(&mut Two { first, second, reads, between });
+        let zero = T::from_f64(0.0);
+        let (mut made, mut results) = (Block::<T, B>::of(zero), Block::of(zero));
+        let mut is_made = false;
+        let mut rooms = [Block::of(zero); 2];
+        let [mut now, mut soon] = rooms.each_mut();
+        let mut start = 0;
+        while start < self.count {
+            if !is_made {
+                self.source.bring(self.machine, start, now);
+                T::on_block(first, &self.source.columns(start, now), &mut made);
+            }
+            let inputs = self.source.columns(start, now);
+            let next = start + T::BLOCK;
+            is_made = loops == Loops::Together && next < self.count;
+            if is_made {
+                self.source.bring(self.machine, next, soon);
+                let both = (&inputs, &self.source.columns(next, soon));
+                T::side_by_side((first, second), both, &mut made, &mut results, reads);
+            } else {
+                T::on_block(second, &taken(&inputs, &made, reads), &mut results);
+            }
+            self.store(start, &inputs, &results);
+            core::mem::swap(&mut now, &mut soon);
+            start = next;
+        }
     }
 }
 
 /// One block, number by number.
-struct Single<'a, T, const I: usize, const O: usize> {
+struct Single<'a, T: Float, const I: usize, const O: usize> {
     inputs: &'a Columns<'a, T, I>,
     outputs: &'a mut Block<T, O>,
 }
 
 impl<T: Float, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T, I, O> {
     fn each(&mut self, function: &impl Function<T, I, O>) {
-        function.on_block(self.inputs, self.outputs);
+        T::on_block(function, self.inputs, self.outputs);
     }
 
     fn each_then<const M: usize, const N: usize>(
@@ -312,9 +403,11 @@ impl<T: Float, const I: usize, const O: usize> Points<T, I, O> for Single<'_, T,
         first: &impl Function<T, I, M>,
         second: &impl Function<T, N, O>,
         reads: [usize; N],
+        _: Loops,
     ) {
-        let between = Block::<T, M>::of(T::from_f64(0.0));
-        Two { first, second, reads, between }.on_block(self.inputs, self.outputs);
+        let mut made = Block::<T, M>::of(T::from_f64(0.0));
+        T::on_block(first, self.inputs, &mut made);
+        T::on_block(second, &taken(self.inputs, &made, reads), self.outputs);
     }
 }
 
@@ -323,7 +416,7 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::run;
+    use super::{Float as _, Function, Kernel, Loops, Points, Stand, run};
     use crate::bunched::tests::Both;
 
     #[test]
@@ -341,6 +434,63 @@ mod tests {
             for (k, x) in x.iter().enumerate() {
                 let found = [products[k], sums[k]].map(f64::to_bits);
                 assert_eq!(found, [x * 0.5, x + 1.0].map(f64::to_bits), "{x} of {count}");
+            }
+        }
+    }
+
+    /// The distance r from a centre, and then ln(x)/r and x r.
+    struct Ring(Loops);
+    struct Radius;
+    struct OfRadius;
+
+    impl<S: crate::Real> Function<S, 2, 1> for Radius {
+        #[inline(always)]
+        fn at(&self, [x, y]: [S; 2]) -> [S; 1] {
+            [(x * x + y * y).sqrt()]
+        }
+    }
+
+    impl<S: crate::Real> Function<S, 2, 2> for OfRadius {
+        #[inline(always)]
+        fn at(&self, [x, r]: [S; 2]) -> [S; 2] {
+            [x.ln() / r, x * r]
+        }
+    }
+
+    impl Kernel<f64, 2, 2> for Ring {
+        #[inline(always)]
+        fn drive<S: Stand<f64>>(&self, points: &mut impl Points<S, 2, 2>) {
+            points.each_then::<1, 2>(&Radius, &OfRadius, [0, 2], self.0);
+        }
+    }
+
+    #[test]
+    fn loops_together_give_what_loops_apart_do() {
+        const BLOCK: usize = f64::BLOCK;
+        for count in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 2 * BLOCK, 3 * BLOCK + 5] {
+            let column = |from: f64| -> Vec<f64> {
+                (0..count).map(|k| 2.0 + (from + 0.7 * k as f64).sin()).collect()
+            };
+            let [mut x, y] = [0.3, 0.4].map(column);
+            // Of a subnormal number the quick logarithm does not know: its block is computed again, and no other one.
+            x.iter_mut().skip(BLOCK).step_by(2 * BLOCK).for_each(|x| *x = 1e-310);
+            let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect();
+            let results = [Loops::Apart, Loops::Together].map(|loops| {
+                let mut columns = [vec![0.0; count], vec![0.0; count]];
+                let slices = &mut columns.each_mut().map(|column| &mut column[..]);
+                run(&Ring(loops), &[&x[..], &y], slices);
+                let mut rows = vec![[0.0; 2]; count];
+                run(&Ring(loops), &&points[..], &mut &mut rows[..]);
+                (columns, rows)
+            });
+            assert_eq!(results[0], results[1], "{count}");
+            for (k, [x, y]) in points.iter().enumerate() {
+                let r = x.hypot(*y);
+                for (found, expected) in [(0, x.ln() / r), (1, x * r)] {
+                    let found = [results[1].0[found][k], results[1].1[k][found]];
+                    let error = (found[0] - expected).abs() / expected.abs();
+                    assert!(found[0] == found[1] && error < 1e-15, "{k} of {count}: {error}");
+                }
             }
         }
     }

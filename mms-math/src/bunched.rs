@@ -1,6 +1,6 @@
 //! Points in bunches of eight, whose numbers are kept number by number.
 
-use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source};
+use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;
 use crate::places::are_numbers;
 
@@ -15,24 +15,23 @@ pub trait Numbers<T, const N: usize> {
 /// Some bunches, as a place to read points from or to write them to.
 pub struct Bunched<B, const N: usize>(pub B);
 
-impl<T: Copy, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {
+impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Bunched<&[B], N> {
     fn count(&self) -> usize {
         self.points()
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        machine: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
+    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
         self.copy(machine, start, &mut room.0);
+    }
+
+    #[inline(always)]
+    fn columns<'a>(&'a self, _: usize, room: &'a Block<T, N>) -> Columns<'a, T, N> {
         room.0.each_ref()
     }
 }
 
-impl<T: Copy, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> {
+impl<T: Float, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> {
     const NUMBERS: usize = N;
 
     fn points(&self) -> usize {
@@ -40,16 +39,16 @@ impl<T: Copy, B: Numbers<T, N>, const N: usize> Copied<T> for Bunched<&[B], N> {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
         let bunches = &self.0[start / 8..];
-        let bunches = &bunches[..bunches.len().min(BLOCK / 8)];
-        for (bunch, place) in bunches.iter().zip((0..BLOCK).step_by(8)) {
+        let bunches = &bunches[..bunches.len().min(T::BLOCK / 8)];
+        for (bunch, place) in bunches.iter().zip((0..T::BLOCK).step_by(8)) {
             for (lane, numbers) in lanes.iter_mut().zip(bunch.numbers()) {
-                lane[place..place + 8].copy_from_slice(numbers);
+                T::numbers_mut(lane)[place..place + 8].copy_from_slice(numbers);
             }
         }
         for (lane, numbers) in lanes.iter_mut().zip(bunches[0].numbers()) {
-            lane[8 * bunches.len()..].fill(numbers[0]);
+            T::numbers_mut(lane)[8 * bunches.len()..].fill(numbers[0]);
         }
     }
 }
@@ -61,9 +60,9 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Sink<T, N> for Bunched<&mut [B]
 
     #[inline(always)]
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        for (bunch, place) in self.0[start / 8..].iter_mut().zip((0..BLOCK).step_by(8)) {
+        for (bunch, place) in self.0[start / 8..].iter_mut().zip((0..T::BLOCK).step_by(8)) {
             for (to, lane) in bunch.numbers_mut().into_iter().zip(&block.0) {
-                to.copy_from_slice(&lane[place..place + 8]);
+                to.copy_from_slice(&T::numbers(lane)[place..place + 8]);
             }
         }
         are_numbers(machine, block)

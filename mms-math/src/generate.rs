@@ -33,12 +33,15 @@ macro_rules! kernel {
     };
 }
 
-/// A kernel that is one after another, with as many numbers in between. The second one takes, of the inputs and then
-/// of these numbers, those with the indices that are given.
+/// A kernel that is one after another, with as many numbers in between, in loops of their own or in one together. The
+/// second one takes, of the inputs and then of these numbers, those with the indices that are given.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! kernels {
-    ($name:ident = $first:ident, $second:ident $reads:tt; $inputs:tt -> $between:tt -> $results:tt) => {
+    (
+        $name:ident = $first:ident, $second:ident $reads:tt, $loops:ident;
+        $inputs:tt -> $between:tt -> $results:tt
+    ) => {
         struct $name<'a, T: $crate::Real>(&'a AtTime<'a, T>);
 
         impl<T: $crate::batch::Float> $crate::batch::Kernel<T, $inputs, $results> for $name<'_, T> {
@@ -49,7 +52,8 @@ macro_rules! kernels {
             ) {
                 let field = self.0.field.standing::<S>();
                 let at = self.0.standing(&field);
-                points.each_then::<$between, _>(&$first(&at), &$second(&at), $reads);
+                let loops = $crate::batch::Loops::$loops;
+                points.each_then::<$between, _>(&$first(&at), &$second(&at), $reads, loops);
             }
         }
     };

@@ -3,13 +3,13 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::batch::{BLOCK, Block, Columns, Copied, Float, Sink, Source};
+use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;
 use crate::places::are_numbers;
 
 /// `N` numbers of each of many points.
 #[derive(Clone, Debug)]
-pub struct Kept<T, const N: usize> {
+pub struct Kept<T: Float, const N: usize> {
     /// Column after column. The block with the last points of one goes on with copies of its first point.
     blocks: Vec<Block<T, 1>>,
     /// How many points there are.
@@ -18,11 +18,11 @@ pub struct Kept<T, const N: usize> {
 
 /// From which block of a column the next column is. It is odd: columns that begin at the same place of their pages would
 /// compete for the same lines of the first cache.
-fn stride(count: usize) -> usize {
-    count.div_ceil(BLOCK) | 1
+fn stride<T: Float>(count: usize) -> usize {
+    count.div_ceil(T::BLOCK) | 1
 }
 
-impl<T, const N: usize> Kept<T, N> {
+impl<T: Float, const N: usize> Kept<T, N> {
     /// How many points there are.
     pub fn len(&self) -> usize {
         self.count
@@ -35,7 +35,7 @@ impl<T, const N: usize> Kept<T, N> {
 
     /// The numbers with these indices, as a source of points.
     pub fn columns<const K: usize>(&self, indices: [usize; K]) -> KeptColumns<'_, T, K> {
-        let stride = stride(self.count);
+        let stride = stride::<T>(self.count);
         KeptColumns {
             columns: indices.map(|index| &self.blocks[index * stride..][..stride]),
             count: self.count,
@@ -46,7 +46,7 @@ impl<T, const N: usize> Kept<T, N> {
 impl<T: Float, const N: usize> Kept<T, N> {
     /// Room for so many points.
     pub fn room_for(count: usize) -> Self {
-        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride(count)], count }
+        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
     }
 }
 
@@ -57,9 +57,9 @@ impl<T: Float, const N: usize> Sink<T, N> for Kept<T, N> {
 
     #[inline(always)]
     fn store<M: Machine<T>>(&mut self, machine: M, start: usize, block: &Block<T, N>) -> bool {
-        let columns = self.blocks.chunks_exact_mut(stride(self.count));
+        let columns = self.blocks.chunks_exact_mut(stride::<T>(self.count));
         for (column, lane) in columns.zip(&block.0) {
-            column[start / BLOCK] = Block([*lane]);
+            column[start / T::BLOCK] = Block([*lane]);
         }
         are_numbers(machine, block)
     }
@@ -67,28 +67,26 @@ impl<T: Float, const N: usize> Sink<T, N> for Kept<T, N> {
 
 /// Some of the numbers that are kept.
 #[derive(Clone, Copy, Debug)]
-pub struct KeptColumns<'a, T, const K: usize> {
+pub struct KeptColumns<'a, T: Float, const K: usize> {
     columns: [&'a [Block<T, 1>]; K],
     count: usize,
 }
 
-impl<T: Copy, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
+impl<T: Float, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
     fn count(&self) -> usize {
         self.count
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        _: M,
-        start: usize,
-        _: &'a mut Block<T, K>,
-    ) -> Columns<'a, T, K> {
-        core::array::from_fn(|k| &self.columns[k][start / BLOCK].0[0])
+    fn bring<M: Machine<T>>(&self, _: M, _: usize, _: &mut Block<T, K>) {}
+
+    #[inline(always)]
+    fn columns<'a>(&'a self, start: usize, _: &'a Block<T, K>) -> Columns<'a, T, K> {
+        core::array::from_fn(|k| &self.columns[k][start / T::BLOCK].0[0])
     }
 }
 
-impl<T: Copy, const K: usize> Copied<T> for KeptColumns<'_, T, K> {
+impl<T: Float, const K: usize> Copied<T> for KeptColumns<'_, T, K> {
     const NUMBERS: usize = K;
 
     fn points(&self) -> usize {
@@ -96,9 +94,9 @@ impl<T: Copy, const K: usize> Copied<T> for KeptColumns<'_, T, K> {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
         for (column, lane) in self.columns.iter().zip(lanes) {
-            *lane = column[start / BLOCK].0[0];
+            *lane = column[start / T::BLOCK].0[0];
         }
     }
 }
@@ -108,12 +106,13 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::{BLOCK, Kept};
-    use crate::batch::run;
+    use super::Kept;
+    use crate::batch::{Float as _, run};
     use crate::bunched::tests::Both;
 
     #[test]
     fn what_is_kept_is_read_as_slices_are() {
+        const BLOCK: usize = f64::BLOCK;
         for count in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 5] {
             let column = |from: f64| (0..count).map(|k| (from + 0.7 * k as f64).sin()).collect();
             let [x, y]: [Vec<f64>; 2] = [0.3, 0.4].map(column);

@@ -1,25 +1,22 @@
 //! Where points come from, and where results go: in columns, beside each other, or in any other way that can be copied.
 
-use crate::batch::{BLOCK, Block, Columns, Float};
+use crate::batch::{Block, Columns, Float};
 use crate::machine::Machine;
 use crate::structures::{put_columns, take_columns};
 
 /// `N` numbers at each of some points, wherever they are stored.
-pub trait Source<T, const N: usize> {
+pub trait Source<T: Float, const N: usize> {
     /// How many points there are.
     fn count(&self) -> usize;
-    /// The points from `start` on, in a `room` for them where they do not stand in columns. Where there are not as
+    /// Brings the points from `start` on to a `room` for them, where they do not stand in columns. Where there are not as
     /// many as a block has, the first one stands in for the others: it might be that nothing is defined elsewhere.
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        machine: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N>;
+    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>);
+    /// The points from `start` on: where they stand, or in the `room` that they were brought to.
+    fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N>;
 }
 
 /// A place for `N` numbers at each of some points.
-pub trait Sink<T, const N: usize> {
+pub trait Sink<T: Float, const N: usize> {
     /// How many points there is room for.
     fn room(&self) -> usize;
     /// Writes the points from `start` on, as many as there is room for. Whether all that is written are numbers, which is
@@ -28,47 +25,36 @@ pub trait Sink<T, const N: usize> {
 }
 
 /// Structure of arrays: one slice for each number.
-impl<T: Copy, const N: usize> Source<T, N> for [&[T]; N] {
+impl<T: Float, const N: usize> Source<T, N> for [&[T]; N] {
     fn count(&self) -> usize {
         one_length(self.iter().map(|column| column.len()))
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        _: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
-        let mut lanes = room.0.iter_mut();
-        core::array::from_fn(|k| {
-            column_block(self[k], start, lanes.next().expect("there is one for each number"))
-        })
+    fn bring<M: Machine<T>>(&self, _: M, start: usize, room: &mut Block<T, N>) {
+        for (column, lane) in self.iter().zip(&mut room.0) {
+            if column[start..].len() < T::BLOCK {
+                fill(lane, &column[start..]);
+            }
+        }
     }
-}
 
-/// The numbers of a column from `start` on, in a `lane` of their own where there are not as many as a block has.
-#[inline(always)]
-fn column_block<'a, T: Copy>(
-    column: &'a [T],
-    start: usize,
-    lane: &'a mut [T; BLOCK],
-) -> &'a [T; BLOCK] {
-    column[start..].first_chunk().unwrap_or_else(|| {
-        fill(lane, &column[start..]);
-        lane
-    })
+    #[inline(always)]
+    fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N> {
+        core::array::from_fn(|k| T::first_of(&self[k][start..]).unwrap_or(&room.0[k]))
+    }
 }
 
 /// Copies numbers, as many as fit and are there, to a lane; the first one where there are no more.
 #[inline(always)]
-pub(crate) fn fill<T: Copy>(lane: &mut [T; BLOCK], numbers: &[T]) {
-    let count = numbers.len().min(BLOCK);
+pub(crate) fn fill<T: Float>(lane: &mut T::Column, numbers: &[T]) {
+    let count = numbers.len().min(T::BLOCK);
+    let lane = T::numbers_mut(lane);
     lane[..count].copy_from_slice(&numbers[..count]);
     lane[count..].fill(numbers[0]);
 }
 
-impl<T: Copy, const N: usize> Copied<T> for [&[T]; N] {
+impl<T: Float, const N: usize> Copied<T> for [&[T]; N] {
     const NUMBERS: usize = N;
 
     fn points(&self) -> usize {
@@ -76,7 +62,7 @@ impl<T: Copy, const N: usize> Copied<T> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+    fn copy<M: Machine<T>>(&self, _: M, start: usize, lanes: &mut [T::Column]) {
         for (column, lane) in self.iter().zip(lanes) {
             fill(lane, &column[start..]);
         }
@@ -84,35 +70,34 @@ impl<T: Copy, const N: usize> Copied<T> for [&[T]; N] {
 }
 
 /// Array of structures: the numbers of a point beside each other.
-impl<T: Copy, const N: usize> Source<T, N> for &[[T; N]] {
+impl<T: Float, const N: usize> Source<T, N> for &[[T; N]] {
     fn count(&self) -> usize {
         self.len()
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        machine: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
+    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
         turn(machine, &self[start..], &mut room.0);
+    }
+
+    #[inline(always)]
+    fn columns<'a>(&'a self, _: usize, room: &'a Block<T, N>) -> Columns<'a, T, N> {
         room.0.each_ref()
     }
 }
 
 /// Points that do not stand in columns, and are copied to lanes.
-pub trait Copied<T> {
+pub trait Copied<T: Float> {
     /// How many numbers a point has.
     const NUMBERS: usize;
     /// How many points there are.
     fn points(&self) -> usize;
     /// Copies the points from `start` on, as many as fit and are there, to lanes: one for each of their numbers; the first
     /// one where there are no more.
-    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [[T; BLOCK]]);
+    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [T::Column]);
 }
 
-impl<T: Copy, const N: usize> Copied<T> for &[[T; N]] {
+impl<T: Float, const N: usize> Copied<T> for &[[T; N]] {
     const NUMBERS: usize = N;
 
     fn points(&self) -> usize {
@@ -120,28 +105,27 @@ impl<T: Copy, const N: usize> Copied<T> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [[T; BLOCK]]) {
+    fn copy<M: Machine<T>>(&self, machine: M, start: usize, lanes: &mut [T::Column]) {
         turn(machine, &self[start..], lanes);
     }
 }
 
 /// The numbers of some points, and then others of the same points: positions, and what comes with them.
-impl<T, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, B) {
+impl<T: Float, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, B) {
     fn count(&self) -> usize {
         one_length([self.0.points(), self.1.points()].into_iter())
     }
 
     #[inline(always)]
-    fn block<'a, M: Machine<T>>(
-        &'a self,
-        machine: M,
-        start: usize,
-        room: &'a mut Block<T, N>,
-    ) -> Columns<'a, T, N> {
+    fn bring<M: Machine<T>>(&self, machine: M, start: usize, room: &mut Block<T, N>) {
         const { assert!(A::NUMBERS + B::NUMBERS == N) };
         let (first, second) = room.0.split_at_mut(A::NUMBERS);
         self.0.copy(machine, start, first);
         self.1.copy(machine, start, second);
+    }
+
+    #[inline(always)]
+    fn columns<'a>(&'a self, _: usize, room: &'a Block<T, N>) -> Columns<'a, T, N> {
         room.0.each_ref()
     }
 }
@@ -156,14 +140,16 @@ impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
         let mut sum = machine.splat(T::from_f64(0.0));
         for (column, lane) in self.iter_mut().zip(&block.0) {
             let to = &mut column[start..];
-            let Some(to) = to.first_chunk_mut::<BLOCK>() else {
-                to.copy_from_slice(&lane[..to.len()]);
+            if to.len() < T::BLOCK {
+                to.copy_from_slice(&T::numbers(lane)[..to.len()]);
                 sum = machine.plus(sum, sum_of(machine, lane));
                 continue;
-            };
+            }
+            let to = T::first_of_mut(to).expect("there are as many");
             let mut own = machine.splat(T::from_f64(0.0));
             // After a call that copies, all constants of the kernel would have to be loaded again.
-            for (to, eight) in to.as_chunks_mut().0.iter_mut().zip(lane.as_chunks().0) {
+            let to = T::numbers_mut(to).as_chunks_mut().0;
+            for (to, eight) in to.iter_mut().zip(T::numbers(lane).as_chunks().0) {
                 let eight = machine.eight(eight);
                 *to = machine.numbers(eight);
                 own = machine.plus(own, eight);
@@ -202,9 +188,9 @@ pub(crate) fn are_numbers<T: Float, M: Machine<T>, const N: usize>(
 
 /// The sums of every eighth value of a lane. Lanes are summed apart, for a sum waits for the one before.
 #[inline(always)]
-fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &[T; BLOCK]) -> M::Eight {
+fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &T::Column) -> M::Eight {
     let mut sum = machine.splat(T::from_f64(0.0));
-    for eight in lane.as_chunks().0 {
+    for eight in T::numbers(lane).as_chunks().0 {
         sum = machine.plus(sum, machine.eight(eight));
     }
     sum
@@ -213,51 +199,52 @@ fn sum_of<T: Float, M: Machine<T>>(machine: M, lane: &[T; BLOCK]) -> M::Eight {
 /// Copies points, as many as fit and are there, to lanes: one for each of their numbers; the first one where there
 /// are no more.
 #[inline(always)]
-fn turn<T: Copy, M: Machine<T>, const N: usize>(
+fn turn<T: Float, M: Machine<T>, const N: usize>(
     machine: M,
     points: &[[T; N]],
-    lanes: &mut [[T; BLOCK]],
+    lanes: &mut [T::Column],
 ) {
-    let points = &points[..points.len().min(BLOCK)];
+    let points = &points[..points.len().min(T::BLOCK)];
     let (eights, others) = points.as_chunks::<8>();
     for (eight, points) in eights.iter().enumerate() {
         let mut columns = [machine.splat(points[0][0]); N];
         take_columns(machine, points.as_flattened(), &mut columns);
         for number in 0..N {
-            let place = &mut lanes[number][8 * eight..8 * eight + 8];
+            let lane = T::numbers_mut(&mut lanes[number]);
+            let place = &mut lane[8 * eight..8 * eight + 8];
             place.copy_from_slice(&machine.numbers(columns[number]));
         }
     }
     for (point, place) in others.iter().zip(8 * eights.len()..) {
         for number in 0..N {
-            lanes[number][place] = point[number];
+            T::numbers_mut(&mut lanes[number])[place] = point[number];
         }
     }
     for number in 0..N {
-        lanes[number][points.len()..].fill(points[0][number]);
+        T::numbers_mut(&mut lanes[number])[points.len()..].fill(points[0][number]);
     }
 }
 
 /// Copies lanes back to points.
 #[inline(always)]
-fn turn_back<T: Copy, M: Machine<T>, const N: usize>(
+fn turn_back<T: Float, M: Machine<T>, const N: usize>(
     machine: M,
-    lanes: &[[T; BLOCK]; N],
+    lanes: &[T::Column; N],
     points: &mut [[T; N]],
 ) {
-    let count = points.len().min(BLOCK);
+    let count = points.len().min(T::BLOCK);
     let (eights, others) = points[..count].as_chunks_mut::<8>();
     for (eight, points) in eights.iter_mut().enumerate() {
-        let mut columns = [machine.splat(lanes[0][0]); N];
+        let mut columns = [machine.splat(T::numbers(&lanes[0])[0]); N];
         for number in 0..N {
-            let place = lanes[number][8 * eight..].first_chunk();
+            let place = T::numbers(&lanes[number])[8 * eight..].first_chunk();
             columns[number] = machine.eight(place.expect("there are eight more"));
         }
         put_columns(machine, &columns, points.as_flattened_mut());
     }
     for (point, place) in others.iter_mut().zip(8 * eights.len()..) {
         for number in 0..N {
-            point[number] = lanes[number][place];
+            point[number] = T::numbers(&lanes[number])[place];
         }
     }
 }

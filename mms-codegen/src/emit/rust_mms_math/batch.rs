@@ -8,7 +8,7 @@ use quote::{ToTokens as _, format_ident, quote};
 use super::cut::Cut;
 use super::quantity::at;
 use super::{Emitter, MATH, Place, RUNTIME, input};
-use crate::expr::Symbol;
+use crate::expr::{Function, Symbol};
 use crate::program::{Op, Output, Stage, Value};
 use crate::quantity::{Quantity, Shape};
 
@@ -107,11 +107,11 @@ impl Emitter<'_> {
             /// It pays where computing those values costs more than reading them from
             /// memory: for sines, exponentials and roots, not for a product or two.
             #[derive(Clone, Debug)]
-            pub struct Points<T> {
+            pub struct Points<T: batch::Float> {
                 kept: batch::Kept<T, #count>,
             }
 
-            impl<T> Points<T> {
+            impl<T: batch::Float> Points<T> {
                 /// The size of one point in bytes.
                 pub const BYTES: usize = #count * ::core::mem::size_of::<T>();
 
@@ -259,6 +259,19 @@ impl Emitter<'_> {
         })
     }
 
+    /// How those loops go about it: together, if the first one has divisions or roots and, beside them, only sums and
+    /// products. Functions have coefficients, more than there are registers for beside those of the second loop.
+    pub(super) fn loops_of(&self, quantity: Quantity) -> Ident {
+        let roots = self.values(Output::Quantity(quantity));
+        let needed = self.program.needed_for(roots.iter().copied());
+        let has = |kind: fn(&Op) -> bool| {
+            let mut found = self.program.range(Stage::Point).filter(|index| needed[*index]);
+            found.any(|index| kind(&self.program.instrs[index].op))
+        };
+        let name = if has(divides) && !has(is_function) { "Together" } else { "Apart" };
+        Ident::new(name, Span::call_site())
+    }
+
     /// The components of a result beside each other.
     fn flat(&self, quantity: Quantity, result: TokenStream) -> TokenStream {
         match quantity.shape() {
@@ -326,6 +339,16 @@ fn weight(op: &Op) -> usize {
         Op::Divide(..) => 10,
         Op::Unary(..) | Op::Binary(..) => 20,
     }
+}
+
+/// Whether an operation keeps the part of a processor busy that divides.
+fn divides(op: &Op) -> bool {
+    matches!(op, Op::Divide(..) | Op::Unary(Function::Sqrt, _))
+}
+
+/// Whether an operation is a function that is made of sums and products.
+fn is_function(op: &Op) -> bool {
+    matches!(op, Op::Unary(..) | Op::Binary(..)) && !divides(op)
 }
 
 /// The names of the components of a normal.

@@ -49,6 +49,7 @@ impl Emitter<'_> {
         let results = count(quantity.shape().components(dimension));
         let (point, position, normal) = (self.point(), self.position(), normal(normals));
         let second = self.over_columns(quantity, &then, columns, &cut);
+        let loops = self.loops_of(quantity);
         quote! {
             impl<T: Real> Field<T> {
                 #[inline(always)]
@@ -58,7 +59,9 @@ impl Emitter<'_> {
                 at.field.#found([#(#position),*])
             } }
             #second
-            #math::kernels! { #whole = #first, #then [#(#reads),*]; #inputs -> #between -> #results }
+            #math::kernels! {
+                #whole = #first, #then [#(#reads),*], #loops; #inputs -> #between -> #results
+            }
         }
     }
 
