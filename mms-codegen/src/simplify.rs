@@ -14,11 +14,13 @@ use crate::mechanics::rigid::RigidMotion;
 use crate::mechanics::{Derivation, Model, derive};
 use crate::pass::absorb::absorb;
 use crate::pass::factor::factor;
+use crate::pass::gather::gather;
 use crate::pass::nest::nest;
 use crate::pass::reduce::reduce;
 use crate::pass::relations::{Relations, lateness};
 use crate::pass::separate::separate;
-use crate::program::schedule::{Cost, cost};
+use crate::pass::shift::shift;
+use crate::program::schedule::{Cost, cost, cost_as_emitted};
 use crate::quantity::Quantity;
 use crate::selection::Form;
 
@@ -73,6 +75,7 @@ pub fn simplify(
     for quantity in FORCES.into_iter().filter(|quantity| wanted(*quantity)) {
         let Some(components) = quantities.get_mut(&quantity) else { continue };
         *components = parted(graph, std::mem::take(components), amplitude.as_ref());
+        *components = fused(graph, std::mem::take(components), amplitude.as_ref());
     }
     Derivation {
         quantities,
@@ -258,6 +261,25 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude
     };
     match graph.attempt(|graph| separate(graph, &components)) {
         Some(parted) if parted != components && is_better(graph, &parted) => parted,
+        _ => components,
+    }
+}
+
+/// Components with one number in place of two that differ by a constant, and constants added up, where products that are
+/// added cost nothing and it is worth it and keeps as many digits.
+fn fused(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>) -> Vec<Expr> {
+    let shifted = graph.attempt(|graph| shift(graph, &components));
+    let shifted = shifted.filter(|shifted| *shifted != components);
+    let mut ways = shifted.map_or_else(Vec::new, |shifted| kept_apart(graph, shifted));
+    ways.push(components.clone());
+    for way in ways.clone() {
+        ways.extend(graph.attempt(|graph| gather(graph, &way)));
+    }
+    ways.retain(|way| *way != components && amplitude.is_none_or(|it| it.keeps(graph, way)));
+    let costs = |way: Vec<Expr>| (cost_as_emitted(graph, &way), way);
+    let best = ways.into_iter().map(costs).min_by_key(|(cost, _)| (cost.fused, *cost));
+    match best {
+        Some((cost, way)) if cost_as_emitted(graph, &components).is_worth_fusing(cost) => way,
         _ => components,
     }
 }

@@ -3,9 +3,9 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::fusion::{Fused, Fusion};
 use super::{Emitter, Place, constant, input, pi};
 use crate::expr::Symbol;
+use crate::program::fusion::{Fused, Fusion};
 use crate::program::{Op, Output, Value};
 
 impl Emitter<'_> {
@@ -31,8 +31,8 @@ impl Emitter<'_> {
             emitter: self,
             place,
             fusion: match once {
-                true => Fusion::none(self.program),
-                false => Fusion::new(self.program, &roots, &needed, place.own),
+                true => Fusion::none(&self.program.instrs),
+                false => Fusion::new(&self.program.instrs, &roots, &needed, place.own),
             },
         };
         let written =
@@ -42,7 +42,7 @@ impl Emitter<'_> {
 
     /// These values, and nothing else.
     pub(super) fn one_by_one(&self, values: &[Value], place: &Place) -> TokenStream {
-        let body = Body { emitter: self, place, fusion: Fusion::none(self.program) };
+        let body = Body { emitter: self, place, fusion: Fusion::none(&self.program.instrs) };
         values.iter().map(|value| body.statement(*value)).collect()
     }
 }

@@ -6,7 +6,6 @@ mod body;
 mod cut;
 mod face;
 mod file;
-mod fusion;
 mod kernel;
 mod point;
 mod quantity;

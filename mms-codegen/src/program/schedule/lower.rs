@@ -87,21 +87,26 @@ impl Builder {
         }
     }
 
-    /// Terms of one stage are added up first, then the stages, earliest first.
+    /// Terms of one stage are added up first, then the stages, earliest first: what cancels at each time does so before
+    /// anything else is rounded. But those that X determines are added to what parameters do one by one, so that no
+    /// product of them takes a step of its own.
     fn sum(&mut self, mut terms: Vec<(Value, Rational)>) -> Value {
         let content = common_magnitude(&terms);
         if let Some(content) = &content {
             terms.iter_mut().for_each(|(_, coefficient)| *coefficient /= content);
         }
-        let mut groups = BTreeMap::<Stage, Signed>::new();
+        let mut groups = BTreeMap::<Stage, Vec<(bool, Value)>>::new();
         for (term, coefficient) in terms {
-            let negative = is_negative(&coefficient);
             let value = self.scaled(magnitude(&coefficient), term);
-            groups.entry(self.stage(value)).or_default().add(self, negative, value);
+            groups.entry(self.stage(value)).or_default().push((is_negative(&coefficient), value));
         }
         let mut total = Signed::default();
-        for group in groups.into_values() {
-            if let Some((negative, value)) = group.0 {
+        for (stage, group) in groups {
+            let before = match (total.stage(self), stage) {
+                (Some(Stage::Parameter), Stage::Point) => Signed::default(),
+                _ => std::mem::take(&mut total),
+            };
+            for (negative, value) in group.into_iter().chain(before.0) {
                 total.add(self, negative, value);
             }
         }
@@ -135,14 +140,26 @@ impl Builder {
             };
             groups.insert(stage, product);
         }
-        let [numerator, denominator] = [above, below].map(|groups| {
-            groups.into_values().reduce(|product, group| self.push(Op::Multiply(product, group)))
-        });
-        let numerator = numerator.unwrap_or_else(|| self.constant(1));
-        match denominator {
-            Some(denominator) => self.push(Op::Divide(numerator, denominator)),
-            None => numerator,
+        let Some(denominator) = self.multiplied(&below) else {
+            return self.multiplied(&above).unwrap_or_else(|| self.constant(1));
+        };
+        // What X determines is divided first: a product with what parameters do can then be added in one step.
+        let early = match above.len() > 1 && self.stage(denominator) != Stage::Parameter {
+            true => above.remove(&Stage::Parameter),
+            false => None,
+        };
+        let numerator = self.multiplied(&above).unwrap_or_else(|| self.constant(1));
+        let quotient = self.push(Op::Divide(numerator, denominator));
+        match early {
+            Some(early) => self.push(Op::Multiply(early, quotient)),
+            None => quotient,
         }
+    }
+
+    /// The product of one value for each stage, earliest first; nothing of none.
+    fn multiplied(&mut self, groups: &BTreeMap<Stage, Value>) -> Option<Value> {
+        let values = groups.values().copied();
+        values.reduce(|product, value| self.push(Op::Multiply(product, value)))
     }
 
     fn integer_power(&mut self, base: Value, exponent: u32) -> Value {
@@ -165,6 +182,10 @@ impl Builder {
 struct Signed(Option<(bool, Value)>);
 
 impl Signed {
+    fn stage(&self, builder: &Builder) -> Option<Stage> {
+        self.0.map(|(_, value)| builder.stage(value))
+    }
+
     fn add(&mut self, builder: &mut Builder, negative: bool, value: Value) {
         self.0 = Some(match self.0 {
             None => (negative, value),

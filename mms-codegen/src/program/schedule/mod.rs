@@ -15,6 +15,7 @@ use flat::{Flat, Grouping, Item, Scaling};
 use lower::Builder;
 use share::Scope;
 
+use super::fusion::Fusion;
 use super::{Instr, Output, Program, Stage, Value};
 use crate::expr::{Expr, Graph};
 
@@ -28,6 +29,10 @@ pub struct Cost {
     pub total: usize,
     /// Operations of the stage PointTime: all that is left to whoever keeps what X determines.
     pub late: usize,
+    /// Operations of the stages Point and PointTime where a product that is added takes no time of its own.
+    pub fused: usize,
+    /// Those of the stage PointTime.
+    pub fused_late: usize,
 }
 
 impl Cost {
@@ -37,6 +42,13 @@ impl Cost {
         let more = other.per_point.saturating_sub(self.per_point);
         let weight = |cost: Cost| cost.per_point + cost.late;
         ROOM * more <= self.per_point && weight(other) + 2 * WORTH_APART <= weight(self)
+    }
+
+    /// Whether `other` takes less time than this where products are added in one step, and no more of what needs t.
+    pub fn is_worth_fusing(self, other: Cost) -> bool {
+        let more = other.per_point.saturating_sub(self.per_point);
+        let is_less = other.fused < self.fused && other.fused_late <= self.fused_late;
+        is_less && ROOM * more <= self.per_point
     }
 }
 
@@ -82,6 +94,12 @@ pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     cost_of(&flat, &roots)
 }
 
+/// What the components of one output cost as they are emitted.
+pub fn cost_as_emitted(graph: &Graph, components: &[Expr]) -> Cost {
+    let (flat, roots) = cheapest_of_all(graph, components);
+    cost_of(&flat, &roots)
+}
+
 /// The cheapest way to compute `components` with numbers moved as far as that; of equals, the first.
 fn cheapest(
     graph: &Graph,
@@ -118,14 +136,22 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
 
 fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
     let mut builder = Builder::default();
-    builder.lower(flat, roots);
+    let roots = builder.lower(flat, roots);
     let counted = builder.instrs.iter().filter(|instr| instr.op.is_counted());
     let of =
         |stages: &[Stage]| counted.clone().filter(|instr| stages.contains(&instr.stage)).count();
+    let needed = vec![true; builder.instrs.len()];
+    let fused = |stages: &[Stage]| {
+        let fusion = Fusion::new(&builder.instrs, &roots, &needed, stages);
+        of(stages) - fusion.absorbed.iter().filter(|absorbed| **absorbed).count()
+    };
+    let (at_points, late) = ([Stage::Point, Stage::PointTime], [Stage::PointTime]);
     Cost {
-        per_point: of(&[Stage::Point, Stage::PointTime]),
+        per_point: of(&at_points),
         total: of(&Stage::ALL),
-        late: of(&[Stage::PointTime]),
+        late: of(&late),
+        fused: fused(&at_points),
+        fused_late: fused(&late),
     }
 }
 

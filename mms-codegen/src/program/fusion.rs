@@ -1,11 +1,11 @@
 //! Products that are added to something: one instruction on processors that multiply and add in one
 //! step.
 
-use crate::program::{Op, Program, Stage, Value};
+use super::{Instr, Op, Stage, Value};
 
 /// `±a b ± c`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fused {
+pub(crate) struct Fused {
     /// a and b.
     pub factors: [Value; 2],
     /// c.
@@ -17,7 +17,7 @@ pub(super) struct Fused {
 }
 
 /// What is computed in one step, by position in a program.
-pub(super) struct Fusion {
+pub(crate) struct Fusion {
     /// The sums that take a product up.
     pub fused: Vec<Option<Fused>>,
     /// The products that every reader takes up: they need not be computed by themselves.
@@ -26,29 +26,28 @@ pub(super) struct Fusion {
 
 impl Fusion {
     /// Every sum as it is.
-    pub fn none(program: &Program) -> Self {
-        let length = program.instrs.len();
-        Fusion { fused: vec![None; length], absorbed: vec![false; length] }
+    pub fn none(instrs: &[Instr]) -> Self {
+        Fusion { fused: vec![None; instrs.len()], absorbed: vec![false; instrs.len()] }
     }
 
     /// Of the sums that a function computes, those with a product that it computes too. Where both
     /// operands are products, the one with fewer readers is taken up.
-    pub fn new(program: &Program, roots: &[Value], needed: &[bool], own: &[Stage]) -> Self {
-        let mut fusion = Fusion::none(program);
-        let mut readers = vec![0_usize; program.instrs.len()];
+    pub fn new(instrs: &[Instr], roots: &[Value], needed: &[bool], own: &[Stage]) -> Self {
+        let mut fusion = Fusion::none(instrs);
+        let mut readers = vec![0_usize; instrs.len()];
         roots.iter().for_each(|root| readers[root.index()] += 1);
-        let computed = |index: usize| needed[index] && own.contains(&program.instrs[index].stage);
-        for index in (0..program.instrs.len()).filter(|index| computed(*index)) {
-            program.instrs[index].op.operands().for_each(|operand| readers[operand.index()] += 1);
+        let computed = |index: usize| needed[index] && own.contains(&instrs[index].stage);
+        for index in (0..instrs.len()).filter(|index| computed(*index)) {
+            instrs[index].op.operands().for_each(|operand| readers[operand.index()] += 1);
         }
         let mut plain = readers.clone();
-        for index in (0..program.instrs.len()).filter(|index| computed(*index)) {
-            let (a, b, minus) = match program.instrs[index].op {
+        for index in (0..instrs.len()).filter(|index| computed(*index)) {
+            let (a, b, minus) = match instrs[index].op {
                 Op::Add(a, b) => (a, b, false),
                 Op::Subtract(a, b) => (a, b, true),
                 _ => continue,
             };
-            let factors = |value: Value| match program.instr(value).op {
+            let factors = |value: Value| match instrs[value.index()].op {
                 Op::Multiply(a, b) if computed(value.index()) => Some([a, b]),
                 _ => None,
             };

@@ -1,0 +1,82 @@
+//! Adds constants where there is one already: with a, b and c of parameters or of t, a + b (c + x) becomes (a + b c) + b x,
+//! which leaves one addition less to every point. It does so where nothing else reads c + x.
+
+use std::collections::BTreeMap;
+
+use super::substitute::rebuild;
+use crate::expr::{Expr, Graph, Node, Rational};
+use crate::program::Stage;
+
+/// `roots` with the constants of inner sums added to those of outer ones.
+pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+    let mut readers = BTreeMap::<Expr, usize>::new();
+    for expr in graph.reachable(roots) {
+        for read in graph.node(expr).children() {
+            *readers.entry(read).or_default() += 1;
+        }
+    }
+    rebuild(graph, roots, |graph, node| match node {
+        Node::Sum(constant, terms)
+            if !constant.is_zero() || terms.iter().any(|(term, _)| is_early(graph, *term)) =>
+        {
+            let terms: Vec<_> =
+                terms.into_iter().flat_map(|term| opened(graph, &readers, term)).collect();
+            let one = graph.number(1);
+            graph.sum(terms.into_iter().chain([(one, constant)]))
+        }
+        other => graph.remake(other),
+    })
+}
+
+/// A term, or, of early factors and of one sum with a constant, those two.
+fn opened(
+    graph: &mut Graph,
+    readers: &BTreeMap<Expr, usize>,
+    (term, coefficient): (Expr, Rational),
+) -> Vec<(Expr, Rational)> {
+    let Node::Product(factors) = graph.node(term).clone() else { return vec![(term, coefficient)] };
+    let (early, late): (Vec<_>, Vec<_>) =
+        factors.into_iter().partition(|(factor, _)| is_early(graph, *factor));
+    if let [(sum, power)] = late.as_slice()
+        && power.is_one()
+        && readers.get(sum) == Some(&1)
+        && let Node::Sum(constant, terms) = graph.node(*sum).clone()
+        && !constant.is_zero()
+    {
+        let early = graph.product(early);
+        let rest = graph.sum(terms);
+        let product = graph.mul(early, rest);
+        return vec![(product, coefficient.clone()), (early, coefficient * constant)];
+    }
+    vec![(term, coefficient)]
+}
+
+/// Whether no X is needed.
+fn is_early(graph: &Graph, expr: Expr) -> bool {
+    matches!(graph.stage(expr), Stage::Parameter | Stage::Time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+
+    #[test]
+    fn constants_meet_where_there_is_one_already() {
+        let mut graph = Graph::default();
+        let [a, b] = [0, 1].map(|index| graph.symbol(Symbol::Parameter(index)));
+        let x = graph.symbol(Symbol::Coordinate(0));
+        let two = graph.number(2);
+        let inner = graph.add(x, two);
+        let product = graph.mul(b, inner);
+        let root = graph.add(a, product);
+        let products = [(b, x), (b, two)].map(|(a, b)| (graph.mul(a, b), Rational::ONE));
+        let expected = graph.sum(products.into_iter().chain([(a, Rational::ONE)]));
+        assert_eq!(gather(&mut graph, &[root]), [expected]);
+        // What is read elsewhere is made anyway; without a constant, an addition would only move.
+        let square = graph.mul(inner, inner);
+        assert_eq!(gather(&mut graph, &[root, square]), [root, square]);
+        let plain = graph.add(x, product);
+        assert_eq!(gather(&mut graph, &[plain]), [plain]);
+    }
+}
