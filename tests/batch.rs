@@ -4,7 +4,7 @@
 use mms::gallery::{
     axis_aligned_3d, bar_1d, cyclic_shear_3d, generalized_vortex, quiet_boundary_2d, twisted_column,
 };
-use mms_runtime::math::batch::Float;
+use mms_runtime::math::batch::Blocked;
 
 // With numbers for what it depends on, its angle is proved to be at most 1.
 mms_macros::field!(
@@ -18,7 +18,7 @@ mms_macros::field!(
 const BLOCK: usize = f64::BLOCK;
 
 /// Counts around a whole number of blocks, so that the last block is full, short, or absent.
-fn counts<T: Float>() -> [usize; 7] {
+fn counts<T: Blocked>() -> [usize; 7] {
     [0, 1, 7, T::BLOCK - 1, T::BLOCK, T::BLOCK + 1, 3 * T::BLOCK + 5]
 }
 

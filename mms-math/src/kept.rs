@@ -107,7 +107,7 @@ mod tests {
     use std::vec::Vec;
 
     use super::Kept;
-    use crate::batch::{Float as _, run};
+    use crate::batch::{Blocked as _, run};
     use crate::bunched::tests::Both;
 
     #[test]

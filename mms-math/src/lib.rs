@@ -13,6 +13,7 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
+mod block;
 #[cfg(feature = "std")]
 pub mod bunched;
 mod defect;

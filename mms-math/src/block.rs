@@ -1,0 +1,140 @@
+//! A block of points: as many as a loop takes at a time, and the loops over them.
+
+use core::fmt::Debug;
+
+use crate::batch::{Function, Stand};
+
+/// The values of `N` numbers at the points of a block, in whole lines of the cache: a vector that is in two takes
+/// twice as long.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Block<T: Blocked, const N: usize>(pub(crate) [T::Column; N]);
+
+impl<T: Blocked, const N: usize> Block<T, N> {
+    /// The same value everywhere.
+    pub(crate) fn of(value: T) -> Self {
+        Self([T::column_of(value); N])
+    }
+}
+
+/// The same, wherever they are.
+pub type Columns<'a, T, const N: usize> = [&'a <T as Blocked>::Column; N];
+
+/// A number of which there are blocks.
+pub trait Blocked: Copy {
+    /// How many points go through a kernel at a time. It is what eight registers of 512 bits hold: of fewer, the compiler
+    /// writes the loop over them out, and what waits is no longer beside what works; the copy of more is a call. The
+    /// blocks of all inputs and outputs stay in the first cache.
+    const BLOCK: usize;
+    /// So many numbers.
+    type Column: Copy + Debug;
+    /// The same number everywhere.
+    fn column_of(number: Self) -> Self::Column;
+    /// The first numbers of many, if there are as many.
+    fn first_of(numbers: &[Self]) -> Option<&Self::Column>;
+    /// The same, to write to.
+    fn first_of_mut(numbers: &mut [Self]) -> Option<&mut Self::Column>;
+    /// The numbers.
+    fn numbers(column: &Self::Column) -> &[Self];
+    /// The same, to write to.
+    fn numbers_mut(column: &mut Self::Column) -> &mut [Self];
+
+    /// A function at all points of a block.
+    fn on_block<S: Stand<Self>, const I: usize, const O: usize>(
+        function: &impl Function<S, I, O>,
+        inputs: &Columns<'_, Self, I>,
+        results: &mut Block<Self, O>,
+    );
+
+    /// Two functions in one loop: the second one at all points of a block, from what the first one `made` of them, and
+    /// the first one at those of the block that is `coming`. What it makes of a point takes the place of what was just
+    /// read.
+    fn side_by_side<S, const I: usize, const M: usize, const N: usize, const O: usize>(
+        functions: (&impl Function<S, I, M>, &impl Function<S, N, O>),
+        blocks: (&Columns<'_, Self, I>, &Columns<'_, Self, I>),
+        made: &mut Block<Self, M>,
+        results: &mut Block<Self, O>,
+        reads: [usize; N],
+    ) where
+        S: Stand<Self>;
+}
+
+// The loops are written for each type: it is plain then that a block is apart from the inputs. Of what a function or a
+// closure has had, the compiler does not know that any more, and would ask at every block.
+macro_rules! blocked {
+    ($float:ident, $block:literal) => {
+        impl Blocked for $float {
+            const BLOCK: usize = $block;
+            type Column = [$float; $block];
+            #[inline(always)]
+            fn column_of(number: $float) -> Self::Column {
+                [number; $block]
+            }
+            #[inline(always)]
+            fn first_of(numbers: &[$float]) -> Option<&Self::Column> {
+                numbers.first_chunk()
+            }
+            #[inline(always)]
+            fn first_of_mut(numbers: &mut [$float]) -> Option<&mut Self::Column> {
+                numbers.first_chunk_mut()
+            }
+            #[inline(always)]
+            fn numbers(column: &Self::Column) -> &[$float] {
+                column
+            }
+            #[inline(always)]
+            fn numbers_mut(column: &mut Self::Column) -> &mut [$float] {
+                column
+            }
+
+            #[inline(always)]
+            fn on_block<S: Stand<$float>, const I: usize, const O: usize>(
+                function: &impl Function<S, I, O>,
+                inputs: &Columns<'_, $float, I>,
+                results: &mut Block<$float, O>,
+            ) {
+                for place in 0..$block {
+                    let number = |k: usize| S::standing_for(inputs[k][place]);
+                    let found = function.at(core::array::from_fn(number));
+                    for k in 0..O {
+                        results.0[k][place] = found[k].value();
+                    }
+                }
+            }
+
+            #[inline(always)]
+            fn side_by_side<S, const I: usize, const M: usize, const N: usize, const O: usize>(
+                (first, second): (&impl Function<S, I, M>, &impl Function<S, N, O>),
+                (inputs, coming): (&Columns<'_, $float, I>, &Columns<'_, $float, I>),
+                made: &mut Block<$float, M>,
+                results: &mut Block<$float, O>,
+                reads: [usize; N],
+            ) where
+                S: Stand<$float>,
+            {
+                for place in 0..$block {
+                    let mut before = [S::from_f64(0.0); M];
+                    for k in 0..M {
+                        before[k] = S::standing_for(made.0[k][place]);
+                    }
+                    let found =
+                        second.at(core::array::from_fn(|k| match reads[k].checked_sub(I) {
+                            None => S::standing_for(inputs[reads[k]][place]),
+                            Some(k) => before[k],
+                        }));
+                    let number = |k: usize| S::standing_for(coming[k][place]);
+                    let next = first.at(core::array::from_fn(number));
+                    for k in 0..M {
+                        made.0[k][place] = next[k].value();
+                    }
+                    for k in 0..O {
+                        results.0[k][place] = found[k].value();
+                    }
+                }
+            }
+        }
+    };
+}
+
+blocked!(f32, 128);
+blocked!(f64, 64);
