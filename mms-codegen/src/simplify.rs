@@ -20,7 +20,7 @@ use crate::pass::reduce::reduce;
 use crate::pass::relations::{Relations, lateness};
 use crate::pass::separate::separate;
 use crate::pass::shift::shift;
-use crate::program::schedule::{Cost, cost, cost_as_emitted};
+use crate::program::schedule::{Cost, cost, steps};
 use crate::quantity::Quantity;
 use crate::selection::Form;
 
@@ -276,10 +276,10 @@ fn fused(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>
         ways.extend(graph.attempt(|graph| gather(graph, &way)));
     }
     ways.retain(|way| *way != components && amplitude.is_none_or(|it| it.keeps(graph, way)));
-    let costs = |way: Vec<Expr>| (cost_as_emitted(graph, &way), way);
-    let best = ways.into_iter().map(costs).min_by_key(|(cost, _)| (cost.fused, *cost));
+    let taken = |way: Vec<Expr>| (steps(graph, &way), way);
+    let best = ways.into_iter().map(taken).min_by_key(|(steps, _)| *steps);
     match best {
-        Some((cost, way)) if cost_as_emitted(graph, &components).is_worth_fusing(cost) => way,
+        Some((fewest, way)) if steps(graph, &components).is_worth(fewest) => way,
         _ => components,
     }
 }
@@ -307,4 +307,30 @@ pub fn ways(graph: &mut Graph, components: Vec<Expr>, relations: &Relations) -> 
         ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
     }
     ways
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Rational;
+
+    #[test]
+    fn a_number_serves_in_place_of_one_that_differs_by_a_constant() {
+        let mut graph = Graph::default();
+        let [a, b, c] = [0, 1, 2].map(|index| graph.symbol(Symbol::Parameter(index)));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        // With w = x^2 - 2: w y, and a + b w + c x^2.
+        let square = graph.mul(x, x);
+        let two = graph.number(-2);
+        let w = graph.add(square, two);
+        let first = graph.mul(w, y);
+        let [second, third] =
+            [(b, w), (c, square)].map(|(factor, number)| graph.mul(factor, number));
+        let second = graph.sum([a, second, third].map(|term| (term, Rational::ONE)));
+        let before = vec![first, second];
+        let after = fused(&mut graph, before.clone(), None);
+        let [before, after] = [before, after].map(|components| steps(&graph, &components));
+        // x^2, w, w y and two steps for the sum; then x^2 - 2, w y, and (b + c) w + (a + 2 c).
+        assert_eq!((before.per_point, after.per_point), (5, 3));
+    }
 }

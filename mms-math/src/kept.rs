@@ -23,6 +23,11 @@ fn stride<T: Float>(count: usize) -> usize {
 }
 
 impl<T: Float, const N: usize> Kept<T, N> {
+    /// Room for so many points.
+    pub fn room_for(count: usize) -> Self {
+        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
+    }
+
     /// How many points there are.
     pub fn len(&self) -> usize {
         self.count
@@ -40,13 +45,6 @@ impl<T: Float, const N: usize> Kept<T, N> {
             columns: indices.map(|index| &self.blocks[index * stride..][..stride]),
             count: self.count,
         }
-    }
-}
-
-impl<T: Float, const N: usize> Kept<T, N> {
-    /// Room for so many points.
-    pub fn room_for(count: usize) -> Self {
-        Kept { blocks: vec![Block::of(T::from_f64(0.0)); N * stride::<T>(count)], count }
     }
 }
 

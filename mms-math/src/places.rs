@@ -140,12 +140,11 @@ impl<T: Float, const N: usize> Sink<T, N> for [&mut [T]; N] {
         let mut sum = machine.splat(T::from_f64(0.0));
         for (column, lane) in self.iter_mut().zip(&block.0) {
             let to = &mut column[start..];
-            if to.len() < T::BLOCK {
+            let Some(to) = T::first_of_mut(to) else {
                 to.copy_from_slice(&T::numbers(lane)[..to.len()]);
                 sum = machine.plus(sum, sum_of(machine, lane));
                 continue;
-            }
-            let to = T::first_of_mut(to).expect("there are as many");
+            };
             let mut own = machine.splat(T::from_f64(0.0));
             // After a call that copies, all constants of the kernel would have to be loaded again.
             let to = T::numbers_mut(to).as_chunks_mut().0;

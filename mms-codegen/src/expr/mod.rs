@@ -9,7 +9,7 @@ mod function;
 pub mod print;
 pub mod resolve;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasher;
 
 use dashu_int::Sign;
@@ -330,6 +330,22 @@ impl Graph {
     /// Everything that `roots` depend on, themselves included, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> BTreeSet<Expr> {
         reachable(roots, |expr| self.node(expr).children())
+    }
+
+    /// How many of the expressions that are `among`, and of the roots, read an expression.
+    pub(crate) fn readers(
+        &self,
+        roots: &[Expr],
+        among: impl Fn(Expr) -> bool,
+    ) -> BTreeMap<Expr, usize> {
+        let mut readers = BTreeMap::new();
+        let reachable = self.reachable(roots);
+        let among = reachable.iter().filter(|expr| among(**expr));
+        let read = among.flat_map(|expr| self.node(*expr).children());
+        for read in read.chain(roots.iter().copied()) {
+            *readers.entry(read).or_default() += 1;
+        }
+        readers
     }
 
     /// The symbols that `root` depends on.

@@ -5,24 +5,16 @@ use std::collections::BTreeMap;
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
-use crate::program::Stage;
 
 /// `roots` with the constants of inner sums added to those of outer ones.
 pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
-    let mut readers = BTreeMap::<Expr, usize>::new();
-    for expr in graph.reachable(roots) {
-        for read in graph.node(expr).children() {
-            *readers.entry(read).or_default() += 1;
-        }
-    }
+    let readers = graph.readers(roots, |_| true);
     rebuild(graph, roots, |graph, node| match node {
         Node::Sum(constant, terms)
             if !constant.is_zero() || terms.iter().any(|(term, _)| is_early(graph, *term)) =>
         {
-            let terms: Vec<_> =
-                terms.into_iter().flat_map(|term| opened(graph, &readers, term)).collect();
-            let one = graph.number(1);
-            graph.sum(terms.into_iter().chain([(one, constant)]))
+            let opened = terms.into_iter().flat_map(|term| opened(graph, &readers, term)).collect();
+            graph.remake(Node::Sum(constant, opened))
         }
         other => graph.remake(other),
     })
@@ -53,7 +45,7 @@ fn opened(
 
 /// Whether no X is needed.
 fn is_early(graph: &Graph, expr: Expr) -> bool {
-    matches!(graph.stage(expr), Stage::Parameter | Stage::Time)
+    !graph.stage(expr).needs_point()
 }
 
 #[cfg(test)]
@@ -73,9 +65,10 @@ mod tests {
         let products = [(b, x), (b, two)].map(|(a, b)| (graph.mul(a, b), Rational::ONE));
         let expected = graph.sum(products.into_iter().chain([(a, Rational::ONE)]));
         assert_eq!(gather(&mut graph, &[root]), [expected]);
-        // What is read elsewhere is made anyway; without a constant, an addition would only move.
+        // What is read elsewhere, or asked for, is made anyway; without a constant, an addition would only move.
         let square = graph.mul(inner, inner);
         assert_eq!(gather(&mut graph, &[root, square]), [root, square]);
+        assert_eq!(gather(&mut graph, &[root, inner]), [root, inner]);
         let plain = graph.add(x, product);
         assert_eq!(gather(&mut graph, &[plain]), [plain]);
     }

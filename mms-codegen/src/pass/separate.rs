@@ -11,7 +11,8 @@ use crate::program::Stage;
 
 /// `roots` with every sum that needs both X and t in such parts.
 pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
-    let mut parts = Parts { readers: readers(graph, roots), ..Parts::default() };
+    let readers = graph.readers(roots, |expr| graph.stage(expr) == Stage::PointTime);
+    let mut parts = Parts { readers, ..Parts::default() };
     for expr in graph.reachable(roots) {
         if graph.stage(expr) == Stage::PointTime {
             let sum = parts.of(graph, expr);
@@ -19,17 +20,6 @@ pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
         }
     }
     roots.iter().map(|root| parts.whole(graph, *root)).collect()
-}
-
-/// How many of the expressions that need X and t, and of the roots, read an expression.
-fn readers(graph: &Graph, roots: &[Expr]) -> BTreeMap<Expr, usize> {
-    let mut readers = BTreeMap::new();
-    let reachable = graph.reachable(roots);
-    let both = reachable.iter().filter(|expr| graph.stage(**expr) == Stage::PointTime);
-    for read in both.flat_map(|expr| graph.node(*expr).children()).chain(roots.iter().copied()) {
-        *readers.entry(read).or_default() += 1;
-    }
-    readers
 }
 
 /// A sum of products: a factor without t for each factor with it.
@@ -40,6 +30,7 @@ type Operands = Vec<(Expr, Rational)>;
 
 #[derive(Default)]
 struct Parts {
+    /// How many of the expressions that need X and t, and of the roots, read an expression.
     readers: BTreeMap<Expr, usize>,
     /// What needs X and t.
     sums: BTreeMap<Expr, Sum>,

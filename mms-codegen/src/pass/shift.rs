@@ -35,10 +35,9 @@ pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
         let made = graph.remake(node);
         match graph.node(made).clone() {
             Node::Sum(constant, terms) if !sums.contains(&made) => {
-                let one = graph.number(1);
                 let written = terms.into_iter().flat_map(|term| written(graph, &by_factor, term));
-                let written: Operands = written.chain([(one, constant)]).collect();
-                graph.sum(written)
+                let written = written.collect();
+                graph.remake(Node::Sum(constant, written))
             }
             _ => made,
         }
@@ -50,9 +49,11 @@ fn shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
     let Node::Sum(constant, terms) = graph.node(sum) else { return None };
     let [(product, coefficient)] = terms.as_slice() else { return None };
     let Node::Product(factors) = graph.node(*product) else { return None };
-    let is_one = !constant.is_zero() && graph.stage(*product) == Stage::Point;
+    if constant.is_zero() || graph.stage(*product) != Stage::Point {
+        return None;
+    }
     let (factors, coefficient) = (factors.clone(), coefficient.clone());
-    is_one.then(|| Shifted { sum, factors, coefficient, constant: constant.clone() })
+    Some(Shifted { sum, factors, coefficient, constant: constant.clone() })
 }
 
 /// A term, or the two that it becomes: nothing else in it may depend on X.
@@ -70,7 +71,7 @@ fn written(
         }
         let others: Operands = factors.iter().filter(|power| !is_own(power)).cloned().collect();
         let others = graph.product(others);
-        if matches!(graph.stage(others), Stage::Parameter | Stage::Time) {
+        if !graph.stage(others).needs_point() {
             let coefficient = coefficient / &shifted.coefficient;
             let product = graph.mul(others, shifted.sum);
             let less = -coefficient.clone() * &shifted.constant;

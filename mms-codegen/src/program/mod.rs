@@ -55,6 +55,11 @@ impl Stage {
         }
     }
 
+    /// Whether X is needed, or what a caller supplies at a point.
+    pub fn needs_point(self) -> bool {
+        matches!(self, Stage::Point | Stage::PointTime)
+    }
+
     /// The stage of a leaf.
     pub fn of(symbol: Symbol) -> Stage {
         match symbol {

@@ -368,3 +368,15 @@ fn nothing_is_taken_off_an_angle_that_is_proved_small() {
     let later = compiled(&later, &selection(&[], &[], &["size"]));
     assert_eq!(functions_of_angles(&later), any);
 }
+
+#[test]
+fn what_divides_and_calls_no_function_shares_a_loop() {
+    let of_angles = include_str!("../../../fields/generalized_vortex.toml");
+    let of_waves = include_str!("../../../fields/axis_aligned_3d.toml");
+    for (text, together) in [(of_angles, true), (of_waves, false)] {
+        let emitted =
+            rust::file(&compiled(text, &selection(&[Quantity::BodyForce], &[], &[]))).text;
+        let has = |loops: &str| emitted.contains(&format!("], {loops}; "));
+        assert_eq!((has("Together"), has("Apart")), (together, !together), "{emitted}");
+    }
+}

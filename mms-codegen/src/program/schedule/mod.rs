@@ -29,10 +29,6 @@ pub struct Cost {
     pub total: usize,
     /// Operations of the stage PointTime: all that is left to whoever keeps what X determines.
     pub late: usize,
-    /// Operations of the stages Point and PointTime where a product that is added takes no time of its own.
-    pub fused: usize,
-    /// Those of the stage PointTime.
-    pub fused_late: usize,
 }
 
 impl Cost {
@@ -43,12 +39,25 @@ impl Cost {
         let weight = |cost: Cost| cost.per_point + cost.late;
         ROOM * more <= self.per_point && weight(other) + 2 * WORTH_APART <= weight(self)
     }
+}
 
-    /// Whether `other` takes less time than this where products are added in one step, and no more of what needs t.
-    pub fn is_worth_fusing(self, other: Cost) -> bool {
-        let more = other.per_point.saturating_sub(self.per_point);
-        let is_less = other.fused < self.fused && other.fused_late <= self.fused_late;
-        is_less && ROOM * more <= self.per_point
+/// What an output takes where a product that is added takes no step of its own: steps at a point first, then operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Steps {
+    /// Steps of the stages Point and PointTime.
+    pub per_point: usize,
+    /// Operations.
+    pub cost: Cost,
+    /// Steps of the stage PointTime.
+    pub late: usize,
+}
+
+impl Steps {
+    /// Whether `other` has fewer steps than this, no more of them that need t, and about as many operations at most.
+    pub fn is_worth(self, other: Steps) -> bool {
+        let more = other.cost.per_point.saturating_sub(self.cost.per_point);
+        let is_less = other.per_point < self.per_point && other.late <= self.late;
+        is_less && ROOM * more <= self.cost.per_point
     }
 }
 
@@ -94,10 +103,21 @@ pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     cost_of(&flat, &roots)
 }
 
-/// What the components of one output cost as they are emitted.
-pub fn cost_as_emitted(graph: &Graph, components: &[Expr]) -> Cost {
+/// What the components of one output take as they are emitted.
+pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
     let (flat, roots) = cheapest_of_all(graph, components);
-    cost_of(&flat, &roots)
+    let mut builder = Builder::default();
+    let roots = builder.lower(&flat, &roots);
+    let needed = vec![true; builder.instrs.len()];
+    let steps = |stages: &[Stage]| {
+        let fusion = Fusion::new(&builder.instrs, &roots, &needed, stages);
+        counted(&builder, stages) - fusion.absorbed.iter().filter(|absorbed| **absorbed).count()
+    };
+    Steps {
+        per_point: steps(&AT_POINTS),
+        cost: cost_in(&builder),
+        late: steps(&[Stage::PointTime]),
+    }
 }
 
 /// The cheapest way to compute `components` with numbers moved as far as that; of equals, the first.
@@ -136,23 +156,26 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
 
 fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
     let mut builder = Builder::default();
-    let roots = builder.lower(flat, roots);
-    let counted = builder.instrs.iter().filter(|instr| instr.op.is_counted());
-    let of =
-        |stages: &[Stage]| counted.clone().filter(|instr| stages.contains(&instr.stage)).count();
-    let needed = vec![true; builder.instrs.len()];
-    let fused = |stages: &[Stage]| {
-        let fusion = Fusion::new(&builder.instrs, &roots, &needed, stages);
-        of(stages) - fusion.absorbed.iter().filter(|absorbed| **absorbed).count()
-    };
-    let (at_points, late) = ([Stage::Point, Stage::PointTime], [Stage::PointTime]);
+    builder.lower(flat, roots);
+    cost_in(&builder)
+}
+
+/// The stages of what is done at every point.
+const AT_POINTS: [Stage; 2] = [Stage::Point, Stage::PointTime];
+
+/// What all that was lowered costs.
+fn cost_in(builder: &Builder) -> Cost {
     Cost {
-        per_point: of(&at_points),
-        total: of(&Stage::ALL),
-        late: of(&late),
-        fused: fused(&at_points),
-        fused_late: fused(&late),
+        per_point: counted(builder, &AT_POINTS),
+        total: counted(builder, &Stage::ALL),
+        late: counted(builder, &[Stage::PointTime]),
     }
+}
+
+/// How many operations of these stages were lowered.
+fn counted(builder: &Builder, stages: &[Stage]) -> usize {
+    let instrs = builder.instrs.iter();
+    instrs.filter(|instr| instr.op.is_counted() && stages.contains(&instr.stage)).count()
 }
 
 /// Drops what no output needs, and sorts by stage; within a stage the order stays.
