@@ -13,6 +13,7 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
+#[cfg(feature = "std")]
 mod block;
 #[cfg(feature = "std")]
 pub mod bunched;
