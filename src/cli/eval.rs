@@ -141,6 +141,7 @@ impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field, &self.variant)?;
         let quantities = quantities(&self.quantity)?;
+        self.hold_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
             Precision::F64 => self.evaluate::<f64>(&input, &quantities),
@@ -190,6 +191,18 @@ impl Eval {
             print(&text(&records))?;
         }
         Ok(Outcome::AsExpected)
+    }
+
+    /// Refuses a normal that no quantity takes.
+    fn hold_normal(&self, quantities: &[Quantity]) -> anyhow::Result<()> {
+        let given = [("--normal", &self.normal), ("--face", &self.face)];
+        match given.into_iter().find(|(_, value)| value.is_some()) {
+            Some((option, Some(value))) if !quantities.contains(&Quantity::Traction) => bail!(
+                "`{option} {value}`: only the quantity `traction` takes a normal, and it is not among those wanted; \
+                 name it, as in `--quantity traction`, or leave `{option}` out"
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// The unit normals at the points; without components where none is needed.

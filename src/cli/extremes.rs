@@ -5,9 +5,12 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::suggest::advice;
+use mms_codegen::twin::Twin;
+use mms_codegen::{Options, Selection};
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
 
+use super::input::{Motion, settings};
 use super::method::{Arithmetic, MethodOptions, Precision};
 use super::progress::Progress;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
@@ -44,6 +47,12 @@ pub struct Extremes {
     row: Vec<String>,
     #[command(flatten)]
     method: MethodOptions,
+    /// Change the default of a parameter, to a number or a formula in the parameters above it; may
+    /// be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    motion: Motion,
     /// Write extremes.json there, which is what `--json` prints.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -61,12 +70,15 @@ impl Extremes {
         let wanted = self.select(&all)?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;
         let arithmetic = self.method.arithmetic;
-        let declared = match Subject::new(&self.field, arithmetic.form, None)? {
+        let declared = match Subject::new(&self.field, &self.options()?, None)? {
             Ok(declared) => declared,
             Err(reason) => bail!("{reason}"),
         };
         let dimension = declared.input.compiled.field.dimension;
-        let method = self.method.method(dimension)?;
+        // What is set is a default already.
+        let mut method = self.method.method_for(&declared.input, &[])?;
+        // What is too large for the solver is so on any machine.
+        method.setup.memory = None;
         let progress = Progress::new();
         let usual = Division::Uniform(usual_cells(dimension));
         let seen = declared.run(&method, usual, arithmetic.precision, &mut progress.of(usual))?;
@@ -105,7 +117,7 @@ impl Extremes {
             declared: declared_error,
             rows: judged,
             stability,
-            provenance: this_command("extremes", declared.input.provenance(&[])),
+            provenance: this_command("extremes", declared.input.provenance(&self.set)),
         };
         if self.json {
             print_json(&report.document())?;
@@ -120,6 +132,12 @@ impl Extremes {
         }
         let expected = report.unexpected().is_empty();
         Ok(if expected { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    /// How the field is taken.
+    fn options(&self) -> anyhow::Result<Options> {
+        let selection = Selection { set: settings(&self.set)?, ..Selection::default() };
+        Ok(self.method.variant(&self.motion).options(selection))
     }
 
     fn wants(&self, name: &str) -> bool {
@@ -151,10 +169,11 @@ impl Extremes {
         progress: &Progress,
     ) -> anyhow::Result<Judged> {
         let mut arithmetic = self.method.arithmetic;
-        let (setting, seen) = match Subject::new(&self.field, arithmetic.form, Some(row))? {
+        let (setting, seen) = match Subject::new(&self.field, &self.options()?, Some(row))? {
             Err(reason) => (row.name.clone(), Seen::LeftOut { reason }),
             Ok(subject) => {
-                let (method, cells) = subject.method(base, row, self.quick);
+                let allow_unstable = self.method.allow_unstable;
+                let (method, cells) = subject.method(base, row, self.quick, allow_unstable);
                 if row.single {
                     arithmetic.precision = Precision::F32;
                 }
@@ -185,7 +204,10 @@ impl Extremes {
         let Some(small) = all.iter().find(|row| row.name == "displacement/1e-8") else {
             return Ok(Vec::new());
         };
-        let subject = match Subject::new(&self.field, self.method.arithmetic.form, Some(small))? {
+        let mut options = self.options()?;
+        // A rigid motion on top is no small one.
+        options.selection.twin = Twin::Nothing;
+        let subject = match Subject::new(&self.field, &options, Some(small))? {
             Ok(subject) => subject,
             Err(reason) => {
                 progress.say(&format!("note: stability is not measured: {reason}"));

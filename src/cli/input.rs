@@ -166,6 +166,17 @@ impl Input {
         }
     }
 
+    /// The files that it was read from; none of the gallery.
+    pub fn files(&self) -> Vec<PathBuf> {
+        if !is_path(&self.given) {
+            return Vec::new();
+        }
+        let field = Path::new(&self.given);
+        let material = self.compiled.own_material();
+        let material = material.map(|(material, _)| field.with_file_name(material));
+        [field.to_owned()].into_iter().chain(material).collect()
+    }
+
     /// What a result of the field, with some settings, is of.
     pub fn provenance(&self, settings: &[String]) -> provenance::Input {
         let twin = &self.options.selection.twin;
@@ -248,6 +259,11 @@ fn not_allowed(settings: &[String], failure: &Failure) -> Error {
     anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
 }
 
+/// Whether the user named a file, and not a field of the gallery.
+fn is_path(field: &str) -> bool {
+    field.ends_with(".toml")
+}
+
 /// The field of the gallery of that name.
 fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     if let Some(entry) = gallery::find(field) {
@@ -280,7 +296,7 @@ type Compile = fn(&str, &str, &str, Loader<'_>, &Options) -> Result<Compiled, Fa
 impl Text {
     /// The text of a gallery name, or of a path to a TOML file.
     pub fn find(field: &str) -> anyhow::Result<Self> {
-        if field.ends_with(".toml") {
+        if is_path(field) {
             return Self::read(Path::new(field));
         }
         let entry = entry(field)?;
@@ -290,7 +306,7 @@ impl Text {
 
     fn read(path: &Path) -> anyhow::Result<Self> {
         let shown = path.display().to_string();
-        let text = file::read(path).with_context(|| format!("cannot read `{shown}`"))?;
+        let text = file::read(path)?;
         let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Text { name, shown, text, origin: Origin::Folder(folder) })
@@ -317,7 +333,7 @@ impl Text {
         let load = |material: &str| match &self.origin {
             Origin::Gallery(entry) => entry.own_material(),
             Origin::Folder(folder) => {
-                file::read(&folder.join(material)).map_err(|error| error.to_string())
+                file::read(&folder.join(material)).map_err(|error| error.root_cause().to_string())
             }
         };
         compile(&self.name, &self.shown, &self.text, &load, options)

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use anyhow::bail;
 use clap::Args;
+use mms_codegen::sample::domain;
 use mms_codegen::selection::Form;
 use mms_runtime::{
     Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
@@ -149,6 +150,18 @@ fn part(text: &str) -> Result<f64, &'static str> {
     number(text, "expected a number from 0 to 1", |value| (0.0..=1.0).contains(&value))
 }
 
+/// Refuses numbers of an option for other axes than there are.
+pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyhow::Result<()> {
+    match *numbers {
+        Division::PerAxis(each, given) if given != dimension => bail!(
+            "`{option} {numbers}`: {given} numbers for {dimension} dimension(s); expected one for each, or one for \
+             all, as in `{option} {}`",
+            each[0]
+        ),
+        _ => Ok(()),
+    }
+}
+
 /// How many threads run at the same time here.
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
@@ -189,11 +202,26 @@ impl MethodOptions {
     pub fn method_for(&self, input: &Input, settings: &[String]) -> anyhow::Result<Method> {
         input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
+        self.hold_end(input, settings)?;
         method.setup.memory = Some(memory());
         if !self.allow_unstable {
             method.setup.fastest_wave = fastest_wave(input, settings, &method)?;
         }
         Ok(method)
+    }
+
+    /// Refuses an end that is not behind the beginning.
+    fn hold_end(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
+        let Some(end) = self.end_time else { return Ok(()) };
+        let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
+        let (_, [start, usual]) = domain(&input.compiled, &parameters);
+        if end <= start {
+            bail!(
+                "`--time {end}`: `{}` begins at {start}; expected a later time, as in `--time {usual:.3e}`",
+                input.name
+            );
+        }
+        Ok(())
     }
 
     /// The method, or what of it cannot be for a body of this dimension.
@@ -222,6 +250,7 @@ impl MethodOptions {
             }
             periodic[*axis] = true;
         }
+        hold_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
         let setup = Setup {
             transfer,
             particles_per_cell: self.particles_per_cell,

@@ -28,6 +28,7 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use crate::report::file::is_same;
 use crate::report::provenance::{Input, Provenance};
 use crate::shell::words;
 
@@ -142,6 +143,21 @@ fn hold_output(folder: &Path) -> anyhow::Result<()> {
     let nearest = folders.find(|it| it.exists()).unwrap_or(Path::new("."));
     tempfile::tempfile_in(nearest)
         .with_context(|| format!("cannot {what} the folder `{shown}`"))?;
+    Ok(())
+}
+
+/// Refuses a file for results that one of the `inputs` was read from: it would be lost.
+fn spare<'a>(
+    option: &str,
+    path: &Path,
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> anyhow::Result<()> {
+    if inputs.into_iter().any(|input| is_same(input, path)) {
+        anyhow::bail!(
+            "`{option} {}`: that file is read, and would be lost; name another one",
+            path.display()
+        );
+    }
     Ok(())
 }
 

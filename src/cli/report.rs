@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 
-use super::{Outcome, print, say};
+use super::{Outcome, print, say, spare};
 use crate::gallery::{self, FIELDS};
 use crate::page::{self, Page, Verdicts};
 use crate::report::{write_files, write_whole};
@@ -45,11 +45,12 @@ impl Report {
 
     /// Writes the page of a folder.
     fn results(&self, folder: &Path) -> anyhow::Result<Verdicts> {
+        let path = self.output.clone().unwrap_or_else(|| folder.join("report.html"));
         let page = Page::read(folder)?;
+        spare("--output", &path, page.files())?;
         for line in page.set_aside() {
             say(format_args!("not on the page: {line}"));
         }
-        let path = self.output.clone().unwrap_or_else(|| folder.join("report.html"));
         write_whole(&path, &page.html())
             .with_context(|| format!("cannot write `{}`", path.display()))?;
         let verdicts = page.verdicts();

@@ -9,14 +9,15 @@ use mms_runtime::{Division, Method};
 
 use super::follow::{Followers, Interrupted};
 use super::input::{Input, Motion};
-use super::method::{MethodOptions, Precision};
+use super::method::{MethodOptions, Precision, hold_division};
 use super::progress::Progress;
-use super::{Outcome, hold_output, print, print_json, say};
+use super::{Outcome, hold_output, print, print_json, say, spare};
 use crate::checkpoint::{Found, Head, Keeper};
 use crate::history::History;
+use crate::report::file::is_same;
 use crate::report::provenance::Provenance;
 use crate::report::run::Run as Report;
-use crate::report::{pretty, write_files};
+use crate::report::{Refused, pretty, write_files};
 use crate::scene::usual_cells;
 use crate::shell::words;
 use crate::store::{digest, program};
@@ -73,12 +74,9 @@ impl Run {
         let dimension = input.compiled.field.dimension;
         let method = self.method.method_for(&input, &self.set)?;
         let cells = self.cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
+        hold_division("--cells", &cells, dimension)?;
         self.output.as_deref().map_or(Ok(()), hold_output)?;
-        if let (Some(history), Some(checkpoint)) = (&self.history, &self.checkpoint)
-            && history == checkpoint
-        {
-            bail!("`--history` and `--checkpoint` name the same file, `{}`", history.display());
-        }
+        self.hold_files(&input)?;
         let progress = Progress::new();
         let provenance = Provenance::new("run", &from_the_start(), input.provenance(&self.set));
         let head = Head::new(self.key(&input, &method, cells)?, provenance.command.clone());
@@ -95,14 +93,7 @@ impl Run {
         };
         progress.finish();
         let kept = followers.end();
-        let run = match run {
-            Ok(run) => run,
-            Err(refusal) => {
-                say(format_args!("error: `{}` cannot be run: {refusal}", input.name));
-                return Ok(Outcome::RunFailed);
-            }
-        };
-        let failed = run.level.errors.is_err();
+        let run = run.map_err(|reason| Refused { cells, reason });
         let report = Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
@@ -111,13 +102,23 @@ impl Run {
             run,
             provenance,
         };
+        let run = match &report.run {
+            Ok(run) => run,
+            Err(Refused { reason, .. }) => {
+                say(format_args!("error: `{}` cannot be run: {reason}", input.name));
+                if self.json {
+                    print_json(&report.document())?;
+                }
+                return Ok(Outcome::RunFailed);
+            }
+        };
         // What cannot be written loses nothing of what can be printed.
         let states = followers.list_of_states().map(|list| list.display().to_string());
         let mut written: Vec<String> = states.into_iter().collect();
         if self.json {
             print_json(&report.document())?;
         } else {
-            print(&report.text())?;
+            print(&report.text(run))?;
         }
         if let Some(folder) = &self.output {
             written.extend(write_files(folder, "run", [("json", pretty(&report.document())?)])?);
@@ -126,10 +127,27 @@ impl Run {
             written.iter().try_for_each(|path| print(&format!("\nwrote {path}")))?;
         }
         kept?;
-        if let Err(failure) = &report.run.level.errors {
-            say(format_args!("error: {failure}"));
+        Ok(match &run.level.errors {
+            Ok(_) => Outcome::AsExpected,
+            Err(failure) => {
+                say(format_args!("error: {failure}"));
+                Outcome::RunFailed
+            }
+        })
+    }
+
+    /// Refuses files to write that are read, or are one.
+    fn hold_files(&self, input: &Input) -> anyhow::Result<()> {
+        let inputs = input.files();
+        for (option, path) in [("--history", &self.history), ("--checkpoint", &self.checkpoint)] {
+            path.as_deref().map_or(Ok(()), |path| spare(option, path, &inputs))?;
         }
-        Ok(if failed { Outcome::RunFailed } else { Outcome::AsExpected })
+        if let (Some(history), Some(checkpoint)) = (&self.history, &self.checkpoint)
+            && is_same(history, checkpoint)
+        {
+            bail!("`--history` and `--checkpoint` name the same file, `{}`", history.display());
+        }
+        Ok(())
     }
 
     /// Who follows the run: what it writes, and where it goes on from.

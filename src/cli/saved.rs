@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::Diagnostic;
@@ -33,7 +33,7 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
         bail!("`--study` is given twice");
     }
     let shown = path.to_string_lossy().into_owned();
-    let text = file::read(path.as_ref()).with_context(|| format!("cannot read `{shown}`"))?;
+    let text = file::read(path.as_ref())?;
     let own = &arguments[2..];
     let saved = read(&shown, &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())

@@ -14,7 +14,7 @@ use mms_runtime::study::{
 use mms_runtime::{Division, Method, Real, Run, Verdict};
 
 use super::input::{Input, Motion};
-use super::method::{MethodOptions, Precision, finite, positive};
+use super::method::{MethodOptions, Precision, finite, hold_division, positive};
 use super::methods::Methods;
 use super::progress::Progress;
 use super::{Outcome, output_folder, print, print_json, say};
@@ -159,15 +159,16 @@ impl Study {
         let folder = output_folder(self.output.as_deref(), &input.name)?;
         let provenance = Provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, &provenance)?;
-        if !studies.iter().any(Report::is_started) {
-            say(format_args!("error: the study of `{}` cannot be started", input.name));
-            return Ok(Outcome::RunFailed);
-        }
+        let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if self.json {
             print_json(&report.document())?;
-        } else {
+        } else if is_started {
             print(&report.table())?;
+        }
+        if !is_started {
+            say(format_args!("error: the study of `{}` cannot be started", input.name));
+            return Ok(Outcome::RunFailed);
         }
         let written = report.write(&folder)?;
         if !self.json {
@@ -200,6 +201,9 @@ impl Study {
                     Rc::clone(new.insert(Rc::new(input)))
                 }
             };
+            for cells in &self.cells {
+                hold_division("--cells", cells, input.compiled.field.dimension)?;
+            }
             let method = options.method_for(&input, &self.set)?;
             cases.push(Case { options, input, method });
         }

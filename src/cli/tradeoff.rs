@@ -1,13 +1,19 @@
 //! `mms tradeoff`: error against cost, and what to choose.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_codegen::Compiled;
+use mms_codegen::expr::Rational;
+use mms_codegen::sample::{Extent, domain};
 use mms_codegen::selection::Form;
+use mms_runtime::Division;
 
 use super::input::{Input, Motion, Variant};
 use super::method::positive;
+use super::stability::sound;
 use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
@@ -83,12 +89,13 @@ impl Tradeoff {
         input.hold(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), &input.name)?;
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
-        let goal = match (self.target_linf, self.budget_seconds) {
-            (Some(target), _) => Goal::Error(target),
-            (None, Some(budget)) => Goal::Cost(budget),
-            (None, None) => bench.usual(input.compiled.field.dimension)?,
-        };
-        let plan = self.plan(&input, goal)?;
+        let target = self.target_linf.map(Goal::Error);
+        let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));
+        // Without a goal, any error will do until that of the default is known.
+        let mut plan = self.plan(&input, goal.unwrap_or(Goal::Error(f64::INFINITY)))?;
+        if goal.is_none() {
+            plan.goal = bench.usual(&plan)?;
+        }
         let found = Search::run(&mut bench, plan)?;
         trials.finish();
         let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
@@ -123,7 +130,10 @@ impl Tradeoff {
         let scene = input.scene(&self.set, |entry| entry.double)?;
         let dimension = input.compiled.field.dimension;
         let grain = scene.edges().map_or(1, |edges| grain(&edges));
-        Ok(Plan { dimension, grain, goal, cost: self.cost, most_work: self.most_work })
+        let longest = scene.cell_size(&Division::Uniform(1));
+        let unit_work = unit_work(&input.compiled, &input.settings(&self.set)?, longest);
+        let (cost, most_work) = (self.cost, self.most_work);
+        Ok(Plan { dimension, grain, goal, cost, most_work, unit_work })
     }
 
     /// The page, of some fields and targets.
@@ -197,9 +207,17 @@ impl Runner for Bench<'_> {
 
 impl Bench<'_> {
     /// The error of a run without options, as a goal.
-    fn usual(&mut self, dimension: usize) -> anyhow::Result<Goal> {
-        let setting = Setting::default();
-        let trial = self.run(&setting, usual_cells(dimension))?;
+    fn usual(&mut self, plan: &Plan) -> anyhow::Result<Goal> {
+        let (setting, cells) = (Setting::default(), usual_cells(plan.dimension));
+        let work = plan.work(&setting, cells);
+        if work > plan.most_work {
+            bail!(
+                "`--most-work {:e}`: the default method, whose error is aimed for, is predicted to take {work:.1e}; \
+                 raise it, or give `--target-linf` or `--budget-seconds`",
+                plan.most_work
+            );
+        }
+        let trial = self.run(&setting, cells)?;
         let error = trial.error.map_err(|reason| {
             anyhow!("the default method has no error to aim for: {reason}\ngive `--target-linf` or `--budget-seconds`")
         })?;
@@ -207,6 +225,22 @@ impl Bench<'_> {
             "the default method makes no error to aim for: give `--target-linf` or `--budget-seconds`",
         )
     }
+}
+
+/// About how many particle-steps a run takes on one cell as long as the `longest` edge of the body, with one particle in it
+/// and a Courant number of 1: the part of the cell that is the body's, times how often a wave crosses it.
+fn unit_work(compiled: &Compiled, set: &BTreeMap<usize, Rational>, longest: f64) -> f64 {
+    let (extent, [start, end]) = domain(compiled, &compiled.parameters::<f64>(set));
+    let [_, speed] = sound(compiled, set);
+    let part: f64 = match extent {
+        Extent::Box([lower, upper]) => {
+            lower.iter().zip(&upper).map(|(lower, upper)| (upper - lower) / longest).product()
+        }
+        Extent::Annulus([inner, outer], [first, last]) => {
+            (last - first) / 2.0 * (outer.powi(2) - inner.powi(2)) / longest.powi(2)
+        }
+    };
+    part * speed * (end - start) / longest
 }
 
 /// Which numbers of cells along the longest edge divide all edges into whole numbers of cells: multiples of this, as

@@ -15,7 +15,7 @@ use mms_codegen::suggest::advice;
 use serde_json::Value;
 
 use super::input::Input;
-use super::{Outcome, print, print_json, say, this_command};
+use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::gallery::FIELDS;
 use crate::report::{pretty, provenance, write_files};
 use crate::rows::Named as _;
@@ -75,6 +75,7 @@ impl Verify {
             self.print_list(&rows)?;
             return Ok(Outcome::AsExpected);
         }
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
         let threads = self.threads.or(std::thread::available_parallelism().ok());
         let threads = threads.unwrap_or(NonZero::<usize>::MIN);
         if let Some(names) = &self.defects {

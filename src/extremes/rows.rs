@@ -49,6 +49,14 @@ pub struct Row {
     pub theory: String,
 }
 
+impl Row {
+    /// Whether its steps may be above the stable one, where that is `allowed` for the method's own: a row that has a
+    /// Courant number says so itself.
+    pub fn allows_unstable(&self, allowed: bool) -> bool {
+        self.allow_unstable || allowed && self.courant.is_none()
+    }
+}
+
 impl Named for Row {
     fn name(&self) -> &str {
         &self.name

@@ -8,9 +8,8 @@ use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::sample::{Extent, domain, samples};
-use mms_codegen::selection::Form;
 use mms_codegen::variation::Variation;
-use mms_codegen::{Compiled, Options, Selection};
+use mms_codegen::{Compiled, Options};
 use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, FormulationName, Method};
 
@@ -44,12 +43,15 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A field in a form, in a regime or with another material; why it cannot be, where it cannot.
+    /// A field as it is taken, in a regime or with another material; why it cannot be, where it cannot.
     ///
     /// # Errors
     /// A field that cannot be read, or does not compile as it is.
-    pub fn new(field: &str, form: Form, row: Option<&Row>) -> anyhow::Result<Result<Self, String>> {
-        let declared = Options { form, ..Options::default() };
+    pub fn new(
+        field: &str,
+        declared: &Options,
+        row: Option<&Row>,
+    ) -> anyhow::Result<Result<Self, String>> {
         let mut options = declared.clone();
         let mut set = BTreeMap::new();
         let mut settings = String::new();
@@ -62,18 +64,18 @@ impl Subject {
                 Err(reason) => return Ok(Err(reason)),
             };
             settings = name.replace('_', " ");
-            let compiled = Input::find(field, &Default::default())?.compiled;
-            (options, set) = take(&compiled, varied, &declared);
+            let compiled = Input::find_with(field, declared)?.compiled;
+            (options, set) = take(&compiled, varied, declared);
         } else if let Some(ratio) = row.and_then(|row| row.lambda_over_mu.clone()) {
             settings = format!("lambda/mu {ratio}");
             let variation = Variation::Moduli(ratio);
-            let input = Input::find(field, &Default::default())?;
+            let input = Input::find_with(field, declared)?;
             if let Err(reason) = variation.fits(&input.compiled.field) {
                 return Ok(Err(reason));
             }
             options.variation = variation;
         }
-        let varied = options != declared;
+        let varied = options != *declared;
         let input = match Input::find_with(field, &options) {
             // The field holds as it is: it is the extreme that it does not claim anything about.
             Err(error) if varied => return Ok(Err(first_line(&error))),
@@ -98,7 +100,13 @@ impl Subject {
     }
 
     /// The method of a row.
-    pub fn method(&self, base: &Method, row: &Row, quick: bool) -> (Method, Division) {
+    pub fn method(
+        &self,
+        base: &Method,
+        row: &Row,
+        quick: bool,
+        allow_unstable: bool,
+    ) -> (Method, Division) {
         let at = self.input.compiled.field.dimension - 1;
         let mut method = base.clone();
         let setup = &mut method.setup;
@@ -114,9 +122,10 @@ impl Subject {
         if let Some(steps) = row.end {
             self.end_after(&mut method, cells, steps);
         }
-        if !row.allow_unstable {
-            method.setup.fastest_wave = fastest_wave_with(&self.input, &self.set, &method);
-        }
+        method.setup.fastest_wave = match row.allows_unstable(allow_unstable) {
+            true => None,
+            false => fastest_wave_with(&self.input, &self.set, &method),
+        };
         (method, Division::Uniform(cells))
     }
 
@@ -213,7 +222,10 @@ fn take(
     let (own, added): (BTreeMap<_, _>, BTreeMap<_, _>) =
         varied.values.into_iter().partition(|(at, _)| *at < parameters.len());
     let own = own.iter().map(|(at, value)| (parameters[*at].name.clone(), format!("({value})")));
-    let selection = Selection { set: own.collect(), ..Selection::default() };
+    let own: BTreeMap<_, _> = own.collect();
+    let mut selection = declared.selection.clone();
+    selection.set.retain(|(name, _)| !own.contains_key(name));
+    selection.set.extend(own);
     (Options { selection, variation: varied.variation, ..declared.clone() }, added)
 }
 

@@ -1,5 +1,7 @@
 //! The fields of the results: their formulas, and their motion.
 
+use std::path::PathBuf;
+
 use maud::{Markup, PreEscaped, html};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::show::{Document, mathml};
@@ -32,6 +34,7 @@ struct Content {
     title: String,
     formulas: String,
     motion: Option<Motion>,
+    files: Vec<PathBuf>,
 }
 
 /// The fields of some results, each once.
@@ -65,6 +68,7 @@ fn content(input: &Input) -> Result<Content, String> {
         title: found.compiled.field.title.clone(),
         formulas: mathml::part(&document, 4),
         motion: Motion::of(&found.compiled, &set),
+        files: found.files(),
     })
 }
 
@@ -74,6 +78,11 @@ impl Shown {
         let found = input::Input::find_with(entry.name, &Options::default())?;
         let input = found.provenance(&[]);
         Ok(Self { content: content(&input), input })
+    }
+
+    /// The files that it was read from.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.content.iter().flat_map(|content| &content.files)
     }
 
     /// Its formulas, if they are known.

@@ -22,7 +22,7 @@ impl Page {
         let mut files = Vec::new();
         walk(folder, &mut files)?;
         let (mut entries, mut set_aside, mut stored) = (Vec::new(), Vec::new(), 0);
-        for path in &files {
+        for path in files.iter().filter(|path| !has_extension(path, "vtu")) {
             let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
             match read(path, &name)? {
                 Found::Result(entry) => entries.push(*entry),
@@ -41,7 +41,8 @@ impl Page {
         }
         let name = folder.canonicalize().ok();
         let name = name.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        Ok(Self::new(&format!("Results in {name}"), entries, set_aside))
+        let page = Self::new(&format!("Results in {name}"), entries, set_aside);
+        Ok(Self { read: files, ..page })
     }
 }
 
@@ -54,7 +55,7 @@ enum Found {
     Other(String),
 }
 
-/// Files that may be results, in the order of their paths.
+/// Files that may be results or parts of them, in the order of their paths.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> anyhow::Result<()> {
     let wrong = || format!("cannot read `{}`", folder.display());
     let mut paths = Vec::new();
@@ -66,20 +67,23 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> anyhow::Result<()> {
     }
     paths.sort();
     for (path, is_folder) in paths {
-        let extension = path.extension().and_then(|it| it.to_str());
         if is_folder {
             walk(&path, files)?;
-        } else if matches!(extension, Some("json" | "pvd")) {
+        } else if ["json", "pvd", "vtu"].iter().any(|it| has_extension(&path, it)) {
             files.push(path);
         }
     }
     Ok(())
 }
 
+fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|own| own == extension)
+}
+
 fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
     let bytes = std::fs::read(path).with_context(|| format!("cannot read `{}`", path.display()))?;
     let Ok(text) = String::from_utf8(bytes) else { return Ok(Found::Other("not text".into())) };
-    if path.extension().is_some_and(|extension| extension == "pvd") {
+    if has_extension(path, "pvd") {
         return Ok(match states::States::read(path, &text) {
             Ok(states) => Found::Result(Box::new(Entry {
                 id: String::new(),

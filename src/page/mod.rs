@@ -23,6 +23,8 @@ mod study;
 mod tradeoff;
 mod verify;
 
+use std::path::PathBuf;
+
 use maud::{Markup, html};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -121,6 +123,8 @@ pub struct Page {
     fields: Vec<Shown>,
     /// Files that are not shown, and why.
     set_aside: Vec<String>,
+    /// The files of the folder that it is made of.
+    read: Vec<PathBuf>,
 }
 
 impl Page {
@@ -131,12 +135,17 @@ impl Page {
             entry.id = format!("result-{}", number + 1);
         }
         let fields = field::fields(entries.iter().filter_map(|entry| entry.provenance.as_ref()));
-        Self { title: title.to_owned(), entries, fields, set_aside }
+        Self { title: title.to_owned(), entries, fields, set_aside, read: Vec::new() }
     }
 
     /// What was not understood, a line each.
     pub fn set_aside(&self) -> &[String] {
         &self.set_aside
+    }
+
+    /// The files that it is made of: results, and the fields that they are of.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.read.iter().chain(self.fields.iter().flat_map(Shown::files))
     }
 
     /// What is said of all results together.

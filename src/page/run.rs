@@ -17,10 +17,10 @@ pub struct Run {
     field: String,
     method: Method,
     cells: Value,
-    cell_size: f64,
-    time_step: f64,
-    steps: usize,
-    particles: usize,
+    cell_size: Option<f64>,
+    time_step: Option<f64>,
+    steps: Option<usize>,
+    particles: Option<usize>,
     errors: Option<BTreeMap<String, Times>>,
     diagnostics: Option<State>,
     ns_per_particle_step: Option<f64>,
@@ -58,6 +58,7 @@ impl Section for Run {
     fn verdicts(&self) -> Verdicts {
         match self.failure {
             None => Verdicts { word: "reached its end".into(), ..Verdicts::default() },
+            Some(_) if self.steps.is_none() => Verdicts::one("not started", false),
             Some(_) => Verdicts::one("stopped", false),
         }
     }
@@ -66,8 +67,8 @@ impl Section for Run {
         html! {
             @if let Some(failure) = &self.failure { p.alert { (failure) } }
             p {
-                (count(Some(self.particles))) " particles, " (count(Some(self.steps))) " steps of "
-                (small(Some(self.time_step))) ", cells of " (small(Some(self.cell_size))) "."
+                (count(self.particles)) " particles, " (count(self.steps)) " steps of "
+                (small(self.time_step)) ", cells of " (small(self.cell_size)) "."
                 @if let Some(ns) = self.ns_per_particle_step { " " (format!("{ns:.0}")) " ns per particle and step." }
             }
             @if let Some(errors) = &self.errors { (norms(errors)) }

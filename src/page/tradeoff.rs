@@ -148,6 +148,9 @@ impl Tradeoff {
                     }
                     None => { "No run that was made reaches it." }
                 }
+                @if self.choice.as_ref().is_some_and(|choice| choice.linf == Some(0.0)) {
+                    " It makes no error: nothing but their cost tells it from other runs that make none."
+                }
                 @if let Some(next) = &self.predicted {
                     " What comes next is predicted to be " (next.setting) " on " (number(Some(next.cells), |it| format!("{it:.0}")))
                     " cells, with " (small(Some(next.linf))) "."

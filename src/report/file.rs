@@ -4,7 +4,8 @@ use std::fs::{self, File, Metadata};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use mms_codegen::source;
+use anyhow::{Context as _, anyhow};
+use mms_codegen::source::Sources;
 
 /// Where a path leads.
 enum Target {
@@ -55,8 +56,33 @@ pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
 }
 
 /// The text of a file, in UTF-8.
-pub(crate) fn read(path: &Path) -> io::Result<String> {
-    fs::read(path).and_then(source::text)
+///
+/// # Errors
+/// A file that cannot be read, or is no text, and where.
+pub(crate) fn read(path: &Path) -> anyhow::Result<String> {
+    let shown = path.display();
+    let bytes = fs::read(path).with_context(|| format!("cannot read `{shown}`"))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let mut sources = Sources::default();
+        let text = String::from_utf8_lossy(error.as_bytes());
+        let source = sources.add(shown.to_string(), text);
+        let odd = error.utf8_error().valid_up_to();
+        let place = sources.place(sources.span(source, odd, odd));
+        anyhow!("{place}: expected text in UTF-8; save the file in that encoding")
+    })
+}
+
+/// Whether two paths lead to the same file, there or not, by whatever folders and links.
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    place(one) == place(other)
+}
+
+/// The one path of a file.
+fn place(path: &Path) -> PathBuf {
+    let path = without_links(path);
+    let folder = folder(&path);
+    let folder = fs::canonicalize(&folder).unwrap_or(folder);
+    path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
 }
 
 /// As [`write_whole`], with whatever is written. A link stays, and so do the permissions of a file that is replaced; a device or a

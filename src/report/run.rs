@@ -3,14 +3,14 @@
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_runtime::study::{Balance, Details, Deviations};
-use mms_runtime::{Errors, Method};
+use mms_runtime::{Division, Errors, Method};
 use serde_json::{Map, Value, json};
 
 use super::provenance::Provenance;
-use super::{duration, method};
+use super::{Refused, duration, method};
 use crate::cli::method::Arithmetic;
 
-/// A run that was started.
+/// A run.
 pub struct Run {
     /// The field's name.
     pub field: String,
@@ -20,8 +20,8 @@ pub struct Run {
     pub method: Method,
     /// How numbers were computed.
     pub arithmetic: Arithmetic,
-    /// What came of it.
-    pub run: mms_runtime::Run,
+    /// What came of it, or why it was not started.
+    pub run: Result<mms_runtime::Run, Refused>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -36,26 +36,43 @@ pub(super) fn quantities(deviations: &Deviations) -> [(&'static str, &'static st
     ]
 }
 
+/// Nanoseconds of all particles and steps; 0 of a run without steps.
+fn ns_per_particle_step(run: &mms_runtime::Run) -> f64 {
+    let work = (run.level.particles * run.level.steps).max(1) as f64;
+    let seconds = run.seconds;
+    (seconds.forcing + seconds.transfer + seconds.grid + seconds.stress) * 1e9 / work
+}
+
 impl Run {
-    /// Nanoseconds of all particles and steps; 0 of a run without steps.
-    fn ns_per_particle_step(&self) -> f64 {
-        let work = (self.run.level.particles * self.run.level.steps).max(1) as f64;
-        let seconds = self.run.seconds;
-        (seconds.forcing + seconds.transfer + seconds.grid + seconds.stress) * 1e9 / work
+    /// Why it did not reach its end, if so.
+    fn failure(&self) -> Option<String> {
+        match &self.run {
+            Ok(run) => run.level.errors.as_ref().err().map(ToString::to_string),
+            Err(refused) => Some(refused.to_string()),
+        }
     }
 
-    /// The JSON document.
+    fn cells(&self) -> &Division {
+        match &self.run {
+            Ok(run) => &run.level.cells,
+            Err(refused) => &refused.cells,
+        }
+    }
+
+    /// The JSON document; what is not known of a run that was not started is null.
     pub fn document(&self) -> Value {
-        let (level, seconds) = (&self.run.level, self.run.seconds);
-        let details = self.run.details.as_ref();
+        let run = self.run.as_ref().ok();
+        let level = run.map(|run| &run.level);
+        let ended = run.and_then(|run| Some((run, run.details.as_ref()?)));
+        let details = ended.map(|(_, details)| details);
         self.provenance.sign(json!({
             "field": self.field,
             "method": method::document(&self.method, self.arithmetic),
-            "cells": method::division(&level.cells),
-            "cell_size": level.cell_size,
-            "time_step": level.time_step,
-            "steps": level.steps,
-            "particles": level.particles,
+            "cells": method::division(self.cells()),
+            "cell_size": level.map(|level| level.cell_size),
+            "time_step": level.map(|level| level.time_step),
+            "steps": level.map(|level| level.steps),
+            "particles": level.map(|level| level.particles),
             "errors": details.map(errors),
             "diagnostics": details.map(|details| json!({
                 "mass": details.diagnostics.mass,
@@ -64,20 +81,20 @@ impl Run {
                 "jacobian": details.diagnostics.jacobian,
                 "balance": details.diagnostics.balance.as_ref().map(balance),
             })),
-            "ns_per_particle_step": details.map(|_| self.ns_per_particle_step()),
-            "seconds": details.map(|_| json!({
+            "ns_per_particle_step": ended.map(|(run, _)| ns_per_particle_step(run)),
+            "seconds": ended.map(|(mms_runtime::Run { seconds, .. }, _)| json!({
                 "forcing": seconds.forcing,
                 "transfer": seconds.transfer,
                 "grid": seconds.grid,
                 "stress": seconds.stress,
             })),
-            "failure": level.errors.as_ref().err().map(ToString::to_string),
+            "failure": self.failure(),
         }))
     }
 
-    /// The text for a terminal.
-    pub fn text(&self) -> String {
-        let level = &self.run.level;
+    /// The text for a terminal, of a run that was started.
+    pub fn text(&self, run: &mms_runtime::Run) -> String {
+        let level = &run.level;
         let head = format!(
             "{}: {}\n{}\n\n{} cells, {} particles, {} steps of {:.3e}",
             self.field,
@@ -88,7 +105,7 @@ impl Run {
             level.steps,
             level.time_step
         );
-        let Some(details) = &self.run.details else {
+        let Some(details) = &run.details else {
             return format!("{head}\nstopped after {}", duration(level.seconds));
         };
         let state = &details.diagnostics;
@@ -99,29 +116,28 @@ impl Run {
             state.jacobian[1],
             state.kinetic_energy,
             state.mass,
-            self.times()
+            times(run)
         )
     }
+}
 
-    /// What the parts of a step took.
-    fn times(&self) -> String {
-        let seconds = self.run.seconds;
-        let parts = [
-            ("forcing", seconds.forcing),
-            ("transfer", seconds.transfer),
-            ("grid", seconds.grid),
-            ("stress", seconds.stress),
-        ];
-        let whole: f64 = parts.iter().map(|(_, seconds)| seconds).sum();
-        let share =
-            |(name, seconds): (&str, f64)| format!("{name} {:.0} %", 100.0 * seconds / whole);
-        format!(
-            "{} in all, {:.0} ns per particle and step: {}",
-            duration(self.run.level.seconds),
-            self.ns_per_particle_step(),
-            parts.map(share).join(", ")
-        )
-    }
+/// What the parts of a step took.
+fn times(run: &mms_runtime::Run) -> String {
+    let seconds = run.seconds;
+    let parts = [
+        ("forcing", seconds.forcing),
+        ("transfer", seconds.transfer),
+        ("grid", seconds.grid),
+        ("stress", seconds.stress),
+    ];
+    let whole: f64 = parts.iter().map(|(_, seconds)| seconds).sum();
+    let share = |(name, seconds): (&str, f64)| format!("{name} {:.0} %", 100.0 * seconds / whole);
+    format!(
+        "{} in all, {:.0} ns per particle and step: {}",
+        duration(run.level.seconds),
+        ns_per_particle_step(run),
+        parts.map(share).join(", ")
+    )
 }
 
 fn table(details: &Details) -> Table {

@@ -1,5 +1,6 @@
 //! A study as a table, a JSON document, a CSV file and a picture.
 
+use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
@@ -51,13 +52,19 @@ pub struct Study {
     pub provenance: Provenance,
 }
 
-/// A level that was not started.
+/// A run, or a level of a study, that was not started.
 #[derive(Clone, Debug)]
 pub struct Refused {
     /// Cells of the body.
     pub cells: Division,
     /// Why it was not started.
     pub reason: Refusal,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "not started: {}", self.reason)
+    }
 }
 
 /// One level as a record: a row of the CSV file, and an entry of the JSON document.
@@ -110,7 +117,7 @@ impl Row {
     fn of_refused(refused: &Refused) -> Self {
         Row {
             cells: method::division(&refused.cells),
-            failure: Some(format!("not started: {}", refused.reason)),
+            failure: Some(refused.to_string()),
             ..Row::default()
         }
     }

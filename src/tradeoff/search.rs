@@ -83,6 +83,8 @@ pub struct Plan {
     pub cost: Cost,
     /// No run is begun that is predicted to take more particle-steps.
     pub most_work: f64,
+    /// About how many those are on one cell, with one particle in it and a Courant number of 1.
+    pub unit_work: f64,
 }
 
 impl Plan {
@@ -91,6 +93,13 @@ impl Plan {
         let coarse = [32, 16, 4][self.dimension - 1];
         let coarse = self.whole(coarse as f64);
         [coarse, 2 * coarse]
+    }
+
+    /// How many particle-steps a setting is predicted to take on a grid, before any run.
+    pub fn work(&self, setting: &Setting, cells: usize) -> f64 {
+        let dimension = self.dimension as i32;
+        let particles = (setting.particles as f64).powi(dimension);
+        self.unit_work * particles * (cells as f64).powi(dimension + 1) / setting.courant
     }
 
     /// The nearest number of cells that is not less.
@@ -167,7 +176,10 @@ impl Line {
     pub fn meet(&self, plan: &Plan) -> Option<Prediction> {
         let growth = plan.growth();
         let ratio = match (plan.goal, self.order) {
-            (Goal::Error(target), Some(order)) => (self.error / target).powf(1.0 / order),
+            (Goal::Error(target), Some(order)) => {
+                let coarsest = plan.grain as f64 / self.cells;
+                (self.error / target).powf(1.0 / order).max(coarsest)
+            }
             // What does not shrink does not grow: coarser grids are not looked at.
             (Goal::Error(target), None) => (self.error <= target).then_some(1.0)?,
             (Goal::Cost(budget), _) => (budget / self.cost).powf(1.0 / growth),
@@ -221,15 +233,25 @@ impl<'a> Search<'a> {
         Ok(Found { choice: search.choice(), predicted, default, trials: search.trials })
     }
 
-    /// The run, made if it has not been.
-    fn trial(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial> {
-        let same = |trial: &&Trial| trial.setting == *setting && trial.cells == cells;
-        if let Some(trial) = self.trials.iter().find(same) {
-            return Ok(trial.clone());
+    /// Makes a run that has not been made, unless it is predicted to take too much.
+    fn trial(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<()> {
+        let same = |trial: &Trial| trial.setting == *setting && trial.cells == cells;
+        if !self.trials.iter().any(same) && self.work(setting, cells) <= self.plan.most_work {
+            let trial = self.runner.run(setting, cells)?;
+            self.trials.push(trial);
         }
-        let trial = self.runner.run(setting, cells)?;
-        self.trials.push(trial.clone());
-        Ok(trial)
+        Ok(())
+    }
+
+    /// How many particle-steps a setting is predicted to take on a grid: by its finest run, if there is one.
+    fn work(&self, setting: &Setting, cells: usize) -> f64 {
+        match self.finished(setting).last() {
+            Some(run) => {
+                let ratio = cells as f64 / run.cells as f64;
+                run.particle_steps() * ratio.powi(self.plan.dimension as i32 + 1)
+            }
+            None => self.plan.work(setting, cells),
+        }
     }
 
     /// What a run costs.
@@ -445,9 +467,7 @@ impl<'a> Search<'a> {
             (Goal::Cost(_), Some(low), _) => cells as f64 / low as f64,
             _ => f64::INFINITY,
         };
-        let ratio = cells as f64 / line.cells;
-        let work = line.work * ratio.powi(self.plan.dimension as i32 + 1);
-        (spare > 1.04 && work <= self.plan.most_work).then_some(cells)
+        (spare > 1.04 && self.work(setting, cells) <= self.plan.most_work).then_some(cells)
     }
 
     /// The setting's power law through the run that is nearest to the goal.

@@ -30,7 +30,7 @@ impl<E: Fn(&Setting, f64) -> Result<f64, String>> Runner for Known<E> {
 }
 
 fn plan(goal: Goal, cost: Cost) -> Plan {
-    Plan { dimension: 1, grain: 1, goal, cost, most_work: 1e8 }
+    Plan { dimension: 1, grain: 1, goal, cost, most_work: 1e8, unit_work: 2.0 }
 }
 
 fn search(plan: Plan, error: impl Fn(&Setting, f64) -> Result<f64, String>) -> (Found, usize) {
@@ -123,6 +123,26 @@ fn what_is_out_of_reach_is_predicted_and_not_run() {
     assert_eq!(setting.shape, ShapeName::Cpdi);
     assert!(prediction.work > 1e6 && prediction.error <= 1.001e-7, "{prediction:?}");
     assert!(found.trials.iter().all(|trial| trial.particle_steps() <= 1e6));
+}
+
+/// Also none of those that come before there is anything to predict from.
+#[test]
+fn no_run_takes_more_than_it_may() {
+    for (most_work, is_run) in [(1.0, false), (2e4, true)] {
+        let limited = Plan { most_work, ..plan(Goal::Error(1e-2), Cost::ParticleSteps) };
+        let (found, _) = search(limited, smooth);
+        assert_eq!(!found.trials.is_empty(), is_run);
+        assert!(found.trials.iter().all(|trial| trial.particle_steps() <= 1.01 * most_work));
+    }
+}
+
+/// There is no grid of no cells, however small the error.
+#[test]
+fn an_error_of_nothing_is_met_on_the_coarsest_grid() {
+    let (found, _) = search(plan(Goal::Error(1e-3), Cost::ParticleSteps), |_, _| Ok(0.0));
+    assert_eq!(choice(&found).cells, 1);
+    let default = found.default.expect("a prediction");
+    assert!((default.cells, default.error) == (1.0, 0.0) && default.work > 0.0, "{default:?}");
 }
 
 #[test]

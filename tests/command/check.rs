@@ -286,5 +286,5 @@ fn a_file_that_is_no_text_is_refused_where_it_is_none() {
         .expect("the program starts");
     assert_eq!(check.status.code(), Some(2));
     let said = String::from_utf8(check.stderr).expect("UTF-8");
-    assert!(said.contains("odd.toml`: line 2, column 9: expected text in UTF-8"), "{said}");
+    assert!(said.contains("odd.toml:2:9: expected text in UTF-8"), "{said}");
 }

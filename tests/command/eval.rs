@@ -215,6 +215,13 @@ fn traction_needs_the_normal_of_a_boundary() {
     };
     let stress = value("--at 0 --time 0 --quantity P", "first_piola_kirchhoff");
     assert_eq!([along("1"), along("-1")], [stress, -stress]);
+    // And nothing else takes one.
+    for option in ["--face x_max", "--normal 1", "--face x_max --quantity u,P"] {
+        self::refused(
+            &format!("bar_1d --at 0 --time 0 {option}"),
+            "only the quantity `traction` takes a normal",
+        );
+    }
 }
 
 /// Asserts that an evaluation with these arguments is refused with a message, and prints nothing.

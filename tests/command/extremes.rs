@@ -101,6 +101,32 @@ fn the_largest_stable_courant_number_is_that_of_theory() {
     }
 }
 
+/// A step between the one that is proved to be stable and the largest that is; a row with a Courant number of its own says
+/// itself what it is there for.
+#[test]
+fn an_unstable_step_is_run_where_it_is_allowed() {
+    let rows = "--row units/soft --row courant/2 --formulation total --shape linear --courant 0.75";
+    let folder = Folder::new();
+    let run = folder.mms(&format!("extremes bar_1d --quick {rows}")).exits(3);
+    run.complains("does not run as declared").complains("the stable one").prints_nothing();
+    let document = document(&format!("{rows} --allow-unstable"), 0);
+    assert_eq!(row(&document, "units/soft")["verdict"], "within bound");
+    assert_eq!(row(&document, "courant/2")["diagnosis"], "unstable_step");
+}
+
+/// As on any command: with parameters that are set, and a motion on top.
+#[test]
+fn the_field_is_taken_as_it_is_asked_for() {
+    let declared = |options: &str| {
+        let rows = "--row units/soft --row displacement/1e-8 --row grid/beyond --row stability";
+        let document = document(&format!("{rows} {options}"), 0);
+        document["declared_l2"].as_f64().expect("an error")
+    };
+    let plain = declared("");
+    assert_ne!(declared("--set amplitude=0.1"), plain);
+    assert_ne!(declared("--rigid"), plain);
+}
+
 #[test]
 fn what_is_printed_is_written_too() {
     let folder = Folder::new();
@@ -128,7 +154,15 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
         ("extremes bar_1d --row 12", "there are displacement/1e-4", 2),
         ("extremes bar_1d --courant 0", "expected a positive number", 2),
         ("extremes bar_1d --courant 5", "does not run as declared", 3),
-        ("extremes bar_1d --formulation total --shape linear --courant 0.9", "is inverted", 3),
+        ("extremes bar_1d --formulation total --shape linear --courant 0.9", "the stable one", 3),
+        (
+            "extremes bar_1d --formulation total --shape linear --courant 0.9 --allow-unstable",
+            "is inverted",
+            3,
+        ),
+        ("extremes bar_1d --particles-per-cell 3x3", "2 numbers for 1 dimension", 2),
+        ("extremes bar_1d --set amplitud=1", "did you mean `amplitude`?", 2),
+        ("extremes bar_1d --max-nodes 10", "--max-nodes", 2),
     ];
     for (arguments, reason, code) in cases {
         folder.mms(arguments).exits(code).complains(reason).prints_nothing();

@@ -6,7 +6,7 @@ use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 use std::thread;
 
-use super::mms::Folder;
+use super::mms::{BAR, Folder};
 
 /// The run whose history is written; eight cells take forty steps.
 const RUN: &str = "run bar_1d --cells 8";
@@ -30,6 +30,16 @@ fn a_link_stays_and_the_file_behind_it_keeps_its_permissions() {
     assert_eq!(mode("data/old.csv") & 0o777, 0o600);
     assert_ne!(mode("data/new.csv") & 0o777, 0o600, "results are as open as other files");
     assert_eq!(fs::read_dir(folder.path("data")).expect("a folder").count(), 2);
+}
+
+/// A link leads to what it leads to.
+#[test]
+fn a_link_to_what_is_read_is_not_written_through() {
+    let folder = Folder::with_bar("bar.toml");
+    symlink("bar.toml", folder.path("link")).expect("a link");
+    let run = folder.mms("run bar.toml --cells 8 --history link").exits(2);
+    run.complains("`--history link`: that file is read").prints_nothing();
+    assert_eq!(folder.read("bar.toml"), BAR);
 }
 
 /// It gets all of the history, once, and stays.

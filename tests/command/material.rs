@@ -69,6 +69,21 @@ fn a_missing_file_is_reported_where_it_is_named() {
     }
 }
 
+/// By whatever path, a run does not write where it reads.
+#[test]
+fn what_a_run_reads_is_not_replaced() {
+    let folder = bar_of(Some(NEO_HOOKEAN), "lambda  = \"0\"\nmu      = \"young/2\"");
+    let field = folder.read("own/bar.toml");
+    for path in ["own/bar.toml", "own/../own/bar.toml", "own/mine.toml", "./own/mine.toml"] {
+        for option in ["--history", "--checkpoint"] {
+            let run = folder.mms(&format!("run own/bar.toml --cells 8 {option} {path}")).exits(2);
+            run.complains(&format!("`{option} {path}`: that file is read")).prints_nothing();
+        }
+    }
+    assert_eq!([folder.read("own/bar.toml"), folder.read("own/mine.toml")], [&field, NEO_HOOKEAN]);
+    folder.mms("run own/bar.toml --cells 8 --history own/bar.csv").exits(0);
+}
+
 #[test]
 fn a_mistake_in_the_material_is_reported_in_its_own_file() {
     let folder = bar_of(Some(&STIFFNESS.replace("kappa/2", "kapa/2")), "kappa = \"young\"");

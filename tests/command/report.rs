@@ -543,6 +543,24 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
 }
 
 #[test]
+fn a_page_replaces_none_of_what_it_is_made_of() {
+    let folder = Folder::with_bar("mine.toml");
+    folder.mms("run mine.toml --cells 8 --output all --vtk all --frames 1").exits(0);
+    let files =
+        ["all/run.json", "all/../all/run.json", "all/mine.pvd", "all/mine_0000.vtu", "mine.toml"];
+    let before = files.map(|file| folder.read(file));
+    for file in files {
+        let run = folder.mms(&format!("report all --output {file}")).exits(2);
+        run.complains(&format!("`--output {file}`: that file is read")).prints_nothing();
+    }
+    assert_eq!(files.map(|file| folder.read(file)), before);
+    // Last time's page is none of it.
+    for _ in 0..2 {
+        folder.mms("report all").exits(0);
+    }
+}
+
+#[test]
 fn a_folder_without_results_exits_2() {
     let folder = Folder::new();
     folder.mms("report nowhere").exits(2).complains("`nowhere`: not a folder");

@@ -122,6 +122,11 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
         ("bar_1d --set amplitude=0.6", "`--set amplitude=0.6`: not what the field file allows"),
         ("bar_1d --offset 0.1,0.2", "2 numbers for 1 dimension"),
         ("bar_1d --periodic y", "has no such axis"),
+        ("bar_1d --cells 8x8", "`--cells 8x8`: 2 numbers for 1 dimension"),
+        ("axis_aligned_2d --cells 8x8x8", "one for all, as in `--cells 8`"),
+        ("bar_1d --particles-per-cell 3x2", "one for all, as in `--particles-per-cell 3`"),
+        ("bar_1d --time 0", "`--time 0`: `bar_1d` begins at 0; expected a later time"),
+        ("bar_1d --time -1", "as in `--time 6.325e-2`"),
         ("bar_1d --cells 0", "expected a number from 1"),
         ("bar_1d --cells 4x", "expected a number from 1"),
         ("bar_1d --transfer xpic9", "unknown transfer"),
@@ -136,17 +141,31 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
 #[test]
 fn a_scene_that_cannot_be_started_is_refused_with_the_reason() {
     let cases = [
-        ("bar_1d --cells 4x4", "2 numbers of cells for a body in 1 dimension"),
         ("bar_1d --periodic x", "displacement differs between its two faces"),
         ("bar_1d --offset 0.5", "lies between grid nodes"),
         ("conformal_sector_2d --fill cartesian", "fill the body with"),
-        ("bar_1d --time -1", "the length of the time window is"),
         ("bar_1d --time 1e308", "over 1e308 steps"),
         ("bar_1d --courant 1e-12", "use a larger Courant number or time step, or an earlier end"),
     ];
     for (arguments, reason) in cases {
         Folder::new().mms(&format!("run {arguments}")).exits(3).complains(reason).prints_nothing();
     }
+}
+
+#[test]
+fn a_run_that_is_not_started_has_a_document_too() {
+    let folder = Folder::new();
+    let run = folder.mms("run bar_1d --cells 1000000000 --json --output out").exits(3);
+    let document = run.json();
+    assert_eq!(keys(&document), keys(&self::document("bar_1d --cells 8")));
+    assert!(document["steps"].is_null() && document["cells"] == 1_000_000_000, "{document:#}");
+    let failure = document["failure"].as_str().expect("a reason");
+    assert!(failure.starts_with("not started: ") && failure.contains("use fewer cells"));
+    // On a page it is one that failed.
+    folder.write("printed/run.json", &run.stdout);
+    folder.mms("report printed").exits(1);
+    assert!(folder.read("printed/report.html").contains("not started"));
+    assert!(!folder.path("out/run.json").exists(), "nothing is written about a run that never ran");
 }
 
 /// What a field is proved to have bounds the time step: compiled or not, for the parameters that are set, and
@@ -232,6 +251,13 @@ fn what_cannot_be_written_is_said_before_the_run() {
         run.prints_nothing().complains("cannot make the folder `file/below`");
         assert!(!run.stderr.contains("steps"), "{run}");
     }
-    let run = folder.mms("run bar_1d --history one --checkpoint one").exits(2);
-    run.prints_nothing().complains("name the same file, `one`");
+    for checkpoint in ["one", "./one", "below/../one"] {
+        folder.write("below/other", "");
+        let run =
+            folder.mms(&format!("run bar_1d --history one --checkpoint {checkpoint}")).exits(2);
+        run.prints_nothing().complains("name the same file, `one`");
+    }
+    let run = folder.mms("verify --row time/usl --output file").exits(2);
+    run.prints_nothing().complains("`--output file`: not a folder");
+    assert!(!folder.path("target").exists(), "nothing is stored of what did not begin");
 }

@@ -315,6 +315,8 @@ fn a_study_whose_every_level_is_refused_exits_3() {
     let run = folder.mms("study bar.toml --cells 1000000000000").exits(3);
     run.complains("not started: ").complains("use fewer cells").prints_nothing();
     run.complains("the study of `bar` cannot be started");
+    let document = folder.mms("study bar.toml --cells 1000000000000 --json").exits(3).json();
+    assert!(document["levels"][0]["failure"].as_str().is_some_and(|it| it.contains("fewer cells")));
     assert!(!folder.path("target").exists(), "nothing is written about a study that never ran");
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::mms::{Folder, assert_close, keys};
+use super::mms::{BAR, Folder, assert_close, keys};
 
 /// The document of a search that decides in the same way everywhere.
 fn document(folder: &Folder, options: &str) -> Value {
@@ -125,6 +125,44 @@ fn a_target_that_is_not_reached_is_said_to_be() {
     text.prints("An error of 1e-7 is not reached: the least is ").prints("raise `--most-work`");
     let found = folder.mms(&format!("{search} --json")).exits(1).json();
     assert!(found["choice"].is_null() && found["predicted"]["particle_steps"].as_f64() > Some(1e5));
+}
+
+/// Also none of the first, which all others are predicted from.
+#[test]
+fn no_run_is_begun_that_takes_more_than_it_may() {
+    let folder = Folder::new();
+    let search = "tradeoff bar_1d --cost particle-steps --store new --most-work";
+    let none = folder.mms(&format!("{search} 1 --target-linf 1e-2")).exits(1);
+    none.prints("No run was made: each is predicted to take more than 1.0e0 particle-steps");
+    assert_eq!(none.stderr, "");
+    let found = folder.mms(&format!("{search} 2e4 --target-linf 1e-2 --json")).exits(0).json();
+    for run in found["runs"].as_array().expect("runs") {
+        assert!(run["particle_steps"].as_f64().is_none_or(|work| work <= 2e4), "{run:#}");
+    }
+    let run = folder.mms(&format!("{search} 1")).exits(2);
+    run.complains("`--most-work 1e0`: the default method").prints_nothing();
+}
+
+/// Where there is no error, there is nothing to be had for a higher cost.
+#[test]
+fn a_field_that_is_met_exactly_is_said_to_be() {
+    let folder = Folder::new();
+    let (bar, _) = BAR.split_once("[[check]]").expect("a check");
+    let (before, line) = bar.split_once("u = [").expect("a displacement");
+    let (_, after) = line.split_once('\n').expect("a line");
+    folder.write("still.toml", &format!("{before}u = [\"0\"]\n{after}"));
+    let search = "tradeoff still.toml --cost particle-steps --target-linf 1e-3 --store store";
+    let text = folder.mms(search).exits(0);
+    text.prints("make no error: nothing but their cost tells these apart");
+    for wrong in ["0.0 times", "about 0 cells", "Dominated"] {
+        assert!(!text.stdout.contains(wrong), "{text}");
+    }
+    let found = folder.mms(&format!("{search} --json --output all")).exits(0).json();
+    assert_eq!(found["choice"]["linf"], 0.0);
+    assert!(found["gain"].as_f64().is_some_and(|gain| gain > 0.5), "{found:#}");
+    assert_eq!(found["dominated"], Value::Array(Vec::new()));
+    folder.mms("report all").exits(0);
+    assert!(folder.read("all/report.html").contains("It makes no error"));
 }
 
 /// Parameters and motions go with every run, and come back in the command.

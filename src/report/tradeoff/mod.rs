@@ -81,7 +81,7 @@ impl Report<'_> {
 
     /// Cost and error of a run that has both.
     fn point(&self, trial: &Trial) -> Option<(f64, f64)> {
-        let error = trial.error.clone().ok().filter(|error| *error > 0.0)?;
+        let error = trial.error.clone().ok()?;
         let cost = self.cost(trial, self.plan.cost);
         (cost > 0.0).then_some((cost, error))
     }
@@ -98,6 +98,11 @@ impl Report<'_> {
         self.found.choice.map(|at| &self.trials()[at])
     }
 
+    /// Whether the choice makes no error at all.
+    fn is_exact(&self) -> bool {
+        self.choice().is_some_and(|trial| trial.error == Ok(0.0))
+    }
+
     /// s of cost = C error^-s, of the runs on the front around the choice.
     pub fn exponent(&self) -> Option<f64> {
         let (_, error) = self.point(self.choice()?)?;
@@ -107,8 +112,12 @@ impl Report<'_> {
         slope(&logarithms).map(|slope| -slope)
     }
 
-    /// What was tried, and in no run was worth its cost; with the reason, where it never came to an end.
+    /// What was tried, and in no run was worth its cost; with the reason, where it never came to an end. Nothing is
+    /// said of it where there is no error to be had for more cost.
     pub fn dominated(&self) -> Vec<String> {
+        if self.is_exact() {
+            return Vec::new();
+        }
         let front = self.front();
         let mut dominated = Vec::new();
         for axis in Axis::ALL {
@@ -261,6 +270,10 @@ impl Report<'_> {
         let measure = self.plan.cost;
         let mut sentences = Vec::new();
         match (self.choice(), self.plan.goal) {
+            _ if self.trials().is_empty() => sentences.push(format!(
+                "No run was made: each is predicted to take more than {:.1e} particle-steps; raise `--most-work`.",
+                self.plan.most_work
+            )),
             (Some(trial), goal) => {
                 let error = trial.error.as_ref().map_or(f64::INFINITY, |error| *error);
                 let asked = match goal {
@@ -281,6 +294,9 @@ impl Report<'_> {
                 measure.show(budget)
             )),
         }
+        if self.is_exact() {
+            sentences.push(self.exact());
+        }
         if self.choice().is_some() {
             sentences.push(self.compared());
         }
@@ -299,6 +315,16 @@ impl Report<'_> {
             ));
         }
         sentences.join("\n")
+    }
+
+    /// How many runs are as exact as the choice.
+    fn exact(&self) -> String {
+        let errors: Vec<_> = self.trials().iter().filter_map(|it| it.error.clone().ok()).collect();
+        let exact = errors.iter().filter(|error| **error == 0.0).count();
+        format!(
+            "{exact} of the {} runs that came to their end make no error: nothing but their cost tells these apart.",
+            errors.len()
+        )
     }
 
     /// The default beside the choice.

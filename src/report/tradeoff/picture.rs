@@ -27,9 +27,10 @@ pub fn draw(report: &Report) -> anyhow::Result<String> {
 fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
+    // An error of nothing is nowhere on an axis of logarithms.
+    let point = |trial: &Trial| report.point(trial).filter(|(_, error)| *error > 0.0);
     let points = |take: &dyn Fn(&Trial) -> bool| -> Vec<(f64, f64)> {
-        let taken = report.trials().iter().filter(|trial| take(trial));
-        taken.filter_map(|trial| report.point(trial)).collect()
+        report.trials().iter().filter(|trial| take(trial)).filter_map(point).collect()
     };
     let is_default = |trial: &Trial| trial.setting == Setting::default();
     let all = points(&|_| true);
@@ -80,8 +81,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw_series(DashedLineSeries::new(goal, 6, 4, GOAL.stroke_width(1)))?
         .label("goal")
         .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], GOAL.stroke_width(1)));
-    let front: Vec<_> =
-        report.front().into_iter().filter_map(|trial| report.point(trial)).collect();
+    let front: Vec<_> = report.front().into_iter().filter_map(point).collect();
     let circles = points(&|trial| !is_default(trial));
     chart
         .draw_series(circles.into_iter().map(|at| Circle::new(at, 4, OTHER.filled())))?
@@ -97,7 +97,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
         .draw_series(LineSeries::new(default, DEFAULT.stroke_width(1)).point_size(4))?
         .label("default method")
         .legend(|(x, y)| PathElement::new([(x, y), (x + 18, y)], DEFAULT.stroke_width(1)));
-    if let Some(at) = report.choice().and_then(|trial| report.point(trial)) {
+    if let Some(at) = report.choice().and_then(point) {
         chart
             .draw_series([Circle::new(at, 8, CHOICE.stroke_width(3))])?
             .label("choice")
