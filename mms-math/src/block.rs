@@ -22,9 +22,9 @@ pub type Columns<'a, T, const N: usize> = [&'a <T as Blocked>::Column; N];
 
 /// A number of which there are blocks.
 pub trait Blocked: Copy {
-    /// How many points go through a kernel at a time. It is what eight registers of 512 bits hold: of fewer, the compiler
-    /// writes the loop over them out, and what waits is no longer beside what works; the copy of more is a call. The
-    /// blocks of all inputs and outputs stay in the first cache.
+    /// How many points go through a kernel at a time: what eight registers of 512 bits hold. With fewer points the
+    /// compiler unrolls the whole loop, and divisions no longer overlap products; with more, it copies a column by a
+    /// call. The blocks of all inputs and outputs stay in the first cache.
     const BLOCK: usize;
     /// So many numbers.
     type Column: Copy + Debug;
@@ -59,8 +59,8 @@ pub trait Blocked: Copy {
         S: Stand<Self>;
 }
 
-// The loops are written for each type: it is plain then that a block is apart from the inputs. Of what a function or a
-// closure has had, the compiler does not know that any more, and would ask at every block.
+// Written out for each type, since within one function the compiler sees that `results` and the inputs do not overlap;
+// behind a closure it does not, and would check at every block.
 macro_rules! blocked {
     ($float:ident, $block:literal) => {
         impl Blocked for $float {
