@@ -148,10 +148,10 @@ in the times.",
         pairs: &[kept(BAR), kept(VORTEX), kept(WAVES), kept(COLUMN), kept(STATIC)],
         conclusion: "\
 Keep what X determines where that is sines, roots and exponentials; at rest it is all of b. Where it is
-five sums and products, as in the bar, many points are computed sooner than read. The loops that keep
-points are code too, about as much again. The 4096 points are near. Columns are chosen for points that are
-not, and for few bytes: a number that up to three sums and products make of others is no column. Near
-points may take longer for it; where columns come from memory, it takes less time.",
+five sums and products, as in the bar, reading takes as long as computing. The loops that keep points are
+code too: up to a third more, in the bar twice as much. The 4096 points are near. Columns are chosen for
+points that are not, and for few bytes: a number that up to three sums and products make of others is no
+column. Near points may take longer for it; where columns come from memory, it takes less time.",
     },
     Table {
         title: "Single precision, or double",

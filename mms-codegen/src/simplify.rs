@@ -1,8 +1,7 @@
 //! Simplification: of several expressions of the same value, the cheapest to compute.
 //!
 //! No way of writing a quantity is best for all. So several are made, each by passes that keep the
-//! value, and every quantity takes the one that costs least. What is declared as cost thus never
-//! grows.
+//! value, and every quantity takes the one that costs least, of those that are exact.
 
 use std::collections::BTreeMap;
 
@@ -11,6 +10,7 @@ use crate::mechanics::amplitude::Amplitude;
 use crate::mechanics::derivation::derive_settled;
 use crate::mechanics::kinematics::Route;
 use crate::mechanics::rigid::RigidMotion;
+use crate::mechanics::rounding::Rounding;
 use crate::mechanics::{Derivation, Model, derive};
 use crate::pass::absorb::absorb;
 use crate::pass::factor::factor;
@@ -56,30 +56,56 @@ pub fn simplify(
     let of_deformation = derived(graph, model, Route::Deformation, &used);
     let all = [of_gradient.clone(), of_deformation].concat();
     let mut quantities = plain.quantities.clone();
-    quantities.extend(cheapest(graph, only(&all, coarse), &relations));
-    // The fast form loses digits at small amplitudes anyway.
-    let amplitude = match form {
-        Form::Fast => None,
-        Form::Stable => Amplitude::find(graph, model),
+    // The fast form is the cheapest, and loses digits at small amplitudes anyway.
+    let (rounding, anywhere) = (Rounding::new(graph, model), Rounding::default());
+    let (amplitude, usual) = match form {
+        Form::Fast => (None, &anywhere),
+        Form::Stable => (Amplitude::find(graph, model), &rounding),
     };
+    let usual = Digits { amplitude: None, rounding: usual };
+    quantities.extend(cheapest(graph, only(&all, coarse), &relations, usual));
+    let digits = Digits { amplitude: amplitude.as_ref(), rounding: &rounding };
     match form {
-        Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations)),
+        Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations, usual)),
         Form::Stable => {
-            let settled = settled(graph, model, &relations, amplitude.as_ref(), fine);
+            let settled = settled(graph, model, &relations, digits, fine);
             quantities.extend(
-                settled.unwrap_or_else(|| cheapest(graph, only(&of_gradient, fine), &relations)),
+                settled.unwrap_or_else(|| {
+                    cheapest(graph, only(&of_gradient, fine), &relations, usual)
+                }),
             );
-            mend(graph, model, &relations, amplitude.as_ref(), &mut quantities, coarse);
+            mend(graph, model, &relations, digits, &mut quantities, coarse);
         }
     }
     for quantity in FORCES.into_iter().filter(|quantity| wanted(*quantity)) {
         let Some(components) = quantities.get_mut(&quantity) else { continue };
-        *components = parted(graph, std::mem::take(components), amplitude.as_ref());
-        *components = fused(graph, std::mem::take(components), amplitude.as_ref());
+        *components = parted(graph, std::mem::take(components), digits);
+        *components = fused(graph, std::mem::take(components), digits);
     }
     Derivation {
         quantities,
-        responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default()),
+        responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default(), usual),
+    }
+}
+
+/// What is asked of a form beside its cost.
+#[derive(Clone, Copy)]
+struct Digits<'a> {
+    /// With what it shall keep its digits where that is small.
+    amplitude: Option<&'a Amplitude>,
+    /// Where it shall be as exact as others.
+    rounding: &'a Rounding,
+}
+
+impl Digits<'_> {
+    /// Whether components keep their digits at small amplitudes.
+    fn are_kept(self, graph: &Graph, components: &[Expr]) -> bool {
+        self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
+    }
+
+    /// Whether `after` is as good as `before`.
+    fn allow(self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        self.are_kept(graph, after) && self.rounding.allows(graph, before, after)
     }
 }
 
@@ -112,9 +138,10 @@ fn settled(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    amplitude: Option<&Amplitude>,
+    digits: Digits<'_>,
     is_fine: impl Fn(Quantity) -> bool,
 ) -> Option<Quantities> {
+    let amplitude = digits.amplitude;
     let settled = graph.attempt(|graph| derive_settled(graph, model, relations, amplitude));
     let forms = only(&[settled?.ok()??], is_fine);
     // To multiply out what was settled would undo it, modulo the relations of whole angles alone
@@ -126,7 +153,7 @@ fn settled(
         }
         ways
     };
-    Some(cheapest_of(graph, &forms, rewrite, amplitude))
+    Some(cheapest_of(graph, &forms, rewrite, digits))
 }
 
 /// Other quantities, where they lose digits at small amplitudes, in a form that keeps more.
@@ -134,10 +161,11 @@ fn mend(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    amplitude: Option<&Amplitude>,
+    digits: Digits<'_>,
     quantities: &mut Quantities,
     is_coarse: impl Fn(Quantity) -> bool,
 ) {
+    let amplitude = digits.amplitude;
     let coarse = |quantities: &Quantities| {
         let coarse = quantities.iter().filter(|(quantity, _)| is_coarse(**quantity));
         coarse.map(|(quantity, components)| (*quantity, components.clone())).collect::<Quantities>()
@@ -145,12 +173,11 @@ fn mend(
     // The part of Div P that is due to gradients of the moduli is as small as the stress is.
     let is_graded = is_graded(graph, model);
     let mut lost = coarse(quantities);
-    let loses = |components: &[Expr]| amplitude.is_some_and(|it| !it.keeps(graph, components));
-    lost.retain(|_, components| is_graded || loses(components));
+    lost.retain(|_, components| is_graded || !digits.are_kept(graph, components));
     if !lost.is_empty() {
         let derived = derived(graph, model, Route::Settled(amplitude), &[relations]);
         let forms = only(&derived, |quantity| lost.contains_key(&quantity));
-        quantities.extend(cheapest_of(graph, &forms, kept_apart, amplitude));
+        quantities.extend(cheapest_of(graph, &forms, kept_apart, digits));
     }
     // Where what is of first order cancels, none of these forms keeps its digits.
     let mut of_second_order = Quantities::new();
@@ -159,7 +186,8 @@ fn mend(
         let bent = graph.attempt(bent).flatten();
         of_second_order.extend(bent.map(|components| (quantity, components)));
     }
-    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, None));
+    let usual = Digits { amplitude: None, ..digits };
+    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, usual));
 }
 
 /// Whether moduli or the direction of fibres depend on X.
@@ -211,7 +239,8 @@ pub fn twins(
 ) -> (Derivation, Derivation) {
     let [plain, simplified] = [plain, simplified].map(|inner| rigid.compose(graph, inner));
     let forms = vec![plain.quantities.clone(), simplified.quantities];
-    let quantities = cheapest(graph, forms, &Relations::default());
+    let digits = Digits { amplitude: None, rounding: &Rounding::default() };
+    let quantities = cheapest(graph, forms, &Relations::default(), digits);
     (plain, Derivation { quantities, responses: simplified.responses })
 }
 
@@ -220,17 +249,18 @@ fn cheapest<K: Ord + Copy>(
     graph: &mut Graph,
     forms: Vec<BTreeMap<K, Vec<Expr>>>,
     relations: &Relations,
+    digits: Digits<'_>,
 ) -> BTreeMap<K, Vec<Expr>> {
-    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations), None)
+    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations), digits)
 }
 
-/// The same of what `rewrite` makes of each form; those first that keep their digits at a small
-/// amplitude.
+/// The same of what `rewrite` makes of each form: of those that keep their digits at a small amplitude, if there are
+/// such, and that are as exact as others.
 fn cheapest_of<K: Ord + Copy>(
     graph: &mut Graph,
     forms: &[BTreeMap<K, Vec<Expr>>],
     rewrite: impl Fn(&mut Graph, Vec<Expr>) -> Vec<Vec<Expr>>,
-    amplitude: Option<&Amplitude>,
+    digits: Digits<'_>,
 ) -> BTreeMap<K, Vec<Expr>> {
     let mut written = Vec::new();
     for form in forms {
@@ -246,18 +276,21 @@ fn cheapest_of<K: Ord + Copy>(
         let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
         ways.sort_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
         ways.dedup();
-        let keeps = |way: &&[Expr]| amplitude.is_none_or(|it| it.keeps(graph, way));
-        let cheapest = ways.iter().copied().find(keeps).or(ways.first().copied());
+        let are_kept = |way: &&[Expr]| digits.are_kept(graph, way);
+        if ways.iter().any(&are_kept) {
+            ways.retain(are_kept);
+        }
+        let cheapest = digits.rounding.first(graph, &ways);
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
     best
 }
 
-/// Components with what X determines apart from what t does, where that is worth it and keeps as many digits.
-fn parted(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>) -> Vec<Expr> {
+/// Components with what X determines apart from what t does, where that is worth it and as exact.
+fn parted(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<Expr> {
     let is_better = |graph: &Graph, parted: &[Expr]| {
-        let keeps = amplitude.is_none_or(|it| it.keeps(graph, parted));
-        keeps && cost(graph, &components).is_worth(cost(graph, parted))
+        let is_worth_it = cost(graph, &components).is_worth(cost(graph, parted));
+        is_worth_it && digits.allow(graph, &components, parted)
     };
     match graph.attempt(|graph| separate(graph, &components)) {
         Some(parted) if parted != components && is_better(graph, &parted) => parted,
@@ -266,8 +299,8 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude
 }
 
 /// Components with one number in place of two that differ by a constant, and constants added up, where products that are
-/// added cost nothing and it is worth it and keeps as many digits.
-fn fused(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>) -> Vec<Expr> {
+/// added cost nothing and it is worth it and as exact.
+fn fused(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<Expr> {
     let shifted = graph.attempt(|graph| shift(graph, &components));
     let shifted = shifted.filter(|shifted| *shifted != components);
     let mut ways = shifted.map_or_else(Vec::new, |shifted| kept_apart(graph, shifted));
@@ -275,13 +308,13 @@ fn fused(graph: &mut Graph, components: Vec<Expr>, amplitude: Option<&Amplitude>
     for way in ways.clone() {
         ways.extend(graph.attempt(|graph| gather(graph, &way)));
     }
-    ways.retain(|way| *way != components && amplitude.is_none_or(|it| it.keeps(graph, way)));
-    let taken = |way: Vec<Expr>| (steps(graph, &way), way);
-    let best = ways.into_iter().map(taken).min_by_key(|(steps, _)| *steps);
-    match best {
-        Some((fewest, way)) if steps(graph, &components).is_worth(fewest) => way,
-        _ => components,
-    }
+    ways.retain(|way| *way != components);
+    let before = steps(graph, &components);
+    let counted = ways.into_iter().map(|way| (steps(graph, &way), way));
+    let mut better: Vec<_> = counted.filter(|(steps, _)| before.is_worth(*steps)).collect();
+    better.sort_by_key(|(steps, _)| *steps);
+    let best = better.into_iter().find(|(_, way)| digits.allow(graph, &components, way));
+    best.map_or(components, |(_, way)| way)
 }
 
 /// Expressions as they are, and with factors taken out or in; no sum is multiplied out.
@@ -328,7 +361,8 @@ mod tests {
             [(b, w), (c, square)].map(|(factor, number)| graph.mul(factor, number));
         let second = graph.sum([a, second, third].map(|term| (term, Rational::ONE)));
         let before = vec![first, second];
-        let after = fused(&mut graph, before.clone(), None);
+        let digits = Digits { amplitude: None, rounding: &Rounding::default() };
+        let after = fused(&mut graph, before.clone(), digits);
         let [before, after] = [before, after].map(|components| steps(&graph, &components));
         // x^2, w, w y and two steps for the sum; then x^2 - 2, w y, and (b + c) w + (a + 2 c).
         assert_eq!((before.per_point, after.per_point), (5, 3));

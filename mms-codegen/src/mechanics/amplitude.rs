@@ -20,6 +20,9 @@ use crate::pass::substitute::replace;
 /// How many orders in the amplitude may cancel.
 const ORDERS: usize = 3;
 
+/// At how many places of the body an expression is looked at.
+const PLACES: usize = 2;
+
 /// A part of its default that is a small amplitude.
 const SMALL: f64 = 1e-6;
 
@@ -56,14 +59,14 @@ impl Amplitude {
             let values = evaluate(graph, &model.displacement, places);
             model.displacement.iter().any(|u| !vanishes(&values[u]))
         };
-        let of_defaults = places(graph, model, &defaults);
+        let of_defaults = places(graph, model, &defaults, PLACES);
         if !moves(&of_defaults) {
             return None;
         }
         candidates.into_iter().find_map(|index| {
             let mut parameters = defaults.clone();
             parameters[index] = Double::from_f64(0.0);
-            let body = places(graph, model, &parameters);
+            let body = places(graph, model, &parameters, PLACES);
             let anywhere = anywhere(graph, model, &parameters, Some(index));
             let symbol = Symbol::Parameter(index);
             let edges = edges.clone();

@@ -21,6 +21,7 @@ use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::pass::differentiate::differentiate;
 use crate::pass::expand::expand;
 use crate::pass::factor::factor;
+use crate::pass::settle::settle;
 
 /// The coefficients of the stress, as functions of the invariants.
 #[derive(Clone, Debug)]
@@ -61,6 +62,7 @@ impl Finite {
         let [constant, linear] = expand(graph, &[constant, linear], symbols)[..] else {
             unreachable!("as many roots as were given")
         };
+        let constant = settle(graph, &[constant])[0];
         let coefficients = factor(graph, &[alpha, beta, gamma, constant, linear]);
         let [alpha, beta, gamma, constant, linear] = coefficients[..] else {
             unreachable!("as many roots as were given")

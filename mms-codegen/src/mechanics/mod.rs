@@ -18,6 +18,7 @@ pub(crate) mod misread;
 pub mod model;
 mod place;
 pub mod rigid;
+pub mod rounding;
 mod small_strain;
 pub mod tensor;
 

@@ -9,9 +9,6 @@ use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use crate::program::interpret::{Number as _, binary, unary};
 use crate::sample::{Extent, halton, spread};
 
-/// At how many places of the body an expression is looked at.
-const PLACES: usize = 2;
-
 /// At how many places, anywhere, an identity is looked at, and how many of them must have a value.
 const ANYWHERE: usize = 24;
 const ENOUGH: usize = 6;
@@ -69,10 +66,15 @@ pub(super) fn bounds(model: &Model) -> Vec<Expr> {
     [&of_body[..], &model.domain.time].concat()
 }
 
-/// Places of the body.
-pub(super) fn places(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+/// So many places of the body.
+pub(super) fn places(
+    graph: &Graph,
+    model: &Model,
+    parameters: &[Double],
+    count: usize,
+) -> Vec<Place> {
     // The first points of the sequence have simple fractions, where X may be Y.
-    let fractions: Vec<[Double; 4]> = (101..101 + PLACES).map(halton).collect();
+    let fractions: Vec<[Double; 4]> = (101..101 + count).map(halton).collect();
     places_at(graph, model, parameters, &fractions)
 }
 
@@ -189,7 +191,8 @@ pub(super) fn evaluate(
     values
 }
 
-fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Double {
+/// The value of a node, where `of` has those of its operands.
+pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Double {
     let zero = Double::from_f64(0.0);
     let without = |value: Double, scale: f64| {
         if value.to_f64().abs() <= CANCELLED * scale { zero } else { value }

@@ -1,13 +1,27 @@
-//! Adds constants where there is one already: with a, b and c of parameters or of t, a + b (c + x) becomes (a + b c) + b x,
-//! which leaves one addition less to every point. It does so where nothing else reads c + x.
+//! Adds constants where there is one already: with a and b of parameters or of t and a number c, a + b (c + x) becomes
+//! (a + b c) + b x, which leaves one addition less to every point. It does so where nothing else reads c + x. A parameter c
+//! stays with x: it may be as large as x, and set to anything.
 
 use std::collections::BTreeMap;
 
+use super::Operands;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 
 /// `roots` with the constants of inner sums added to those of outer ones.
 pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+    let mut gathered = roots.to_vec();
+    loop {
+        let before = gathered;
+        gathered = outwards(graph, &before);
+        if gathered == before {
+            return gathered;
+        }
+    }
+}
+
+/// Every constant one sum further out: the sums that it came from have other readers then.
+fn outwards(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let readers = graph.readers(roots, |_| true);
     rebuild(graph, roots, |graph, node| match node {
         Node::Sum(constant, terms)
@@ -20,14 +34,14 @@ pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     })
 }
 
-/// A term, or, of early factors and of one sum with a constant, those two.
+/// A term, or, if it is made of early factors and of one sum with a constant, the two that it becomes.
 fn opened(
     graph: &mut Graph,
     readers: &BTreeMap<Expr, usize>,
     (term, coefficient): (Expr, Rational),
-) -> Vec<(Expr, Rational)> {
+) -> Operands {
     let Node::Product(factors) = graph.node(term).clone() else { return vec![(term, coefficient)] };
-    let (early, late): (Vec<_>, Vec<_>) =
+    let (early, late): (Operands, Operands) =
         factors.into_iter().partition(|(factor, _)| is_early(graph, *factor));
     if let [(sum, power)] = late.as_slice()
         && power.is_one()
@@ -71,5 +85,26 @@ mod tests {
         assert_eq!(gather(&mut graph, &[root, inner]), [root, inner]);
         let plain = graph.add(x, product);
         assert_eq!(gather(&mut graph, &[plain]), [plain]);
+    }
+
+    #[test]
+    fn numbers_go_all_the_way_out() {
+        let mut graph = Graph::default();
+        let [a, b] = [0, 1].map(|index| graph.symbol(Symbol::Parameter(index)));
+        let (t, x) = (graph.symbol(Symbol::Time), graph.symbol(Symbol::Coordinate(0)));
+        let two = graph.number(2);
+        // a + 3 t (b (x + 2) + 2)
+        let innermost = graph.add(x, two);
+        let inner = graph.mul(b, innermost);
+        let middle = graph.add(inner, two);
+        let outer = graph.mul(t, middle);
+        let root = graph.sum([(a, Rational::ONE), (outer, Rational::from(3))]);
+        // (a + 6 t) + 3 t (b x + 2 b)
+        let [first, second] = [x, two].map(|factor| (graph.mul(b, factor), Rational::ONE));
+        let kept = graph.sum([first, second]);
+        let kept = graph.mul(t, kept);
+        let terms = [(a, 1), (t, 6), (kept, 3)];
+        let expected = graph.sum(terms.map(|(term, number)| (term, Rational::from(number))));
+        assert_eq!(gather(&mut graph, &[root]), [expected]);
     }
 }

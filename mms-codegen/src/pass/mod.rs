@@ -18,3 +18,8 @@ pub mod separate;
 pub mod settle;
 pub mod shift;
 pub mod substitute;
+
+use crate::expr::{Expr, Rational};
+
+/// Factors with their exponents, or terms with their coefficients.
+type Operands = Vec<(Expr, Rational)>;

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use super::Operands;
 use crate::expr::{Expr, Graph, Node, Rational};
 use crate::program::Stage;
 
@@ -24,9 +25,6 @@ pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
 
 /// A sum of products: a factor without t for each factor with it.
 type Sum = BTreeMap<Expr, Expr>;
-
-/// Factors or terms, each with its exponent or coefficient.
-type Operands = Vec<(Expr, Rational)>;
 
 #[derive(Default)]
 struct Parts {

@@ -1,15 +1,15 @@
 //! Makes one number serve where two were needed that differ by a constant: where x^2 - 1/16 occurs as a factor or as an
-//! operand, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then goes into the one sum that
-//! still has it; what is added to others depends on no X.
+//! operand, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader and is fused
+//! with it; what is added elsewhere needs no X.
+//!
+//! Beside a constant that is large x^2 loses its digits. Whoever takes the result asks `mechanics::rounding` before.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Operands;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
 use crate::program::Stage;
-
-/// Factors with their exponents, or terms with their coefficients.
-type Operands = Vec<(Expr, Rational)>;
 
 /// A sum of a product and a constant.
 struct Shifted {
@@ -25,7 +25,7 @@ type ByFactor = BTreeMap<Expr, Vec<Shifted>>;
 
 /// `roots` with products written by sums that differ from them by constants, wherever those occur.
 pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
-    let found = graph.reachable(roots).into_iter().filter_map(|sum| shifted(graph, sum));
+    let found = graph.reachable(roots).into_iter().filter_map(|sum| as_shifted(graph, sum));
     let (mut sums, mut by_factor) = (BTreeSet::new(), ByFactor::new());
     for shifted in found {
         sums.insert(shifted.sum);
@@ -35,17 +35,17 @@ pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
         let made = graph.remake(node);
         match graph.node(made).clone() {
             Node::Sum(constant, terms) if !sums.contains(&made) => {
-                let written = terms.into_iter().flat_map(|term| written(graph, &by_factor, term));
-                let written = written.collect();
-                graph.remake(Node::Sum(constant, written))
+                let terms = terms.into_iter();
+                let terms = terms.flat_map(|term| in_terms_of(graph, &by_factor, term)).collect();
+                graph.remake(Node::Sum(constant, terms))
             }
             _ => made,
         }
     })
 }
 
-/// A sum as one of a constant and a product that depends on X alone.
-fn shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
+/// A sum as one of a constant and a product that needs X and not t.
+fn as_shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
     let Node::Sum(constant, terms) = graph.node(sum) else { return None };
     let [(product, coefficient)] = terms.as_slice() else { return None };
     let Node::Product(factors) = graph.node(*product) else { return None };
@@ -56,8 +56,8 @@ fn shifted(graph: &Graph, sum: Expr) -> Option<Shifted> {
     Some(Shifted { sum, factors, coefficient, constant: constant.clone() })
 }
 
-/// A term, or the two that it becomes: nothing else in it may depend on X.
-fn written(
+/// A term, or the two that it becomes, if nothing else in it needs X.
+fn in_terms_of(
     graph: &mut Graph,
     by_factor: &ByFactor,
     (term, coefficient): (Expr, Rational),
@@ -109,5 +109,24 @@ mod tests {
         let alone = graph.mul(y, square);
         assert_eq!(shift(&mut graph, &[alone]), [alone]);
         assert_eq!(shift(&mut graph, &[other]), [other]);
+    }
+
+    #[test]
+    fn coefficients_and_other_factors_are_kept() {
+        let mut graph = Graph::default();
+        let t = graph.symbol(Symbol::Time);
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let square = graph.mul(x, x);
+        let [one, two, three, five] = [1, 2, 3, 5].map(Rational::from);
+        let unit = graph.number(1);
+        // With w = 3 x^2 + 2, in w y + 5 t x^2: 5 t x^2 = 5/3 t w - 10/3 t.
+        let sum = graph.sum([(square, three.clone()), (unit, two.clone())]);
+        let first = graph.mul(sum, y);
+        let second = graph.mul(t, square);
+        let root = graph.sum([(first, one.clone()), (second, five.clone())]);
+        let product = graph.mul(t, sum);
+        let (more, less) = (&five / &three, -(&five * &two) / &three);
+        let expected = graph.sum([(first, one), (product, more), (t, less)]);
+        assert_eq!(shift(&mut graph, &[root]), [expected]);
     }
 }

@@ -187,7 +187,7 @@ pub enum Bound {
 }
 
 /// Straight-line code.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Program {
     /// In order of stage, operands first.
     pub instrs: Vec<Instr>,

@@ -39,22 +39,30 @@ fn files(folder: &str) -> Vec<PathBuf> {
 }
 
 fn compiled(name: &str, text: &str) -> Compiled {
-    let load = |_: &str| Err("only shipped materials".to_string());
+    with_own_material(name, text, "")
+}
+
+/// A field that may be of a material of its own.
+fn with_own_material(name: &str, text: &str, material: &str) -> Compiled {
+    let load = |_: &str| Ok(material.to_string());
     compile_unproved(name, name, text, &load, &Options::default())
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
 /// Everything of a field at every amplitude.
 fn measured(name: &str, text: &str) -> Vec<Excess> {
-    let compiled = compiled(name, text);
+    at_every_amplitude(name, &compiled(name, text))
+}
+
+fn at_every_amplitude(name: &str, compiled: &Compiled) -> Vec<Excess> {
     let scale = compiled.model.parameters.iter().position(|parameter| {
         let name = parameter.name.as_str();
         SCALES.contains(&name)
     });
-    let mut measured = of_field(&compiled, name, None);
+    let mut measured = of_field(compiled, name, None);
     for amplitude in AMPLITUDES {
         measured.extend(
-            scale.into_iter().flat_map(|scale| of_field(&compiled, name, Some((scale, amplitude)))),
+            scale.into_iter().flat_map(|scale| of_field(compiled, name, Some((scale, amplitude)))),
         );
     }
     measured
@@ -72,26 +80,57 @@ fn hold(mut measured: Vec<Excess>) {
     assert!(beyond.is_empty(), "{} of {} are beyond {BOUND} eps", beyond.len(), measured.len());
 }
 
-#[test]
-fn every_field_of_the_gallery_holds() {
+/// Everything of every field of a folder.
+fn measured_in(folder: &str) -> Vec<Excess> {
     let of = |path: &PathBuf| {
         let text = fs::read_to_string(path).expect("a readable file");
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         measured(&name, &text)
     };
-    hold(files("../fields").iter().flat_map(of).collect());
+    files(folder).iter().flat_map(of).collect()
+}
+
+#[test]
+fn every_field_of_the_gallery_holds() {
+    hold(measured_in("../fields"));
 }
 
 /// What is left of b and Div P where all that is of first order cancels: of waves at the speed of the material, and of
 /// harmonic motions.
 #[test]
 fn what_is_of_second_order_in_the_amplitude_holds() {
-    let of = |path: &PathBuf| {
-        let text = fs::read_to_string(path).expect("a readable file");
-        let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        measured(&name, &text)
-    };
-    hold(files("tests/data/second_order").iter().flat_map(of).collect());
+    hold(measured_in("tests/data/second_order"));
+}
+
+/// Constants that are large beside what changes, or added to what is large.
+#[test]
+fn what_stands_beside_constants_holds() {
+    hold(measured_in("tests/data/constants"));
+}
+
+/// Densities of users, whose slopes cancel at F = I only as functions of the invariants.
+#[test]
+fn stresses_of_materials_of_ones_own_hold() {
+    let energies = [
+        "mu/2*(I1 - 3) + mu*(1/J - 1)",
+        "mu/2*(I1 - 3) + mu*(J^(-2) - 1)/2",
+        "mu/2*(I2/I3 + 2*J - 5)",
+    ];
+    let mut measured = Vec::new();
+    for path in files("tests/data/stable") {
+        let motion = fs::read_to_string(&path).expect("a readable file");
+        let text = format!("{motion}\n[material]\nmodel = \"./own.toml\"\nmu = 3\ndensity = 2\n");
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        for energy in energies {
+            let material = format!(
+                "[material]\ntitle = \"own\"\nstrain_energy = \"{energy}\"\n\n[parameters]\nmu = {{}}\n"
+            );
+            let name = format!("{stem} of {energy}");
+            let compiled = with_own_material(&name, &text, &material);
+            measured.extend(at_every_amplitude(&name, &compiled));
+        }
+    }
+    hold(measured);
 }
 
 /// A motion with a material, its resistance to changes of volume of that size. The files lack their last table,

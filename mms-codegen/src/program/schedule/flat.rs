@@ -331,6 +331,8 @@ impl Flat {
             let parts = terms.chunks(MAX_OPERANDS);
             terms =
                 parts.map(|part| (self.intern(Form::Sum(part.to_vec())), Rational::ONE)).collect();
+            // A part may have been there before.
+            terms.sort();
         }
         match terms.as_slice() {
             [] => self.constant(0),
@@ -350,11 +352,33 @@ impl Flat {
         while factors.len() > MAX_OPERANDS {
             let parts = factors.chunks(MAX_OPERANDS);
             factors = parts.map(|part| (self.intern(Form::Product(part.to_vec())), 1)).collect();
+            factors.sort();
         }
         match factors.as_slice() {
             [] => self.constant(1),
             [(item, 1)] => *item,
             _ => self.intern(Form::Product(factors)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A product of 40 factors is one of two, of which the one with the last factors may be older.
+    #[test]
+    fn operands_are_in_order_where_long_products_are_parted() {
+        let mut graph = Graph::default();
+        let names: Vec<Expr> =
+            (0..40).map(|index| graph.symbol(Symbol::Parameter(index))).collect();
+        let mut product = |factors: &[Expr]| {
+            graph.product(factors.iter().map(|factor| (*factor, Rational::ONE)).collect::<Vec<_>>())
+        };
+        let roots = [product(&names[MAX_OPERANDS..]), product(&names)];
+        let (flat, items) = Flat::new(&graph, &roots, Grouping::Staged, Scaling::Factors);
+        let operands = flat.form(items[1]).operands();
+        assert_eq!(operands.len(), 2);
+        assert!(operands.is_sorted() && operands.contains(&items[0]), "{operands:?}");
     }
 }

@@ -87,9 +87,9 @@ impl Builder {
         }
     }
 
-    /// Terms of one stage are added up first, then the stages, earliest first: what cancels at each time does so before
-    /// anything else is rounded. But those that X determines are added to what parameters do one by one, so that no
-    /// product of them takes a step of its own.
+    /// Terms of one stage are added up first, then the stages, earliest first: what cancels at each time, or in differences
+    /// of coordinates, does so before anything else is rounded. But where all that X determines are products, these are
+    /// added to what parameters do one by one, so that none takes a step of its own: they are rounded anyway.
     fn sum(&mut self, mut terms: Vec<(Value, Rational)>) -> Value {
         let content = common_magnitude(&terms);
         if let Some(content) = &content {
@@ -102,10 +102,13 @@ impl Builder {
         }
         let mut total = Signed::default();
         for (stage, group) in groups {
-            let before = match (total.stage(self), stage) {
-                (Some(Stage::Parameter), Stage::Point) => Signed::default(),
-                _ => std::mem::take(&mut total),
+            let is_product = |(_, value): &(bool, Value)| {
+                matches!(self.instrs[value.index()].op, Op::Multiply(..))
             };
+            let is_continued = total.stage(self) == Some(Stage::Parameter)
+                && stage == Stage::Point
+                && group.iter().all(is_product);
+            let before = if is_continued { Signed::default() } else { std::mem::take(&mut total) };
             for (negative, value) in group.into_iter().chain(before.0) {
                 total.add(self, negative, value);
             }

@@ -1,5 +1,5 @@
-//! From expressions to straight-line code, in three steps: n-ary operations grouped by stage
-//! (`flat`), what they share taken out (`share`), binary operations (`lower`).
+//! From expressions to straight-line code, in four steps: n-ary operations grouped by stage
+//! (`flat`), what they share taken out (`share`), binary operations (`lower`), and fewer changes of sign (`signs`).
 //!
 //! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that
 //! outputs have in common are one value all the same. So an output costs the same beside others as
@@ -8,6 +8,7 @@
 mod flat;
 mod lower;
 mod share;
+mod signs;
 
 use std::collections::BTreeMap;
 
@@ -35,13 +36,19 @@ impl Cost {
     /// Whether `other` is worth taking in place of this, where an operation that needs t counts twice: those who keep what
     /// X determines do it too. Those who do not shall have about as much to do as before.
     pub fn is_worth(self, other: Cost) -> bool {
-        let more = other.per_point.saturating_sub(self.per_point);
         let weight = |cost: Cost| cost.per_point + cost.late;
-        ROOM * more <= self.per_point && weight(other) + 2 * WORTH_APART <= weight(self)
+        self.is_about(other) && weight(other) + 2 * WORTH_APART <= weight(self)
+    }
+
+    /// Whether `other` is no more than this at a point, or about as much.
+    fn is_about(self, other: Cost) -> bool {
+        let more = other.per_point.saturating_sub(self.per_point);
+        ROOM * more <= self.per_point
     }
 }
 
-/// What an output takes where a product that is added takes no step of its own: steps at a point first, then operations.
+/// What an output takes, in one function of a position, where a product that is added takes no step of its own: steps at a
+/// point first, then operations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Steps {
     /// Steps of the stages Point and PointTime.
@@ -53,11 +60,15 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// Whether `other` has fewer steps than this, no more of them that need t, and about as many operations at most.
+    /// Whether `other` has fewer steps than this, no more of them that need t, about as many operations at a point, and
+    /// no more elsewhere than the steps are worth that it spares.
     pub fn is_worth(self, other: Steps) -> bool {
-        let more = other.cost.per_point.saturating_sub(self.cost.per_point);
-        let is_less = other.per_point < self.per_point && other.late <= self.late;
-        is_less && ROOM * more <= self.cost.per_point
+        let spared = self.per_point.saturating_sub(other.per_point);
+        let once = |cost: Cost| cost.total - cost.per_point;
+        spared > 0
+            && other.late <= self.late
+            && self.cost.is_about(other.cost)
+            && once(other.cost) <= once(self.cost) + ONCE_FOR_EVERY_POINT * spared
     }
 }
 
@@ -78,7 +89,8 @@ pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program
             (*output, builder.lower(&flat, &roots))
         })
         .collect();
-    in_stage_order(Program { instrs: builder.instrs, outputs })
+    let program = in_stage_order(Program { instrs: builder.instrs, outputs });
+    in_stage_order(signs::carried(program))
 }
 
 /// The program of `outputs` as their expressions stand: nothing is shared but equal expressions.
@@ -103,7 +115,7 @@ pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     cost_of(&flat, &roots)
 }
 
-/// What the components of one output take as they are emitted.
+/// What the components of one output take, in steps.
 pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
     let (flat, roots) = cheapest_of_all(graph, components);
     let mut builder = Builder::default();
@@ -143,7 +155,7 @@ fn cheapest(
 }
 
 /// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
-/// what is emitted, and not of all that is compared.
+/// what is emitted and of what comes close to it, and not of all that is compared.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
     let [plain, scaled] = [Scaling::Factors, Scaling::Sums]
         .map(|scaling| cheapest(graph, components, scaling, &[Scope::Made, Scope::Needed]));
@@ -208,7 +220,8 @@ fn in_stage_order(program: Program) -> Program {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Symbol;
+    use crate::expr::{Rational, Symbol};
+    use crate::program::Op;
     use crate::program::interpret::{Interpreter, Point};
 
     /// 256 X (a X + t Y) and 256 Y (a Y + t X); `bare` of them without a.
@@ -245,5 +258,56 @@ mod tests {
         assert_eq!(scheduled(false), (8, vec![384.0, -36.0]));
         // A term without an early factor leaves 256 at the point.
         assert_eq!(scheduled(true).0, 8);
+    }
+
+    /// The operations of the one output that is scheduled for an expression, outputs last.
+    fn operations(graph: &Graph, root: Expr) -> Vec<Op> {
+        let program = schedule(graph, &BTreeMap::from([(Output::Expected(0), vec![root])]));
+        program.instrs.into_iter().map(|instr| instr.op).collect()
+    }
+
+    #[test]
+    fn products_of_points_are_added_to_constants_and_differences_of_coordinates_are_not() {
+        let mut graph = Graph::default();
+        let a = graph.symbol(Symbol::Parameter(0));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
+        let last_two = |graph: &Graph, root: Expr| {
+            let operations = operations(graph, root);
+            operations[operations.len() - 2..].to_vec()
+        };
+        // (x - y) + a: the difference is exact where x and y are large.
+        let root = graph.sum([(a, one.clone()), (x, one.clone()), (y, minus_one.clone())]);
+        assert!(matches!(last_two(&graph, root)[..], [Op::Subtract(..), Op::Add(..)]));
+        // (a + x^2) - y^2: two multiply-adds.
+        let [x, y] = [x, y].map(|it| graph.mul(it, it));
+        let root = graph.sum([(a, one.clone()), (x, one), (y, minus_one)]);
+        assert!(matches!(last_two(&graph, root)[..], [Op::Add(..), Op::Subtract(..)]));
+    }
+
+    #[test]
+    fn what_x_determines_is_divided_before_it_is_multiplied_by_parameters() {
+        let mut graph = Graph::default();
+        let a = graph.symbol(Symbol::Parameter(0));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let factors = [(a, Rational::ONE), (x, Rational::ONE), (y, Rational::NEG_ONE)];
+        let root = graph.product(factors);
+        let operations = operations(&graph, root);
+        assert!(matches!(operations[3..], [Op::Divide(..), Op::Multiply(..)]), "{operations:?}");
+    }
+
+    #[test]
+    fn fewer_steps_are_not_bought_with_more_at_each_time_or_elsewhere() {
+        let cost = Cost { per_point: 32, total: 40, late: 16 };
+        let before = Steps { per_point: 20, cost, late: 10 };
+        let better = Steps { per_point: 19, ..before };
+        assert!(before.is_worth(better));
+        assert!(!before.is_worth(before));
+        assert!(!before.is_worth(Steps { late: 11, ..better }));
+        let with = |per_point, total| Steps { cost: Cost { per_point, total, late: 16 }, ..better };
+        // A sixteenth more operations, and eight that are done once.
+        assert!(before.is_worth(with(34, 50)));
+        assert!(!before.is_worth(with(35, 51)));
+        assert!(!before.is_worth(with(34, 51)));
     }
 }

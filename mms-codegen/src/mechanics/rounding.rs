@@ -1,0 +1,165 @@
+//! What rounding makes of expressions as they are written, at places of the body: a bound of first order, after Wilkinson
+//! (Rounding Errors in Algebraic Processes, 1963).
+
+use std::collections::BTreeMap;
+
+use mms_math::{Double, Scalar as _};
+
+use super::model::Model;
+use super::place::{Place, at, defaults, evaluate, places};
+use crate::expr::{Expr, Graph, Node};
+use crate::program::interpret::Number as _;
+
+/// The part of an operand's error by which an operation is tried with another value of it.
+const PART: f64 = 1e-12;
+
+/// By how much an error may grow where it is to be about the same.
+const ABOUT: f64 = 1.5;
+
+/// Bounds up to this, in units of one rounding of the largest value, are as good as any.
+const FEW: f64 = 64.0;
+
+/// At how many places errors are looked at.
+const PLACES: usize = 4;
+
+/// Where errors are looked at.
+#[derive(Clone, Debug, Default)]
+pub struct Rounding {
+    places: Vec<Place>,
+}
+
+impl Rounding {
+    /// At some places of the body, with the defaults of the parameters.
+    pub fn new(graph: &Graph, model: &Model) -> Self {
+        Rounding { places: places(graph, model, &defaults(graph, model), PLACES) }
+    }
+
+    /// Whether `after`, of the same values as `before`, is about as exact.
+    pub fn allows(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        self.bound(graph, after) <= ABOUT * self.bound(graph, before)
+    }
+
+    /// The first of several ways to write the same that takes few roundings, or else about the fewest.
+    pub fn first<'a>(&self, graph: &Graph, ways: &[&'a [Expr]]) -> Option<&'a [Expr]> {
+        let mut bounds = Vec::new();
+        for way in ways {
+            bounds.push(self.bound(graph, way));
+            if bounds.last() <= Some(&FEW) {
+                return Some(way);
+            }
+        }
+        let least = bounds.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_good = |(_, bound): &(&&[Expr], &f64)| **bound <= ABOUT * least;
+        ways.iter().zip(&bounds).find(is_good).map(|(way, _)| *way)
+    }
+
+    /// The largest error of any component at any place, in units of one rounding of the largest value; 0 where nothing is
+    /// known.
+    fn bound(&self, graph: &Graph, roots: &[Expr]) -> f64 {
+        let values = evaluate(graph, roots, &self.places);
+        let (mut error, mut value) = (0.0, 0.0);
+        for (index, place) in self.places.iter().enumerate() {
+            let errors = self.errors(graph, &values, index, place);
+            for root in roots {
+                let (own, size) = (errors[root], values[root][index].to_f64().abs());
+                if own.is_finite() && size.is_finite() {
+                    (error, value) = (f64::max(error, own), f64::max(value, size));
+                }
+            }
+        }
+        if error == 0.0 { 0.0 } else { error / value }
+    }
+
+    /// The error of everything at a place, where one rounding of 1 is an error of 1.
+    fn errors(
+        &self,
+        graph: &Graph,
+        values: &BTreeMap<Expr, Vec<Double>>,
+        index: usize,
+        place: &Place,
+    ) -> BTreeMap<Expr, f64> {
+        let mut errors = BTreeMap::<Expr, f64>::new();
+        for (expr, found) in values {
+            let of = |child: Expr| values[&child][index];
+            let error = match graph.stage(*expr).needs_point() {
+                true => error(graph.node(*expr), found[index], of, &errors, place),
+                // That has more digits until it is done.
+                false => found[index].to_f64().abs(),
+            };
+            errors.insert(*expr, error);
+        }
+        errors
+    }
+}
+
+/// What operands pass on of their errors, and what is rounded anew.
+fn error(
+    node: &Node,
+    value: Double,
+    of: impl Fn(Expr) -> Double,
+    errors: &BTreeMap<Expr, f64>,
+    place: &Place,
+) -> f64 {
+    let passed_on = node.children().map(|child| {
+        let change = Double::from_f64(PART * errors[&child]);
+        let changed = |other| if other == child { of(child) + change } else { of(other) };
+        (at(node, changed, place) - value).to_f64().abs() / PART
+    });
+    let rounded = match node {
+        Node::Sum(constant, terms) => {
+            let mut total = Double::from_rational(constant);
+            let partial = terms.iter().map(|(term, coefficient)| {
+                total = total + of(*term) * Double::from_rational(coefficient);
+                total.to_f64().abs()
+            });
+            partial.sum()
+        }
+        _ => node.children().count() as f64 * value.to_f64().abs(),
+    };
+    passed_on.sum::<f64>() + rounded
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Rational, Symbol};
+
+    /// At X = 1/2 and t = 1/3.
+    fn rounding() -> Rounding {
+        let [coordinate, time] = [0.5, 1.0 / 3.0].map(Double::from_f64);
+        Rounding { places: vec![Place { parameters: vec![], coordinates: vec![coordinate], time }] }
+    }
+
+    #[test]
+    fn what_is_added_and_taken_away_costs_its_digits() {
+        let mut graph = Graph::default();
+        let (t, x) = (graph.symbol(Symbol::Time), graph.symbol(Symbol::Coordinate(0)));
+        let square = graph.mul(x, x);
+        let plain = graph.mul(t, square);
+        // t x^2 is t (x^2 + k) - k t.
+        let mut shifted = |k: i32| {
+            let k_itself = graph.number(k);
+            let sum = graph.add(square, k_itself);
+            let product = graph.mul(t, sum);
+            graph.sum([(product, Rational::ONE), (t, Rational::from(-k))])
+        };
+        let [near, far, farther] = [0, 1000, 1_000_000].map(&mut shifted);
+        let rounding = rounding();
+        assert_eq!(near, plain);
+        assert!(!rounding.allows(&graph, &[plain], &[far]));
+        assert!(rounding.allows(&graph, &[far], &[plain]));
+        // Each of t and x^2 is rounded, and their product twice at most.
+        let [of_plain, of_far, of_farther] =
+            [plain, far, farther].map(|root| rounding.bound(&graph, &[root]));
+        assert!((2.0..8.0).contains(&of_plain), "{of_plain}");
+        assert!((1e4..1e5).contains(&of_far), "{of_far}");
+        assert!((500.0..2000.0).contains(&(of_farther / of_far)), "{of_farther}");
+        let first = |ways: [Expr; 2]| {
+            let ways = ways.map(|way| [way]);
+            rounding.first(&graph, &ways.each_ref().map(|way| &way[..])).map(|way| way[0])
+        };
+        assert_eq!(first([far, plain]), Some(plain));
+        assert_eq!(first([plain, far]), Some(plain));
+        assert_eq!(first([farther, far]), Some(far));
+    }
+}
