@@ -19,6 +19,9 @@ const ABOUT: f64 = 1.5;
 /// Bounds up to this, in units of one rounding of the largest value, are as good as any.
 const FEW: f64 = 64.0;
 
+/// How many times the least bound is too much where none is that small: a dearer way shall gain a digit at least.
+const MUCH: f64 = 16.0;
+
 /// At how many places errors are looked at.
 const PLACES: usize = 4;
 
@@ -39,7 +42,7 @@ impl Rounding {
         self.bound(graph, after) <= ABOUT * self.bound(graph, before)
     }
 
-    /// The first of several ways to write the same that takes few roundings, or else about the fewest.
+    /// The first of several ways to write the same with a small bound, or else with one that is not much above the least.
     pub fn first<'a>(&self, graph: &Graph, ways: &[&'a [Expr]]) -> Option<&'a [Expr]> {
         let mut bounds = Vec::new();
         for way in ways {
@@ -49,7 +52,7 @@ impl Rounding {
             }
         }
         let least = bounds.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_good = |(_, bound): &(&&[Expr], &f64)| **bound <= ABOUT * least;
+        let is_good = |(_, bound): &(&&[Expr], &f64)| **bound <= MUCH * least;
         ways.iter().zip(&bounds).find(is_good).map(|(way, _)| *way)
     }
 
