@@ -162,8 +162,8 @@ fn many_points_of_polynomials() {
 /// What a few sums and products make of the rest does not come from memory.
 #[test]
 fn few_numbers_are_kept_of_many_points() {
-    assert_eq!(quiet_boundary_2d::Point::<f64>::BYTES, 8 * 62);
-    assert_eq!(quiet_boundary_2d::Points::<f64>::BYTES, 8 * 28);
+    assert_eq!(quiet_boundary_2d::Point::<f64>::BYTES, 8 * 76);
+    assert_eq!(quiet_boundary_2d::Points::<f64>::BYTES, 8 * 31);
     // X, Y, (R - 1)^2, h and one number more.
     assert_eq!(frozen_vortex::Points::<f64>::BYTES, 8 * 5);
 }
