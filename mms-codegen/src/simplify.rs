@@ -280,6 +280,9 @@ fn cheapest_of<K: Ord + Copy>(
         if ways.iter().any(&are_kept) {
             ways.retain(are_kept);
         }
+        // Digits are not bought at any price.
+        let least = ways.first().map_or(0, |way| costs[way].per_point);
+        ways.retain(|way| costs[way].per_point <= 2 * least);
         let cheapest = digits.rounding.first(graph, &ways);
         best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
     }
