@@ -56,14 +56,18 @@ pub fn simplify(
     let of_deformation = derived(graph, model, Route::Deformation, &used);
     let all = [of_gradient.clone(), of_deformation].concat();
     let mut quantities = plain.quantities.clone();
+    let (rounding, unasked) = (Rounding::new(graph, model), Rounding::default());
+    let cost_alone = Digits { amplitude: None, rounding: &unasked };
     // The fast form is the cheapest, and loses digits at small amplitudes anyway.
-    let (rounding, anywhere) = (Rounding::new(graph, model), Rounding::default());
-    let (amplitude, usual) = match form {
-        Form::Fast => (None, &anywhere),
-        Form::Stable => (Amplitude::find(graph, model), &rounding),
+    let usual = match form {
+        Form::Fast => cost_alone,
+        Form::Stable => Digits { rounding: &rounding, ..cost_alone },
     };
-    let usual = Digits { amplitude: None, rounding: usual };
     quantities.extend(cheapest(graph, only(&all, coarse), &relations, usual));
+    let amplitude = match form {
+        Form::Fast => None,
+        Form::Stable => Amplitude::find(graph, model),
+    };
     let digits = Digits { amplitude: amplitude.as_ref(), rounding: &rounding };
     match form {
         Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations, usual)),
@@ -82,9 +86,10 @@ pub fn simplify(
         *components = parted(graph, std::mem::take(components), digits);
         *components = fused(graph, std::mem::take(components), digits);
     }
+    let responses = vec![plain.responses.clone()];
     Derivation {
         quantities,
-        responses: cheapest(graph, vec![plain.responses.clone()], &Relations::default(), usual),
+        responses: cheapest(graph, responses, &Relations::default(), cost_alone),
     }
 }
 

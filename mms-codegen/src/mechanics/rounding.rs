@@ -44,16 +44,17 @@ impl Rounding {
 
     /// The first of several ways to write the same with a small bound, or else with one that is not much above the least.
     pub fn first<'a>(&self, graph: &Graph, ways: &[&'a [Expr]]) -> Option<&'a [Expr]> {
-        let mut bounds = Vec::new();
+        let mut bounded = Vec::new();
         for way in ways {
-            bounds.push(self.bound(graph, way));
-            if bounds.last() <= Some(&FEW) {
+            let bound = self.bound(graph, way);
+            if bound <= FEW {
                 return Some(way);
             }
+            bounded.push((*way, bound));
         }
-        let least = bounds.iter().copied().fold(f64::INFINITY, f64::min);
-        let is_good = |(_, bound): &(&&[Expr], &f64)| **bound <= MUCH * least;
-        ways.iter().zip(&bounds).find(is_good).map(|(way, _)| *way)
+        let least = bounded.iter().map(|(_, bound)| *bound).fold(f64::INFINITY, f64::min);
+        let good = bounded.into_iter().find(|(_, bound)| *bound <= MUCH * least);
+        good.map(|(way, _)| way)
     }
 
     /// The largest error of any component at any place, in units of one rounding of the largest value; 0 where nothing is

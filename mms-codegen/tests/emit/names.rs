@@ -40,7 +40,7 @@ fn words_of_any_language_are_names() {
     const WORDS: &str = "end double gamma y0 j1 I NULL NAN lambda def class None True and elif yield \
         subroutine module function real integer use contains elemental pure result wp intent \
         M_PI linux unix errno namespace template typename operator std constexpr __LINE__ __cplusplus \
-        _Bool _ __ __init__ self np numpy math float int len field_ q12 w12 now out parameters \
+        _Bool _ __ __init__ self np sp numpy math float int len field_ q12 w12 now out parameters \
         field t0 at_time prepare body_force_batch sqrt_ Sqrt SQRT LAMBDA Lambda End END bAR_ \
         A_2 a A a_2 wide wide_add real32 real64 isnan signbit T auto register inline";
     let long = "x".repeat(100);

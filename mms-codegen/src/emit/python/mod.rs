@@ -21,7 +21,7 @@ pub const TARGET: Target = Target {
 
 /// Names that Python takes.
 const RULES: Rules = Rules {
-    words: &[KEYWORDS, "self float np sp print match case type"],
+    words: &[KEYWORDS, "self float sp print match case type"],
     modules: &[KEYWORDS, MODULES],
     folds_case: false,
     longest: 120,
