@@ -279,7 +279,10 @@ fn cheapest_of<K: Ord + Copy>(
         position = range.end;
         let mut costs = BTreeMap::<&[Expr], Cost>::new();
         let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
-        ways.sort_by_key(|way| *costs.entry(way).or_insert_with(|| cost(graph, way)));
+        for way in &ways {
+            costs.entry(way).or_insert_with(|| cost(graph, way));
+        }
+        ways.sort_by_key(|way| costs[way]);
         ways.dedup();
         let are_kept = |way: &&[Expr]| digits.are_kept(graph, way);
         if ways.iter().any(&are_kept) {
