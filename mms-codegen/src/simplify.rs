@@ -3,7 +3,7 @@
 //! No way of writing a quantity is best for all. So several are made, each by passes that keep the
 //! value, and every quantity takes the one that costs least, of those that are exact.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::amplitude::Amplitude;
@@ -72,12 +72,17 @@ pub fn simplify(
     match form {
         Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations, usual)),
         Form::Stable => {
-            let settled = settled(graph, model, &relations, digits, fine);
-            quantities.extend(
-                settled.unwrap_or_else(|| {
-                    cheapest(graph, only(&of_gradient, fine), &relations, usual)
-                }),
-            );
+            let settled = settled(graph, model, &relations, digits, fine).unwrap_or_default();
+            let exact: BTreeSet<Quantity> = settled
+                .iter()
+                .filter(|(_, components)| rounding.is_small(graph, components))
+                .map(|(quantity, _)| *quantity)
+                .collect();
+            let other = |quantity| fine(quantity) && !exact.contains(&quantity);
+            let before = cheapest(graph, only(&of_gradient, other), &relations, usual);
+            let settled = digits.worth_it(graph, &before, settled);
+            quantities.extend(before);
+            quantities.extend(settled);
             mend(graph, model, &relations, digits, &mut quantities, coarse);
         }
     }
@@ -106,6 +111,18 @@ impl Digits<'_> {
     /// Whether components keep their digits at small amplitudes.
     fn are_kept(self, graph: &Graph, components: &[Expr]) -> bool {
         self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
+    }
+
+    /// Those of the settled forms that are about as exact as what was there before, or exact enough. They come first,
+    /// for strains may become small with other parameters than an amplitude; but large ones they may make worse.
+    fn worth_it(self, graph: &Graph, before: &Quantities, mut settled: Quantities) -> Quantities {
+        settled.retain(|quantity, settled| {
+            let mut ways = vec![&settled[..]];
+            let before = before.get(quantity).filter(|before| self.are_kept(graph, before));
+            ways.extend(before.map(|before| &before[..]));
+            self.rounding.first(graph, &ways) == Some(settled)
+        });
+        settled
     }
 
     /// Whether `after` is as good as `before`.
@@ -178,11 +195,15 @@ fn mend(
     // The part of Div P that is due to gradients of the moduli is as small as the stress is.
     let is_graded = is_graded(graph, model);
     let mut lost = coarse(quantities);
-    lost.retain(|_, components| is_graded || !digits.are_kept(graph, components));
+    lost.retain(|quantity, components| {
+        is_graded && FORCES.contains(quantity) || !digits.are_kept(graph, components)
+    });
     if !lost.is_empty() {
         let derived = derived(graph, model, Route::Settled(amplitude), &[relations]);
         let forms = only(&derived, |quantity| lost.contains_key(&quantity));
-        quantities.extend(cheapest_of(graph, &forms, kept_apart, digits));
+        let settled = cheapest_of(graph, &forms, kept_apart, digits);
+        let settled = digits.worth_it(graph, &lost, settled);
+        quantities.extend(settled);
     }
     // Where what is of first order cancels, none of these forms keeps its digits.
     let mut of_second_order = Quantities::new();

@@ -42,6 +42,11 @@ impl Rounding {
         self.bound(graph, after) <= ABOUT * self.bound(graph, before)
     }
 
+    /// Whether the bound is so small that no other way need be looked for.
+    pub fn is_small(&self, graph: &Graph, roots: &[Expr]) -> bool {
+        self.bound(graph, roots) <= FEW
+    }
+
     /// The first of several ways to write the same with a small bound, or else with one that is not much above the least.
     pub fn first<'a>(&self, graph: &Graph, ways: &[&'a [Expr]]) -> Option<&'a [Expr]> {
         let mut bounded = Vec::new();

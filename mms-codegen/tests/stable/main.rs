@@ -108,6 +108,12 @@ fn what_stands_beside_constants_holds() {
     hold(measured_in("tests/data/constants"));
 }
 
+/// What is kept apart for the sake of small strains may lose digits at large ones.
+#[test]
+fn graded_moduli_hold_at_large_shear() {
+    hold(measured_in("tests/data/graded"));
+}
+
 /// Densities of users, whose slopes cancel at F = I only as functions of the invariants.
 #[test]
 fn stresses_of_materials_of_ones_own_hold() {
