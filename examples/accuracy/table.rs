@@ -48,8 +48,6 @@ and amplitudes at the ends of the range, beyond 64 eps is, in the stable form,
 | `displacement_1e-4` and below of `self_weight_column` | eps/e^2 of u, eps/e of H and the stress at a strain e | u is a logarithm times a length that grows with 1/e, less X: what is of first order cancels in rounded numbers |
 | `time_1e6` | 1e6 eps in twice the digits | single and double precision take t to its part of a period with twice their digits; twice the digits have no more |
 | `time_1e6` of `travelling_wave_2d` | 1e6 eps | its phase is a sum of X and t, formed at a point, and as large as the number of periods |
-| `origin_1e6` of `travelling_wave_2d`, `plane_strain_saint_venant_kirchhoff` | 1e6 eps | the same: k (X - s) and the rest of the phase are one sum |
-| `origin_1e6` of `conformal_sector_2d`, `twisted_column` | 1e12 eps | what may cancel at small strains is multiplied out, and so are the squares of X - s; the fast form leaves them |
 | `lengths_1e9`, `moduli_1e-9` in single precision | what they say | squares of lengths, or modulus times area, near the end of the range |
 
 ";

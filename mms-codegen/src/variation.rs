@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::invariant::Kind;
 use crate::mechanics::model::{Body, Model};
 use crate::pass::substitute::substitute;
 use crate::source::{Sources, Spanned};
@@ -141,14 +140,5 @@ fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
             (symbol, graph.sub(coordinate, by))
         })
         .collect();
-    let mut shifted = |exprs: &[Expr]| substitute(graph, exprs, &moved);
-    model.displacement = shifted(&model.displacement);
-    model.arguments = shifted(&model.arguments);
-    model.density = shifted(&[model.density])[0];
-    model.energy = shifted(&[model.energy])[0];
-    model.fibre = model.fibre.as_deref().map(&mut shifted);
-    model.poisson = model.poisson.map(|poisson| shifted(&[poisson])[0]);
-    if let Kind::Fibrous(direction) = &mut model.kind {
-        *direction = shifted(direction);
-    }
+    model.map_in_space(|exprs| substitute(graph, exprs, &moved));
 }

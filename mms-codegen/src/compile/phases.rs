@@ -12,6 +12,7 @@ use crate::mechanics::kinematics::Route;
 #[cfg(feature = "defects")]
 use crate::mechanics::misread;
 use crate::mechanics::model::Body;
+use crate::mechanics::offset::about_its_place;
 use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::half_turns::half_turns;
 use crate::pass::relations::Relations;
@@ -49,6 +50,7 @@ impl<'a> Phases<'a> {
         let mut graph = Graph::with_limit(self.options.max_nodes);
         let mut read = self.read(&mut graph, name, path, text)?;
         self.options.variation.transform(&mut graph, &mut read.model);
+        about_its_place(&mut graph, &mut read.model);
         let [derived, derivation] = self.derive(&mut graph, &mut read)?;
         let program = self.schedule(&mut graph, &read, &derivation)?;
         let Read { field, material, model } = read;

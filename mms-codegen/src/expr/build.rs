@@ -121,6 +121,13 @@ impl Graph {
     /// An elementary function, folded where its value is known exactly.
     pub fn call(&mut self, function: Function, arguments: &[Expr]) -> Expr {
         let [argument, ..] = *arguments else { unreachable!("every function has an argument") };
+        // Of anything but a coordinate it is a difference like others.
+        if function == Function::Offset
+            && (!matches!(self.node(argument), Node::Symbol(Symbol::Coordinate(_)))
+                || self.is_zero(arguments[1]))
+        {
+            return self.sub(argument, arguments[1]);
+        }
         if let Some(folded) = self.fold_call(function, argument) {
             return folded;
         }
@@ -369,7 +376,12 @@ fn value_at_zero(function: Function) -> Option<i32> {
         | Function::CosWithinOne
         | Function::CosPi
         | Function::Cosh => Some(1),
-        Function::Sqrt | Function::Ln | Function::Acos | Function::Atan2 | Function::Powf => None,
+        Function::Sqrt
+        | Function::Ln
+        | Function::Acos
+        | Function::Atan2
+        | Function::Powf
+        | Function::Offset => None,
     }
 }
 

@@ -50,6 +50,7 @@ functions! {
     Atan "atan" 1 "The inverse tangent.",
     Atan2 "atan2" 2 "The angle of the point (x, y), called as atan2(y, x).",
     Powf "powf" 2 "A positive base to any power.",
+    Offset "offset" 2 "a - b, in a step of its own: a coordinate less the place that a field is about.",
 }
 
 impl Function {

@@ -95,6 +95,11 @@ impl Graph {
                     (at_least(base, Binding::Atom), at_least(exponent, Binding::Atom));
                 (format!("{base}^{exponent}"), Binding::Power)
             }
+            Node::Call(Function::Offset, arguments) => {
+                let [from, place] =
+                    [0, 1].map(|index| at_least(&arguments[index], Binding::Product));
+                (format!("{from} - {place}"), Binding::Sum)
+            }
             Node::Call(function, arguments) => print_call(*function, arguments, printed),
         }
     }

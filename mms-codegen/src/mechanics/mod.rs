@@ -16,6 +16,7 @@ pub mod kinematics;
 pub mod material;
 pub(crate) mod misread;
 pub mod model;
+pub(crate) mod offset;
 mod place;
 pub mod rigid;
 pub mod rounding;

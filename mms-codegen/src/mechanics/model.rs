@@ -166,6 +166,40 @@ impl Model {
     }
 }
 
+impl Model {
+    /// All formulas that may depend on X.
+    pub fn in_space(&self) -> Vec<Expr> {
+        let fibre = self.fibre.iter().flatten();
+        let direction = match &self.kind {
+            Kind::Fibrous(direction) => &direction[..],
+            Kind::Isotropic | Kind::SmallStrain => &[],
+        };
+        let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
+        let [density, energy] = [&self.density, &self.energy];
+        self.displacement.iter().chain([density, energy]).chain(others).copied().collect()
+    }
+
+    /// Replaces these, the closed forms and what has a name.
+    pub fn map_in_space(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
+        for exprs in [&mut self.displacement, &mut self.arguments] {
+            *exprs = made(exprs);
+        }
+        self.density = made(&[self.density])[0];
+        self.energy = made(&[self.energy])[0];
+        self.fibre = self.fibre.as_deref().map(&mut made);
+        self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
+        if let Kind::Fibrous(direction) = &mut self.kind {
+            *direction = made(direction);
+        }
+        for check in &mut self.checks {
+            check.equals = made(&check.equals);
+        }
+        let names = std::mem::take(&mut self.names.expressions);
+        let (exprs, texts): (Vec<Expr>, Vec<String>) = names.into_iter().unzip();
+        self.names.expressions = made(&exprs).into_iter().zip(texts).collect();
+    }
+}
+
 /// W of a field that has been resolved, for other values of the material's parameters.
 pub fn energy_with(
     graph: &mut Graph,

@@ -167,6 +167,16 @@ fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
     [along(0), along(1), along(2), largest(&model.domain.time)]
 }
 
+/// How far the body extends along each axis.
+pub(super) fn extents(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<f64> {
+    let nowhere = nowhere(parameters);
+    let of = |bound: &Expr| value(graph, *bound, &nowhere).to_f64();
+    match &model.domain.body {
+        Body::Box { lower, upper } => lower.iter().zip(upper).map(|(a, b)| of(b) - of(a)).collect(),
+        Body::Annulus { outer, .. } => vec![2.0 * of(outer); model.displacement.len()],
+    }
+}
+
 /// Values of the parameters, for what does not depend on X and t.
 fn nowhere(parameters: &[Double]) -> Place {
     Place { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
@@ -219,7 +229,7 @@ pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Dou
             .iter()
             .map(|(base, exponent)| power(of(*base), exponent))
             .fold(Double::from_f64(1.0), |product, factor| product * factor),
-        Node::Call(function @ (Function::Atan2 | Function::Powf), arguments) => {
+        Node::Call(function @ (Function::Atan2 | Function::Powf | Function::Offset), arguments) => {
             binary(*function, of(arguments[0]), of(arguments[1]))
         }
         // The sine of a rounded pi is not 0.

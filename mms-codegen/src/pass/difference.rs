@@ -287,6 +287,7 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
         }
         // Two angles may be a turn apart; the others stand in no field.
         Function::Atan2
+        | Function::Offset
         | Function::Sqrt
         | Function::SinPi
         | Function::CosPi

@@ -193,6 +193,7 @@ fn partial(
             let quotient = graph.div(numerator, radius);
             graph.scale(quotient, sign)
         }
+        Function::Offset => graph.number(if index == 0 { 1 } else { -1 }),
         Function::Powf => {
             // b^e: by b it is e b^e / b, by e it is b^e ln b.
             let (base, exponent) = (arguments[0], arguments[1]);

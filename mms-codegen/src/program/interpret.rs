@@ -200,7 +200,9 @@ pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
         Function::Asin => x.asin(),
         Function::Acos => x.acos(),
         Function::Atan => x.atan(),
-        Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
+        Function::Atan2 | Function::Powf | Function::Offset => {
+            unreachable!("a function of two arguments")
+        }
     }
 }
 
@@ -209,6 +211,7 @@ pub(crate) fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
     match function {
         Function::Atan2 => a.atan2(b),
         Function::Powf => a.powf(b),
+        Function::Offset => a - b,
         _ => unreachable!("a function of one argument"),
     }
 }

@@ -236,7 +236,8 @@ fn command(function: Function) -> String {
         | Function::SinPi
         | Function::CosPi
         | Function::Atan2
-        | Function::Powf => {
+        | Function::Powf
+        | Function::Offset => {
             format!("\\operatorname{{{}}}", word(function).replace('_', "\\_"))
         }
     }

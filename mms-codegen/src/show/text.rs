@@ -255,6 +255,7 @@ pub(super) fn word(function: Function) -> &'static str {
         Function::Atan => "arctan",
         Function::Atan2 => "atan2",
         Function::Powf => "pow",
+        Function::Offset => "offset",
     }
 }
 

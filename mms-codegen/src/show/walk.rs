@@ -130,6 +130,11 @@ impl Writer<'_> {
             }
             Node::Sum(constant, terms) => self.terms(constant, terms, pieces),
             Node::Product(factors) => vec![self.product(factors, pieces)],
+            Node::Call(Function::Offset, arguments) => {
+                let signs = [Rational::ONE, Rational::NEG_ONE];
+                let terms: Vec<_> = arguments.iter().copied().zip(signs).collect();
+                self.terms(&Rational::ZERO, &terms, pieces)
+            }
             Node::Call(function, arguments) => Term::of(self.call(*function, arguments, pieces)),
         }
     }
@@ -280,7 +285,8 @@ impl Writer<'_> {
             | Function::Asin
             | Function::Acos
             | Function::Atan
-            | Function::Atan2 => {
+            | Function::Atan2
+            | Function::Offset => {
                 let arguments = arguments.iter().map(|argument| self.sum(&pieces[argument]));
                 self.elementary(function, arguments.collect())
             }

@@ -199,5 +199,6 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
             println!("{} {index}: {error} eps", target.name);
         }
     }
-    assert_eq!(seen.len(), 4 * Function::ALL.len(), "{seen:?}");
+    // A program has a difference in place of an offset.
+    assert_eq!(seen.len(), 4 * (Function::ALL.len() - 1), "{seen:?}");
 }

@@ -108,6 +108,12 @@ fn what_stands_beside_constants_holds() {
     hold(measured_in("tests/data/constants"));
 }
 
+/// Bodies that are a million times as far from the origin as they are large.
+#[test]
+fn fields_about_a_place_far_away_hold() {
+    hold(measured_in("tests/data/far"));
+}
+
 /// What is kept apart for the sake of small strains may lose digits at large ones.
 #[test]
 fn graded_moduli_hold_at_large_shear() {

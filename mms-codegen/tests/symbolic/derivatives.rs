@@ -95,6 +95,9 @@ fn every_function(graph: &mut Graph) -> Vec<Expr> {
             roots.extend(arguments.iter().map(|arguments| graph.call(*function, arguments)));
         }
     }
+    // It is an atom of coordinates alone.
+    let offset = graph.call(Function::Offset, &[x, third]);
+    roots.extend([graph.power(offset, 3), graph.call(Function::Sin, &[offset])]);
     for (numerator, denominator) in [(1, 2), (-3, 2), (5, 3), (-1, 7)] {
         let exponent = Rational::from_parts(numerator.into(), u8::into(denominator));
         roots.push(graph.power(inner[0], exponent));

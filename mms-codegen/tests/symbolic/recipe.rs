@@ -195,12 +195,16 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::Asin => a.asin(),
                 Function::Acos => a.acos(),
                 Function::Atan => a.atan(),
-                Function::Atan2 | Function::Powf => unreachable!("a pair"),
+                Function::Atan2 | Function::Powf | Function::Offset => unreachable!("a pair"),
             }
         }
         Recipe::Pair(function, a, b) => {
             let (a, b) = (evaluate(a, at, see), evaluate(b, at, see));
-            if *function == Function::Atan2 { a.atan2(b) } else { a.powf(b) }
+            match function {
+                Function::Atan2 => a.atan2(b),
+                Function::Offset => a - b,
+                _ => a.powf(b),
+            }
         }
     };
     see(&value);

@@ -66,7 +66,8 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
         | Function::SinWithinOne
         | Function::CosWithinOne
         | Function::SinPi
-        | Function::CosPi => None,
+        | Function::CosPi
+        | Function::Offset => None,
         Function::Sqrt
         | Function::Cbrt
         | Function::Exp

@@ -165,7 +165,9 @@ impl Lowering<'_> {
             | Function::CosNearZero
             | Function::SinWithinOne
             | Function::CosWithinOne => unreachable!("angles may be any"),
-            Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
+            Function::Atan2 | Function::Powf | Function::Offset => {
+                unreachable!("a function of two arguments")
+            }
         }
     }
 

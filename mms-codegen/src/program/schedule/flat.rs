@@ -166,6 +166,16 @@ impl Flat {
                 }
                 self.product(flat)
             }
+            Node::Call(Function::Offset, arguments) => {
+                // The number 1 stands for a constant, which is its coefficient.
+                let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
+                let [from, place] = [0, 1].map(|index| items[&arguments[index]]);
+                let place = match self.form(place).clone() {
+                    Form::Constant(number) => (self.constant(1), -number),
+                    _ => (place, minus_one),
+                };
+                self.collected_sum(vec![(from, one), place])
+            }
             Node::Call(function, arguments) => {
                 let arguments = arguments.iter().map(|argument| items[argument]).collect();
                 self.intern(Form::Call(*function, arguments))

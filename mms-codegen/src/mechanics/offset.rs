@@ -1,0 +1,134 @@
+//! Fields about a place far from the origin, in coordinates less that place.
+//!
+//! k (X - s) - w t is one sum, k X - k s - w t, and what multiplies out squares has X^2 and s^2 apart: where X is a million
+//! times larger than the body, six digits are gone. So X - s becomes a value of its own, [`Function::Offset`], as exact as
+//! X is, and all that follows is derived from that.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::model::{Body, Model};
+use super::place::{defaults, extents};
+use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::pass::substitute::substitute;
+
+/// How many times larger than the body a coordinate is where it is far from the origin.
+const FAR: f64 = 4.0;
+
+/// Puts the coordinates less the place that the field is about in place of the coordinates, where there is such a place:
+/// parameters that are nothing but subtracted from coordinates, or the corner of a box that is far from the origin.
+pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
+    let mut places = corner(graph, model);
+    let axes: Vec<usize> = (0..model.displacement.len()).collect();
+    for parameter in subtracted(graph, model) {
+        let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));
+        let about = some.find(|axes| is_about(graph, model, axes, parameter));
+        for axis in about.into_iter().flatten() {
+            let zero = graph.number(0);
+            let place = places.entry(*axis).or_insert(zero);
+            *place = graph.add(*place, parameter);
+        }
+    }
+    if places.is_empty() {
+        return;
+    }
+    let offsets = places.into_iter().map(|(axis, place)| {
+        let coordinate = graph.symbol(Symbol::Coordinate(axis));
+        let offset = graph.call(Function::Offset, &[coordinate, place]);
+        (Symbol::Coordinate(axis), graph.add(offset, place))
+    });
+    let offsets = offsets.collect();
+    model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
+}
+
+/// A number near the lower bound of a box that is far from the origin, for such axes: a multiple of a power of two that is
+/// about as large as the box, which every precision has and takes from a coordinate without an error.
+fn corner(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
+    let Body::Box { lower, .. } = &model.domain.body else { return BTreeMap::new() };
+    let extents = extents(graph, model, &defaults(graph, model));
+    let far = |(axis, bound): (usize, &Expr)| {
+        let bound = graph.as_number(*bound)?.to_f64().value();
+        let step = extents[axis].log2().ceil().exp2();
+        let number = Rational::try_from((bound / step).floor() * step).ok()?;
+        (bound.abs() >= FAR * extents[axis]).then(|| (axis, graph.number(number)))
+    };
+    lower.iter().enumerate().filter_map(far).collect()
+}
+
+/// The parameters that a coordinate has beside it in a sum.
+fn subtracted(graph: &mut Graph, model: &Model) -> BTreeSet<Expr> {
+    let is = |expr: Expr, wanted: fn(&Symbol) -> bool| match graph.node(expr) {
+        Node::Symbol(symbol) => wanted(symbol),
+        _ => false,
+    };
+    let mut found = BTreeSet::new();
+    for expr in graph.reachable(&model.in_space()) {
+        let Node::Sum(_, terms) = graph.node(expr) else { continue };
+        let of = |wanted| terms.iter().map(|(term, _)| *term).filter(move |it| is(*it, wanted));
+        if of(|symbol| matches!(symbol, Symbol::Coordinate(_))).next().is_some() {
+            found.extend(of(|symbol| matches!(symbol, Symbol::Parameter(_))));
+        }
+    }
+    found
+}
+
+/// Whether the fields have nothing of a parameter but coordinates less it.
+fn is_about(graph: &mut Graph, model: &Model, axes: &[usize], parameter: Expr) -> bool {
+    let moved = axes.iter().map(|axis| {
+        let symbol = Symbol::Coordinate(*axis);
+        let coordinate = graph.symbol(symbol);
+        (symbol, graph.add(coordinate, parameter))
+    });
+    let moved = moved.collect();
+    let fields = substitute(graph, &model.in_space(), &moved);
+    !graph.reachable(&fields).contains(&parameter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::{Options, compile_unproved};
+    use crate::expr::print::Names;
+
+    /// u of a bar, as it is derived from.
+    fn displacement(parameters: &str, u: &str, bounds: [&str; 2]) -> String {
+        let [lower, upper] = bounds;
+        let text = format!(
+            "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\n{parameters}\n[displacement]\nu = [\"{u}\"]\n\
+             [material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
+             [domain]\nshape = \"box\"\nlower = [\"{lower}\"]\nupper = [\"{upper}\"]\ntime = [0, 1]\n"
+        );
+        let load = |path: &str| Err(path.to_string());
+        let compiled = compile_unproved("x", "x.toml", &text, &load, &Options::default());
+        let compiled = compiled.unwrap_or_else(|failure| panic!("{failure}"));
+        let parameters = ["a", "b"].map(String::from).into();
+        let names = Names { parameters, ..Names::default() };
+        let graph = &compiled.graph;
+        let u = compiled.model.displacement[0];
+        let offsets = graph
+            .reachable(&[u])
+            .into_iter()
+            .filter(|expr| matches!(graph.node(*expr), Node::Call(Function::Offset, _)));
+        offsets.map(|offset| graph.print(offset, &names)).collect::<Vec<_>>().join(", ")
+    }
+
+    #[test]
+    fn coordinates_are_taken_less_the_place_that_parameters_say() {
+        let both = "a = { value = 0.1 }\nb = { value = 0.2 }";
+        let near = ["0", "1"];
+        assert_eq!(displacement(both, "b*sin(3*X - 3*a - t)", near), "X - a");
+        // b is a wave number beside a part of the place, and a is b times another.
+        assert_eq!(displacement(both, "b*sin(X - a - b)", near), "X - a");
+        assert_eq!(displacement(both, "a*sin(X - a)/9 + b/9", near), "");
+        assert_eq!(displacement(both, "X*sin(X - a)/9 + b/9", near), "");
+    }
+
+    #[test]
+    fn coordinates_of_a_box_far_away_are_taken_less_its_corner() {
+        let both = "a = { value = 0.1 }\nb = { value = 0.2 }";
+        let u = "a*sin(X - 1000 - t) + b/9";
+        assert_eq!(displacement(both, u, ["1000", "1001"]), "X - 1000");
+        assert_eq!(displacement(both, u, ["0", "1000"]), "");
+        // A multiple of 1/2.
+        assert_eq!(displacement(both, u, ["-1000 - 1/3", "-1000"]), "X - (-2001/2)");
+    }
+}
