@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::model::{Body, Model};
-use super::place::{defaults, extents};
+use super::place::{defaults, usual};
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use crate::pass::substitute::substitute;
 
@@ -15,9 +15,9 @@ use crate::pass::substitute::substitute;
 const FAR: f64 = 4.0;
 
 /// Puts the coordinates less the place that the field is about in place of the coordinates, where there is such a place:
-/// parameters that are nothing but subtracted from coordinates, or the corner of a box that is far from the origin.
+/// parameters that are nothing but subtracted from coordinates, or a corner of a box that is far from there.
 pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
-    let mut places = corner(graph, model);
+    let mut places = BTreeMap::new();
     let axes: Vec<usize> = (0..model.displacement.len()).collect();
     for parameter in subtracted(graph, model) {
         let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));
@@ -28,6 +28,18 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
             *place = graph.add(*place, parameter);
         }
     }
+    if let Body::Box { lower, upper } = &model.domain.body {
+        let defaults = defaults(graph, model);
+        for (axis, (lower, upper)) in lower.iter().zip(upper).enumerate() {
+            let place = *places.entry(axis).or_insert(graph.number(0));
+            let [lower, upper, place] =
+                [*lower, *upper, place].map(|it| usual(graph, it, &defaults).to_f64());
+            if let Some(corner) = far_corner(lower - place, lower, upper - lower) {
+                places.insert(axis, graph.number(corner));
+            }
+        }
+    }
+    places.retain(|_, place| !graph.is_zero(*place));
     if places.is_empty() {
         return;
     }
@@ -40,18 +52,12 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
     model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
 }
 
-/// A number near the lower bound of a box that is far from the origin, for such axes: a multiple of a power of two that is
-/// about as large as the box, which every precision has and takes from a coordinate without an error.
-fn corner(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
-    let Body::Box { lower, .. } = &model.domain.body else { return BTreeMap::new() };
-    let extents = extents(graph, model, &defaults(graph, model));
-    let far = |(axis, bound): (usize, &Expr)| {
-        let bound = graph.as_number(*bound)?.to_f64().value();
-        let step = extents[axis].log2().ceil().exp2();
-        let number = Rational::try_from((bound / step).floor() * step).ok()?;
-        (bound.abs() >= FAR * extents[axis]).then(|| (axis, graph.number(number)))
-    };
-    lower.iter().enumerate().filter_map(far).collect()
+/// A number near the lower bound of a box, where that is far: a multiple of a power of two that is about as large as the
+/// box. Every precision has it, and takes it from a coordinate without an error.
+fn far_corner(distance: f64, lower: f64, extent: f64) -> Option<Rational> {
+    let step = extent.log2().ceil().exp2();
+    let corner = Rational::try_from((lower / step).floor() * step).ok()?;
+    (distance.abs() >= FAR * extent).then_some(corner)
 }
 
 /// The parameters that a coordinate has beside it in a sum.
@@ -128,6 +134,22 @@ mod tests {
         let u = "a*sin(X - 1000 - t) + b/9";
         assert_eq!(displacement(both, u, ["1000", "1001"]), "X - 1000");
         assert_eq!(displacement(both, u, ["0", "1000"]), "");
+        assert_eq!(
+            displacement(
+                "a = { value = 1000 }\nb = { value = 1 }",
+                "sin(X - a)/9 + b/9",
+                ["1000", "1001"]
+            ),
+            "X - a"
+        );
+        assert_eq!(
+            displacement(
+                "a = { value = 2 }\nb = { value = 1 }",
+                "sin(X - a)/9 + b/9",
+                ["1000", "1001"]
+            ),
+            "X - 1000"
+        );
         // A multiple of 1/2.
         assert_eq!(displacement(both, u, ["-1000 - 1/3", "-1000"]), "X - (-2001/2)");
     }

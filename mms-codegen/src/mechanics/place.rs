@@ -167,14 +167,9 @@ fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
     [along(0), along(1), along(2), largest(&model.domain.time)]
 }
 
-/// How far the body extends along each axis.
-pub(super) fn extents(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<f64> {
-    let nowhere = nowhere(parameters);
-    let of = |bound: &Expr| value(graph, *bound, &nowhere).to_f64();
-    match &model.domain.body {
-        Body::Box { lower, upper } => lower.iter().zip(upper).map(|(a, b)| of(b) - of(a)).collect(),
-        Body::Annulus { outer, .. } => vec![2.0 * of(outer); model.displacement.len()],
-    }
+/// The value of what does not depend on X and t.
+pub(super) fn usual(graph: &Graph, expr: Expr, parameters: &[Double]) -> Double {
+    value(graph, expr, &nowhere(parameters))
 }
 
 /// Values of the parameters, for what does not depend on X and t.
