@@ -3,7 +3,7 @@
 //! No way of writing a quantity is best for all. So several are made, each by passes that keep the
 //! value, and every quantity takes the one that costs least, of those that are exact.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::amplitude::Amplitude;
@@ -73,13 +73,11 @@ pub fn simplify(
         Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations, usual)),
         Form::Stable => {
             let settled = settled(graph, model, &relations, digits, fine).unwrap_or_default();
-            let exact: BTreeSet<Quantity> = settled
-                .iter()
-                .filter(|(_, components)| rounding.is_small(graph, components))
-                .map(|(quantity, _)| *quantity)
-                .collect();
-            let other = |quantity| fine(quantity) && !exact.contains(&quantity);
-            let before = cheapest(graph, only(&of_gradient, other), &relations, usual);
+            let forms = only(&of_gradient, |quantity| {
+                let is_exact = |settled: &Vec<Expr>| rounding.is_small(graph, settled);
+                fine(quantity) && !settled.get(&quantity).is_some_and(is_exact)
+            });
+            let before = cheapest(graph, forms, &relations, usual);
             let settled = digits.worth_it(graph, &before, settled);
             quantities.extend(before);
             quantities.extend(settled);

@@ -3,11 +3,9 @@
 //! A variation is made before anything is differentiated, so that what follows from the varied field
 //! is derived as that of any other. Nothing that it claims is looked at: its boundary may be another.
 
-use std::collections::BTreeMap;
-
 use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::model::{Body, Model};
-use crate::pass::substitute::substitute;
+use crate::pass::substitute::{coordinates, substitute};
 use crate::source::{Sources, Spanned};
 use crate::spec::{self, FieldSpec, Formula, ParameterSpec};
 
@@ -133,12 +131,6 @@ fn set_moduli(sources: &mut Sources, field: &mut FieldSpec, ratio: &str) {
 /// X becomes X - s everywhere.
 fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
     let axes = 0..model.displacement.len();
-    let moved: BTreeMap<Symbol, Expr> = axes
-        .map(|axis| {
-            let symbol = Symbol::Coordinate(axis);
-            let coordinate = graph.symbol(symbol);
-            (symbol, graph.sub(coordinate, by))
-        })
-        .collect();
+    let moved = coordinates(graph, axes.map(|axis| (axis, by)), Graph::sub);
     model.map_in_space(|exprs| substitute(graph, exprs, &moved));
 }

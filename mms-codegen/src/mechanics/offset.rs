@@ -7,9 +7,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::model::{Body, Model};
-use super::place::{defaults, usual};
+use super::place::{defaults, value_with};
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
-use crate::pass::substitute::substitute;
+use crate::pass::substitute::{coordinates, substitute};
 
 /// How many times larger than the body a coordinate is where it is far from the origin.
 const FAR: f64 = 4.0;
@@ -17,47 +17,52 @@ const FAR: f64 = 4.0;
 /// Puts the coordinates less the place that the field is about in place of the coordinates, where there is such a place:
 /// parameters that are nothing but subtracted from coordinates, or a corner of a box that is far from there.
 pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
-    let mut places = BTreeMap::new();
+    let mut places = said(graph, model);
+    places.extend(far_corners(graph, model, &places));
+    let offsets = coordinates(graph, places, |graph, coordinate, place| {
+        let offset = graph.call(Function::Offset, &[coordinate, place]);
+        graph.add(offset, place)
+    });
+    if !offsets.is_empty() {
+        model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
+    }
+}
+
+/// The places that parameters say, by axes.
+fn said(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
     let axes: Vec<usize> = (0..model.displacement.len()).collect();
+    let mut places = BTreeMap::<usize, Expr>::new();
     for parameter in subtracted(graph, model) {
         let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));
         let about = some.find(|axes| is_about(graph, model, axes, parameter));
         for axis in about.into_iter().flatten() {
-            let zero = graph.number(0);
-            let place = places.entry(*axis).or_insert(zero);
-            *place = graph.add(*place, parameter);
+            let others = places.get(axis);
+            let place = others.map_or(parameter, |others| graph.add(*others, parameter));
+            places.insert(*axis, place);
         }
     }
-    if let Body::Box { lower, upper } = &model.domain.body {
-        let defaults = defaults(graph, model);
-        for (axis, (lower, upper)) in lower.iter().zip(upper).enumerate() {
-            let place = *places.entry(axis).or_insert(graph.number(0));
-            let [lower, upper, place] =
-                [*lower, *upper, place].map(|it| usual(graph, it, &defaults).to_f64());
-            if let Some(corner) = far_corner(lower - place, lower, upper - lower) {
-                places.insert(axis, graph.number(corner));
-            }
-        }
-    }
-    places.retain(|_, place| !graph.is_zero(*place));
-    if places.is_empty() {
-        return;
-    }
-    let offsets = places.into_iter().map(|(axis, place)| {
-        let coordinate = graph.symbol(Symbol::Coordinate(axis));
-        let offset = graph.call(Function::Offset, &[coordinate, place]);
-        (Symbol::Coordinate(axis), graph.add(offset, place))
-    });
-    let offsets = offsets.collect();
-    model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
+    places
 }
 
-/// A number near the lower bound of a box, where that is far: a multiple of a power of two that is about as large as the
-/// box. Every precision has it, and takes it from a coordinate without an error.
-fn far_corner(distance: f64, lower: f64, extent: f64) -> Option<Rational> {
-    let step = extent.log2().ceil().exp2();
-    let corner = Rational::try_from((lower / step).floor() * step).ok()?;
-    (distance.abs() >= FAR * extent).then_some(corner)
+/// Numbers near the lower bounds of a box, where these are far from the places: multiples of a power of two that is about
+/// as large as the box. Every precision has them, and takes them from a coordinate without an error.
+fn far_corners(
+    graph: &mut Graph,
+    model: &Model,
+    places: &BTreeMap<usize, Expr>,
+) -> BTreeMap<usize, Expr> {
+    let Body::Box { lower, upper } = &model.domain.body else { return BTreeMap::new() };
+    let defaults = defaults(graph, model);
+    let far = |axis: usize| {
+        let number = |expr: Expr| value_with(graph, expr, &defaults).to_f64();
+        let (lower, upper) = (number(lower[axis]), number(upper[axis]));
+        let (extent, place) = (upper - lower, places.get(&axis).map_or(0.0, |it| number(*it)));
+        let step = extent.log2().ceil().exp2();
+        let corner = Rational::try_from((lower / step).floor() * step).ok()?;
+        let is_far = (lower - place).abs() >= FAR * extent;
+        is_far.then(|| (axis, graph.number(corner)))
+    };
+    (0..lower.len()).filter_map(far).collect()
 }
 
 /// The parameters that a coordinate has beside it in a sum.
@@ -79,14 +84,12 @@ fn subtracted(graph: &mut Graph, model: &Model) -> BTreeSet<Expr> {
 
 /// Whether the fields have nothing of a parameter but coordinates less it.
 fn is_about(graph: &mut Graph, model: &Model, axes: &[usize], parameter: Expr) -> bool {
-    let moved = axes.iter().map(|axis| {
-        let symbol = Symbol::Coordinate(*axis);
-        let coordinate = graph.symbol(symbol);
-        (symbol, graph.add(coordinate, parameter))
-    });
-    let moved = moved.collect();
-    let fields = substitute(graph, &model.in_space(), &moved);
-    !graph.reachable(&fields).contains(&parameter)
+    graph.aside(|graph| {
+        let places = axes.iter().map(|axis| (*axis, parameter));
+        let moved = coordinates(graph, places, Graph::add);
+        let fields = substitute(graph, &model.in_space(), &moved);
+        !graph.reachable(&fields).contains(&parameter)
+    })
 }
 
 #[cfg(test)]

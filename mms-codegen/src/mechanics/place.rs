@@ -167,8 +167,8 @@ fn extent(graph: &Graph, model: &Model, parameters: &[Double]) -> [Double; 4] {
     [along(0), along(1), along(2), largest(&model.domain.time)]
 }
 
-/// The value of what does not depend on X and t.
-pub(super) fn usual(graph: &Graph, expr: Expr, parameters: &[Double]) -> Double {
+/// The value of what does not depend on X and t, with these parameters.
+pub(super) fn value_with(graph: &Graph, expr: Expr, parameters: &[Double]) -> Double {
     value(graph, expr, &nowhere(parameters))
 }
 

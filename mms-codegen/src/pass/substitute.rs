@@ -15,6 +15,20 @@ pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, E
     })
 }
 
+/// For [`substitute`]: what is made of each of these coordinates and of the place that stands beside its axis.
+pub fn coordinates(
+    graph: &mut Graph,
+    places: impl IntoIterator<Item = (usize, Expr)>,
+    made: impl Fn(&mut Graph, Expr, Expr) -> Expr,
+) -> BTreeMap<Symbol, Expr> {
+    let made = |(axis, place)| {
+        let symbol = Symbol::Coordinate(axis);
+        let coordinate = graph.symbol(symbol);
+        (symbol, made(graph, coordinate, place))
+    };
+    places.into_iter().map(made).collect()
+}
+
 /// `roots` with whole sub-expressions replaced, wherever they stand as operands.
 pub fn replace(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Expr, Expr>) -> Vec<Expr> {
     let mut replaced = BTreeMap::<Expr, Expr>::new();
