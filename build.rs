@@ -1,11 +1,13 @@
-//! Finds the field files and lists them for the gallery and for the tests, and the sources of
-//! `mms-math` for the workbench. Discovers only: the files are read, compiled and reported by others.
+//! Finds the field files, and lists them for the command, for the tests and for the crate of the compiled
+//! gallery, which has a link to this script; and the sources of `mms-math` for the workbench. Discovers only: the
+//! files are compiled and reported by others.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 use mms_codegen::spec::field_name::validate;
+use toml::de::DeTable;
 
 /// Modules beside those of the fields, and crates that these files use by name.
 const TAKEN: &[&str] = &[
@@ -13,6 +15,7 @@ const TAKEN: &[&str] = &[
     "current",
     "mms",
     "mms_codegen",
+    "mms_gallery",
     "mms_macros",
     "mms_math",
     "mms_runtime",
@@ -41,7 +44,8 @@ fn main() -> io::Result<()> {
             std::process::exit(1);
         }
     }
-    fs::write(out.join("gallery.rs"), gallery(&root, &stems))?;
+    fs::write(out.join("fields.rs"), fields(&root.join("fields"), &stems)?)?;
+    fs::write(out.join("gallery.rs"), gallery(&stems))?;
     fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"))?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&stems))
 }
@@ -56,16 +60,51 @@ fn name(stem: &str) -> Result<(), String> {
     validate(stem)
 }
 
-/// One module per field, and the catalogue.
-fn gallery(root: &Path, stems: &[String]) -> String {
+/// Name, path and text of each field, and the text of a material that it brings along.
+fn fields(folder: &Path, stems: &[String]) -> io::Result<String> {
+    let mut text = String::from("&[\n");
+    for stem in stems {
+        let file = folder.join(format!("{stem}.toml"));
+        let material = own_material(&file)?.map(|path| {
+            println!("cargo::rerun-if-changed={}", path.display());
+            format!("include_str!({path:?})")
+        });
+        let material = material.map_or("None".into(), |text| format!("Some({text})"));
+        writeln!(
+            text,
+            "    Entry {{ name: {stem:?}, path: \"fields/{stem}.toml\", text: include_str!({file:?}), \
+             material: {material} }},"
+        )
+        .expect("writing to a string");
+    }
+    text.push(']');
+    Ok(text)
+}
+
+/// The file of a material that a field brings along, as in `model = "./mine.toml"`. What is wrong with a text is
+/// said by others, with its line and column.
+fn own_material(field: &Path) -> io::Result<Option<PathBuf>> {
+    let text = fs::read_to_string(field)?;
+    let model = || {
+        let table = DeTable::parse(&text).ok()?;
+        let material = table.get_ref().get("material")?.get_ref().as_table()?;
+        Some(material.get("model")?.get_ref().as_str()?.to_string())
+    };
+    let model = model().filter(|model| model.ends_with(".toml"));
+    Ok(model.map(|model| field.with_file_name(model)))
+}
+
+/// One module per field, and the list of them.
+fn gallery(stems: &[String]) -> String {
     let mut text = String::new();
     for stem in stems {
         writeln!(text, "mms_macros::field!(\"fields/{stem}.toml\");").expect("writing to a string");
     }
-    text.push_str("\n/// The compiled fields, by name.\npub const FIELDS: &[Entry] = &[\n");
+    text.push_str(
+        "\n/// The compiled fields, in the order of their names.\npub const FIELDS: &[Code] = &[\n",
+    );
     for stem in stems {
-        let path = root.join("fields").join(format!("{stem}.toml"));
-        writeln!(text, "    entry!({stem}, {stem:?}, {path:?}),").expect("writing to a string");
+        writeln!(text, "    mms_runtime::code!({stem}),").expect("writing to a string");
     }
     text.push_str("];\n");
     text

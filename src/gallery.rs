@@ -1,13 +1,12 @@
-//! The shipped fields, compiled: the folder `fields/` is the list.
+//! The shipped fields: the folder `fields/` is the list.
 
 use mms_codegen::compile::{Failure, MATERIALS};
 use mms_codegen::source::Sources;
 use mms_codegen::spec::{FieldSpec, MaterialSpec, read_field, read_material};
 use mms_codegen::{Compiled, Options};
+use mms_runtime::scene::Code;
 
-use crate::scene::Scene;
-
-/// A compiled field.
+/// A shipped field.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The name: the stem of its file.
@@ -18,35 +17,27 @@ pub struct Entry {
     pub text: &'static str,
     /// The text of its material's file, where the field brings its own.
     pub material: Option<&'static str>,
-    /// The field in single precision, for parameter values in the order of the file.
-    pub single: fn(&[f32]) -> Option<Scene<f32>>,
-    /// The field in double precision, for parameter values in the order of the file.
-    pub double: fn(&[f64]) -> Option<Scene<f64>>,
 }
 
-/// One line of the catalogue.
-macro_rules! entry {
-    ($module:ident, $name:literal, $file:literal) => {
-        Entry {
-            name: $name,
-            path: concat!("fields/", $name, ".toml"),
-            text: include_str!($file),
-            material: $module::OWN_MATERIAL,
-            single: |values| {
-                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
-                Some(Scene::from($module::prepare(&parameters).boxed()))
-            },
-            double: |values| {
-                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
-                Some(Scene::from($module::prepare(&parameters).boxed()))
-            },
-        }
-    };
-}
+/// The shipped fields, in the order of their names.
+pub const FIELDS: &[Entry] = include!(concat!(env!("OUT_DIR"), "/fields.rs"));
 
-include!(concat!(env!("OUT_DIR"), "/gallery.rs"));
+#[cfg(feature = "gallery")]
+use mms_gallery::FIELDS as COMPILED;
+
+#[cfg(not(feature = "gallery"))]
+mms_macros::field!("fields/bar_1d.toml");
+
+/// What the main job runs. All others are interpreted.
+#[cfg(not(feature = "gallery"))]
+const COMPILED: &[Code] = &[mms_runtime::code!(bar_1d)];
 
 impl Entry {
+    /// Its compiled code, where that is part of this program.
+    pub fn code(&self) -> Option<&'static Code> {
+        COMPILED.iter().find(|code| code.name == self.name)
+    }
+
     /// Compiles the text again, for what the generated module does not hold.
     pub fn compile(&self) -> Result<Compiled, Failure> {
         self.compile_with(&Options::default())
@@ -64,7 +55,7 @@ impl Entry {
     }
 }
 
-/// The compiled field of that name.
+/// The field of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
     FIELDS.iter().find(|entry| entry.name == name)
 }

@@ -14,7 +14,7 @@ use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
 
-use crate::scene::Scene;
+use mms_runtime::scene::Scene;
 
 /// A field evaluated by the interpreter, for one set of parameters.
 struct Interpreted<T> {

@@ -1,9 +1,9 @@
 //! Manufactured solutions for solid mechanics.
 //!
 //! A manufactured displacement field u(X, t) is one TOML file in `fields/`. Everything that follows
-//! from it and from a strain-energy density W is derived at build time; [`gallery`] holds the
-//! result, one module per file. [`scene`] lets a solver run on any of them, and on files that were
-//! never compiled.
+//! from it and from a strain-energy density W is derived: at build time by `field!`, and at run time
+//! by the command, which interprets files that were never compiled. [`gallery`] holds the texts that
+//! ship, and what of them was compiled into this program.
 
 mod checkpoint;
 pub mod cli;
@@ -14,7 +14,6 @@ pub mod interpreted;
 mod page;
 pub mod report;
 mod rows;
-pub mod scene;
 pub mod schema;
 mod shell;
 mod store;

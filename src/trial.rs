@@ -14,12 +14,12 @@ use crate::cli::input::Input;
 use crate::cli::method::Precision;
 use crate::cli::progress::Progress;
 use crate::cli::stability::fastest_wave;
-use crate::scene::{Scene, Solvable};
 use crate::shell;
 use crate::store::{Entry, Store};
 use crate::verify::matrix::{Quantity, Study};
 use crate::verify::plan::Key;
 use crate::verify::work::{Outcome, outcome};
+use mms_runtime::scene::{Scene, Solvable};
 
 /// What came of a run, and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,13 +98,13 @@ impl Trials {
         let mut observer = self.progress.of(cells);
         let trial = match study.method.arithmetic.precision {
             Precision::F32 => measure(
-                &input.scene(&study.set, |entry| entry.single)?,
+                &input.scene(&study.set, |code| code.single)?,
                 &method,
                 &cells,
                 &mut observer,
             ),
             Precision::F64 => measure(
-                &input.scene(&study.set, |entry| entry.double)?,
+                &input.scene(&study.set, |code| code.double)?,
                 &method,
                 &cells,
                 &mut observer,

@@ -1,6 +1,6 @@
 //! No evaluation allocates. One test alone, since it counts what the whole process does.
 
-use mms::gallery::axis_aligned_3d;
+use mms_gallery::axis_aligned_3d;
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]

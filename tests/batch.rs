@@ -1,7 +1,7 @@
 //! Evaluation at many points: the same values as one by one, wherever a point stands in a batch,
 //! however it is stored, and where the quick functions do not know.
 
-use mms::gallery::{
+use mms_gallery::{
     axis_aligned_3d, bar_1d, cyclic_shear_3d, generalized_vortex, quiet_boundary_2d, twisted_column,
 };
 use mms_runtime::math::batch::Blocked;

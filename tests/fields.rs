@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use mms::gallery::Entry;
 use mms::interpreted;
-use mms::scene::{Scene, Solvable};
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
@@ -19,6 +18,7 @@ use mms_codegen::spec::StudySpec;
 use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_codegen::{Compiled, Options};
 use mms_runtime::math::Scalar as _;
+use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Level, Method, Verdict};
 
@@ -452,10 +452,11 @@ fn studies<K: Kernel>() {
     let compiled = compiled(K::NAME);
     for study in &compiled.field.studies {
         let entry = mms::gallery::find(K::NAME).expect("a field of the gallery");
+        let code = mms_gallery::find(K::NAME).expect("a compiled field");
         let levels = if study.precision.as_deref() == Some("f32") {
-            levels(scene(entry, entry.single, study), study)
+            levels(scene(entry, code.single, study), study)
         } else {
-            levels(scene(entry, entry.double, study), study)
+            levels(scene(entry, code.double, study), study)
         };
         let judgement = judge(&levels, study.order, study.tolerance.unwrap_or(TOLERANCE));
         assert_eq!(judgement.verdict, Verdict::Pass, "{judgement:?}\n{levels:#?}");

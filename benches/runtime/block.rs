@@ -2,8 +2,8 @@
 
 use std::ops::MulAssign;
 
-use mms::scene::Scene;
 use mms_runtime::column::Matrices;
+use mms_runtime::scene::Scene;
 use mms_runtime::stencil::BUNCH;
 use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
 
@@ -38,9 +38,9 @@ macro_rules! of {
     ($($float:ident $member:ident: $($dimension:literal $variant:ident),*;)*) => {
         $($(impl Of<$float, $dimension> for Scene<$float> {
             fn find(name: &str) -> Option<Box<dyn ManufacturedField<$float, $dimension>>> {
-                let entry = mms::gallery::find(name)?;
-                let values = entry.compile().ok()?.parameters::<$float>(&Default::default());
-                match (entry.$member)(&values)? {
+                let compiled = mms::gallery::find(name)?.compile().ok()?;
+                let values = compiled.parameters::<$float>(&Default::default());
+                match (mms_gallery::find(name)?.$member)(&values)? {
                     Scene::$variant(field) => Some(field),
                     _ => None,
                 }

@@ -15,8 +15,8 @@ use std::time::Instant;
 
 use block::{Block, Body};
 use cpu_time::ThreadTime;
-use mms::scene::Scene;
 use mms_runtime::integrator::Leapfrog;
+use mms_runtime::scene::Scene;
 use mms_runtime::shape::{Cpdi, Cpgimp, Linear, QuadraticBspline, Shape, Ugimp};
 use mms_runtime::{Division, FormulationName, ManufacturedField, Real, Setup, Solver, Transfer};
 use roof::{Count, Roof};

@@ -8,9 +8,9 @@ use std::error::Error;
 use std::sync::Arc;
 
 use mms::gallery::{self, Entry};
-use mms::scene::Scene;
 use mms_codegen::twin::Twin;
 use mms_codegen::{Options, Selection};
+use mms_runtime::scene::Scene;
 use mms_runtime::study::{TOLERANCE, Watch, differences, judge, orders};
 use rows::{GROUPS, IN_TIME, InTime, Row, STANDARD};
 
@@ -134,7 +134,8 @@ fn scene(entry: &'static Entry, twin: &str) -> Result<Scene<f64>, Box<dyn Error>
     if twin.is_empty() {
         let compiled = entry.compile()?;
         let parameters = compiled.parameters(&Default::default());
-        return (entry.double)(&parameters).ok_or_else(|| "build again".into());
+        let code = mms_gallery::find(entry.name).ok_or("not compiled")?;
+        return (code.double)(&parameters).ok_or_else(|| "build again".into());
     }
     let twin = if twin == STANDARD { Twin::Standard } else { Twin::Given(twin.into()) };
     let options =

@@ -40,6 +40,7 @@ pub mod material;
 pub mod method;
 pub mod nodal;
 pub mod particle;
+pub mod scene;
 pub mod shape;
 pub mod solver;
 pub mod stencil;

@@ -22,8 +22,8 @@ use crate::extremes::verdict::{Declared, Seen, judge};
 use crate::report::extremes::{Judged, Report, Stability};
 use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
-use crate::scene::usual_cells;
 use crate::tradeoff::setting::Setting;
+use mms_runtime::scene::usual_cells;
 
 /// Run a field at the limits of the solver: each run meets its bound, or stops with the right diagnosis.
 ///

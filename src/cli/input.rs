@@ -22,7 +22,7 @@ use mms_runtime::Real;
 
 use crate::gallery::{self, Entry};
 use crate::report::{file, provenance};
-use crate::scene::Scene;
+use mms_runtime::scene::{Code, Scene};
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";
@@ -118,8 +118,8 @@ pub struct Input {
     pub name: String,
     /// What follows from its text.
     pub compiled: Arc<Compiled>,
-    /// Its compiled code, where it is of the gallery and taken as it is.
-    pub entry: Option<&'static Entry>,
+    /// Its compiled code, where that is part of this program and the field is taken as it is.
+    code: Option<&'static Code>,
     /// What the user named.
     given: String,
     /// How it was compiled.
@@ -149,18 +149,18 @@ impl Input {
         let compiled = text
             .compile(&options)
             .map_err(|failure| anyhow!("{}\n{failure}", text.what_failed(&options)))?;
-        Ok(Input { entry: None, ..Self::new(field, &text, compiled, &options) })
+        Ok(Input { code: None, ..Self::new(field, &text, compiled, &options) })
     }
 
     fn new(field: &str, text: &Text, compiled: Compiled, options: &Options) -> Input {
         let as_it_is = options.selection.twin == Twin::Nothing
             && options.form == Form::Stable
             && options.variation == Variation::Nothing;
-        let entry = text.entry().filter(|_| as_it_is);
+        let code = text.entry().and_then(Entry::code).filter(|_| as_it_is);
         Input {
             name: compiled.field.name.clone(),
             compiled: Arc::new(compiled),
-            entry,
+            code,
             given: field.to_owned(),
             options: options.clone(),
         }
@@ -183,12 +183,12 @@ impl Input {
         provenance::Input::new(&self.given, twin, settings, &self.compiled)
     }
 
-    /// The compiled field, where it is of the gallery, and the interpreted one otherwise; with the parameters
-    /// of `name=value` settings. `build` takes the entry's of the precision.
+    /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters
+    /// of `name=value` settings. `build` takes the code of the precision.
     pub fn scene<T: Real + Number>(
         &self,
         settings: &[String],
-        build: impl Fn(&Entry) -> fn(&[T]) -> Option<Scene<T>>,
+        build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
     ) -> anyhow::Result<Scene<T>> {
         self.scene_with(&self.settings(settings)?, build)
     }
@@ -197,10 +197,10 @@ impl Input {
     pub fn scene_with<T: Real + Number>(
         &self,
         set: &BTreeMap<usize, RBig>,
-        build: impl Fn(&Entry) -> fn(&[T]) -> Option<Scene<T>>,
+        build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
     ) -> anyhow::Result<Scene<T>> {
-        match self.entry {
-            Some(entry) => build(entry)(&self.compiled.parameters::<T>(set))
+        match self.code {
+            Some(code) => build(code)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
             None => Ok(crate::interpreted::scene(self.compiled.clone(), set)),
         }

@@ -18,10 +18,10 @@ use crate::report::file::is_same;
 use crate::report::provenance::Provenance;
 use crate::report::run::Run as Report;
 use crate::report::{Refused, pretty, write_files};
-use crate::scene::usual_cells;
 use crate::shell::words;
 use crate::store::{digest, program};
 use crate::vtk::Writer;
+use mms_runtime::scene::usual_cells;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
 #[derive(Args)]
@@ -83,11 +83,11 @@ impl Run {
         let mut followers = self.followers(&input, cells, head, &progress)?;
         let run = match self.method.arithmetic.precision {
             Precision::F32 => {
-                let scene = input.scene(&self.set, |entry| entry.single)?;
+                let scene = input.scene(&self.set, |code| code.single)?;
                 scene.run(&method, &cells, Watch::Everything, &mut followers)
             }
             Precision::F64 => {
-                let scene = input.scene(&self.set, |entry| entry.double)?;
+                let scene = input.scene(&self.set, |code| code.double)?;
                 scene.run(&method, &cells, Watch::Everything, &mut followers)
             }
         };

@@ -20,7 +20,7 @@ use super::progress::Progress;
 use super::{Outcome, output_folder, print, print_json, say};
 use crate::report::provenance::Provenance;
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
-use crate::scene::{Scene, Solvable};
+use mms_runtime::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.
 ///
@@ -228,8 +228,8 @@ impl Study {
         let mut method = method.clone();
         let periods = self.through_periods(input, &mut method)?;
         let (levels, fit) = match options.arithmetic.precision {
-            Precision::F32 => self.solve(&input.scene(&self.set, |entry| entry.single)?, &method),
-            Precision::F64 => self.solve(&input.scene(&self.set, |entry| entry.double)?, &method),
+            Precision::F32 => self.solve(&input.scene(&self.set, |code| code.single)?, &method),
+            Precision::F64 => self.solve(&input.scene(&self.set, |code| code.double)?, &method),
         };
         let (levels, phases): (Vec<_>, Vec<_>) = levels
             .into_iter()

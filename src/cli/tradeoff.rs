@@ -17,12 +17,12 @@ use super::stability::sound;
 use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
-use crate::scene::usual_cells;
 use crate::shell;
 use crate::store::Store;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use crate::tradeoff::setting::Setting;
 use crate::trial::Trials;
+use mms_runtime::scene::usual_cells;
 
 /// Find the cheapest method, numbers and grid for an error, or the least error for a time.
 ///
@@ -127,7 +127,7 @@ impl Tradeoff {
     }
 
     fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {
-        let scene = input.scene(&self.set, |entry| entry.double)?;
+        let scene = input.scene(&self.set, |code| code.double)?;
         let dimension = input.compiled.field.dimension;
         let grain = scene.edges().map_or(1, |edges| grain(&edges));
         let longest = scene.cell_size(&Division::Uniform(1));

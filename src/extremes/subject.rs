@@ -19,7 +19,7 @@ use super::verdict::{Diagnosis, Seen};
 use crate::cli::input::{Input, Text};
 use crate::cli::method::Precision;
 use crate::cli::stability::{fastest_wave_with, sound};
-use crate::scene::{Scene, Solvable, usual_cells};
+use mms_runtime::scene::{Scene, Solvable, usual_cells};
 
 /// At how many points and times the largest displacement and the least J are looked for.
 const POINTS: usize = 256;
@@ -146,7 +146,7 @@ impl Subject {
         let Extent::Box([lower, upper]) = extent else { return Ok(None) };
         let middle: Vec<f64> =
             lower.iter().zip(upper).map(|(lower, upper)| (lower + upper) / 2.0).collect();
-        let scene = self.input.scene_with(&self.set, |entry| entry.double)?;
+        let scene = self.input.scene_with(&self.set, |code| code.double)?;
         Ok(Some(Elasticity::of(&scene, &middle)))
     }
 
@@ -163,18 +163,12 @@ impl Subject {
     ) -> anyhow::Result<Seen> {
         let set = &self.set;
         Ok(match precision {
-            Precision::F32 => self.see(
-                &self.input.scene_with(set, |entry| entry.single)?,
-                method,
-                cells,
-                observer,
-            ),
-            Precision::F64 => self.see(
-                &self.input.scene_with(set, |entry| entry.double)?,
-                method,
-                cells,
-                observer,
-            ),
+            Precision::F32 => {
+                self.see(&self.input.scene_with(set, |code| code.single)?, method, cells, observer)
+            }
+            Precision::F64 => {
+                self.see(&self.input.scene_with(set, |code| code.double)?, method, cells, observer)
+            }
         })
     }
 

@@ -27,7 +27,7 @@
 use mms_runtime::nalgebra::{Complex, DMatrix};
 use mms_runtime::{ManufacturedField, Matrix, Method, ShapeName, Transfer, Vector};
 
-use crate::scene::Scene;
+use mms_runtime::scene::Scene;
 
 /// How many wave numbers from 0 to pi along an axis.
 const WAVES: i32 = 8;

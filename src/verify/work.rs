@@ -14,8 +14,8 @@ use super::matrix::{Quantity, Row};
 use super::plan::Job;
 use crate::cli::input::{Input, Variant};
 use crate::cli::method::Precision;
-use crate::scene::{Scene, Solvable};
 use crate::store::{Entry, Store};
+use mms_runtime::scene::{Scene, Solvable};
 
 /// l1, l2 and linf, the largest over all steps.
 pub type Norms = [f64; 3];
@@ -269,8 +269,8 @@ impl Fields {
         let input = self.input(job)?;
         let set = &job.study.set;
         Ok(match job.study.method.arithmetic.precision {
-            Precision::F32 => single(job, &input.scene(set, |entry| entry.single)?, step),
-            Precision::F64 => double(job, &input.scene(set, |entry| entry.double)?, step),
+            Precision::F32 => single(job, &input.scene(set, |code| code.single)?, step),
+            Precision::F64 => double(job, &input.scene(set, |code| code.double)?, step),
         })
     }
 

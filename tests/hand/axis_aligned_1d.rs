@@ -1,6 +1,6 @@
 //! Standing waves along the axes of a bar; derived in `axis_aligned.rs`.
 
-use mms::gallery::axis_aligned_1d::{Parameters, prepare};
+use mms_gallery::axis_aligned_1d::{Parameters, prepare};
 
 use crate::axis_aligned::Waves;
 use crate::support::generated;

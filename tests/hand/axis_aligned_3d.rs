@@ -1,6 +1,6 @@
 //! Standing waves along the axes of a cube; derived in `axis_aligned.rs`.
 
-use mms::gallery::axis_aligned_3d::{Parameters, prepare};
+use mms_gallery::axis_aligned_3d::{Parameters, prepare};
 
 use crate::axis_aligned::Waves;
 use crate::support::generated;

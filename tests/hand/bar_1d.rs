@@ -8,7 +8,7 @@
 //! b     = A'' X (2L - X)/L^2 - Div P/rho0     (rho0 a = Div P + rho0 b)
 //! ```
 
-use mms::gallery::bar_1d::{Parameters, prepare};
+use mms_gallery::bar_1d::{Parameters, prepare};
 
 use crate::support::random;
 

@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::conformal_sector_2d::{Parameters, prepare};
+use mms_gallery::conformal_sector_2d::{Parameters, prepare};
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_ring};
 

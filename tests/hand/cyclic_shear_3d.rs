@@ -13,7 +13,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::cyclic_shear_3d::{Parameters, prepare};
+use mms_gallery::cyclic_shear_3d::{Parameters, prepare};
 use mms_runtime::{Matrix, Vector};
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_box};

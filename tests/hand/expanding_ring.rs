@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::expanding_ring::{Parameters, prepare};
+use mms_gallery::expanding_ring::{Parameters, prepare};
 
 use crate::support::{TOLERANCE, Values, assert_agree, generated, in_ring};
 

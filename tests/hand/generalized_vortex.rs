@@ -1,6 +1,6 @@
 //! The generalized vortex with an angle of 1; derived in `vortex.rs`.
 
-use mms::gallery::generalized_vortex::{Parameters, prepare};
+use mms_gallery::generalized_vortex::{Parameters, prepare};
 use mms_runtime::Matrix;
 
 use crate::support::{NeoHookean, TOLERANCE, assert_agree, generated, in_ring};

@@ -1,6 +1,6 @@
 //! The generalized vortex with an angle of 1/3; derived in `vortex.rs`.
 
-use mms::gallery::generalized_vortex_third::{Parameters, prepare};
+use mms_gallery::generalized_vortex_third::{Parameters, prepare};
 
 use crate::support::{TOLERANCE, assert_agree, generated, in_ring};
 use crate::vortex::Vortex;

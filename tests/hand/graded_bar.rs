@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::graded_bar::{Parameters, prepare};
+use mms_gallery::graded_bar::{Parameters, prepare};
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_box};
 

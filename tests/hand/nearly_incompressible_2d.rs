@@ -13,7 +13,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::nearly_incompressible_2d::{Parameters, prepare};
+use mms_gallery::nearly_incompressible_2d::{Parameters, prepare};
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_box};
 

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::periodic_bar::{Parameters, prepare};
+use mms_gallery::periodic_bar::{Parameters, prepare};
 
 use crate::support::{TOLERANCE, Values, assert_agree, generated, in_box};
 

@@ -184,7 +184,7 @@ macro_rules! compare {
             crate::support::assert_agree(
                 crate::support::TOLERANCE,
                 &crate::support::in_box([0.0; 2], [length; 2], window),
-                crate::support::generated!(mms::gallery::$field::prepare(&parameters)),
+                crate::support::generated!(mms_gallery::$field::prepare(&parameters)),
                 |point, time| $on_paper(&parameters, point, time),
             );
         }

@@ -8,7 +8,7 @@
 //! q,J = kappa J,J - (m,J I1 + m I1,J)/(3 J) + m I1 J,J/(3 J^2)
 //! ```
 
-use mms::gallery::plane_strain_gent::Parameters;
+use mms_gallery::plane_strain_gent::Parameters;
 
 use crate::plane::{Strained, Waves, compare, cosine, sine};
 use crate::support::{NeoHookean, Values};

@@ -5,7 +5,7 @@
 //! (Div P)_i = (lambda + mu) (u_1,1 + u_2,2),i + mu Lap u_i      (Navier)
 //! ```
 
-use mms::gallery::plane_strain_linear_elastic::Parameters;
+use mms_gallery::plane_strain_linear_elastic::Parameters;
 
 use crate::plane::{Solid, Strained, Waves, compare, cosine, sine};
 use crate::support::{NeoHookean, Values};

@@ -10,7 +10,7 @@
 //!
 //! and u1 = a X Y/L^2, u2 = b X Y/L^2 have no Laplacian.
 
-use mms::gallery::plane_strain_mooney_rivlin::Parameters;
+use mms_gallery::plane_strain_mooney_rivlin::Parameters;
 
 use crate::plane::{Strained, Waves, compare, linear};
 use crate::support::{NeoHookean, Values};

@@ -7,7 +7,7 @@
 //! q,J = kappa J,J - (m,J I1 + m I1,J)/(3 J) + m I1 J,J/(3 J^2)
 //! ```
 
-use mms::gallery::plane_strain_neo_hookean_isochoric::Parameters;
+use mms_gallery::plane_strain_neo_hookean_isochoric::Parameters;
 
 use crate::plane::{Strained, Waves, compare, sine};
 use crate::support::{NeoHookean, Values};

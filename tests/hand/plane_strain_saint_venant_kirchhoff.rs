@@ -10,7 +10,7 @@
 //!
 //! With Q' = alpha' R Q for the quarter turn R, Q'' = (alpha'' R - alpha'^2) Q.
 
-use mms::gallery::plane_strain_saint_venant_kirchhoff::Parameters;
+use mms_gallery::plane_strain_saint_venant_kirchhoff::Parameters;
 
 use crate::plane::{Matrix, Solid, Strained, Waves, compare, sine};
 use crate::support::{NeoHookean, Values};

@@ -7,7 +7,7 @@
 //! f_i,J = u_i,KJ a0_K,   I4,J = 2 f_i f_i,J
 //! ```
 
-use mms::gallery::plane_strain_transversely_isotropic::Parameters;
+use mms_gallery::plane_strain_transversely_isotropic::Parameters;
 
 use crate::plane::{Strained, Waves, compare, sine};
 use crate::support::{NeoHookean, Values};

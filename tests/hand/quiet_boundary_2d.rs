@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::quiet_boundary_2d::{Parameters, prepare};
+use mms_gallery::quiet_boundary_2d::{Parameters, prepare};
 use mms_runtime::{Matrix, Vector};
 
 use crate::rank_one::RankOne;

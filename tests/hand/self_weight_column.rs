@@ -6,7 +6,7 @@
 //! u(X) = the integral of F - 1 from 0 to X
 //! ```
 
-use mms::gallery::self_weight_column::{Parameters, prepare};
+use mms_gallery::self_weight_column::{Parameters, prepare};
 
 use crate::support::{TOLERANCE, Values, assert_agree, generated, in_box};
 

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::sheared_block_2d::{Parameters, prepare};
+use mms_gallery::sheared_block_2d::{Parameters, prepare};
 use mms_runtime::Matrix;
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_box};

@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::static_bulge_3d::{Parameters, prepare};
+use mms_gallery::static_bulge_3d::{Parameters, prepare};
 use mms_runtime::{Matrix, Vector};
 
 use crate::rank_one::RankOne;

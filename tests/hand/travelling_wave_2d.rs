@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use mms::gallery::travelling_wave_2d::{Parameters, prepare};
+use mms_gallery::travelling_wave_2d::{Parameters, prepare};
 use mms_runtime::Vector;
 
 use crate::rank_one::RankOne;

@@ -6,7 +6,7 @@
 //! b = a = 2 s X (c/L)^2, since Div P = 0
 //! ```
 
-use mms::gallery::uniform_stretch::{Parameters, prepare};
+use mms_gallery::uniform_stretch::{Parameters, prepare};
 
 use crate::support::{NeoHookean, TOLERANCE, Values, assert_agree, generated, in_box};
 

@@ -35,7 +35,7 @@ macro_rules! kernel {
 
         impl crate::support::kernel::Kernel for Field {
             const NAME: &'static str = stringify!($module);
-            const DIMENSION: usize = mms::gallery::$module::DIMENSION;
+            const DIMENSION: usize = mms_gallery::$module::DIMENSION;
 
             fn quantity<T: mms_runtime::math::Real>(
                 quantity: mms_codegen::quantity::Quantity,
@@ -43,7 +43,7 @@ macro_rules! kernel {
                 point: &[T],
             ) -> Vec<T> {
                 use mms_codegen::quantity::Quantity;
-                let field = mms::gallery::$module::prepare(&Default::default());
+                let field = mms_gallery::$module::prepare(&Default::default());
                 let (at, x) =
                     (field.at_time(time), point.try_into().expect("DIMENSION components"));
                 match quantity {
@@ -77,7 +77,7 @@ macro_rules! kernel {
             }
 
             fn density<T: mms_runtime::math::Real>(point: &[T]) -> T {
-                let field = mms::gallery::$module::prepare(&Default::default());
+                let field = mms_gallery::$module::prepare(&Default::default());
                 field.density(point.try_into().expect("DIMENSION components"))
             }
 
@@ -85,7 +85,7 @@ macro_rules! kernel {
                 point: &[T],
                 gradient: &[T],
             ) -> T {
-                let field = mms::gallery::$module::prepare(&Default::default());
+                let field = mms_gallery::$module::prepare(&Default::default());
                 let x = point.try_into().expect("DIMENSION components");
                 field.material_strain_energy(x, crate::support::kernel::rows(gradient))
             }
@@ -94,7 +94,7 @@ macro_rules! kernel {
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {
-                let field = mms::gallery::$module::prepare(&Default::default());
+                let field = mms_gallery::$module::prepare(&Default::default());
                 let x = point.try_into().expect("DIMENSION components");
                 let rows = crate::support::kernel::rows(gradient);
                 field.material_first_piola_kirchhoff(x, rows).concat()
@@ -104,7 +104,7 @@ macro_rules! kernel {
                 point: &[T],
                 gradient: &[T],
             ) -> Vec<T> {
-                let field = mms::gallery::$module::prepare(&Default::default());
+                let field = mms_gallery::$module::prepare(&Default::default());
                 let x = point.try_into().expect("DIMENSION components");
                 field.material_kirchhoff_stress(x, crate::support::kernel::rows(gradient)).concat()
             }

@@ -1,9 +1,9 @@
 //! A field of any dimension, ready for a solver.
 
-use mms_runtime::body::bounding_box;
-use mms_runtime::solver::cell_size;
-use mms_runtime::study::{Observer, Solve, Watch};
-use mms_runtime::{Body, Division, Level, ManufacturedField, Method, Real, Refusal, Run};
+use crate::body::bounding_box;
+use crate::solver::cell_size;
+use crate::study::{Observer, Solve, Watch};
+use crate::{Body, Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// The cells along the longest edge of a run that names none, in one to three dimensions.
 pub fn usual_cells(dimension: usize) -> usize {
@@ -36,6 +36,36 @@ impl<T: Real> From<Box<dyn ManufacturedField<T, 3>>> for Scene<T> {
     fn from(field: Box<dyn ManufacturedField<T, 3>>) -> Self {
         Scene::Space(field)
     }
+}
+
+/// A field that was compiled into a program.
+#[derive(Clone, Copy, Debug)]
+pub struct Code {
+    /// The name: the stem of its file.
+    pub name: &'static str,
+    /// The field in single precision, for parameter values in the order of the file; `None` for another number of
+    /// them.
+    pub single: fn(&[f32]) -> Option<Scene<f32>>,
+    /// The same in double precision.
+    pub double: fn(&[f64]) -> Option<Scene<f64>>,
+}
+
+/// The [`Code`] of a module that `field!` made.
+#[macro_export]
+macro_rules! code {
+    ($module:ident) => {
+        $crate::scene::Code {
+            name: stringify!($module),
+            single: |values| {
+                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
+                Some($crate::scene::Scene::from($module::prepare(&parameters).boxed()))
+            },
+            double: |values| {
+                let parameters = $module::Parameters::from_array(values.try_into().ok()?);
+                Some($crate::scene::Scene::from($module::prepare(&parameters).boxed()))
+            },
+        }
+    };
 }
 
 /// A precision that there is a solver for, in every dimension.
@@ -117,7 +147,7 @@ impl<T: Solvable> Scene<T> {
         }
     }
 
-    /// Runs one level of a study; see [`mms_runtime::run_level`].
+    /// Runs one level of a study; see [`crate::run_level`].
     ///
     /// # Errors
     /// A scene that cannot be started.
