@@ -71,13 +71,16 @@ fn the_page_shows_what_the_stable_form_promises() {
     assert_eq!(rows, 4 * sample::files().len() - 3);
 }
 
-/// The fields, every second one from that on, hold what the page says.
-fn hold(first: usize) {
+/// The fields of which that is so hold what the page says.
+fn hold(is_meant: impl Fn(&str) -> bool) {
     let page = std::fs::read_to_string(PAGE).expect("the page");
     let request = Request { points: POINTS, quantities: QUANTITIES.to_vec(), ..Request::default() };
     let mut beyond = Vec::new();
-    for file in sample::files().into_iter().skip(first).step_by(2) {
+    for file in sample::files() {
         let field = sample::stem(&file);
+        if !is_meant(&field) {
+            continue;
+        }
         let accuracy = sample::measured(&file, &request);
         let rows = committed(&page, &field);
         let committed: Vec<&str> = rows.iter().map(|(regime, _)| regime.as_str()).collect();
@@ -103,12 +106,16 @@ fn hold(first: usize) {
     );
 }
 
+/// One field of each number of dimensions, and one whose moduli vary.
+const FEW: [&str; 4] = ["bar_1d", "conformal_sector_2d", "cyclic_shear_3d", "graded_bar"];
+
 #[test]
-fn every_row_of_the_page_holds_for_one_half_of_the_fields() {
-    hold(0);
+fn every_row_of_the_page_holds_for_a_few_fields() {
+    hold(|field| FEW.contains(&field));
 }
 
 #[test]
-fn every_row_of_the_page_holds_for_the_other_half() {
-    hold(1);
+#[ignore = "takes a minute: .ci/run runs it"]
+fn every_row_of_the_page_holds_for_all_others() {
+    hold(|field| !FEW.contains(&field));
 }

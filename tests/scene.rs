@@ -53,6 +53,7 @@ fn a_motion_along_one_axis_takes_the_same_operations_in_three_dimensions() {
 }
 
 #[test]
+#[ignore = "compiles as many programs as there are rows: .ci/run runs it"]
 fn less_of_a_field_is_no_more_machine_code() {
     let bench = Workbench::open().expect("a workbench");
     // Keeping points takes loops of its own, and another precision other functions.

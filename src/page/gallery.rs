@@ -87,6 +87,7 @@ mod tests {
     const WRITE: &str = "cargo run --release -- report --gallery docs/gallery";
 
     #[test]
+    #[ignore = "derives every field: .ci/run runs it"]
     fn the_pages_are_those_of_the_gallery_with_its_formulas() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
         let mut pages: BTreeSet<String> = std::fs::read_dir(&folder)
