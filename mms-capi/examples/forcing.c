@@ -22,8 +22,8 @@ int main(void)
     printf("%s: %s\n", mms_field_name(bar), mms_field_title(bar));
 
     double lower[1], upper[1], X[5], b[5];
-    must(mms_field_bound(bar, "lower", lower, message, sizeof message));
-    must(mms_field_bound(bar, "upper", upper, message, sizeof message));
+    must(mms_field_get_bound(bar, "lower", 1, lower, message, sizeof message));
+    must(mms_field_get_bound(bar, "upper", 1, upper, message, sizeof message));
     for (int i = 0; i < 5; ++i) {
         X[i] = lower[0] + (upper[0] - lower[0]) * i / 4;
     }

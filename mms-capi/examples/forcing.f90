@@ -16,8 +16,8 @@ program forcing
     call must(mms_field_set_parameter(bar, 'amplitude' // nul, 0.1_c_double, message, capacity))
     print '(3a)', c_text(mms_field_name(bar)), ': ', c_text(mms_field_title(bar))
 
-    call must(mms_field_bound(bar, 'lower' // nul, lower, message, capacity))
-    call must(mms_field_bound(bar, 'upper' // nul, upper, message, capacity))
+    call must(mms_field_get_bound(bar, 'lower' // nul, 1_c_size_t, lower, message, capacity))
+    call must(mms_field_get_bound(bar, 'upper' // nul, 1_c_size_t, upper, message, capacity))
     X = [(lower(1) + (upper(1) - lower(1))*i/4, i = 0, 4)]
     call must(mms_field_evaluate(bar, 'body_force' // nul, 0.013_c_double, 5_c_size_t, X, &
         c_null_ptr, b, message, capacity))

@@ -24,7 +24,7 @@ def call(function, *arguments):
 def bound(field, name):
     """Where the body or the time window ends."""
     values = (ctypes.c_double * 3)()
-    call(mms.mms_field_bound, field, name, values)
+    call(mms.mms_field_get_bound, field, name, ctypes.c_size_t(len(values)), values)
     return values
 
 

@@ -13,6 +13,7 @@ module mms_capi
     integer(c_int32_t), parameter, public :: mms_code_invalid_parameter = 4
     integer(c_int32_t), parameter, public :: mms_code_not_finite = 5
     integer(c_int32_t), parameter, public :: mms_code_defect = 6
+    integer(c_int32_t), parameter, public :: mms_code_no_thread = 7
 
     public :: c_text
     public :: mms_version, mms_gallery_size, mms_gallery_name, mms_quantity_count, mms_quantity_name
@@ -21,7 +22,8 @@ module mms_capi
     public :: mms_field_parameter_count, mms_field_parameter_name
     public :: mms_field_face_count, mms_field_face_name
     public :: mms_field_get_parameter, mms_field_set_parameter, mms_field_set_parameters
-    public :: mms_field_components, mms_field_evaluate, mms_field_normals, mms_field_bound
+    public :: mms_field_components, mms_field_evaluate, mms_field_normals
+    public :: mms_field_bound_components, mms_field_get_bound, mms_field_bound
 
     interface
         function mms_version() result(text) bind(c)
@@ -191,6 +193,28 @@ module mms_capi
             integer(c_size_t), value :: count
             real(c_double), intent(in) :: points(*)
             real(c_double), intent(out) :: normals(*)
+            character(kind=c_char), intent(out) :: message(*)
+            integer(c_size_t), value :: capacity
+            integer(c_int32_t) :: code
+        end function
+
+        function mms_field_bound_components(field, name, components, message, capacity) &
+            result(code) bind(c)
+            import :: c_char, c_int32_t, c_ptr, c_size_t
+            type(c_ptr), value :: field
+            character(kind=c_char), intent(in) :: name(*)
+            integer(c_size_t), intent(out) :: components
+            character(kind=c_char), intent(out) :: message(*)
+            integer(c_size_t), value :: capacity
+            integer(c_int32_t) :: code
+        end function
+
+        function mms_field_get_bound(field, name, room, values, message, capacity) result(code) bind(c)
+            import :: c_char, c_double, c_int32_t, c_ptr, c_size_t
+            type(c_ptr), value :: field
+            character(kind=c_char), intent(in) :: name(*)
+            integer(c_size_t), value :: room
+            real(c_double), intent(out) :: values(*)
             character(kind=c_char), intent(out) :: message(*)
             integer(c_size_t), value :: capacity
             integer(c_int32_t) :: code

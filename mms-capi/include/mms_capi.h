@@ -1,21 +1,38 @@
 /* Manufactured solutions for solid mechanics: any field, any quantity, in batches.
  *
- * Names and texts are UTF-8 and end with a NUL. Numbers are double, angles radians, units those of
+ * Names and texts are UTF-8 and end with a NUL; a name has at most 4096 bytes, the content of a file
+ * 1 MiB, and no byte beyond is read. Numbers are double, angles radians, units those of
  * the field, SI in the gallery. D is the dimension of a field.
  *
  * Functions that can fail return a code, and take a buffer `message` of `capacity` bytes, for what is
- * wrong: a text that ends with a NUL, cut where there is no room for all of it, empty if nothing is
- * wrong. NULL is allowed where no message is wanted; 1024 bytes are enough but for the mistakes of a
- * field file. A pointer that is needed and is NULL, and a text that is not UTF-8, are
- * MMS_CODE_INVALID_ARGUMENT. Arrays must have the sizes that are stated; those of no elements may be NULL.
+ * wrong: a text that ends with a NUL, cut between characters where there is no room for all of it, empty if
+ * nothing is wrong. NULL is allowed where no message is wanted; 1024 bytes are enough but for the mistakes of a
+ * field file. The message is written last: it may stand where an argument stood.
+ *
+ * What can be seen of a pointer is looked at before anything is made of it. One that is needed and is NULL, one
+ * that is not aligned for its type, a count that no array has, results that overlap with arguments or the
+ * message, and a text that is not UTF-8, are MMS_CODE_INVALID_ARGUMENT. What results are written to need not be
+ * initialised, and nothing but results is written to it; after a failure it holds anything, but for what is said
+ * to be NULL. Not to be seen is whether memory of the stated size is there and stays as it is during the call, and
+ * whether a field is one that was made and not freed: that is the caller's. Arrays of no elements may be NULL.
  *
  * There is no global state. Any function may be called on any thread at any time, also on one field:
  * an evaluation has the parameters of the moment at which it starts. Only mms_field_free must come
  * after all else. No panic leaves the library: it becomes MMS_CODE_DEFECT.
  *
+ * Two things end the program, as abort() does: memory that the system does not have, and a stack that is too
+ * small. Making a field takes at most 128 MiB of memory while it lasts, all else little, however many points there
+ * are. Making a field runs on a thread of its own with a stack of 2 MiB, which ends before the call
+ * does; if the system gives none, that is MMS_CODE_NO_THREAD. All else runs on the thread of the caller, for which
+ * a stack of 64 KiB is enough. Rounding must be to nearest, and floating-point exceptions masked, as they are when
+ * a program starts.
+ *
  * Values are those of `mms eval`, bit for bit. They are interpreted: a point takes less than a
  * microsecond, and the points of a call share what needs only the parameters and the time. Where that
  * counts, embed the code that `mms emit` writes.
+ *
+ * Before version 1, each minor version has an interface of its own. Within one, functions and codes are only added:
+ * take a code that you do not know for a failure.
  */
 
 
@@ -35,8 +52,9 @@ enum mms_code
  {
   // It did what it is for.
   MMS_CODE_OK = 0,
-  // A null pointer, a text that is not UTF-8, a time or a point that is not finite, a normal that
-  // is missing or not a unit vector.
+  // A pointer that is NULL or not aligned, a count that no array has, too little room, results that overlap with
+  // something, a text that is not UTF-8, a time or a point that is not finite, a normal that is missing or not a
+  // unit vector.
   MMS_CODE_INVALID_ARGUMENT = 1,
   // No field, parameter, quantity, face or bound has that name.
   MMS_CODE_UNKNOWN_NAME = 2,
@@ -50,6 +68,8 @@ enum mms_code
   MMS_CODE_NOT_FINITE = 5,
   // A mistake of this library.
   MMS_CODE_DEFECT = 6,
+  // The system gives no thread. Making a field takes one, with a stack of 2 MiB.
+  MMS_CODE_NO_THREAD = 7,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -200,9 +220,30 @@ mms_code mms_field_normals(const struct mms_field *field,
                            char *message,
                            size_t capacity);
 
+// Writes the number of components of a bound to `*components`: D, 1 or 2, see `mms_field_get_bound`.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
+mms_code mms_field_bound_components(const struct mms_field *field,
+                                    const char *name,
+                                    size_t *components,
+                                    char *message,
+                                    size_t capacity);
+
 // Writes where the body or the time window ends: "lower", "upper" (D coordinates each, of a box),
 // "inner", "outer" (a radius each, of an annulus), "theta" (first and last angle), "time" (first
-// and last). It follows the parameters.
+// and last). It follows the parameters. `values` has room for `room` numbers; where that is not enough,
+// nothing is written to it.
+//
+// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound; MMS_CODE_INVALID_ARGUMENT.
+mms_code mms_field_get_bound(const struct mms_field *field,
+                             const char *name,
+                             size_t room,
+                             double *values,
+                             char *message,
+                             size_t capacity);
+
+// The same as `mms_field_get_bound`, where `values` has room for all components; 3 are always enough.
+// It stays for programs that call it. New ones say how much room there is.
 //
 // Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
 mms_code mms_field_bound(const struct mms_field *field,

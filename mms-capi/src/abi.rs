@@ -1,17 +1,23 @@
-//! The functions of `mms_capi.h`, which is made of this file: each checks its pointers and calls
-//! safe Rust. Everything that C passes in is read here, and nowhere else.
+//! The functions of `mms_capi.h`, which is made of this file: each has its pointers checked by `memory` and calls
+//! safe Rust. What C passes is read before anything is written, but for the points of a batch, and the message is
+//! written last.
 #![allow(unsafe_code)]
 
-use std::ffi::{CStr, c_char};
-use std::slice;
+use std::ffi::c_char;
+use std::ptr::null_mut;
 use std::sync::LazyLock;
 
 use mms_codegen::quantity::Quantity;
+use mms_codegen::spec::MAX_FILE;
 
-use crate::border::{guarded, guarded_or};
+use crate::border::{attempt, guarded, guarded_or};
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
 use crate::gallery;
+use crate::memory::{Extent, Message, Room, array, handle, text};
+
+/// The most bytes of a name. What has more is read no further.
+const MAX_NAME: usize = 4096;
 
 /// The names of all quantities, one after the other, each with a NUL at its end.
 static QUANTITIES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
@@ -64,7 +70,7 @@ pub unsafe extern "C" fn mms_field_from_gallery(
     capacity: usize,
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
-    unsafe { make(field, message, capacity, || gallery::field(text("name", name)?)) }
+    unsafe { make(field, Message::new(message, capacity), || gallery::field(word("name", name)?)) }
 }
 
 /// Makes `*field` the field of a text, the content of a field file. `name` is what
@@ -83,10 +89,12 @@ pub unsafe extern "C" fn mms_field_from_text(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        make(field, message, capacity, || {
+        make(field, Message::new(message, capacity), || {
+            let name = text("name", name, MAX_NAME, MmsCode::InvalidArgument)?;
+            let toml = content("toml", toml)?;
             let material =
-                if material.is_null() { None } else { Some(text("material", material)?) };
-            Field::compile(text("name", name)?, text("toml", toml)?, material)
+                if material.is_null() { None } else { Some(content("material", material)?) };
+            Field::compile(name, toml, material)
         })
     }
 }
@@ -95,8 +103,9 @@ pub unsafe extern "C" fn mms_field_from_text(
 /// the field.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
-    if !field.is_null() {
-        // SAFETY: the caller passes what `make` made, once.
+    // SAFETY: the caller passes what `make` made, once, or NULL.
+    if unsafe { known(field) }.is_some() {
+        // SAFETY: the same.
         guarded_or((), || drop(unsafe { Box::from_raw(field) }));
     }
 }
@@ -105,28 +114,28 @@ pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_name(field: *const Field) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.map_or(std::ptr::null(), |field| field.name.as_ptr())
+    unsafe { known(field) }.map_or(std::ptr::null(), |field| field.name.as_ptr())
 }
 
 /// The title of a field, a sentence; NULL for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_title(field: *const Field) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.map_or(std::ptr::null(), |field| field.title.as_ptr())
+    unsafe { known(field) }.map_or(std::ptr::null(), |field| field.title.as_ptr())
 }
 
 /// D, the number of coordinates of a point: 1, 2 or 3; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_dimension(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.map_or(0, Field::dimension)
+    unsafe { known(field) }.map_or(0, Field::dimension)
 }
 
 /// How many parameters a field has; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_parameter_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.map_or(0, |field| field.parameters.len())
+    unsafe { known(field) }.map_or(0, |field| field.parameters.len())
 }
 
 /// The name of a parameter, in the order of the file; NULL beyond the last.
@@ -136,7 +145,7 @@ pub unsafe extern "C" fn mms_field_parameter_name(
     index: usize,
 ) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    let name = unsafe { field.as_ref() }.and_then(|field| field.parameters.get(index));
+    let name = unsafe { known(field) }.and_then(|field| field.parameters.get(index));
     name.map_or(std::ptr::null(), |name| name.as_ptr())
 }
 
@@ -144,14 +153,14 @@ pub unsafe extern "C" fn mms_field_parameter_name(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_face_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.map_or(0, |field| field.faces.len())
+    unsafe { known(field) }.map_or(0, |field| field.faces.len())
 }
 
 /// The name of a face, such as "x_max" or "inner"; NULL beyond the last.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_face_name(field: *const Field, index: usize) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    let name = unsafe { field.as_ref() }.and_then(|field| field.faces.get(index));
+    let name = unsafe { known(field) }.and_then(|field| field.faces.get(index));
     name.map_or(std::ptr::null(), |name| name.as_ptr())
 }
 
@@ -168,9 +177,9 @@ pub unsafe extern "C" fn mms_field_get_parameter(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
-            let found = this(field)?.parameter(text("name", name)?)?;
-            numbers_mut("value", value, 1)?[0] = found;
+        guarded(Message::new(message, capacity), |message| {
+            let found = this(field)?.parameter(word("name", name)?)?;
+            Room::new("value", value, 1, &[message.extent()])?.put(&[found]);
             Ok(())
         })
     }
@@ -189,7 +198,9 @@ pub unsafe extern "C" fn mms_field_set_parameter(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || this(field)?.set([(text("name", name)?, value)]))
+        guarded(Message::new(message, capacity), |_| {
+            this(field)?.set([Ok((word("name", name)?, value))])
+        })
     }
 }
 
@@ -208,12 +219,12 @@ pub unsafe extern "C" fn mms_field_set_parameters(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
-            let names = elements("names", names, count)?;
-            let names = names.iter().map(|name| text("a name", *name));
-            let names = names.collect::<Result<Vec<_>, _>>()?;
-            let values = numbers("values", values, count)?;
-            this(field)?.set(names.into_iter().zip(values.iter().copied()))
+        guarded(Message::new(message, capacity), |_| {
+            let names = array("names", names, count)?.iter().enumerate();
+            let values = array("values", values, count)?;
+            this(field)?.set(names.zip(values).map(|((index, place), value)| {
+                Ok((word(&format!("names[{index}]"), *place)?, *value))
+            }))
         })
     }
 }
@@ -231,9 +242,9 @@ pub unsafe extern "C" fn mms_field_components(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
-            let count = this(field)?.components(text("quantity", quantity)?)?;
-            elements_mut("components", components, 1)?[0] = count;
+        guarded(Message::new(message, capacity), |message| {
+            let count = this(field)?.components(word("quantity", quantity)?)?;
+            Room::new("components", components, 1, &[message.extent()])?.put(&[count]);
             Ok(())
         })
     }
@@ -265,17 +276,24 @@ pub unsafe extern "C" fn mms_field_evaluate(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
+        guarded(Message::new(message, capacity), |message| {
             let field = this(field)?;
-            let quantity = text("quantity", quantity)?;
-            let components = field.components(quantity)?;
-            let points = numbers("points", points, size(count, field.dimension())?)?;
+            let name = word("quantity", quantity)?;
+            let [size, room] = [field.dimension(), field.components(name)?]
+                .map(|numbers| count.saturating_mul(numbers));
+            let points = array("points", points, size)?;
             let normals = match normals.is_null() {
                 true => None,
-                false => Some(numbers("normals", normals, points.len())?),
+                false => Some(array("normals", normals, size)?),
             };
-            let values = numbers_mut("values", values, size(count, components)?)?;
-            field.evaluate(quantity, time, points, normals, values)
+            let others = [
+                Extent::of("quantity", name.as_bytes()),
+                Extent::of("points", points),
+                Extent::of("normals", normals.unwrap_or(&[])),
+                message.extent(),
+            ];
+            let mut values = Room::new("values", values, room, &others)?;
+            field.evaluate(name, time, points, normals, |result| values.put(result))
         })
     }
 }
@@ -296,18 +314,76 @@ pub unsafe extern "C" fn mms_field_normals(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
+        guarded(Message::new(message, capacity), |message| {
             let field = this(field)?;
-            let size = size(count, field.dimension())?;
-            let points = numbers("points", points, size)?;
-            field.normals(text("face", face)?, points, numbers_mut("normals", normals, size)?)
+            let name = word("face", face)?;
+            let size = count.saturating_mul(field.dimension());
+            let points = array("points", points, size)?;
+            let others = [
+                Extent::of("face", name.as_bytes()),
+                Extent::of("points", points),
+                message.extent(),
+            ];
+            let mut normals = Room::new("normals", normals, size, &others)?;
+            field.normals(name, points, |normal| normals.put(normal))
+        })
+    }
+}
+
+/// Writes the number of components of a bound to `*components`: D, 1 or 2, see `mms_field_get_bound`.
+///
+/// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_bound_components(
+    field: *const Field,
+    name: *const c_char,
+    components: *mut usize,
+    message: *mut c_char,
+    capacity: usize,
+) -> MmsCode {
+    // SAFETY: the caller vouches for every pointer, as the header says.
+    unsafe {
+        guarded(Message::new(message, capacity), |message| {
+            let count = this(field)?.bound(word("name", name)?)?.len();
+            Room::new("components", components, 1, &[message.extent()])?.put(&[count]);
+            Ok(())
         })
     }
 }
 
 /// Writes where the body or the time window ends: "lower", "upper" (D coordinates each, of a box),
 /// "inner", "outer" (a radius each, of an annulus), "theta" (first and last angle), "time" (first
-/// and last). It follows the parameters.
+/// and last). It follows the parameters. `values` has room for `room` numbers; where that is not enough,
+/// nothing is written to it.
+///
+/// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound; MMS_CODE_INVALID_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_get_bound(
+    field: *const Field,
+    name: *const c_char,
+    room: usize,
+    values: *mut f64,
+    message: *mut c_char,
+    capacity: usize,
+) -> MmsCode {
+    // SAFETY: the caller vouches for every pointer, as the header says.
+    unsafe {
+        guarded(Message::new(message, capacity), |message| {
+            let name = word("name", name)?;
+            let bound = this(field)?.bound(name)?;
+            if room < bound.len() {
+                let needed = bound.len();
+                let message = format!("`room` is {room}: `{name}` has {needed} components");
+                return Err(Error::new(MmsCode::InvalidArgument, message));
+            }
+            Room::new("values", values, bound.len(), &[message.extent()])?.put(&bound);
+            Ok(())
+        })
+    }
+}
+
+/// The same as `mms_field_get_bound`, where `values` has room for all components; 3 are always enough.
+/// It stays for programs that call it. New ones say how much room there is.
 ///
 /// Codes: MMS_CODE_UNKNOWN_NAME, also where the body has no such bound.
 #[unsafe(no_mangle)]
@@ -320,101 +396,50 @@ pub unsafe extern "C" fn mms_field_bound(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
-        guarded(buffer(message, capacity), || {
-            let bound = this(field)?.bound(text("name", name)?)?;
-            numbers_mut("values", values, bound.len())?.copy_from_slice(&bound);
+        guarded(Message::new(message, capacity), |message| {
+            let bound = this(field)?.bound(word("name", name)?)?;
+            Room::new("values", values, bound.len(), &[message.extent()])?.put(&bound);
             Ok(())
         })
     }
 }
 
-/// Puts a new field where the caller wants it.
+/// Puts a new field where the caller wants it, and NULL if there is none.
 unsafe fn make(
     place: *mut *mut Field,
-    message: *mut c_char,
-    capacity: usize,
+    message: Message,
     new: impl FnOnce() -> Result<Field, Error>,
 ) -> MmsCode {
-    // SAFETY: the caller vouches for both pointers.
-    unsafe {
-        guarded(buffer(message, capacity), || {
-            let place = &mut elements_mut("field", place, 1)?[0];
-            *place = std::ptr::null_mut();
-            *place = Box::into_raw(Box::new(new()?));
-            Ok(())
-        })
-    }
+    guarded(message, |message| {
+        // SAFETY: the caller vouches for the pointer.
+        let mut place = unsafe { Room::new("field", place, 1, &[message.extent()]) }?;
+        let made = attempt(|| Ok(Box::into_raw(Box::new(new()?))));
+        place.put(&[made.as_ref().map_or(null_mut(), |field| *field)]);
+        made.map(drop)
+    })
 }
 
-/// The buffer for a message, if there is one.
-unsafe fn buffer<'a>(message: *mut c_char, capacity: usize) -> Option<&'a mut [u8]> {
-    let capacity = capacity.min(isize::MAX as usize);
-    // SAFETY: the caller has `capacity` bytes there.
-    (!message.is_null())
-        .then(|| unsafe { slice::from_raw_parts_mut(message.cast::<u8>(), capacity) })
+/// A field that is asked for what is always there.
+unsafe fn known<'a>(field: *const Field) -> Option<&'a Field> {
+    // SAFETY: passed on.
+    unsafe { this(field) }.ok()
 }
 
 unsafe fn this<'a>(field: *const Field) -> Result<&'a Field, Error> {
-    // SAFETY: the caller passes a field or NULL.
-    unsafe { field.as_ref() }.ok_or_else(|| null("field"))
-}
-
-unsafe fn text<'a>(what: &str, text: *const c_char) -> Result<&'a str, Error> {
-    if text.is_null() {
-        return Err(null(what));
-    }
-    // SAFETY: the caller passes a text that ends with a NUL.
-    unsafe { CStr::from_ptr(text) }.to_str().map_err(|error| {
-        Error::new(MmsCode::InvalidArgument, format!("`{what}` is not UTF-8: {error}"))
-    })
-}
-
-unsafe fn numbers<'a>(what: &str, first: *const f64, count: usize) -> Result<&'a [f64], Error> {
     // SAFETY: passed on.
-    unsafe { elements(what, first, count) }
+    unsafe { handle("field", field) }
 }
 
-unsafe fn numbers_mut<'a>(
-    what: &str,
-    first: *mut f64,
-    count: usize,
-) -> Result<&'a mut [f64], Error> {
+/// The name of something. None is longer than `MAX_NAME`.
+unsafe fn word<'a>(what: &str, name: *const c_char) -> Result<&'a str, Error> {
     // SAFETY: passed on.
-    unsafe { elements_mut(what, first, count) }
+    unsafe { text(what, name, MAX_NAME, MmsCode::UnknownName) }
 }
 
-unsafe fn elements<'a, T>(what: &str, first: *const T, count: usize) -> Result<&'a [T], Error> {
-    match (first.is_null(), count) {
-        (_, 0) => Ok(&[]),
-        (true, _) => Err(null(what)),
-        // SAFETY: the caller has `count` of them there.
-        (false, count) => Ok(unsafe { slice::from_raw_parts(first, count) }),
-    }
-}
-
-unsafe fn elements_mut<'a, T>(
-    what: &str,
-    first: *mut T,
-    count: usize,
-) -> Result<&'a mut [T], Error> {
-    match (first.is_null(), count) {
-        (_, 0) => Ok(&mut []),
-        (true, _) => Err(null(what)),
-        // SAFETY: the caller has `count` of them there, which nothing else refers to meanwhile.
-        (false, count) => Ok(unsafe { slice::from_raw_parts_mut(first, count) }),
-    }
-}
-
-/// How many numbers `count` points have.
-fn size(count: usize, components: usize) -> Result<usize, Error> {
-    let most = isize::MAX as usize / size_of::<f64>();
-    count.checked_mul(components).filter(|size| *size <= most).ok_or_else(|| {
-        Error::new(MmsCode::InvalidArgument, format!("`count` is {count}: no array is that long"))
-    })
-}
-
-fn null(what: &str) -> Error {
-    Error::new(MmsCode::InvalidArgument, format!("`{what}` is NULL"))
+/// The content of a file. The compiler reads no longer one.
+unsafe fn content<'a>(what: &str, content: *const c_char) -> Result<&'a str, Error> {
+    // SAFETY: passed on.
+    unsafe { text(what, content, MAX_FILE, MmsCode::InvalidField) }
 }
 
 #[cfg(test)]

@@ -1,30 +1,51 @@
-//! Between Rust and C: panics stop here, and messages go into buffers of the caller.
+//! Between Rust and C: panics stop here, messages go into buffers of the caller, and no more of the caller's stack
+//! is used than it may have.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::thread;
 
 use crate::error::{Error, MmsCode};
+use crate::memory::Message;
+
+/// The stack for a compilation. The deepest nesting that TOML's parser follows takes 0.4 MiB of it.
+const STACK: usize = 2 << 20;
 
 /// Runs the body of a function of the interface. Whatever goes wrong becomes a code, and a message
-/// in the caller's buffer, which holds the empty text if nothing did.
-pub fn guarded(message: Option<&mut [u8]>, body: impl FnOnce() -> Result<(), Error>) -> MmsCode {
-    // Nothing that the body may leave half done is looked at again: a field changes only as a whole.
-    let outcome = catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| {
-        Err(Error::new(MmsCode::Defect, format!("a mistake of mms_capi: {}", what(panic.as_ref()))))
-    });
-    let (code, text) = match &outcome {
-        Ok(()) => (MmsCode::Ok, ""),
-        Err(error) => (error.code, error.message.as_str()),
+/// in the caller's buffer, which holds the empty text if nothing did. The message is the last that is
+/// written, so that it may stand where an argument stood.
+pub fn guarded(message: Message, body: impl FnOnce(Message) -> Result<(), Error>) -> MmsCode {
+    let (code, text) = match attempt(|| body(message)) {
+        Ok(()) => (MmsCode::Ok, String::new()),
+        Err(error) => (error.code, error.message),
     };
-    if let Some(message) = message {
-        write(text, message);
-    }
+    message.write(&text);
     code
+}
+
+/// What a body returns; a panic is an error.
+pub fn attempt<T>(body: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    // Nothing that the body may leave half done is looked at again: a field changes only as a whole.
+    catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|panic| {
+        Err(Error::new(MmsCode::Defect, format!("a mistake of mms_capi: {}", what(panic.as_ref()))))
+    })
 }
 
 /// Runs the body of a function that cannot fail but for a mistake of ours.
 pub fn guarded_or<T>(otherwise: T, body: impl FnOnce() -> T) -> T {
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(otherwise)
+}
+
+/// Runs what may take more stack than a thread of the caller has, on a thread of its own.
+pub fn on_own_stack<T: Send>(body: impl FnOnce() -> Result<T, Error> + Send) -> Result<T, Error> {
+    let builder = thread::Builder::new().name("mms_capi".into()).stack_size(STACK);
+    thread::scope(|scope| match builder.spawn_scoped(scope, body) {
+        Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+        Err(error) => {
+            let message = format!("no thread to make the field on: {error}");
+            Err(Error::new(MmsCode::NoThread, message))
+        }
+    })
 }
 
 /// What a panic says.
@@ -33,47 +54,34 @@ fn what(panic: &(dyn Any + Send)) -> &str {
     text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no message")
 }
 
-/// Writes as much of a text as there is room for, whole characters only, and a NUL.
-fn write(text: &str, buffer: &mut [u8]) {
-    let Some(room) = buffer.len().checked_sub(1) else { return };
-    let mut length = room.min(text.len());
-    while !text.is_char_boundary(length) {
-        length -= 1;
-    }
-    buffer[..length].copy_from_slice(&text.as_bytes()[..length]);
-    buffer[length] = 0;
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::memory::tests::message;
 
     #[test]
     fn a_panic_is_a_code_with_its_message() {
         let mut buffer = [b'?'; 64];
-        let code = guarded(Some(&mut buffer), || panic!("{} of two", 1));
+        let code = guarded(message(&mut buffer), |_| panic!("{} of two", 1));
         assert_eq!(code, MmsCode::Defect);
         assert!(buffer.starts_with(b"a mistake of mms_capi: 1 of two\0"));
         assert_eq!(guarded_or(7, || panic!("without a message")), 7);
     }
 
     #[test]
-    fn a_message_is_cut_between_characters() {
-        for (room, expected) in
-            [(1, "\0?????"), (2, "a\0????"), (3, "a\0????"), (4, "aé\0??"), (6, "aéb\0?")]
-        {
-            let mut buffer = *b"??????";
-            write("aéb", &mut buffer[..room]);
-            assert_eq!(buffer, *expected.as_bytes(), "{room}");
-        }
-        write("text", &mut []);
+    fn a_panic_on_a_thread_of_its_own_is_no_other() {
+        let mut buffer = [b'?'; 64];
+        let code = guarded(message(&mut buffer), |_| on_own_stack(|| panic!("far away")));
+        assert_eq!(code, MmsCode::Defect);
+        assert!(buffer.starts_with(b"a mistake of mms_capi: far away\0"));
     }
 
     #[test]
     fn no_error_is_an_empty_message() {
         let mut buffer = *b"old";
-        assert_eq!(guarded(Some(&mut buffer), || Ok(())), MmsCode::Ok);
+        assert_eq!(guarded(message(&mut buffer), |_| Ok(())), MmsCode::Ok);
         assert_eq!(buffer, *b"\0ld");
-        assert_eq!(guarded(None, || Err(Error::new(MmsCode::NotFinite, "x"))), MmsCode::NotFinite);
+        let fails = |_| Err(Error::new(MmsCode::NotFinite, "x"));
+        assert_eq!(guarded(message(&mut []), fails), MmsCode::NotFinite);
     }
 }

@@ -8,8 +8,9 @@ use std::fmt::Display;
 pub enum MmsCode {
     /// It did what it is for.
     Ok = 0,
-    /// A null pointer, a text that is not UTF-8, a time or a point that is not finite, a normal that
-    /// is missing or not a unit vector.
+    /// A pointer that is NULL or not aligned, a count that no array has, too little room, results that overlap with
+    /// something, a text that is not UTF-8, a time or a point that is not finite, a normal that is missing or not a
+    /// unit vector.
     InvalidArgument = 1,
     /// No field, parameter, quantity, face or bound has that name.
     UnknownName = 2,
@@ -23,6 +24,8 @@ pub enum MmsCode {
     NotFinite = 5,
     /// A mistake of this library.
     Defect = 6,
+    /// The system gives no thread. Making a field takes one, with a stack of 2 MiB.
+    NoThread = 7,
 }
 
 /// Why a call did not do what it is for.

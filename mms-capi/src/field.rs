@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
-use std::sync::{PoisonError, RwLock};
 
 use mms_codegen::Compiled;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::compile;
 use mms_codegen::expr::Rational;
+use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::program::{Bound, Output};
 use mms_codegen::quantity::Quantity;
@@ -15,7 +15,9 @@ use mms_codegen::selection::quantity;
 use mms_codegen::spec::Face;
 use mms_codegen::suggest::advice;
 
+use crate::border::on_own_stack;
 use crate::error::{Error, MmsCode};
+use crate::settings::Settings;
 
 /// How far the length of a normal may be from 1.
 const UNIT: f64 = 1e-6;
@@ -24,7 +26,7 @@ const UNIT: f64 = 1e-6;
 #[derive(Debug)]
 pub struct Field {
     compiled: Compiled,
-    values: RwLock<Values>,
+    settings: Settings<Rational>,
     /// What C programs are shown, with a NUL at the end.
     pub name: CString,
     /// Its title.
@@ -35,19 +37,14 @@ pub struct Field {
     pub faces: Vec<CString>,
 }
 
-/// The parameters of a field at one moment.
-#[derive(Clone, Debug)]
-struct Values {
-    /// Those that were set, by position. The others are at their defaults, which may depend on these.
-    set: BTreeMap<usize, Rational>,
-    /// All of them, in the order of the file.
-    all: Vec<f64>,
-}
-
 impl Field {
     /// The field of a text. `name` is what messages call it; `material` is the text of its material,
     /// where that is none of those that ship.
     pub fn compile(name: &str, text: &str, material: Option<&str>) -> Result<Self, Error> {
+        on_own_stack(|| Field::compile_here(name, text, material))
+    }
+
+    fn compile_here(name: &str, text: &str, material: Option<&str>) -> Result<Self, Error> {
         let load = |_: &str| {
             material
                 .map(String::from)
@@ -62,13 +59,12 @@ impl Field {
         };
         let faces = Face::of(&compiled.field.domain.body, compiled.field.dimension);
         let parameters = compiled.model.parameters.iter();
-        let all = compiled.parameters(&BTreeMap::new());
         Ok(Field {
             name: shown(name)?,
             title: shown(&compiled.field.title)?,
             parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
             faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
-            values: RwLock::new(Values { set: BTreeMap::new(), all }),
+            settings: Settings::new(compiled.parameters(&BTreeMap::new())),
             compiled,
         })
     }
@@ -85,15 +81,20 @@ impl Field {
 
     /// The value of a parameter.
     pub fn parameter(&self, name: &str) -> Result<f64, Error> {
-        Ok(self.values()[self.position(name)?])
+        Ok(self.settings.now()[self.position(name)?])
     }
 
     /// Sets parameters, all of them or, where the field does not allow that, none. Those that depend
-    /// on them and were not set follow.
-    pub fn set<'a>(&self, settings: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), Error> {
+    /// on them and were not set follow. The first mistake is the last that is read, so that there are no more
+    /// reads than parameters and one.
+    pub fn set<'a>(
+        &self,
+        settings: impl IntoIterator<Item = Result<(&'a str, f64), Error>>,
+    ) -> Result<(), Error> {
+        let refuse = |message| Err(Error::new(MmsCode::InvalidParameter, message));
         let mut new = BTreeMap::new();
-        for (name, value) in settings {
-            let refuse = |message| Err(Error::new(MmsCode::InvalidParameter, message));
+        for setting in settings {
+            let (name, value) = setting?;
             let Ok(exact) = Rational::try_from(value) else {
                 return refuse(format!("`{name}` = {value}: expected a finite number"));
             };
@@ -101,27 +102,23 @@ impl Field {
                 return refuse(format!("`{name}` is set twice"));
             }
         }
-        // Held to the end: of two settings at a time, the later one starts from what the other made.
-        let mut values = self.values.write().unwrap_or_else(PoisonError::into_inner);
-        let mut set = values.set.clone();
-        set.extend(new);
-        accepts(&self.compiled, &set)
-            .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
-        let all = self.compiled.parameters(&set);
-        *values = Values { set, all };
-        Ok(())
+        self.settings.change(new, |set| {
+            accepts(&self.compiled, set)
+                .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
+            Ok(self.compiled.parameters(set))
+        })
     }
 
     /// Evaluates a quantity at points of `dimension` coordinates each; `normals` has one for each
-    /// point where the quantity is the traction, and is not read otherwise. `values` has the
-    /// components of each point in turn, tensors in rows; it is unspecified where this fails.
+    /// point where the quantity is the traction, and is not read otherwise. `put` gets the
+    /// components of each point in turn, tensors in rows, up to the point where this fails.
     pub fn evaluate(
         &self,
         name: &str,
         time: f64,
         points: &[f64],
         normals: Option<&[f64]>,
-        values: &mut [f64],
+        mut put: impl FnMut(&[f64]),
     ) -> Result<(), Error> {
         let quantity = find(name)?;
         let dimension = self.dimension();
@@ -134,23 +131,18 @@ impl Field {
             }
             _ => &[],
         };
-        let parameters = self.values();
-        let mut interpreter = Interpreter::new(&self.compiled.program, &parameters);
+        let mut interpreter = Interpreter::new(&self.compiled.program, &self.settings.now());
         interpreter.set_time(&time);
         let output = Output::Quantity(quantity);
         let plan = interpreter.plan(&[output]);
-        let components = quantity.shape().components(dimension);
-        let results = values.chunks_exact_mut(components);
-        for (index, (coordinates, result)) in
-            points.chunks_exact(dimension).zip(results).enumerate()
-        {
+        for (index, coordinates) in points.chunks_exact(dimension).enumerate() {
             finite(&format!("point {index}"), coordinates)?;
             let normal = match normals {
                 [] => &[][..],
                 normals => unit(index, &normals[index * dimension..][..dimension])?,
             };
             interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
-            result.copy_from_slice(&interpreter.output(output));
+            let result = interpreter.output(output);
             if let Some(odd) = result.iter().find(|value| !value.is_finite()) {
                 let message = format!(
                     "{} of `{}` is {odd} at point {index}, X = {coordinates:?}, t = {time:?}: not defined there, or beyond the range of a double",
@@ -159,27 +151,35 @@ impl Field {
                 );
                 return Err(Error::new(MmsCode::NotFinite, message));
             }
+            put(&result);
         }
         Ok(())
     }
 
-    /// The outward reference unit normals of a face at points of it.
-    pub fn normals(&self, face: &str, points: &[f64], normals: &mut [f64]) -> Result<(), Error> {
-        let dimension = self.dimension();
+    /// The outward reference unit normals of a face at points of it: `put` gets each in turn.
+    pub fn normals(
+        &self,
+        face: &str,
+        points: &[f64],
+        mut put: impl FnMut(&[f64]),
+    ) -> Result<(), Error> {
         let known = self.compiled.face(face).map_err(|mistake| {
             Error::new(MmsCode::UnknownName, format!("no face `{face}`: {mistake}"))
         })?;
-        for (index, point) in points.chunks_exact(dimension).enumerate() {
+        let program = self.compiled.normal(known);
+        let output = Output::Face(known, Datum::Normal);
+        let mut interpreter = Interpreter::new(&program, &self.settings.now());
+        let plan = interpreter.plan(&[output]);
+        for (index, point) in points.chunks_exact(self.dimension()).enumerate() {
             finite(&format!("point {index}"), point)?;
-        }
-        let found = self.compiled.normals(known, &self.values(), points.chunks_exact(dimension));
-        for (index, (normal, found)) in normals.chunks_exact_mut(dimension).zip(found).enumerate() {
-            if found.iter().any(|component| !component.is_finite()) {
+            interpreter.set_point(&plan, Point::at(point));
+            let normal = interpreter.output(output);
+            if normal.iter().any(|component| !component.is_finite()) {
                 let message =
                     format!("point {index} is not on a face `{face}`, which has no normal there");
                 return Err(Error::new(MmsCode::NotFinite, message));
             }
-            normal.copy_from_slice(&found);
+            put(&normal);
         }
         Ok(())
     }
@@ -202,12 +202,7 @@ impl Field {
             let message = format!("no bound `{name}`: this body has {names}");
             return Err(Error::new(MmsCode::UnknownName, message));
         };
-        Ok(Interpreter::new(program, &self.values()).output(Output::Bound(*bound)))
-    }
-
-    /// The parameters at this moment.
-    fn values(&self) -> Vec<f64> {
-        self.values.read().unwrap_or_else(PoisonError::into_inner).all.clone()
+        Ok(Interpreter::new(program, &self.settings.now()).output(Output::Bound(*bound)))
     }
 
     fn position(&self, name: &str) -> Result<usize, Error> {

@@ -15,3 +15,10 @@ mod border;
 mod error;
 mod field;
 mod gallery;
+mod memory;
+mod settings;
+
+/// The locks. `interleavings/` has others in their place.
+mod locks {
+    pub use std::sync::{Arc, Mutex, RwLock};
+}
