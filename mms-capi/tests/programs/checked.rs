@@ -1,0 +1,52 @@
+//! Programs in C that misuse the library, each by itself, where memory ends at a page that is not there, and with
+//! AddressSanitizer and valgrind. More calls: `MMS_RANDOM_CALLS=1000000 cargo test -p mms-capi --test programs
+//! random`.
+
+use super::{PREFIX, is_installed, quoted, root, run, scratch};
+
+/// Of so many random calls valgrind makes one: it is fifty times as slow.
+const SHARE_OF_VALGRIND: u32 = 16;
+
+/// What a program prints, which is `NAME.c` of this folder, however it is run; `calls` are its arguments for so
+/// many, where valgrind makes fewer.
+fn every_way(name: &str, calls: impl Fn(u32) -> String) -> Vec<String> {
+    let source = quoted(&root().join("tests/programs").join(name).with_extension("c"));
+    let prefix = quoted(&PREFIX);
+    let linked = format!(
+        "-I{prefix}/include -L{prefix}/lib -lmms_capi -lpthread -lm -Wl,-rpath,{prefix}/lib"
+    );
+    let strict = "-std=c11 -g -O1 -Wall -Wextra -pedantic -Werror";
+    let sanitized = "-DHEAP -fsanitize=address,undefined -fno-sanitize-recover=all";
+    let valgrind = "valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite \
+                    --errors-for-leak-kinds=definite";
+    let mut said = Vec::new();
+    for (kind, tools, options, runner, share) in [
+        ("fenced", &["cc"][..], "", "", 1),
+        ("sanitized", &["cc"], sanitized, "", 1),
+        ("valgrind", &["cc", "valgrind"], "-DHEAP", valgrind, SHARE_OF_VALGRIND),
+    ] {
+        if tools.iter().all(|tool| is_installed(tool)) {
+            let program = format!("{name}_{kind}");
+            let build = format!("cc {strict} {options} {source} {linked} -o {program}");
+            said.push(run(&format!("{build} && {runner} ./{program} {}", calls(share)), scratch()));
+        }
+    }
+    said
+}
+
+#[test]
+fn what_can_be_seen_to_be_wrong_is_refused() {
+    for said in every_way("misuse", |_| String::new()) {
+        assert!(said.ends_with(" calls\n"), "{said}");
+    }
+}
+
+#[test]
+fn random_calls_touch_nothing_that_is_not_theirs() {
+    let calls = std::env::var("MMS_RANDOM_CALLS").map_or(Ok(4000), |calls| calls.parse());
+    let calls: u32 = calls.expect("MMS_RANDOM_CALLS is a number");
+    for said in every_way("random", |share| format!("{} 1", calls / share)) {
+        println!("{said}");
+        assert!(said.ends_with(" did what they are for\n"), "{said}");
+    }
+}
