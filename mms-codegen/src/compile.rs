@@ -22,6 +22,7 @@ use crate::spec::{Face, FieldSpec, Formula, MaterialSpec};
 use crate::suggest::advice;
 use crate::syntax;
 use crate::variation::Variation;
+use crate::work::Stop;
 
 /// The materials that come with the crate: stem and text.
 pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
@@ -30,6 +31,9 @@ pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/mater
 pub(crate) fn shipped(stem: &str) -> Option<&'static (&'static str, &'static str)> {
     MATERIALS.iter().find(|(shipped, _)| *shipped == stem)
 }
+
+/// What the search for a cheap program of closed forms or parameters may take, in the steps of [`crate::work`].
+const STEPS_OF_SCHEDULE: u64 = 50_000_000;
 
 /// Reads the file of a material such as `./mine.toml`, given as the field file writes it.
 pub type Loader<'a> = &'a dyn Fn(&str) -> Result<String, String>;
@@ -55,6 +59,9 @@ pub struct Compiled {
     pub selection: Selection,
     /// Which ways to compute were open.
     pub form: Form,
+    /// Whether the search for cheaper and more exact ways to compute it ended as usual, and not because there was too much
+    /// to try.
+    pub simplified: bool,
     /// What is wanted, scheduled.
     pub program: Program,
 }
@@ -94,6 +101,8 @@ pub struct Options {
     pub form: Form,
     /// Another field that is made of this one, to evaluate at extremes.
     pub variation: Variation,
+    /// Asked to, from another thread, all work on the field ends: compilation, proofs and comparisons.
+    pub stop: Stop,
 }
 
 impl Default for Options {
@@ -103,6 +112,7 @@ impl Default for Options {
             max_nodes: DEFAULT_MAX_NODES,
             form: Form::Stable,
             variation: Variation::Nothing,
+            stop: Stop::default(),
         }
     }
 }
@@ -149,7 +159,11 @@ pub fn compile_unproved(
     options: &Options,
 ) -> Result<Compiled, Failure> {
     let mut phases = Phases::new(options, load);
-    match phases.run(name, path, text) {
+    let compiled = phases.run(name, path, text);
+    if options.stop.is_asked() {
+        phases.stopped();
+    }
+    match compiled {
         Some(compiled) if phases.diagnostics.is_empty() => Ok(compiled),
         _ => Err(Failure { sources: phases.sources, diagnostics: phases.diagnostics }),
     }
@@ -175,18 +189,21 @@ pub fn constant(text: &str) -> Result<Rational, Failure> {
     value.ok_or(Failure { sources, diagnostics })
 }
 
-/// The parameters' values as constants, some of them set by the caller.
+/// Values that are set, as expressions.
+pub(crate) fn as_set(graph: &mut Graph, set: &BTreeMap<usize, Rational>) -> BTreeMap<usize, Expr> {
+    set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
+}
+
+/// The parameters' values as constants, some of them set by the caller in terms of those before.
 pub(crate) fn parameter_values(
     graph: &mut Graph,
     model: &Model,
-    set: &BTreeMap<usize, Rational>,
+    set: &BTreeMap<usize, Expr>,
 ) -> Vec<Expr> {
     let mut known = BTreeMap::new();
     for (index, parameter) in model.parameters.iter().enumerate() {
-        let value = match set.get(&index) {
-            Some(number) => graph.number(number.clone()),
-            None => substitute(graph, &[parameter.default], &known)[0],
-        };
+        let value = *set.get(&index).unwrap_or(&parameter.default);
+        let value = substitute(graph, &[value], &known)[0];
         known.insert(Symbol::Parameter(index), value);
     }
     known.into_values().collect()
@@ -197,7 +214,9 @@ impl Compiled {
     pub fn parameters<T: Number>(&self, set: &BTreeMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
         graph.make_room();
-        let values = parameter_values(&mut graph, &self.model, set);
+        let set = as_set(&mut graph, set);
+        let values = parameter_values(&mut graph, &self.model, &set);
+        graph.work().allow(STEPS_OF_SCHEDULE);
         let outputs = values
             .into_iter()
             .enumerate()
@@ -288,6 +307,8 @@ impl Compiled {
             outputs
                 .insert(Output::Quantity(quantity), self.derivation.quantities[&quantity].clone());
         }
-        schedule(&self.graph, &outputs)
+        let graph = self.graph.clone();
+        graph.work().allow(STEPS_OF_SCHEDULE);
+        schedule(&graph, &outputs)
     }
 }

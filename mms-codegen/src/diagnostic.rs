@@ -29,6 +29,8 @@ pub struct Diagnostic {
     pub label: String,
     /// What to do about it, one suggestion each.
     pub help: Vec<String>,
+    /// Whether it is no mistake, but may be one.
+    pub is_warning: bool,
     /// Where in the compiler it was made, so that a test can tell which messages no file provokes.
     pub site: &'static Location<'static>,
 }
@@ -38,7 +40,13 @@ impl Diagnostic {
     #[track_caller]
     pub fn error(span: Span, message: impl Into<String>) -> Self {
         let (message, label, help) = (message.into(), String::new(), Vec::new());
-        Diagnostic { message, span, label, help, site: Location::caller() }
+        Diagnostic { message, span, label, help, is_warning: false, site: Location::caller() }
+    }
+
+    /// What may be a mistake.
+    #[track_caller]
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Diagnostic { is_warning: true, ..Self::error(span, message) }
     }
 
     /// Sets the words beside the caret.
@@ -111,8 +119,8 @@ fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -
         .annotation(annotation);
     let help =
         diagnostic.help.iter().map(|help| Level::HELP.message(normalize_untrusted_str(help)));
-    let group =
-        Level::ERROR.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
+    let level = if diagnostic.is_warning { Level::WARNING } else { Level::ERROR };
+    let group = level.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
     renderer.render(&[group])
 }
 

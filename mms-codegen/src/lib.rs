@@ -35,6 +35,7 @@ pub mod twin;
 pub mod units;
 pub mod variation;
 pub mod visibility;
+pub mod work;
 
 pub use compile::{Compiled, Options, compile, compile_with};
 pub use selection::Selection;

@@ -287,6 +287,9 @@ fn cheapest_of<K: Ord + Copy>(
     digits: Digits<'_>,
 ) -> BTreeMap<K, Vec<Expr>> {
     let mut written = Vec::new();
+    if graph.work().is_over() {
+        return forms.first().cloned().unwrap_or_default();
+    }
     for form in forms {
         let components: Vec<Expr> = form.values().flatten().copied().collect();
         written.extend(rewrite(graph, components));
@@ -296,6 +299,10 @@ fn cheapest_of<K: Ord + Copy>(
     for (key, components) in forms.first().into_iter().flatten() {
         let range = position..position + components.len();
         position = range.end;
+        if graph.work().is_over() {
+            best.insert(*key, components.clone());
+            continue;
+        }
         let mut costs = BTreeMap::<&[Expr], Cost>::new();
         let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
         for way in &ways {

@@ -29,8 +29,13 @@ fn likely_distance(name: &str, candidate: &str) -> Option<usize> {
         return Some(0);
     }
     let (a, b): (Vec<char>, Vec<char>) = (name.chars().collect(), candidate.chars().collect());
+    let likely = a.len().max(b.len()) / 3;
+    // Each letter that one has more is an edit.
+    if a.len().abs_diff(b.len()) > likely {
+        return None;
+    }
     let distance = edit_distance(&a, &b);
-    (distance <= a.len().max(b.len()) / 3).then_some(distance)
+    (distance <= likely).then_some(distance)
 }
 
 /// How many insertions, deletions, replacements and swaps of neighbours turn `a` into `b`.

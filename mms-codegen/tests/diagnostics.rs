@@ -140,6 +140,21 @@ fn bounded(max_nodes: usize) -> Option<Failure> {
     compile_with("x", "x.toml", FIELD, &load, &options).err()
 }
 
+/// A parameter that takes too long to evaluate in 77 digits.
+fn endless() -> Option<Failure> {
+    let terms: Vec<_> = (1..20_000).map(|k| format!("sin({k})")).collect();
+    let text = FIELD.replace("value = 1", &format!("value = \"{}\"", terms.join("+")));
+    let load = |_: &str| Err("no files here".to_string());
+    compile_with("x", "x.toml", &text, &load, &Options::default()).err()
+}
+
+fn stopped() -> Option<Failure> {
+    let options = Options::default();
+    options.stop.ask();
+    let load = |_: &str| Err("no files here".to_string());
+    compile_with("x", "x.toml", FIELD, &load, &options).err()
+}
+
 #[test]
 fn every_message_of_the_compiler_has_a_wrong_file() {
     let mut provoked = BTreeSet::new();
@@ -163,8 +178,9 @@ fn every_message_of_the_compiler_has_a_wrong_file() {
         assert_eq!(found.message, "the value is not a rational number");
         place(found.site.file(), found.site.line() as usize)
     }));
-    // Nor has a selection, or a bound.
-    for failure in wrong_selections().into_iter().chain(bounded(1)) {
+    // Nor has a selection, or a bound, or what somebody stopped.
+    let others = bounded(1).into_iter().chain(endless()).chain(stopped());
+    for failure in wrong_selections().into_iter().chain(others) {
         provoked.extend(
             failure
                 .diagnostics

@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use mms_codegen::certify::rest::{self, Rest};
 use mms_codegen::compile::MATERIALS;
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::Response;
@@ -459,4 +460,17 @@ fn the_moduli_of_the_tests_are_those_of_one_solid() {
     let nu = lambda.clone() / ((lambda + mu.clone()) * ratio(2, 1));
     let young = mu * ratio(2, 1) * (ratio(1, 1) + nu.clone());
     assert_eq!((kappa, nu, young), (ratio(3, 1), ratio(2, 7), ratio(27, 7)));
+}
+
+#[test]
+fn no_shipped_material_has_a_stress_at_rest() {
+    for (spec, compiled) in FIELDS.iter() {
+        assert_eq!(
+            rest::stress(compiled),
+            Rest::Free,
+            "{} in {}",
+            spec.name,
+            compiled.field.dimension
+        );
+    }
 }

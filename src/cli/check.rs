@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::certify;
-use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS, compare};
+use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, compare};
+use mms_codegen::certify::rest::{self, Rest};
 use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::{Diagnostic, render_styled};
@@ -24,7 +25,8 @@ use super::{Outcome, print, print_json, say};
 /// intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
 /// 1e-12 of what it should be, relative to the size of the body or the modulus; `refuted` at a point
 /// that is named; or `unproved`. The last two exit 1, as do J <= 0, a quantity without a finite
-/// value, and a closed form that differs. Bounds are given of J, the principal stretch, the strain
+/// value, and a closed form that differs or was compared nowhere. What takes more steps than a budget allows is said not to
+/// be proved. A stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain
 /// rate, the wave speed, and the time step that waves allow.
 #[derive(Args)]
 pub struct Check {
@@ -104,14 +106,21 @@ impl Check {
         let comparisons = compare(compiled);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
-        let certificate = certify(compiled);
+        let mut certificate = certify(compiled);
+        let rest = rest::stress(compiled);
+        certificate.spent.extend(unseen(compiled, &rest));
         let objections = certificate.objections(compiled);
-        let refuted = !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
+        // What was looked at nowhere passes for nothing.
+        let is_seen = written::points(compiled) > 0 && comparisons.iter().all(agrees);
+        let refuted = !objections.is_empty() || !gaps.is_empty() || !is_seen;
         if !self.json {
-            if !objections.is_empty() {
-                say(render_styled(&compiled.sources, &objections));
+            let warning = rest.warning(compiled);
+            if !objections.is_empty() || warning.is_some() {
+                let all: Vec<_> = objections.iter().cloned().chain(warning).collect();
+                say(render_styled(&compiled.sources, &all));
             }
-            let proofs = proof::text(&certificate);
+            let mut proofs = proof::text(&certificate);
+            proofs.extend(rest_line(&rest));
             print(&text(path, compiled, proofs, &gaps, &comparisons))?;
         }
         let claims: Vec<_> = certificate.claims.iter().map(proof::claim).collect();
@@ -129,9 +138,33 @@ impl Check {
                 "objections": objections,
                 "checks": checks,
                 "undefined": gaps,
+                "rest_stress": rest.stress(),
+                "budget_spent": certificate.spent,
+                "simplified": compiled.simplified,
             }),
         ))
     }
+}
+
+/// What else was not looked at, or at fewer points, since that takes too long.
+fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
+    let mut unseen = Vec::new();
+    if written::points(compiled) < written::POINTS {
+        unseen.push("u as it is written".to_string());
+    }
+    if *rest == Rest::Unknown {
+        unseen.push("stress at rest".into());
+    }
+    if !compiled.simplified {
+        unseen.push("the search for short and exact formulas".into());
+    }
+    unseen
+}
+
+/// What is said of P at F = I, if it is not 0.
+fn rest_line(rest: &Rest) -> Option<String> {
+    let components: Vec<_> = rest.stress()?.iter().map(|it| format!("{it:e}")).collect();
+    Some(format!("  rest   stress at rest: P is [{}] at F = I, not 0", components.join(", ")))
 }
 
 fn located(sources: &Sources, diagnostic: &Diagnostic) -> Value {
@@ -164,6 +197,7 @@ fn comparison_document(comparison: &Comparison) -> Value {
         Finding::Agrees => ("passed", None, 0),
         Finding::Differs(found) => ("failed", Some(found), 0),
         Finding::Undefined { points, first } => ("undefined", Some(first), *points),
+        Finding::Unmeasured => ("unmeasured", None, 0),
     };
     // A value that does not exist is null.
     let difference = found.map(|found| {
@@ -178,7 +212,7 @@ fn comparison_document(comparison: &Comparison) -> Value {
     json!({
         "quantity": comparison.quantity.name(),
         "source": comparison.source,
-        "points": POINTS,
+        "points": comparison.points,
         "status": status,
         "undefined_points": undefined,
         "difference": difference,
@@ -215,15 +249,21 @@ fn text(
         let quantity = comparison.quantity.name();
         let source = comparison.source.as_deref().unwrap_or("no source given");
         match &comparison.finding {
-            Finding::Agrees => lines
-                .push(format!("  check  {quantity} agrees to 1e-20 at {POINTS} points ({source})")),
+            Finding::Agrees => lines.push(format!(
+                "  check  {quantity} agrees to 1e-20 at {} points ({source})",
+                comparison.points
+            )),
+            Finding::Unmeasured => lines.push(format!(
+                "  check  {quantity} was NOT COMPARED: one value takes too long in 77 digits ({source})"
+            )),
             Finding::Differs(found) => {
                 lines.push(format!("  check  {quantity} FAILED ({source})"));
                 lines.push(describe(compiled, comparison, found));
             }
             Finding::Undefined { points, first } => {
                 lines.push(format!(
-                    "  check  {quantity} is UNDEFINED at {points} of {POINTS} points ({source})"
+                    "  check  {quantity} is UNDEFINED at {points} of {} points ({source})",
+                    comparison.points
                 ));
                 lines.push(describe(compiled, comparison, first));
                 lines.push("    a division by 0, a root or logarithm of a negative number, or beyond all bounds: shrink [domain], or rewrite what has no value there".into());

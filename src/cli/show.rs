@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use mms_codegen::Compiled;
+use mms_codegen::certify::rest::{self, Rest};
+use mms_codegen::diagnostic::render_styled;
 use mms_codegen::mechanics::TooLarge;
 use mms_codegen::program::{Output, Stage};
 use mms_codegen::quantity::Quantity;
@@ -14,10 +16,12 @@ use mms_codegen::visibility::{POINTS, Span, Status, Term, Visibility};
 use serde_json::{Map, Value, json};
 
 use super::input::{Input, Variant, quantities};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, say};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many
 /// operations each quantity takes, and which terms of the equations it can and cannot see.
+///
+/// A material with a stress at rest (P not 0 at F = I) is warned of on stderr; rest_stress in --json has the components.
 ///
 /// A comma means a derivative: F_11,X is that of F_11 by X. Long formulas are put together from
 /// parts k1, k2, ..., which are listed before they are used.
@@ -64,6 +68,10 @@ enum Format {
 impl Show {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field, &self.variant)?;
+        let rest = rest::stress(&input.compiled);
+        if let Some(warning) = rest.warning(&input.compiled) {
+            say(render_styled(&input.compiled.sources, &[warning]));
+        }
         if self.script == Some(Script::Sympy) {
             let script = sympy::script(&input.compiled).map_err(|sympy::Undefined| {
                 anyhow!(
@@ -88,7 +96,7 @@ impl Show {
             document.visibility = Some(Visibility::of(&input.compiled).map_err(too_large)?);
         }
         match self.format {
-            _ if self.json => print_json(&json(&input.compiled, &document))?,
+            _ if self.json => print_json(&json(&input.compiled, &document, &rest))?,
             Format::Text => print(&text::page(&document))?,
             Format::Latex => print(&latex::page(&document))?,
             Format::Mathml => print(&mathml::page(&document))?,
@@ -97,7 +105,7 @@ impl Show {
     }
 }
 
-fn json(compiled: &Compiled, document: &Document) -> Value {
+fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
     let quantities: Map<String, Value> = document
         .sections
         .iter()
@@ -117,6 +125,7 @@ fn json(compiled: &Compiled, document: &Document) -> Value {
         "material": material.name,
         "strain_energy": compiled.material.strain_energy.text,
         "material_parameters": formulas(document, &material.arguments),
+        "rest_stress": rest.stress(),
         "density": density.map(|line| document.formula(line.value, &Language)),
         "definitions": definitions,
         "boundary": claims,

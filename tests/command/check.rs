@@ -288,3 +288,53 @@ fn a_file_that_is_no_text_is_refused_where_it_is_none() {
     let said = String::from_utf8(check.stderr).expect("UTF-8");
     assert!(said.contains("odd.toml:2:9: expected text in UTF-8"), "{said}");
 }
+
+/// A case of the compiler's tests.
+fn fault(names: &[&str]) -> Folder {
+    let faults = Path::new(env!("CARGO_MANIFEST_DIR")).join("mms-codegen/tests/data/faults");
+    let folder = Folder::new();
+    for name in names {
+        folder.write(name, &fs::read_to_string(faults.join(name)).expect("a case"));
+    }
+    folder
+}
+
+#[test]
+fn what_a_budget_left_is_said_and_no_pass() {
+    for name in ["u_sinh.toml", "let_double.toml"] {
+        let folder = fault(&[name]);
+        let run = folder.mms(&format!("check {name}")).exits(1);
+        run.prints("budget SPENT before the end of: ").prints("UNPROVED");
+        let file = &folder.mms(&format!("check {name} --json")).exits(1).json()["files"][0];
+        assert!(!file["budget_spent"].as_array().expect("a list").is_empty(), "{file}");
+    }
+    let file = &Folder::with_bar("bar.toml").mms("check bar.toml --json").exits(0).json();
+    let file = &file["files"][0];
+    assert_eq!(file["budget_spent"].as_array().map(Vec::len), Some(0), "{file}");
+    assert_eq!(file["simplified"], true, "{file}");
+}
+
+#[test]
+fn an_extreme_is_held_to_what_defaults_are_held_to() {
+    let folder = fault(&["extreme_bad_set.toml"]);
+    let run = folder.mms("check extreme_bad_set.toml").exits(2);
+    run.complains("the extreme `a` is no state of this field: the box is empty along X");
+    run.complains("extreme_bad_set.toml:33:6");
+}
+
+#[test]
+fn a_stress_at_rest_is_a_warning_of_check_and_show() {
+    let folder = fault(&["stressed_field.toml", "stressed.toml"]);
+    let run = folder.mms("check stressed_field.toml").exits(0);
+    run.complains("warning: stress at rest").complains("stressed.toml:4:").prints("stress at rest");
+    let document = folder.mms("check stressed_field.toml --json").exits(0).json();
+    let expected = serde_json::json!([3e5, 0.0, 0.0, 3e5]);
+    assert_eq!(document["files"][0]["rest_stress"], expected);
+    folder.mms("show stressed_field.toml --quantity J").exits(0).complains("stress at rest");
+    let document = folder.mms("show stressed_field.toml --quantity J --json").exits(0).json();
+    assert_eq!(document["rest_stress"], expected);
+    let bar = Folder::with_bar("bar.toml");
+    let file = &bar.mms("check bar.toml --json").exits(0).json()["files"][0];
+    assert!(file["rest_stress"].is_null(), "{file}");
+    assert_eq!(bar.mms("show bar.toml --quantity J").exits(0).stderr, "");
+}

@@ -72,7 +72,8 @@ fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> BTreeSet<Expr> {
     };
     let at_points = |angle: &Expr| graph.stage(*angle) >= Stage::Point;
     let angles = graph.reachable(roots).into_iter().filter_map(angle);
-    angles.filter(at_points).filter(|angle| is_bounded(*angle)).collect()
+    let may_be_asked = |_: &Expr| !graph.work().is_over();
+    angles.filter(at_points).filter(may_be_asked).filter(|angle| is_bounded(*angle)).collect()
 }
 
 /// Whether the domain and the ranges of parameters bound everything that an expression depends on.
@@ -96,7 +97,7 @@ fn functions_of(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Functi
     let enough = |bound: f64, attained: f64| {
         KINDS.iter().find(|(limit, _)| attained <= *limit).is_none_or(|(limit, _)| bound <= *limit)
     };
-    let found = largest(chart.variables().len(), limit, enough, |cell| {
+    let found = largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
         let place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
         let angle = enclosure.values[0];

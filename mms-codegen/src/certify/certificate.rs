@@ -23,6 +23,17 @@ pub const CELLS: usize = 2000;
 /// How many cells a rate may take: its bound holds however many there were.
 const CELLS_OF_RATES: usize = 500;
 
+/// What each part of a proof may take, in steps of the budget of [`crate::work`]: the formulas, J, the rates, finite
+/// values, and all claims.
+const FORMULAS: u64 = 50_000_000;
+const VOLUME: u64 = 40_000_000;
+const RATES: u64 = 300_000_000;
+const FINITE: u64 = 60_000_000;
+const CLAIMS: u64 = 80_000_000;
+
+/// What a compilation may take for the contradictions that it looks for.
+const QUICK: u64 = 30_000_000;
+
 /// How many operations a compilation spends on looking for J <= 0, and cells at most.
 const QUICK_OPERATIONS: usize = 100_000;
 const QUICK_CELLS: usize = 128;
@@ -46,35 +57,66 @@ pub struct Certificate {
     pub rates: Option<Rates>,
     /// How many cells it took.
     pub boxes: usize,
+    /// What was left before its end, since its budget was spent.
+    pub spent: Vec<String>,
 }
 
 /// Proves what it can of a compiled field.
 pub fn certify(compiled: &Compiled) -> Certificate {
     let mut graph = room(compiled);
+    let mut budget = Budget::default();
+    budget.begin(&graph, FORMULAS);
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     let motion = Motion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
+    budget.end(&graph, "the formulas of J and the strain");
+    budget.begin(&graph, VOLUME);
     // What a compilation finds is found first, so that both say the same.
     let (jacobian, mut boxes) = match inversion(&mut graph, &chart, compiled) {
         Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
         None => jacobian::bound(&chart, &formulas, CELLS),
     };
+    budget.end(&graph, "J > 0");
     let mut rates = None;
     let mut least = 0.0;
     if let Jacobian::Positive(bounds) = jacobian {
+        budget.begin(&graph, RATES);
         let (bound, cells) = rates::bound(&mut graph, &chart, &motion, bounds, CELLS_OF_RATES);
+        budget.end(&graph, "stretch, rate and wave speed");
         (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
     }
     let limit = if rates.is_some() { CELLS } else { 0 };
+    budget.begin(&graph, FINITE);
     let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);
+    budget.end(&graph, "finite values");
     boxes += cells;
     let mut claims = Vec::new();
     for claim in &compiled.field.boundary {
+        budget.begin(&graph, CLAIMS / compiled.field.boundary.len() as u64);
         let (finding, cells) = claims::judge(&mut graph, compiled, claim, CELLS);
+        budget.end(&graph, &format!("the claim on {}", claim.face.value.name()));
         claims.push((claim.clone(), finding));
         boxes += cells;
     }
-    Certificate { claims, jacobian, finite, rates, boxes }
+    Certificate { claims, jacobian, finite, rates, boxes, spent: budget.spent }
+}
+
+/// The budgets of the parts, and those that were spent.
+#[derive(Default)]
+struct Budget {
+    spent: Vec<String>,
+}
+
+impl Budget {
+    fn begin(&self, graph: &Graph, steps: u64) {
+        graph.work().allow(steps);
+    }
+
+    fn end(&mut self, graph: &Graph, part: &str) {
+        if graph.work().is_over() {
+            self.spent.push(part.into());
+        }
+    }
 }
 
 /// Bounds the speed of waves over the body and the time window of a field, in a frame, no sharper than it
@@ -87,6 +129,7 @@ pub fn wave_speed(
     speed: f64,
 ) -> Option<f64> {
     let mut graph = room(compiled);
+    graph.work().allow(4 * RATES);
     let mut model = compiled.model.clone();
     for (index, parameter) in model.parameters.iter_mut().enumerate() {
         parameter.range = None;
@@ -161,6 +204,7 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let mut graph = room(compiled);
+    graph.work().allow(QUICK);
     let mut found = Vec::new();
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     if let Some((witness, value)) = inversion(&mut graph, &chart, compiled) {

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::search::Cell;
+use super::search::{Cell, Limit};
 use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use crate::mechanics::face::{self, ANGLE, RADIUS};
 use crate::mechanics::model::Model;
@@ -19,6 +19,7 @@ use crate::program::interval::Interval;
 use crate::program::schedule::schedule_plainly;
 use crate::program::{Output, Program};
 use crate::spec::{Face, FieldSpec};
+use crate::work::Work;
 
 /// The variables of a field on its body or on a face, and what they replace.
 #[derive(Clone, Debug)]
@@ -35,6 +36,8 @@ pub struct Chart {
     /// How many components X has, and how many parameters there are.
     dimension: usize,
     parameters: usize,
+    /// What all that is evaluated in the chart may take together.
+    work: Work,
 }
 
 /// The two bounds of a variable, X, and the parameters, among the outputs of the chart's program.
@@ -91,7 +94,18 @@ impl Chart {
             program: schedule_plainly(graph, &outputs),
             dimension: field.dimension,
             parameters: model.parameters.len(),
+            work: graph.work().share(),
         }
+    }
+
+    /// What may still be evaluated: the budget of the graph.
+    pub fn work(&self) -> &Work {
+        &self.work
+    }
+
+    /// A search of at most so many cells, within that budget.
+    pub fn limit(&self, cells: usize) -> Limit<'_> {
+        Limit { cells, work: Some(&self.work) }
     }
 
     /// The symbols that vary.
@@ -168,10 +182,14 @@ impl Chart {
         let mut values: Vec<T> = Vec::with_capacity(fractions.len());
         let (mut interpreter, mut known) = (None, 0);
         for (index, fraction) in fractions.iter().enumerate() {
+            if self.work.is_over() {
+                values.push(T::from_f64(f64::NAN));
+                continue;
+            }
             let count = self.ranged().take_while(|ranged| *ranged < index).count();
             if interpreter.is_none() || count != known {
                 let parameters = self.raw_parameters(&values);
-                interpreter = Some(Interpreter::new(&self.program, &parameters));
+                interpreter = Some(Interpreter::within(&self.work, &self.program, &parameters));
                 known = count;
             }
             let bounds = interpreter.as_ref().map(|it| it.output(bounds_of(index)));
@@ -225,7 +243,7 @@ impl Chart {
     pub fn run<'a, T: Number>(&'a self, program: &'a Program) -> Run<'a, T> {
         let ready = self.ranged().next().is_none().then(|| {
             let parameters = self.raw_parameters::<T>(&[]);
-            Interpreter::new(program, &parameters)
+            Interpreter::within(&self.work, program, &parameters)
         });
         Run { chart: self, program, ready }
     }
@@ -276,7 +294,8 @@ impl<T: Number> Run<'_, T> {
         let interpreter = match &mut self.ready {
             Some(ready) => ready,
             None => {
-                own = Interpreter::new(self.program, &self.chart.raw_parameters(values));
+                let parameters = self.chart.raw_parameters(values);
+                own = Interpreter::within(&self.chart.work, self.program, &parameters);
                 &mut own
             }
         };

@@ -33,6 +33,9 @@ const DOUBT: f64 = 1e-40;
 /// What is enclosed more narrowly than this, relative to its natural scale, passes for 0.
 const NARROW: f64 = 1e-12;
 
+/// What a scale may take, in the steps of [`crate::work`].
+const STEPS_OF_SCALE: u64 = 20_000_000;
+
 /// What is known of a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
@@ -225,7 +228,8 @@ impl<'a> OnFace<'a> {
             let found = values.values(&self.chart.place(&fractions));
             let beyond_doubt = |(value, scale): (&Precise, &f64)| {
                 let doubt = Precise::from_f64(scale * DOUBT);
-                (value.is_defined() && !value.clone().magnitude().at_most(&doubt))
+                let is_known = *scale > 0.0 && scale.is_finite();
+                (is_known && value.is_defined() && !value.clone().magnitude().at_most(&doubt))
                     .then(|| value.to_f64())
             };
             let value = found.iter().zip(scales).find_map(beyond_doubt)?;
@@ -251,11 +255,13 @@ impl<'a> OnFace<'a> {
             true => bound <= NARROW / 2.0,
             false => bound.is_finite(),
         };
-        let found = largest(dimension, limit, enough, |cell| {
+        let found = largest(dimension, self.chart.limit(limit), enough, |cell| {
             let place = self.chart.place(&cell.0);
             let enclosure = bounds.enclose(&place);
             let relative =
                 enclosure.values.iter().zip(scales).map(|(value, scale)| farthest(value) / scale);
+            // Without a scale nothing is small.
+            let relative = relative.map(|it| if it.is_nan() { f64::INFINITY } else { it });
             Measure {
                 bound: relative.fold(0.0, f64::max),
                 attained: 0.0,
@@ -287,6 +293,7 @@ fn reduced(graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
 fn size(compiled: &Compiled) -> f64 {
     let mut graph = compiled.graph.clone();
     graph.make_room();
+    graph.work().allow(STEPS_OF_SCALE);
     let body = &compiled.model.domain.body;
     let lengths: Vec<Expr> = match body {
         Body::Box { lower, upper } => {
@@ -302,6 +309,7 @@ fn size(compiled: &Compiled) -> f64 {
 fn modulus(compiled: &Compiled) -> f64 {
     let mut graph = compiled.graph.clone();
     graph.make_room();
+    graph.work().allow(STEPS_OF_SCALE);
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     let responses = &compiled.derived.responses;
     let parts = [Response::WaveSpeed, Response::Density].map(|response| responses[&response][0]);

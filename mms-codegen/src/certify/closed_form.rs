@@ -3,15 +3,20 @@
 
 use crate::compile::Compiled;
 use crate::expr::Rational;
+use crate::mechanics::model::Check;
 use crate::program::interpret::{Interpreter, Number as _, Point};
 use crate::program::precise::Precise;
 use crate::program::{Output, Program};
 use crate::quantity::Quantity;
 use crate::sample::{Sample, samples};
 use crate::source::Span;
+use crate::work::Work;
 
 /// At how many points of the domain a closed form is compared.
 pub const POINTS: usize = 128;
+
+/// What all closed forms together may take, in the steps of [`crate::work`].
+const STEPS: u64 = 100_000_000;
 
 /// How one closed form compares.
 #[derive(Clone, Debug)]
@@ -22,6 +27,8 @@ pub struct Comparison {
     pub source: Option<String>,
     /// Where it stands in the file.
     pub span: Span,
+    /// At how many points both were evaluated: [`POINTS`], or fewer where that takes too long.
+    pub points: usize,
     /// What was found.
     pub finding: Finding,
 }
@@ -31,6 +38,8 @@ pub struct Comparison {
 pub enum Finding {
     /// Both have the same value at every point.
     Agrees,
+    /// One evaluation would take too long, and nothing was compared.
+    Unmeasured,
     /// They have different values at a point.
     Differs(Difference),
     /// Nowhere do they differ, but at some points one or both have no value.
@@ -60,18 +69,23 @@ pub struct Difference {
 /// Compares every closed form of a field at [`POINTS`] points: each component may differ by 1e-20
 /// of the largest component at that point.
 pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
+    let checks = compiled.model.checks.iter().enumerate();
+    let work = compiled.graph.work().clone();
+    work.allow(STEPS);
     let parameters = compiled.parameters::<Precise>(&Default::default());
     let program = compiled.checks();
-    let points = samples(compiled, &parameters, POINTS);
-    let checks = compiled.model.checks.iter().enumerate();
-    checks
-        .map(|(index, check)| Comparison {
-            quantity: check.quantity,
-            source: check.source.clone(),
-            span: check.span,
-            finding: finding(&program, &parameters, &points, index, check.quantity),
-        })
-        .collect()
+    let all = samples(compiled, &parameters, POINTS);
+    let compared = |(index, check): (usize, &Check)| {
+        // Each may take its part of what is left.
+        let part = work.left() / (compiled.model.checks.len() - index) as u64;
+        let own = work.clone();
+        own.allow(part);
+        let (points, finding) = finding(&program, &parameters, &all, index, check.quantity, &own);
+        work.spend(part - own.left().min(part));
+        let source = check.source.clone();
+        Comparison { quantity: check.quantity, source, span: check.span, points, finding }
+    };
+    checks.map(compared).collect()
 }
 
 fn finding(
@@ -80,14 +94,21 @@ fn finding(
     points: &[Sample<Precise>],
     check: usize,
     quantity: Quantity,
-) -> Finding {
+    work: &Work,
+) -> (usize, Finding) {
     let outputs = [Output::Quantity(quantity), Output::Expected(check)];
-    let mut interpreter = Interpreter::new(program, parameters);
+    // To prepare it takes a look at every instruction.
+    work.spend(program.instrs.len() as u64);
+    let mut interpreter = Interpreter::within(work, program, parameters);
     let plan = interpreter.plan(&outputs);
-    let mut undefined = Vec::new();
+    let (mut undefined, mut compared) = (Vec::new(), 0);
     for point in points {
         interpreter.set_time(&point.time);
         interpreter.set_point(&plan, Point::at(&point.coordinates));
+        if work.is_over() {
+            break;
+        }
+        compared += 1;
         let [derived, expected] = outputs.map(|output| interpreter.output(output));
         let found = |component: usize| Difference {
             coordinates: point.coordinates.iter().map(Precise::to_f64).collect(),
@@ -100,14 +121,16 @@ fn finding(
         if let Some(component) = derived.iter().zip(&expected).position(lacking) {
             undefined.push(found(component));
         } else if let Some(component) = differing_component(&derived, &expected) {
-            return Finding::Differs(found(component));
+            return (compared, Finding::Differs(found(component)));
         }
     }
     let points = undefined.len();
-    match undefined.into_iter().next() {
+    let finding = match undefined.into_iter().next() {
         Some(first) => Finding::Undefined { points, first },
+        None if compared == 0 => Finding::Unmeasured,
         None => Finding::Agrees,
-    }
+    };
+    (compared, finding)
 }
 
 fn differing_component(derived: &[Precise], expected: &[Precise]) -> Option<usize> {

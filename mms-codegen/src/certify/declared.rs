@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 use mms_math::Scalar as _;
 
-use crate::compile::{Compiled, Failure, parameter_values};
-use crate::diagnostic::{Diagnostic, MAX_RENDERED};
+use crate::compile::{Compiled, Failure, as_set, parameter_values};
+use crate::diagnostic::{Diagnostic, MAX_RENDERED, quoted};
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::mechanics::model::{Body, Model};
 use crate::program::Output;
@@ -19,7 +19,16 @@ use crate::program::precise::Precise;
 use crate::program::schedule::schedule;
 use crate::sample::Extent;
 use crate::source::Span;
-use crate::spec::{self, Face, FieldSpec, Formula, MaterialSpec};
+use crate::spec::{self, ExtremeSpec, Face, FieldSpec, Formula, MaterialSpec};
+use crate::work::Work;
+
+/// What a look at the numbers of a field may take, at its parameters alone, and at all of its extremes.
+const STEPS: u64 = 50_000_000;
+const STEPS_OF_PARAMETERS: u64 = 20_000_000;
+const STEPS_OF_EXTREMES: u64 = 100_000_000;
+
+/// What it takes to copy a node.
+const STEPS_OF_COPY: u64 = 20;
 
 /// Messages say no more than so many values of parameters.
 const MAX_SHOWN: usize = 6;
@@ -30,8 +39,10 @@ const AXES: [&str; 3] = ["X", "Y", "Z"];
 /// range, a body and a time window that are not empty, a positive density, an elastic material. The
 /// failure points to what the file says.
 pub fn accepts(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<(), Failure> {
-    let diagnostics =
-        check(&compiled.graph, &compiled.model, (&compiled.field, &compiled.material), set);
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    let set = as_set(&mut graph, set);
+    let diagnostics = check(&graph, &compiled.model, (&compiled.field, &compiled.material), &set);
     if diagnostics.is_empty() {
         return Ok(());
     }
@@ -43,16 +54,83 @@ pub fn accepts(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<(
 pub fn check(
     graph: &Graph,
     model: &Model,
+    specs: (&FieldSpec, &MaterialSpec),
+    set: &BTreeMap<usize, Expr>,
+) -> Vec<Diagnostic> {
+    let mut graph = graph.clone();
+    graph.make_room();
+    graph.work().allow(STEPS);
+    judge(graph, model, specs, set)
+}
+
+/// What is wrong with a field at the values of its extremes: of each, the first mistake.
+pub fn extremes(
+    graph: &Graph,
+    model: &Model,
     (field, material): (&FieldSpec, &MaterialSpec),
-    set: &BTreeMap<usize, Rational>,
+) -> Vec<Diagnostic> {
+    let work = Work::new(graph.work().stop().clone());
+    work.allow(STEPS_OF_EXTREMES);
+    let mut found = Vec::new();
+    for (extreme, set) in field.extremes.iter().zip(&model.extremes) {
+        if work.is_over() || found.len() >= MAX_RENDERED {
+            break;
+        }
+        work.spend(STEPS_OF_COPY * graph.len() as u64);
+        let mut graph = graph.clone();
+        graph.make_room();
+        graph.work().allow(work.left().min(STEPS));
+        let before = graph.work().left();
+        let left = graph.work().share();
+        let wrong = judge(graph, model, (field, material), set).into_iter().next();
+        work.spend(before - left.left());
+        found.extend(wrong.map(|wrong| at_extreme(extreme, wrong)));
+    }
+    let unseen = field.extremes.get(found.len()).filter(|_| work.is_over());
+    found.extend(unseen.map(|extreme| too_long(extreme.span, "the extremes of this field")));
+    found
+}
+
+/// A mistake of a field at the values of an extreme, where these stand.
+fn at_extreme(extreme: &ExtremeSpec, wrong: Diagnostic) -> Diagnostic {
+    let name = quoted(&extreme.name.value);
+    let message = format!("the extreme {name} is no state of this field: {}", wrong.message);
+    let set = extreme.set.iter();
+    let set: Vec<_> = set
+        .take(MAX_SHOWN)
+        .map(|(name, value)| format!("{} = {}", name.value, value.text))
+        .collect();
+    let span = extreme.set.first().map_or(extreme.span, |(name, _)| name.span);
+    let label = if wrong.label.is_empty() { "with this".into() } else { wrong.label };
+    let mut diagnostic = Diagnostic::error(span, message).label(label);
+    diagnostic.help = wrong.help;
+    diagnostic.help(format!(
+        "extremes are held to what defaults are held to; this one sets {}",
+        set.join(", ")
+    ))
+}
+
+/// What is wrong with a field at these values of its parameters, within the budget of the graph.
+fn judge(
+    mut graph: Graph,
+    model: &Model,
+    (field, material): (&FieldSpec, &MaterialSpec),
+    set: &BTreeMap<usize, Expr>,
 ) -> Vec<Diagnostic> {
     if field.incomplete || graph.is_exhausted() {
         return Vec::new();
     }
-    let mut graph = graph.clone();
-    graph.make_room();
+    let steps = graph.work().left();
+    let at_first = steps.min(STEPS_OF_PARAMETERS);
+    graph.work().allow(at_first);
     let values = parameter_values(&mut graph, model, set);
     let parameters = evaluate(&graph, &[], &values);
+    if graph.work().is_over() {
+        // They are needed time and again, so they may take less than other numbers.
+        let span = field.parameters.first().map_or(field.material.span, |first| first.name.span);
+        return vec![too_long(span, "the parameters of this field")];
+    }
+    graph.work().allow(steps - at_first + graph.work().left());
     let mut declared =
         Declared { graph, model, field, material, parameters, diagnostics: Vec::new() };
     // What is computed from a parameter without a value has none either.
@@ -60,14 +138,25 @@ pub fn check(
         declared.ranges();
         declared.domain();
     }
+    if declared.graph.work().is_over() {
+        // What there was no budget left to compute looks like what does not exist.
+        return vec![too_long(field.material.span, "the domain and the material of this field")];
+    }
     declared.diagnostics
+}
+
+/// What would take too long to evaluate with all digits.
+fn too_long(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::error(span, format!("{what} take too long to evaluate in 77 digits"))
+        .label("here, or in what it uses")
+        .help("use fewer functions in it: thousands of them are too many")
 }
 
 /// The values of expressions in the parameters.
 fn evaluate(graph: &Graph, parameters: &[Precise], exprs: &[Expr]) -> Vec<Precise> {
     let output = Output::Parameter(0);
     let program = schedule(graph, &BTreeMap::from([(output, exprs.to_vec())]));
-    Interpreter::new(&program, parameters).output(output)
+    Interpreter::within(graph.work(), &program, parameters).output(output)
 }
 
 /// The values of expressions in the parameters at the defaults of these.

@@ -16,6 +16,7 @@ use crate::program::precise::Precise;
 use crate::program::schedule::schedule_plainly;
 use crate::program::{Output, Program};
 use crate::quantity::Quantity;
+use crate::work::Work;
 
 /// What is known of the values of all quantities.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +40,7 @@ pub fn bound(
     limit: usize,
 ) -> (Finite, usize) {
     let jacobian = Formulas::new(graph, chart, &[motion.jacobian]);
-    let quantities = Quantities::new(graph, compiled);
+    let quantities = Quantities::new(graph, compiled, chart.work());
     let positive = Interval::new(least_jacobian.max(0.0), f64::INFINITY);
     let dimension = chart.variables().len();
     // A singularity often lies where a body or its time window ends, or in the middle.
@@ -60,7 +61,7 @@ pub fn bound(
     };
     let found = largest(
         dimension,
-        limit,
+        chart.limit(limit),
         |bound, _| bound <= 0.0,
         |cell| {
             let at = cell.centre();
@@ -81,7 +82,10 @@ pub fn bound(
     for fractions in candidates {
         let (witness, spot) = Witness::at(chart, &fractions);
         if let Some(quantity) = quantities.without_value(&spot, None, Precise::is_defined) {
-            return (Finite::Undefined(quantity, witness), found.cells);
+            // What there was no budget left to compute is no value that does not exist.
+            if !chart.work().is_over() {
+                return (Finite::Undefined(quantity, witness), found.cells);
+            }
         }
     }
     let quantity = gap(&found.worst);
@@ -111,10 +115,11 @@ fn corners(cell: &Cell) -> Vec<Vec<f64>> {
     let count = sides.len().min(6);
     (0..1usize << count)
         .map(|corner| {
-            let end = |(axis, side): (usize, &Interval)| match corner >> axis & 1 {
-                0 => side.lower(),
-                _ => side.upper(),
-            };
+            let end =
+                |(axis, side): (usize, &Interval)| match axis < count && corner >> axis & 1 == 1 {
+                    false => side.lower(),
+                    true => side.upper(),
+                };
             sides.iter().enumerate().map(end).collect()
         })
         .collect()
@@ -122,7 +127,8 @@ fn corners(cell: &Cell) -> Vec<Vec<f64>> {
 
 /// All quantities, with J taken out of them: interval arithmetic alone would not know that it is
 /// positive where it is small.
-struct Quantities {
+struct Quantities<'a> {
+    work: &'a Work,
     program: Program,
     /// The same with J in place.
     whole: Program,
@@ -131,8 +137,8 @@ struct Quantities {
 /// What stands for J - 1.
 const VOLUME: Symbol = Symbol::Gradient(0, 0);
 
-impl Quantities {
-    fn new(graph: &mut Graph, compiled: &Compiled) -> Self {
+impl<'a> Quantities<'a> {
+    fn new(graph: &mut Graph, compiled: &Compiled, work: &'a Work) -> Self {
         let mut outputs = BTreeMap::new();
         for (quantity, components) in &compiled.derived.quantities {
             let mut components = components.clone();
@@ -150,7 +156,7 @@ impl Quantities {
                 *components = replace(graph, components, &values);
             }
         }
-        Quantities { program: schedule_plainly(graph, &outputs), whole }
+        Quantities { work, program: schedule_plainly(graph, &outputs), whole }
     }
 
     /// A quantity that is not proved to be bounded in a cell. With J in place of what it is made of
@@ -168,7 +174,7 @@ impl Quantities {
         well: impl Fn(&T) -> bool,
     ) -> Option<Quantity> {
         let program = if jacobian.is_some() { &self.program } else { &self.whole };
-        let mut interpreter = Interpreter::new(program, &spot.parameters);
+        let mut interpreter = Interpreter::within(self.work, program, &spot.parameters);
         interpreter.set_time(&spot.time);
         let volume = jacobian.map(|jacobian| jacobian - T::from_f64(1.0));
         let all = vec![true; program.instrs.len()];

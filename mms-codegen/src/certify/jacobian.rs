@@ -77,7 +77,7 @@ fn extremum(
     let mut bounds = jacobian.run::<Interval>(chart);
     let mut values = Values { chart, double: jacobian.run(chart), precise: jacobian.run(chart) };
     let signed = Interval::from_f64(sign);
-    largest(chart.variables().len(), limit, enough, |cell| {
+    largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
         let mut place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
         let split = cell.steepest(&chart.changes(cell, &place, &enclosure.slopes));

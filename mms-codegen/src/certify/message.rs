@@ -9,6 +9,9 @@ use crate::quantity::Quantity;
 use crate::source::Span;
 use crate::spec::{BoundarySpec, Claim};
 
+/// What the search for a parameter to blame may take, in the steps of [`crate::work`].
+const STEPS: u64 = 20_000_000;
+
 /// J is not positive.
 pub fn inverted(compiled: &Compiled, witness: &Witness, value: f64) -> Diagnostic {
     let place = place(compiled, witness);
@@ -30,6 +33,20 @@ pub fn not_positive(compiled: &Compiled, witness: &Witness, value: f64) -> Diagn
     Diagnostic::error(displacement(compiled), "J = det F is not proved to be positive")
         .label(label)
         .help("reduce the amplitude, or write u in a form that bounds itself more sharply")
+}
+
+/// The undeformed body has a stress.
+pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) -> Diagnostic {
+    let largest = stress.iter().map(|it| it.abs()).fold(0.0, f64::max);
+    let place = place(compiled, witness);
+    let (span, what) = match compiled.own_material() {
+        Some(_) => (compiled.material.strain_energy.span, "of this W, "),
+        None => (compiled.field.material.model.span, ""),
+    };
+    Diagnostic::warning(span, "stress at rest: P is not 0 at F = I")
+        .label(format!("{what}{} is the largest component, at {place}", digits(largest)))
+        .help("a term of W may be missing: with mu/2*(I1 - 3) goes -mu*ln(J)")
+        .help("where it is meant, the solver that you test needs the same stress in its undeformed body")
 }
 
 /// A quantity has no value.
@@ -100,6 +117,7 @@ fn culprit(compiled: &Compiled, witness: &Witness) -> Option<(Span, String)> {
     }
     let mut graph = compiled.graph.clone();
     graph.make_room();
+    graph.work().allow(STEPS);
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     let jacobian = chart.pull_back(&mut graph, &compiled.derived.quantities[&Quantity::Jacobian]);
     let formulas = Formulas::new(&mut graph, &chart, &jacobian);

@@ -14,6 +14,7 @@ pub mod matrix;
 pub mod message;
 pub mod motion;
 pub mod rates;
+pub mod rest;
 pub mod search;
 pub mod tangent;
 pub mod witness;

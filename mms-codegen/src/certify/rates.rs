@@ -236,7 +236,7 @@ fn search_until(
     let sharp = |value: f64| if value > least { value * (1.0 + SHARPNESS) } else { least };
     let enough = |bound: f64, value: f64| bound <= sharp(value);
     let mut greatest = 0.0_f64;
-    largest(chart.variables().len(), limit, enough, |cell| {
+    largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
         let place = chart.place(&cell.0);
         let enclosure = bounds.enclose(&place);
         let at = cell.centre();

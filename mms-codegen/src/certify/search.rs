@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use crate::program::interval::Interval;
+use crate::work::Work;
 
 /// Cells are not split beyond this part of the whole box.
 const SMALLEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -125,14 +126,37 @@ impl PartialEq for Open {
 
 impl Eq for Open {}
 
+/// What a search may take: so many cells, and steps of a budget on which those who measure draw. Cells differ in what
+/// they take, so the budget is what bounds the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit<'a> {
+    /// How many cells.
+    pub cells: usize,
+    /// What measuring them may take.
+    pub work: Option<&'a Work>,
+}
+
+impl From<usize> for Limit<'_> {
+    fn from(cells: usize) -> Self {
+        Limit { cells, work: None }
+    }
+}
+
+impl Limit<'_> {
+    fn allows(&self, cells: usize) -> bool {
+        cells <= self.cells && !self.work.is_some_and(Work::is_over)
+    }
+}
+
 /// Bounds a function over the unit box from above, until `enough` says so of the bound and the
-/// greatest value, or `limit` cells were measured.
-pub fn largest(
+/// greatest value, or the limit is reached.
+pub fn largest<'a>(
     dimension: usize,
-    limit: usize,
+    limit: impl Into<Limit<'a>>,
     enough: impl Fn(f64, f64) -> bool,
     mut measure: impl FnMut(&Cell) -> Measure,
 ) -> Found {
+    let limit = limit.into();
     let whole = Cell::whole(dimension);
     let first = measure(&whole);
     let mut found = Found {
@@ -146,7 +170,7 @@ pub fn largest(
         BinaryHeap::from([Open { cell: whole, bound: first.bound, split: first.split, number: 0 }]);
     while let Some(top) = open.peek() {
         (found.bound, found.worst) = (top.bound, top.cell.clone());
-        if enough(found.bound, found.attained) || found.cells + 2 > limit {
+        if enough(found.bound, found.attained) || !limit.allows(found.cells + 2) {
             break;
         }
         let Some(halves) = top.cell.halves(top.split) else { break };

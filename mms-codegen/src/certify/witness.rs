@@ -4,6 +4,9 @@ use super::chart::{Chart, Spot};
 use crate::program::precise::Precise;
 use mms_math::Scalar as _;
 
+/// What it may take to find a place, in the steps of [`crate::work`].
+const STEPS: u64 = 10_000_000;
+
 /// A place, a time, and the values there of the parameters that have a range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
@@ -26,7 +29,9 @@ impl Witness {
 
     /// The same for fractions of 77 digits.
     pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, Spot<Precise>) {
-        let spot = chart.points().point(&chart.place(fractions));
+        // Where a search ended is said, whatever is left of its budget.
+        let place = || chart.points().point(&chart.place(fractions));
+        let spot = chart.work().aside(STEPS, place);
         let value = |index: usize| (index, spot.parameters[index].to_f64());
         let witness = Witness {
             coordinates: spot.coordinates.iter().map(Precise::to_f64).collect(),
@@ -38,6 +43,9 @@ impl Witness {
 
     /// `X = 1, Y = 0, t = 0.5, amplitude = 0.3`
     pub fn describe(&self, names: &[String]) -> String {
+        if self.time.is_nan() || self.coordinates.iter().any(|it| it.is_nan()) {
+            return "a place that takes too long to compute".into();
+        }
         let axes = AXES.iter().zip(&self.coordinates).map(|(axis, x)| (axis.to_string(), *x));
         let parameters = self.parameters.iter().map(|(index, x)| (names[*index].clone(), *x));
         let all = axes.chain([("t".to_string(), self.time)]).chain(parameters);

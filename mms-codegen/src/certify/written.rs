@@ -14,11 +14,17 @@ use crate::program::precise::Precise;
 use crate::sample::{Sample, samples};
 use crate::source::Span;
 use crate::spec::names::COORDINATES;
-use crate::spec::{Formula, RigidSpec};
+use crate::spec::{FieldSpec, Formula, RigidSpec};
 use crate::syntax::{self, Ast, Kind, Operator};
 
 /// At how many points of the domain u is evaluated.
 pub const POINTS: usize = 32;
+
+/// What all points together may take, in the steps of [`crate::work`], and what an operation does, a power, and a function.
+const STEPS: u64 = 50_000_000;
+const STEPS_OF_OPERATION: u64 = 60;
+const STEPS_OF_POWER: u64 = 3_000;
+const STEPS_OF_FUNCTION: u64 = 10_000;
 
 /// Greater integer powers are taken by the power function.
 const MAX_REPEATED: f64 = 4096.0;
@@ -43,18 +49,10 @@ type Traced = (Precise, Option<Span>);
 /// first such point.
 pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     let field = &compiled.field;
-    let parse = |formula: &Formula| syntax::parse(formula, &mut Vec::new());
-    let lets = field.lets.iter().map(|definition| parse(&definition.value));
-    let motion = field.rigid.iter().flat_map(RigidSpec::formulas);
-    let formulas = field.displacement.iter().chain(motion);
-    let (Some(lets), Some(formulas)) =
-        (lets.collect::<Option<Vec<_>>>(), formulas.map(parse).collect::<Option<Vec<_>>>())
-    else {
-        return Vec::new();
-    };
+    let Some([lets, formulas]) = parsed(field) else { return Vec::new() };
     let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
     let mut found: Vec<Option<Gap>> = vec![None; formulas.len()];
-    for point in samples(compiled, &parameters, POINTS) {
+    for point in samples(compiled, &parameters, points(compiled)) {
         let mut names = leaves(compiled, &parameters, &point);
         for (definition, ast) in field.lets.iter().zip(&lets) {
             let value = evaluate(ast, &names);
@@ -70,6 +68,31 @@ pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
         }
     }
     found.into_iter().flatten().collect()
+}
+
+/// At how many points u is evaluated: [`POINTS`], or fewer where that takes too long.
+pub fn points(compiled: &Compiled) -> usize {
+    let Some(formulas) = parsed(&compiled.field) else { return POINTS };
+    let steps = |ast: &Ast| ast.nodes.iter().map(|node| steps(&node.kind)).sum::<u64>();
+    let of_one: u64 = formulas.iter().flatten().map(steps).sum();
+    POINTS.min((STEPS / of_one.max(1)) as usize)
+}
+
+fn steps(kind: &Kind) -> u64 {
+    match kind {
+        Kind::Call { .. } => STEPS_OF_FUNCTION,
+        Kind::Binary(Operator::Power, ..) => STEPS_OF_POWER,
+        _ => STEPS_OF_OPERATION,
+    }
+}
+
+/// The definitions, and the formulas of u and of a rigid motion.
+fn parsed(field: &FieldSpec) -> Option<[Vec<Ast>; 2]> {
+    let parse = |formula: &Formula| syntax::parse(formula, &mut Vec::new());
+    let lets = field.lets.iter().map(|definition| parse(&definition.value));
+    let motion = field.rigid.iter().flat_map(RigidSpec::formulas);
+    let formulas = field.displacement.iter().chain(motion).map(parse);
+    Some([lets.collect::<Option<_>>()?, formulas.collect::<Option<_>>()?])
 }
 
 /// What a formula may use beside definitions.

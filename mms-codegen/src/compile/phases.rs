@@ -6,7 +6,7 @@ use super::{Compiled, Loader, MATERIALS, Options, parameter_values, shipped};
 use crate::certify::{declared, near_zero};
 use crate::culprit::culprit;
 use crate::diagnostic::Diagnostic;
-use crate::expr::{Expr, Graph};
+use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph};
 use crate::mechanics::boundary::data;
 use crate::mechanics::kinematics::Route;
 #[cfg(feature = "defects")]
@@ -24,6 +24,10 @@ use crate::spec::{self, FieldSpec, Formula, MaterialSpec, moduli};
 use crate::suggest::advice;
 use crate::syntax::{self, Kind};
 use crate::units;
+
+/// How many steps a phase may take for each node that a graph may have: reading and deriving are refused beyond them;
+/// simplifying and scheduling leave untried what is beyond.
+const STEPS_PER_NODE: u64 = 700;
 
 /// A compilation on its way: what is asked for, the texts that were read, and every mistake that was found.
 pub(super) struct Phases<'a> {
@@ -47,12 +51,18 @@ impl<'a> Phases<'a> {
 
     /// All of them; a mistake ends them, or is found beside others.
     pub fn run(&mut self, name: &str, path: &str, text: &str) -> Option<Compiled> {
-        let mut graph = Graph::with_limit(self.options.max_nodes);
+        let mut graph = Graph::with_limit(self.options.max_nodes).stopped_by(&self.options.stop);
+        self.allow(&graph);
         let mut read = self.read(&mut graph, name, path, text)?;
         self.options.variation.transform(&mut graph, &mut read.model);
         about_its_place(&mut graph, &mut read.model);
-        let [derived, derivation] = self.derive(&mut graph, &mut read)?;
+        let (derived, simplest) = self.derive(&mut graph, &mut read)?;
+        let simplified = simplest.is_some() && !graph.work().is_over();
+        let derivation = simplest.unwrap_or_else(|| derived.clone());
+        self.allow(&graph);
         let program = self.schedule(&mut graph, &read, &derivation)?;
+        // What others do with it has budgets of its own.
+        graph.work().allow(u64::MAX);
         let Read { field, material, model } = read;
         Some(Compiled {
             field,
@@ -64,8 +74,23 @@ impl<'a> Phases<'a> {
             derivation,
             selection: self.options.selection.clone(),
             form: self.options.form,
+            simplified,
             program,
         })
+    }
+
+    /// What is said where somebody asked to stop, in place of what came of that.
+    pub fn stopped(&mut self) {
+        let Some(source) = self.sources.nth(0) else { return };
+        let message = "the work on this field was stopped before its end";
+        let start = Diagnostic::error(self.sources.span(source, 0, 0), message);
+        self.diagnostics = vec![start.help("whoever asked for the field asked for that, too")];
+    }
+
+    /// What a phase may take.
+    fn allow(&self, graph: &Graph) {
+        let nodes = self.options.max_nodes.max(DEFAULT_MAX_NODES) as u64;
+        graph.work().allow(STEPS_PER_NODE.saturating_mul(nodes));
     }
 
     /// The field and its material; everything that is wrong with them is reported.
@@ -88,13 +113,20 @@ impl<'a> Phases<'a> {
         let specs = (&field, &material);
         let reported = diagnostics.len();
         diagnostics.extend(declared::check(graph, &model, specs, &BTreeMap::new()));
+        if diagnostics.is_empty() {
+            diagnostics.extend(declared::extremes(graph, &model, specs));
+        }
         selection.explain(sources, &field, &mut diagnostics[reported..]);
         diagnostics.extend(rotates_unfit_material(&field, &material));
         diagnostics.is_empty().then_some(Read { field, material, model })
     }
 
-    /// What follows from the model, as it was derived and simplified.
-    fn derive(&mut self, graph: &mut Graph, read: &mut Read) -> Option<[Derivation; 2]> {
+    /// What follows from the model, as it was derived and, where there is room for that, simplified.
+    fn derive(
+        &mut self,
+        graph: &mut Graph,
+        read: &mut Read,
+    ) -> Option<(Derivation, Option<Derivation>)> {
         let derived = derive(graph, &read.model, &Relations::default(), Route::Gradient)
             .map_err(|TooLarge(what)| self.diagnostics.push(too_large(&read.field, graph, what)))
             .ok()?;
@@ -103,10 +135,16 @@ impl<'a> Phases<'a> {
         let Options { selection, form, .. } = self.options;
         // The force of a twin needs the motion of the field.
         let needed = |quantity| read.model.rigid.is_some() || selection.wants(quantity);
-        let derivation = simplify(graph, &read.model, &derived, *form, needed);
+        self.allow(graph);
+        let simplified =
+            graph.attempt(|graph| simplify(graph, &read.model, &derived, *form, needed));
         Some(match &read.model.rigid {
-            Some(rigid) => twins(graph, rigid, [&derived, &derivation]).into(),
-            None => [derived, derivation],
+            Some(rigid) => {
+                let inner = simplified.as_ref().unwrap_or(&derived);
+                let (plain, twin) = twins(graph, rigid, [&derived, inner]);
+                (plain, simplified.is_some().then_some(twin))
+            }
+            None => (derived, simplified),
         })
     }
 

@@ -12,6 +12,9 @@ use super::{Expr, Function, Graph, Node, Rational, Symbol, is_negative, magnitud
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
 
+/// What it takes to collect a term.
+const STEPS_OF_TERM: u64 = 10;
+
 /// The longest number that a node may hold: beyond it the graph is exhausted.
 const MAX_BITS: usize = 1 << 17;
 
@@ -82,6 +85,8 @@ impl Graph {
         }
         collected.retain(|_, coefficient| !coefficient.is_zero());
         let terms: Vec<_> = collected.into_iter().collect();
+        let steps = |number: &Rational| STEPS_OF_TERM + steps_of_length(number);
+        self.work.spend(steps(&constant) + terms.iter().map(|(_, it)| steps(it)).sum::<u64>());
         if is_long(&constant) || terms.iter().any(|(_, coefficient)| is_long(coefficient)) {
             return self.exhaust();
         }
@@ -348,6 +353,13 @@ fn opens(graph: &Graph, base: Expr, exponent: &Rational) -> bool {
         },
         _ => false,
     }
+}
+
+/// What it takes to add or multiply a number of so many words, the common divisor of two included.
+pub(crate) fn steps_of_length(number: &Rational) -> u64 {
+    let bits = number.numerator().bit_len() + number.denominator().bit_len();
+    let words = (bits / 64) as u64;
+    words * words / 4
 }
 
 fn is_long(number: &Rational) -> bool {

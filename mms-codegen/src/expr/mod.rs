@@ -12,6 +12,7 @@ pub mod resolve;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasher;
 
+pub(crate) use build::steps_of_length;
 use dashu_int::Sign;
 pub use dashu_ratio::RBig as Rational;
 pub use function::Function;
@@ -19,6 +20,7 @@ use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::program::Stage;
+use crate::work::{Stop, Work};
 
 /// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -109,6 +111,10 @@ impl Node {
 /// thousands.
 pub const DEFAULT_MAX_NODES: usize = 200_000;
 
+/// What it takes to make a node or to find it, and so much more for each operand.
+const STEPS_OF_NODE: u64 = 20;
+const STEPS_OF_OPERAND: u64 = 10;
+
 /// An arena of hash-consed nodes, of bounded size.
 ///
 /// Beyond the bound every operation returns at once what has no value, and [`Graph::is_exhausted`] tells; what was
@@ -128,6 +134,8 @@ pub struct Graph {
     exhausted: bool,
     /// Nodes that were made before the graph was exhausted.
     made: usize,
+    /// What may still be done.
+    work: Work,
 }
 
 /// What a node is found by.
@@ -161,6 +169,7 @@ impl Graph {
             limit,
             exhausted: false,
             made: 0,
+            work: Work::new(Stop::default()),
         };
         graph.intern(Node::Number(Rational::ZERO));
         graph
@@ -181,6 +190,17 @@ impl Graph {
         self.limit = limit;
     }
 
+    /// What may still be done with the graph: nothing can be made in it when that is over.
+    pub fn work(&self) -> &Work {
+        &self.work
+    }
+
+    /// With a budget that somebody may end.
+    pub(crate) fn stopped_by(mut self, stop: &Stop) -> Self {
+        self.work = Work::new(stop.clone());
+        self
+    }
+
     /// Nodes and operands so far.
     pub fn size(&self) -> usize {
         self.size
@@ -188,6 +208,12 @@ impl Graph {
 
     /// What filled the graph, and what to do about it: help for a message.
     pub fn exhaustion(&self) -> Vec<String> {
+        if self.work.is_over() {
+            return vec![
+                "it takes more steps than the bound allows: write it in a shorter form, with fewer functions within each other".into(),
+                "`mms ... --max-nodes N` raises that bound too; `field!` keeps the default".into(),
+            ];
+        }
         if self.size <= self.limit {
             return vec![
                 "exact numbers become too long in it: use fewer digits or lower powers".into(),
@@ -212,6 +238,9 @@ impl Graph {
     /// What `make` returns, or `None`, and the graph as it was, where it reaches the bound.
     pub(crate) fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
         let before = self.mark();
+        if self.work.is_over() && !before.exhausted {
+            return None;
+        }
         let made = make(self);
         if before.exhausted || !self.exhausted {
             return Some(made);
@@ -284,6 +313,10 @@ impl Graph {
 
     /// The one handle of a node that is canonical already.
     fn intern(&mut self, node: Node) -> Expr {
+        self.work.spend(STEPS_OF_NODE + STEPS_OF_OPERAND * node.children().count() as u64);
+        if self.work.is_over() {
+            return self.exhaust();
+        }
         if let Some(expr) = self.find(&node) {
             return expr;
         }
@@ -329,7 +362,9 @@ impl Graph {
 
     /// Everything that `roots` depend on, themselves included, operands before users.
     pub fn reachable(&self, roots: &[Expr]) -> BTreeSet<Expr> {
-        reachable(roots, |expr| self.node(expr).children())
+        let reached = reachable(roots, |expr| self.node(expr).children());
+        self.work.spend(STEPS_OF_NODE * reached.len() as u64);
+        reached
     }
 
     /// How many of the expressions that are `among`, and of the roots, read an expression.

@@ -5,7 +5,7 @@ mod sign;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Expr, Function, Graph, Rational, Symbol};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, MAX_RENDERED};
 use crate::source::{Span, Spanned};
 use crate::spec::names::FUNCTIONS;
 use crate::suggest::advice;
@@ -202,6 +202,10 @@ impl Resolver<'_> {
         }
         let diagnostic =
             Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
+        // So many are not shown, and to look for what each may mean takes long.
+        if self.diagnostics.len() >= MAX_RENDERED {
+            return self.report(diagnostic);
+        }
         let candidates = self.scope.names.keys().map(String::as_str);
         let diagnostic =
             diagnostic.help(advice(name, candidates, |_| match self.scope.names.is_empty() {

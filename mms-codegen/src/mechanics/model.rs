@@ -2,15 +2,17 @@
 
 pub mod energy;
 
+use std::collections::BTreeMap;
+
 use super::invariant::Kind;
 use super::rigid::{RigidMotion, Rotation};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
 use crate::quantity::Quantity;
 use crate::selection::Meanings;
-use crate::source::Span;
+use crate::source::{Span, Spanned};
 use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
 use crate::syntax;
 
@@ -109,6 +111,8 @@ pub struct Model {
     pub domain: Domain,
     /// Closed forms from paper.
     pub checks: Vec<Check>,
+    /// The values of each extreme by position of the parameter, in terms of the parameters before it.
+    pub extremes: Vec<BTreeMap<usize, Expr>>,
     /// The rigid motion on top of u.
     pub rigid: Option<RigidMotion>,
 }
@@ -144,7 +148,8 @@ impl Model {
         let domain = reader.domain(&field.domain);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
-        reader.variations(field);
+        let extremes = reader.extremes(field);
+        reader.strays(field);
         reader.within_bound(field, reported);
         Some(Model {
             parameters: parameters?,
@@ -158,6 +163,7 @@ impl Model {
             poisson,
             domain: domain?,
             checks: checks.into_iter().collect::<Option<_>>()?,
+            extremes,
             rigid: match rigid {
                 Some(rigid) => Some(rigid?),
                 None => None,
@@ -413,11 +419,38 @@ impl Reader<'_> {
         components.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
     }
 
-    /// Formulas that no quantity depends on: extremes, and those of keys that were refused.
-    fn variations(&mut self, field: &FieldSpec) {
-        for (_, value) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
-            self.constant(value);
+    /// The values that extremes set.
+    fn extremes(&mut self, field: &FieldSpec) -> Vec<BTreeMap<usize, Expr>> {
+        let names = field.parameters.iter().enumerate();
+        let places: BTreeMap<&str, usize> =
+            names.map(|(index, parameter)| (parameter.name.value.as_str(), index)).collect();
+        let mut setting = |(name, value): &(Spanned<String>, Formula)| {
+            let index = *places.get(name.value.as_str())?;
+            Some((index, self.setting(index, name, value)?))
+        };
+        let extremes = field.extremes.iter();
+        extremes.map(|extreme| extreme.set.iter().filter_map(&mut setting).collect()).collect()
+    }
+
+    /// The value that is set of a parameter: it follows from those above, as a default does.
+    fn setting(&mut self, index: usize, name: &Spanned<String>, value: &Formula) -> Option<Expr> {
+        let set = self.constant(value)?;
+        let is_above = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(at) if *at < index);
+        if self.graph.symbols(set).iter().all(is_above) {
+            return Some(set);
         }
+        let message =
+            format!("the value of {} does not follow from what is above it", quoted(&name.value));
+        self.diagnostics.push(
+            Diagnostic::error(value.span, message)
+                .label("expected numbers, and parameters above that one in [parameters]")
+                .help("definitions that are made of this parameter, or of later ones, cannot be used here"),
+        );
+        None
+    }
+
+    /// Formulas of keys that were refused.
+    fn strays(&mut self, field: &FieldSpec) {
         for stray in &field.stray {
             syntax::parse(stray, self.diagnostics);
         }

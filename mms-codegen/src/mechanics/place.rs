@@ -13,6 +13,9 @@ use crate::sample::{Extent, halton, spread};
 const ANYWHERE: usize = 24;
 const ENOUGH: usize = 6;
 
+/// What it takes to evaluate a node.
+pub(super) const STEPS_OF_VALUE: u64 = 20;
+
 /// A sum is 0 where it is less than that of its terms, of 31 digits.
 const CANCELLED: f64 = 1e-24;
 
@@ -188,7 +191,9 @@ pub(super) fn evaluate(
     places: &[Place],
 ) -> BTreeMap<Expr, Vec<Double>> {
     let mut values = BTreeMap::<Expr, Vec<Double>>::new();
-    for expr in graph.reachable(roots) {
+    let reached = graph.reachable(roots);
+    graph.work().spend(STEPS_OF_VALUE * (reached.len() * places.len()) as u64);
+    for expr in reached {
         let at = |(index, place)| at(graph.node(expr), |child| values[&child][index], place);
         let of_places = places.iter().enumerate().map(at).collect();
         values.insert(expr, of_places);

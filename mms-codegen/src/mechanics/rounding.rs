@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use mms_math::{Double, Scalar as _};
 
 use super::model::Model;
-use super::place::{Place, at, defaults, evaluate, places};
+use super::place::{Place, STEPS_OF_VALUE, at, defaults, evaluate, places};
 use crate::expr::{Expr, Graph, Node};
 use crate::program::interpret::Number as _;
 
@@ -68,6 +68,9 @@ impl Rounding {
         let values = evaluate(graph, roots, &self.places);
         let (mut error, mut value) = (0.0, 0.0);
         for (index, place) in self.places.iter().enumerate() {
+            if graph.work().is_over() {
+                break;
+            }
             let errors = self.errors(graph, &values, index, place);
             for root in roots {
                 let (own, size) = (errors[root], values[root][index].to_f64().abs());
@@ -89,6 +92,9 @@ impl Rounding {
     ) -> BTreeMap<Expr, f64> {
         let mut errors = BTreeMap::<Expr, f64>::new();
         for (expr, found) in values {
+            // Every operand is changed, and the node evaluated with it.
+            let operands = graph.node(*expr).children().count() as u64;
+            graph.work().spend(STEPS_OF_VALUE * operands * operands);
             let of = |child: Expr| values[&child][index];
             let error = match graph.stage(*expr).needs_point() {
                 true => error(graph.node(*expr), found[index], of, &errors, place),

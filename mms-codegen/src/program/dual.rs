@@ -6,7 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use mms_math::Scalar;
 
 use super::interpret::Number;
-use crate::expr::Rational;
+use crate::expr::{Function, Rational};
 
 /// A value and its first derivative, both in any scalar: `f64`, 256 bits, an interval, or dual
 /// numbers again for second derivatives.
@@ -78,6 +78,11 @@ impl<T: Scalar> Neg for Dual<T> {
 }
 
 impl<T: Number> Number for Dual<T> {
+    fn steps(&self, function: Option<Function>) -> u64 {
+        // The value and the slope.
+        2 * self.value.steps(function)
+    }
+
     fn from_rational(number: &Rational) -> Self {
         Dual::constant(T::from_rational(number))
     }

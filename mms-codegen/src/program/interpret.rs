@@ -2,8 +2,9 @@
 
 use mms_math::{Double, Scalar};
 
-use super::{Op, Output, Program, Stage};
+use super::{Op, Output, Program, Stage, effort};
 use crate::expr::{Function, Rational, Symbol};
+use crate::work::Work;
 
 /// A scalar that takes exact constants.
 pub trait Number: Scalar {
@@ -28,6 +29,11 @@ pub trait Number: Scalar {
     /// The same with more digits.
     fn wide_square(wide: Self::Wide) -> Self::Wide {
         wide.clone() * wide
+    }
+
+    /// What an operation takes, or a function of this number: see [`crate::work`].
+    fn steps(&self, _function: Option<Function>) -> u64 {
+        1
     }
 }
 
@@ -87,14 +93,25 @@ pub struct Interpreter<'a, T: Number> {
     values: Vec<T>,
     /// The stages Parameter and Time, which are rounded when they are done.
     once: Vec<T::Wide>,
+    /// What it may take, if that is bounded: beyond, values are not numbers.
+    work: Option<&'a Work>,
 }
 
 impl<'a, T: Number> Interpreter<'a, T> {
     /// Runs the Parameter stage. `parameters` are in the order of the field file.
     pub fn new(program: &'a Program, parameters: &[T]) -> Self {
+        Self::prepared(program, parameters, None)
+    }
+
+    /// The same within a budget. When that is over, what is computed is not a number.
+    pub fn within(work: &'a Work, program: &'a Program, parameters: &[T]) -> Self {
+        Self::prepared(program, parameters, Some(work))
+    }
+
+    fn prepared(program: &'a Program, parameters: &[T], work: Option<&'a Work>) -> Self {
         let values = vec![T::from_f64(0.0); program.instrs.len()];
         let once = vec![T::Wide::from_f64(0.0); program.start(Stage::Point)];
-        let mut interpreter = Interpreter { program, values, once };
+        let mut interpreter = Interpreter { program, values, once, work };
         interpreter.run_once(Stage::Parameter, |symbol| match symbol {
             Symbol::Parameter(index) => parameters[index].clone(),
             _ => unreachable!("the Parameter stage reads parameters only"),
@@ -137,6 +154,11 @@ impl<'a, T: Number> Interpreter<'a, T> {
     /// Runs a stage that is computed with more digits and then rounded.
     fn run_once(&mut self, stage: Stage, input: impl Fn(Symbol) -> T) {
         for index in self.program.range(stage) {
+            if self.is_over(index) {
+                self.once[index] = T::Wide::from_f64(f64::NAN);
+                self.values[index] = T::from_f64(f64::NAN);
+                continue;
+            }
             let op = &self.program.instrs[index].op;
             let input = |symbol| input(symbol).widen();
             self.once[index] = apply(op, &self.once, T::wide_from_rational, T::wide_square, input);
@@ -144,8 +166,28 @@ impl<'a, T: Number> Interpreter<'a, T> {
         }
     }
 
+    /// Whether the budget has nothing left for an instruction; else it is charged.
+    fn is_over(&self, index: usize) -> bool {
+        let Some(work) = self.work else { return false };
+        if work.is_over() {
+            return true;
+        }
+        work.spend(match &self.program.instrs[index].op {
+            Op::Unary(function, a) | Op::Binary(function, a, _) => {
+                self.values[a.index()].steps(Some(*function))
+            }
+            Op::Constant(number) => self.values[index].steps(None) + effort::of_constant(number),
+            _ => self.values[index].steps(None),
+        });
+        false
+    }
+
     fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
         for index in self.program.range(stage).filter(|index| plan[*index]) {
+            if self.is_over(index) {
+                self.values[index] = T::from_f64(f64::NAN);
+                continue;
+            }
             let op = &self.program.instrs[index].op;
             self.values[index] = apply(op, &self.values, T::from_rational, T::square, &input);
         }

@@ -11,8 +11,9 @@ mod quick;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::effort;
 use super::interpret::Number;
-use crate::expr::Rational;
+use crate::expr::{Function, Rational};
 
 /// Below this magnitude the rounding error of a product may itself be rounded: 2^-960.
 const NEARLY_SUBNORMAL: f64 = 1e-289;
@@ -160,6 +161,10 @@ impl Div for Interval {
 }
 
 impl Number for Interval {
+    fn steps(&self, function: Option<Function>) -> u64 {
+        effort::of_interval(function, [self.lower, self.upper])
+    }
+
     fn from_rational(number: &Rational) -> Self {
         let near = number.to_f64().value();
         let lower = if at_most(near, number) { near } else { near.next_down() };

@@ -5,6 +5,7 @@
 //! language.
 
 pub mod dual;
+mod effort;
 pub(crate) mod fusion;
 pub mod interpret;
 pub mod interval;

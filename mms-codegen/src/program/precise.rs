@@ -9,8 +9,9 @@ use dashu_float::round::mode::HalfEven;
 use dashu_int::ops::CubicRoot as _;
 use mms_math::Scalar;
 
+use super::effort;
 use super::interpret::Number;
-use crate::expr::Rational;
+use crate::expr::{Function, Rational};
 
 /// A result of a larger exponent of two is treated as not representable, and one of a smaller
 /// exponent than minus this is 0: exponents never leave their own integers.
@@ -212,6 +213,10 @@ impl<const BITS: usize> Neg for Binary<BITS> {
 }
 
 impl<const BITS: usize> Number for Binary<BITS> {
+    fn steps(&self, function: Option<Function>) -> u64 {
+        effort::of_digits(function, BITS, self.0.as_ref().map_or(0, exponent))
+    }
+
     fn from_rational(number: &Rational) -> Self {
         Binary::new(number)
     }

@@ -44,6 +44,13 @@ pub fn text(certificate: &Certificate) -> Vec<String> {
         };
         lines.push(format!("  claim  {face} is {} ({}): {found}", word.name(), word.meaning()));
     }
+    if !certificate.spent.is_empty() {
+        lines.push(format!(
+            "  budget SPENT before the end of: {}. What is not proved there may hold, bounds may be less sharp: write u \
+             shorter, shrink the body or the time window, or fix parameters that have a range (--set)",
+            certificate.spent.join(", ")
+        ));
+    }
     lines
 }
 

@@ -119,12 +119,17 @@ impl Declared<'_> {
     ) -> Option<Counterexample> {
         let output = Output::Expected(0);
         let program = schedule(&self.graph, &BTreeMap::from([(output, exprs.to_vec())]));
-        let mut interpreter = Interpreter::new(&program, &self.parameters);
+        let mut interpreter = Interpreter::within(self.graph.work(), &program, &self.parameters);
         let plan = interpreter.plan(&[output]);
         let mut symbols = exprs.iter().flat_map(|expr| self.graph.symbols(*expr));
         let varies = symbols.any(|symbol| matches!(symbol, Symbol::Coordinate(_)));
         let count = if varies { usize::MAX } else { 1 };
-        points(extent).take(count).find_map(|point| {
+        // It is a sample, and may be a smaller one: of what else is looked at there is a half left.
+        let floor = self.graph.work().left() / 2;
+        let affordable =
+            |(index, _): &(usize, Vec<Precise>)| *index == 0 || self.graph.work().left() > floor;
+        let mut points = points(extent).take(count).enumerate().take_while(affordable);
+        points.find_map(|(_, point)| {
             interpreter.set_point(&plan, Point::at(&point));
             let values = interpreter.output(output);
             let is_right = values.iter().all(Precise::is_defined) && is_right(&values);

@@ -108,6 +108,16 @@ impl Flat {
         (flat, roots.iter().map(|root| items[root]).collect())
     }
 
+    /// So many times ln(-1), which has no value in any arithmetic.
+    pub(super) fn void(count: usize) -> (Self, Vec<Item>) {
+        let (forms, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
+        let (grouping, scaling) = (Grouping::Staged, Scaling::Factors);
+        let mut flat = Flat { forms, stages, index, grouping, scaling };
+        let number = flat.constant(-1);
+        let void = flat.intern(Form::Call(Function::Ln, vec![number]));
+        (flat, vec![void; count])
+    }
+
     pub(super) fn form(&self, item: Item) -> &Form {
         &self.forms[item.index()]
     }

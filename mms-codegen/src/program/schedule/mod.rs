@@ -93,13 +93,18 @@ pub fn schedule(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program
     in_stage_order(signs::carried(program))
 }
 
-/// The program of `outputs` as their expressions stand: nothing is shared but equal expressions.
+/// The program of `outputs` as their expressions stand: nothing is shared but equal expressions. Where the budget is spent,
+/// what is left has no value.
 pub fn schedule_plainly(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) -> Program {
     let mut builder = Builder::default();
     let outputs = outputs
         .iter()
         .map(|(output, components)| {
-            let (flat, roots) = Flat::new(graph, components, Grouping::Staged, Scaling::Factors);
+            let (flat, roots) = match graph.work().is_over() {
+                true => Flat::void(components.len()),
+                false => Flat::new(graph, components, Grouping::Staged, Scaling::Factors),
+            };
+            graph.work().spend(STEPS_OF_OPERAND * flat.forms.len() as u64);
             (*output, builder.lower(&flat, &roots))
         })
         .collect();
@@ -132,6 +137,9 @@ pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
     }
 }
 
+/// What it takes to write an operand down and to make an operation with it.
+const STEPS_OF_OPERAND: u64 = 50;
+
 /// The cheapest way to compute `components` with numbers moved as far as that; of equals, the first.
 fn cheapest(
     graph: &Graph,
@@ -140,12 +148,19 @@ fn cheapest(
     scopes: &[Scope],
 ) -> (Flat, Vec<Item>) {
     let mut plain = vec![Flat::new(graph, components, Grouping::Staged, scaling)];
+    let operands =
+        plain[0].0.forms.iter().map(|form| 1 + form.operands().into_iter().count() as u64);
+    let ways = 2 + 2 * scopes.len() as u64;
+    graph.work().spend(STEPS_OF_OPERAND * ways * operands.sum::<u64>());
+    if graph.work().is_over() {
+        return plain.swap_remove(0);
+    }
     let joint = Flat::new(graph, components, Grouping::Joint, scaling);
     plain.extend(Some(joint).filter(|joint| joint.0.forms != plain[0].0.forms));
     let mut ways = Vec::new();
     for scope in scopes {
         let shared = plain.iter().cloned().map(|(mut flat, roots)| {
-            share::share(&mut flat, &roots, *scope);
+            share::share(&mut flat, &roots, *scope, graph.work());
             (flat, roots)
         });
         ways.extend(shared);
@@ -157,8 +172,12 @@ fn cheapest(
 /// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
 /// what is emitted and of what comes close to it, and not of all that is compared.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
-    let [plain, scaled] = [Scaling::Factors, Scaling::Sums]
-        .map(|scaling| cheapest(graph, components, scaling, &[Scope::Made, Scope::Needed]));
+    let cheapest = |scaling| cheapest(graph, components, scaling, &[Scope::Made, Scope::Needed]);
+    let plain = cheapest(Scaling::Factors);
+    if graph.work().is_over() {
+        return plain;
+    }
+    let scaled = cheapest(Scaling::Sums);
     let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =

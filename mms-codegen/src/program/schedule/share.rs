@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::flat::{Flat, Form, Item};
 use crate::expr::{Rational, reachable};
+use crate::work::Work;
 
 /// What can be shared.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -78,18 +79,25 @@ pub(super) enum Scope {
     Needed,
 }
 
-/// Extracts shared pairs until no pair occurs twice.
-pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope) {
+/// What it takes to count a pair.
+const STEPS_OF_PAIR: u64 = 50;
+
+/// Extracts shared pairs until no pair occurs twice, or the budget is spent.
+pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) {
     let counted = match scope {
         Scope::Made => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
         Scope::Needed => reachable(roots, |item| flat.form(item).operands()),
     };
     let mut table = Table { common: common(flat, &counted), ..Table::default() };
     for item in counted {
+        if work.is_over() {
+            return;
+        }
+        work.spend(table.steps(flat.form(item)));
         table.enter(flat, item, |_| true);
     }
-    while let Some(pair) = table.best() {
-        table.extract(flat, &pair);
+    while let Some(pair) = table.best().filter(|_| !work.is_over()) {
+        work.spend(table.extract(flat, &pair));
     }
 }
 
@@ -158,8 +166,16 @@ impl Table {
         self.ranked.last().map(|(_, pair)| pair.0.clone())
     }
 
-    /// Makes the pair an operation, and puts it in its places.
-    fn extract(&mut self, flat: &mut Flat, pair: &Pair) {
+    /// What it takes to count the pairs of an operation.
+    fn steps(&self, form: &Form) -> u64 {
+        let operands =
+            form.operands().into_iter().filter(|item| self.is_common(*item)).count() as u64;
+        STEPS_OF_PAIR * (1 + operands * operands / 2)
+    }
+
+    /// Makes the pair an operation, and puts it in its places; says what that took.
+    fn extract(&mut self, flat: &mut Flat, pair: &Pair) -> u64 {
+        let mut steps = 0;
         let form = pair.form();
         let places: Vec<Item> = self.places[pair].1.keys().copied().collect();
         let existing = places.iter().copied().find(|place| *flat.form(*place) == form);
@@ -167,17 +183,25 @@ impl Table {
         let (a, b) = pair.operands();
         let concerned = |item: Item| item == a || item == b || item == whole;
         for place in places {
+            // With each of the pair, and with what takes its place.
+            steps += 3 * STEPS_OF_PAIR * flat.form(place).operands().into_iter().count() as u64;
             self.withdraw(flat, place, concerned);
             if place != whole {
                 flat.forms[place.index()] = pair.replace(flat.form(place), whole);
                 self.enter(flat, place, concerned);
             }
         }
+        steps
+    }
+
+    /// Whether an operand can be shared.
+    fn is_common(&self, item: Item) -> bool {
+        self.common.get(item.index()).copied().unwrap_or(true)
     }
 
     /// The pairs of an operation with a concerned operand, and how often each occurs in it.
     fn pairs(&self, form: &Form, concerned: impl Fn(Item) -> bool) -> Vec<(Pair, u64)> {
-        let is_common = |item: Item| self.common.get(item.index()).copied().unwrap_or(true);
+        let is_common = |item: Item| self.is_common(item);
         let mut pairs = Vec::new();
         match form {
             Form::Sum(terms) => {
@@ -237,9 +261,9 @@ mod tests {
         let whole = flat.form(roots[0]).clone();
         let Form::Product(factors) = &whole else { panic!("{whole:?}") };
         flat.intern(Form::Product(factors[1..].to_vec()));
-        share(&mut flat, &roots, Scope::Needed);
+        share(&mut flat, &roots, Scope::Needed, graph.work());
         assert_eq!(*flat.form(roots[0]), whole);
-        share(&mut flat, &roots, Scope::Made);
+        share(&mut flat, &roots, Scope::Made, graph.work());
         assert_ne!(*flat.form(roots[0]), whole);
     }
 }

@@ -1,0 +1,126 @@
+//! The stress of the undeformed body: P at F = I. A material without a stress at rest has none, and a file that forgot a
+//! term of W has one which no proof and no study of its own sees.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::chart::Chart;
+use super::message;
+use super::witness::Witness;
+use crate::compile::Compiled;
+use crate::diagnostic::Diagnostic;
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::{Model, Response};
+use crate::pass::substitute::substitute;
+use crate::program::Output;
+use crate::program::precise::Precise;
+use crate::program::schedule::schedule_plainly;
+use crate::sample::spread;
+
+/// At how many points of the body, for the defaults and again for parameters within their ranges.
+const POINTS: usize = 16;
+
+/// What is less than this part of the longitudinal modulus may be what 77 digits round.
+const DOUBT: f64 = 1e-40;
+
+/// What the search may take, in the steps of [`crate::work`].
+const STEPS: u64 = 20_000_000;
+
+/// What is known of P at F = I.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rest {
+    /// It is 0, identically or at all points that were looked at.
+    Free,
+    /// Its components, row-major, where the greatest of them is greatest.
+    Stressed(Vec<f64>, Witness),
+    /// To evaluate it takes too long.
+    Unknown,
+}
+
+impl Rest {
+    /// The components that are not 0.
+    pub fn stress(&self) -> Option<&[f64]> {
+        match self {
+            Rest::Stressed(stress, _) => Some(stress),
+            Rest::Free | Rest::Unknown => None,
+        }
+    }
+
+    /// What a user should hear of it.
+    pub fn warning(&self, compiled: &Compiled) -> Option<Diagnostic> {
+        match self {
+            Rest::Stressed(stress, witness) => {
+                Some(message::stressed_at_rest(compiled, stress, witness))
+            }
+            Rest::Free | Rest::Unknown => None,
+        }
+    }
+}
+
+/// Looks for a stress at rest, with the defaults of the parameters, and then within their ranges.
+pub fn stress(compiled: &Compiled) -> Rest {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    graph.work().allow(STEPS);
+    let zero = graph.number(0);
+    let dimension = compiled.field.dimension;
+    let entries = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
+    let undeformed: BTreeMap<_, _> = entries.map(|entry| (entry, zero)).collect();
+    let responses = &compiled.derived.responses;
+    let stress = substitute(&mut graph, &responses[&Response::FirstPiolaKirchhoff], &undeformed);
+    if stress.iter().all(|component| graph.is_zero(*component)) {
+        return Rest::Free;
+    }
+    let [speed, density] = [Response::WaveSpeed, Response::Density].map(|it| responses[&it][0]);
+    let modulus = graph.product([(speed, 2.into()), (density, 1.into())]);
+    let of_defaults = without_ranges(&compiled.model);
+    let found = [&of_defaults, &compiled.model].into_iter().find_map(|model| {
+        greatest(&mut graph, compiled, model, [&stress[..], &[modulus]].concat())
+    });
+    match found {
+        Some((stress, witness)) => Rest::Stressed(stress, witness),
+        None if graph.work().is_over() => Rest::Unknown,
+        None => Rest::Free,
+    }
+}
+
+fn without_ranges(model: &Model) -> Model {
+    let mut model = model.clone();
+    model.parameters.iter_mut().for_each(|parameter| parameter.range = None);
+    model
+}
+
+/// Of points spread over a domain, that where a component of a stress is greatest beside the modulus, which comes last;
+/// if any is beyond doubt.
+fn greatest(
+    graph: &mut Graph,
+    compiled: &Compiled,
+    model: &Model,
+    formulas: Vec<Expr>,
+) -> Option<(Vec<f64>, Witness)> {
+    let chart = Chart::new(graph, &compiled.field, model, None);
+    let output = Output::Expected(0);
+    let formulas = chart.pull_back(graph, &formulas);
+    let program = schedule_plainly(graph, &BTreeMap::from([(output, formulas)]));
+    let mut run = chart.run::<Precise>(&program);
+    let mut found: Option<(f64, Vec<f64>, Witness)> = None;
+    for index in 1..=POINTS {
+        let fractions = spread(index, chart.variables().len());
+        let fractions: Vec<Precise> = fractions.iter().map(Precise::new).collect();
+        let mut stress = run.at(&chart.place(&fractions), [&[], &[]], &[output]).swap_remove(0);
+        let modulus = stress.pop()?.magnitude() * Precise::from_f64(DOUBT);
+        let is_certain =
+            |it: &Precise| it.is_defined() && !it.clone().magnitude().at_most(&modulus);
+        if !stress.iter().any(is_certain) {
+            continue;
+        }
+        let stress: Vec<f64> = stress.iter().map(Precise::to_f64).collect();
+        let largest =
+            stress.iter().fold(0.0, |largest, component| f64::max(largest, component.abs()));
+        if found.as_ref().is_none_or(|(known, ..)| largest > *known) {
+            found = Some((largest, stress, Witness::at_precise(&chart, &fractions).0));
+        }
+    }
+    found.map(|(_, stress, witness)| (stress, witness))
+}

@@ -1,0 +1,182 @@
+//! A check ends soon, whatever the text: it counts steps, and says what it left. And it stops when it is asked to.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use mms_codegen::certify::certificate::{Certificate, certify};
+use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
+use mms_codegen::certify::rest::{self, Rest};
+use mms_codegen::certify::written::gaps;
+use mms_codegen::compile::{Failure, compile_unproved};
+use mms_codegen::work::Stop;
+use mms_codegen::{Compiled, Options};
+
+/// What a check may take of the processor: ten seconds where the compiler is optimised fully, and more here.
+const LIMIT: Duration = Duration::from_secs(20);
+
+fn faults() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/faults")
+}
+
+fn fault(name: &str) -> String {
+    fs::read_to_string(faults().join(name)).expect("a case")
+}
+
+fn compiled(text: &str, options: &Options) -> Result<Compiled, Failure> {
+    let load = |name: &str| fs::read_to_string(faults().join(name)).map_err(|it| it.to_string());
+    compile_unproved("x", "x.toml", text, &load, options)
+}
+
+/// All that `mms check` does with a field.
+fn check(text: &str) -> Result<(Compiled, Vec<Comparison>, Certificate), Failure> {
+    let begun = ThreadTime::now();
+    let compiled = compiled(text, &Options::default());
+    let checked = compiled.map(|compiled| {
+        let comparisons = compare(&compiled);
+        gaps(&compiled);
+        rest::stress(&compiled);
+        let certificate = certify(&compiled);
+        certificate.objections(&compiled);
+        (compiled, comparisons, certificate)
+    });
+    let taken = begun.elapsed();
+    assert!(taken < LIMIT, "{taken:?}");
+    checked
+}
+
+/// A field of the displacement u in one dimension, with more parameters, definitions and tables.
+fn field(u: &str, parameters: &str, definitions: &str, tables: &str) -> String {
+    let text = fault("u_sinh.toml");
+    let text = text.replace("a*sinh(1000*X)", u);
+    let text = text.replace("\n[let]\n", &format!("\n{parameters}\n[let]\n{definitions}\n"));
+    text + tables
+}
+
+fn nested(function: &str, depth: usize, of: &str) -> String {
+    format!("{}{of}{}", format!("{function}(").repeat(depth), ")".repeat(depth))
+}
+
+fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
+    (0..count).map(|index| line(index) + "\n").collect()
+}
+
+#[test]
+fn the_cases_end_and_say_what_they_left() {
+    for name in ["u_sinh.toml", "deep_sin_100.toml", "let_double.toml", "time_03.toml"] {
+        let (compiled, _, certificate) = check(&fault(name)).expect("a field");
+        let is_whole = compiled.simplified && certificate.spent.is_empty();
+        let is_proved = certificate.objections(&compiled).is_empty();
+        assert!(!is_whole || is_proved, "{name}: {:?}", certificate.spent);
+    }
+}
+
+#[test]
+fn deep_and_wide_formulas_end() {
+    for function in ["sinh", "atan", "sin"] {
+        let _ = check(&field(&format!("a*{}", nested(function, 300, "X/2")), "", "", ""));
+    }
+    let terms: Vec<_> = (1..8000).map(|k| format!("sin({k}*X + t)/{k}")).collect();
+    let _ = check(&field(&format!("a*({})", terms.join(" + ")), "", "", ""));
+    let factors: Vec<_> = (1..200).map(|k| format!("(1 + sin({k}*X)/{})", 9 * k)).collect();
+    let _ = check(&field(&format!("a*{}", factors.join("*")), "", "", ""));
+}
+
+#[test]
+fn powers_and_long_numbers_end() {
+    let _ = check(&field("a*(1 + X/1000)^(123456789/1000000)", "", "", ""));
+    let powers: Vec<_> = (1..150).map(|k| format!("(X + {k}/7)^{k}")).collect();
+    let _ = check(&field(&format!("1e-300*({})", powers.join(" + ")), "", "", ""));
+    let thirds: Vec<_> = (1..3000).map(|k| format!("X/{}", 10_u64.pow(17) + k * k)).collect();
+    let _ = check(&field(&format!("a*({})", thirds.join(" + ")), "", "", ""));
+}
+
+#[test]
+fn definitions_that_double_end() {
+    let doubled =
+        lines(30, |k| format!("x{} = \"x{k} + sin(x{k})*x{k}\"", k + 1)).replace("x0 ", "X ");
+    let doubled = doubled.replace("x0)", "X)").replace("x0\"", "X\"");
+    let _ = check(&field("a*x30", "", &doubled, ""));
+}
+
+#[test]
+fn many_ranges_and_closed_forms_end() {
+    let ranges = lines(1000, |k| format!("p{k} = {{ value = 0.5, range = [0.1, 0.9] }}"));
+    let terms: Vec<_> = (0..1000).map(|k| format!("p{k}*X/1e5")).collect();
+    let (_, _, certificate) = check(&field(&terms.join(" + "), &ranges, "", "")).expect("a field");
+    assert!(!certificate.spent.is_empty());
+    let checks =
+        lines(3000, |k| format!("[[check]]\nquantity = \"u\"\nequals = [\"a*sin({k}*X)\"]"));
+    let (_, comparisons, _) = check(&field("a*sin(X)", "", "", &checks)).expect("a field");
+    let looked_at = |it: &Comparison| it.points > 0 || matches!(it.finding, Finding::Unmeasured);
+    assert!(comparisons.iter().all(looked_at));
+}
+
+#[test]
+fn many_extremes_end() {
+    let extremes = lines(5000, |k| format!("[[extreme]]\nname = \"e{k}\"\nset = {{ a = {k} }}"));
+    let _ = check(&field("a*X", "", "", &extremes));
+}
+
+/// One value of u in 77 digits would take longer than a budget: nothing is compared, and nothing passes.
+#[test]
+fn a_closed_form_that_takes_too_long_is_not_compared() {
+    let terms: Vec<_> = (1..8000).map(|k| format!("sinh(X*{k}/8000)")).collect();
+    let form = format!("[[check]]\nquantity = \"u\"\nequals = [\"{}\"]\n", terms.join(" + "));
+    let checked = check(&field("a*X", "", "", &form.repeat(2)));
+    let (_, comparisons, _) = checked.unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(matches!(comparisons[0].finding, Finding::Unmeasured), "{:?}", comparisons[0].finding);
+    assert_eq!(comparisons[0].points, 0);
+}
+
+#[test]
+fn equal_texts_spend_equal_budgets() {
+    let text = fault("let_double.toml");
+    let [first, second] = [0, 1].map(|_| check(&text).expect("a field"));
+    assert_eq!(first.0.program, second.0.program);
+    assert_eq!((first.2.boxes, &first.2.spent), (second.2.boxes, &second.2.spent));
+}
+
+#[test]
+fn who_is_asked_to_stop_says_so() {
+    let stop = Stop::default();
+    stop.ask();
+    let options = Options { stop, ..Options::default() };
+    let failure = compiled(&fault("u_sinh.toml"), &options).expect_err("it was stopped");
+    assert_eq!(failure.diagnostics.len(), 1);
+    assert!(failure.to_string().contains("stopped before its end"), "{failure}");
+}
+
+#[test]
+fn a_compilation_and_a_proof_stop_while_they_run() {
+    for name in ["deep_sin_100.toml", "time_03.toml"] {
+        let stop = Stop::default();
+        let asked = stop.clone();
+        let text = fault(name);
+        let work = thread::spawn(move || {
+            let options = Options { stop, ..Options::default() };
+            let begun = ThreadTime::now();
+            if let Ok(compiled) = compiled(&text, &options) {
+                certify(&compiled);
+            }
+            begun.elapsed()
+        });
+        thread::sleep(Duration::from_millis(300));
+        asked.ask();
+        let taken = work.join().expect("no panic");
+        assert!(taken < Duration::from_secs(3), "{name}: {taken:?}");
+    }
+}
+
+#[test]
+fn a_stress_at_rest_is_found_with_its_components() {
+    let compiled = compiled(&fault("stressed_field.toml"), &Options::default()).expect("a field");
+    let found = rest::stress(&compiled);
+    let Rest::Stressed(stress, _) = &found else { panic!("{found:?}") };
+    // W = mu/2 (I1 - 3) + lambda/2 (ln J)^2 has P = mu I at F = I.
+    assert_eq!(stress, &[3e5, 0.0, 0.0, 3e5]);
+    let warning = found.warning(&compiled).expect("a warning");
+    assert!(warning.is_warning && warning.message.contains("stress at rest"));
+}
