@@ -1,10 +1,15 @@
 //! Points spread evenly over the declared body and time window.
 
+use std::f64::consts::TAU;
+
 use crate::compile::Compiled;
 use crate::expr::Rational;
 use crate::program::interpret::{Interpreter, Number};
 use crate::program::{Bound, Output};
 use crate::spec::Body;
+
+/// What rounding makes of a bound, relative to the larger one.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A reference position and a time.
 #[derive(Clone, Debug)]
@@ -48,6 +53,32 @@ impl<T: Number> Extent<T> {
             Extent::Annulus(..) => 2,
         }
     }
+}
+
+impl Extent<f64> {
+    /// Whether a point is in the body or on its boundary, or within rounding of it.
+    pub fn contains(&self, point: &[f64]) -> bool {
+        match (self, point) {
+            (Extent::Box([lower, upper]), _) => lower
+                .iter()
+                .zip(upper)
+                .zip(point)
+                .all(|((lower, upper), coordinate)| is_between(*lower, *upper, *coordinate)),
+            (Extent::Annulus([inner, outer], [first, last]), [x, y]) => {
+                let turns = (y.atan2(*x) - first).rem_euclid(TAU);
+                // A little before the first angle is nearly a turn behind it.
+                let angle = if TAU - turns <= ROUNDING * TAU { 0.0 } else { turns };
+                is_between(*inner, *outer, x.hypot(*y)) && is_between(0.0, last - first, angle)
+            }
+            (Extent::Annulus(..), _) => false,
+        }
+    }
+}
+
+/// Whether a number lies between two others, or within rounding of them.
+pub fn is_between(lower: f64, upper: f64, value: f64) -> bool {
+    let rounding = ROUNDING * f64::max(lower.abs(), upper.abs());
+    (lower - rounding..=upper + rounding).contains(&value)
 }
 
 fn between<T: Number>(from: &T, to: &T, fraction: &T) -> T {

@@ -8,14 +8,18 @@ use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::program::precise::Precise;
 use mms_codegen::quantity::Quantity;
+use mms_codegen::sample::{domain, is_between};
 use mms_runtime::math::{Double, Scalar as _};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::input::{Input, Variant, precision, quantities};
-use super::{Outcome, print, print_json};
+use super::{Outcome, print, print_json, say};
 
 /// Evaluate quantities of a field at points.
+///
+/// Points outside the body and times outside the time window are evaluated all the same, with a warning on stderr; in
+/// --json, outside_body has their positions, from 0 on, and outside_time says whether the time is.
 #[derive(Args)]
 pub struct Eval {
     /// A gallery name, or a path to a TOML file.
@@ -135,6 +139,15 @@ struct Document<'a> {
     precision: &'static str,
     form: &'static str,
     points: Vec<Record>,
+    #[serde(flatten)]
+    outside: Outside,
+}
+
+/// What is outside the domain that a field's claims and proofs are about: points of the body, by position, and the time.
+#[derive(Serialize)]
+struct Outside {
+    outside_body: Vec<usize>,
+    outside_time: bool,
 }
 
 impl Eval {
@@ -162,6 +175,7 @@ impl Eval {
         let points = self.at.iter().map(|at| coordinates::<T>("--at", at, dimension));
         let points = points.collect::<anyhow::Result<Vec<_>>>()?;
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
+        let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
         let mut interpreter = Interpreter::new(&input.compiled.program, &parameters);
         interpreter.set_time(&time);
@@ -186,11 +200,41 @@ impl Eval {
                 precision: self.precision.name(),
                 form: self.variant.form().name(),
                 points: records,
+                outside,
             })?;
         } else {
             print(&text(&records))?;
         }
         Ok(Outcome::AsExpected)
+    }
+
+    /// Warns of points outside the body, and of a time outside the window.
+    fn outside<T: Digits>(
+        &self,
+        input: &Input,
+        parameters: &[T],
+        points: &[Vec<T>],
+        time: &T,
+    ) -> Outside {
+        let near = |values: &[T]| values.iter().map(T::near).collect::<Vec<f64>>();
+        let (body, [first, last]) = domain(&input.compiled, &near(parameters));
+        let is_outside = |(_, point): &(usize, &Vec<T>)| !body.contains(&near(point));
+        let points = points.iter().enumerate().filter(is_outside);
+        let outside_body: Vec<_> = points.map(|(index, _)| index).collect();
+        let outside_time = !is_between(first, last, time.near());
+        for at in outside_body.iter().map(|index| &self.at[*index]) {
+            say(format_args!(
+                "warning: `--at {at}` is outside the body: nothing is claimed or proved of `{}` there",
+                input.name
+            ));
+        }
+        if outside_time {
+            say(format_args!(
+                "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
+                self.time, input.name
+            ));
+        }
+        Outside { outside_body, outside_time }
     }
 
     /// Refuses a normal that no quantity takes.

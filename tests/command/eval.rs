@@ -333,3 +333,24 @@ fn settings_that_leave_no_body_no_time_or_no_mass_are_refused() {
         }
     }
 }
+
+#[test]
+fn points_outside_body_and_window_are_evaluated_with_a_warning() {
+    let folder = Folder::new();
+    let inside = folder.mms("eval bar_1d --at 0 --at 1 --time 0 --quantity u --json").exits(0);
+    assert_eq!(inside.stderr, "");
+    let document = inside.json();
+    assert_eq!(document["outside_body"], serde_json::json!([]));
+    assert_eq!(document["outside_time"], false);
+    let command = "eval bar_1d --at 0.5 --at 1.5 --at -0.1 --time 1e3 --quantity u";
+    let run = folder.mms(command).exits(0);
+    run.complains("`--at 1.5` is outside the body").complains("`--at -0.1` is outside the body");
+    run.complains("`--time 1e3` is outside the time window");
+    let document = folder.mms(&format!("{command} --json")).exits(0).json();
+    assert_eq!(document["outside_body"], serde_json::json!([1, 2]));
+    assert_eq!(document["outside_time"], true);
+    // Angles of a sector are those of its points, whatever turn they are in.
+    let sector = "eval conformal_sector_2d --time 0.01 --quantity u";
+    assert_eq!(folder.mms(&format!("{sector} --at 0.5,0.5")).exits(0).stderr, "");
+    folder.mms(&format!("{sector} --at -0.5,0.5")).exits(0).complains("is outside the body");
+}
