@@ -28,7 +28,8 @@ use crate::workbench::{Module, Time, Way, Workbench, time};
 /// --regime, --precision and --points shorten that.
 ///
 /// Exit code 1 if the stable form exceeds 64 eps of the largest value where it promises not to: as
-/// declared, and at displacements down to 1e-12 of the size; and if nothing can be measured as declared.
+/// declared, and at displacements down to 1e-12 of the size; and if that cannot be
+/// measured, or nothing can. What was not measured is null in --json.
 #[derive(Args)]
 #[command(after_help = listed())]
 pub struct Accuracy {
@@ -123,7 +124,8 @@ impl Accuracy {
                 say(path);
             }
         }
-        let held = report.broken().is_empty() && !report.is_unmeasured();
+        let held =
+            report.broken().is_empty() && report.unmeasured().is_empty() && !report.is_unmeasured();
         Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })
     }
 

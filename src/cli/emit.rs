@@ -73,7 +73,15 @@ impl Emit {
         let options = self.variant.options(self.selection()?);
         let emitted = |field: &str| {
             let input = Input::find_with(field, &options)?;
-            let bundle = (target.emit)(&Subject::new(&input.compiled));
+            let subject = Subject::new(&input.compiled);
+            let bundle = (target.emit)(&subject);
+            if bundle.verify.is_some() && !subject.has_values() {
+                bail!(
+                    "`{}` has no point in its domain where all of these quantities have a value: a check program would \
+                     compare nothing; shrink [domain], or ask for others with --quantity",
+                    input.name
+                );
+            }
             Ok::<_, anyhow::Error>((input.name, bundle))
         };
         let names = match &self.field {

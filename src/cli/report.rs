@@ -73,7 +73,7 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
     let (expected, all) = fields.iter().fold((0, 0), |(expected, all), (_, verdicts)| {
         (expected + verdicts.expected, all + verdicts.all)
     });
-    let word = format!("{expected} of {all} studies pass");
-    print(&format!("{word}\nwrote {} pages to {}", FIELDS.len() + 1, folder.display()))?;
-    Ok(Verdicts { expected, all, word })
+    let verdicts = Verdicts::several(expected, all, "studies pass");
+    print(&format!("{}\nwrote {} pages to {}", verdicts.word, FIELDS.len() + 1, folder.display()))?;
+    Ok(verdicts)
 }

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::mark::{Column, count, number, numbers, table, verdict, words};
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
-use crate::report::accuracy::eps;
+use crate::report::accuracy::{eps, is_promised};
 use crate::report::front::front;
 
 /// What `mms accuracy` writes.
@@ -36,6 +36,13 @@ struct Row {
     ns_per_point: Option<f64>,
 }
 
+impl Row {
+    /// Whether nothing is known of what is promised of it.
+    fn is_unmeasured(&self) -> bool {
+        self.within_bound.is_none() && is_promised(&self.form, &self.regime)
+    }
+}
+
 #[derive(Deserialize)]
 struct LeftOut {
     regime: String,
@@ -51,9 +58,13 @@ impl Section for Accuracy {
 
     fn verdicts(&self) -> Verdicts {
         let promised = || self.rows.iter().filter_map(|row| row.within_bound);
-        let (all, expected) = (promised().count(), promised().filter(|within| *within).count());
-        let word = format!("{expected} of {all} within {} eps", self.bound_eps);
-        Verdicts { expected, all, word }
+        let unmeasured = self.rows.iter().filter(|row| row.is_unmeasured()).count();
+        let (all, expected) =
+            (promised().count() + unmeasured, promised().filter(|within| *within).count());
+        if all == 0 && !self.rows.is_empty() {
+            return Verdicts { word: "nothing is promised of it".into(), ..Verdicts::default() };
+        }
+        Verdicts::several(expected, all, &format!("within {} eps", self.bound_eps))
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -242,7 +253,10 @@ fn rows(caption: &str, rows: &[&Row]) -> Markup {
             of(row.max_scaled_eps),
             count(Some(row.not_finite)),
             number(row.ns_per_point, |time| format!("{time:.2}")),
-            html! { @if let Some(within) = row.within_bound { (verdict(if within { "kept" } else { "broken" }, within)) } },
+            html! {
+                @if let Some(within) = row.within_bound { (verdict(if within { "kept" } else { "broken" }, within)) }
+                @else if row.is_unmeasured() { (verdict("not measured", false)) }
+            },
         ]
     });
     table(caption, &columns, cells)

@@ -40,7 +40,7 @@ impl Section for Comparison {
         let each = || self.studies.iter().map(|it| it.study.verdicts());
         let (all, expected) =
             (each().map(|it| it.all).sum(), each().map(|it| it.expected).sum::<usize>());
-        Verdicts { expected, all, word: format!("{expected} of {all} pass") }
+        Verdicts::several(expected, all, "pass")
     }
 
     fn body(&self, id: &str) -> Markup {

@@ -57,7 +57,7 @@ impl Section for Defects {
     fn verdicts(&self) -> Verdicts {
         let all = self.defects.len();
         let expected = self.defects.iter().filter(|it| !it.caught_by().is_empty()).count();
-        Verdicts { expected, all, word: format!("{expected} of {all} caught") }
+        Verdicts::several(expected, all, "caught")
     }
 
     fn body(&self, _: &str) -> Markup {

@@ -8,6 +8,9 @@ use super::method::Method;
 use super::plot::{Curve, Line, Plot};
 use super::{Section, Verdicts};
 
+/// The verdict on a row that was not run.
+const LEFT_OUT: &str = "left out";
+
 /// What `mms extremes` writes.
 #[derive(Deserialize)]
 pub struct Extremes {
@@ -49,10 +52,12 @@ impl Section for Extremes {
     fn verdicts(&self) -> Verdicts {
         let each = || {
             let limits = self.stability.iter().map(|it| it.expected);
-            self.rows.iter().map(|it| it.expected).chain(limits)
+            // What the field could not be put at was not judged.
+            let judged = self.rows.iter().filter(|it| it.verdict != LEFT_OUT);
+            judged.map(|it| it.expected).chain(limits)
         };
         let (all, expected) = (each().count(), each().filter(|it| *it).count());
-        Verdicts { expected, all, word: format!("{expected} of {all} as theory expects") }
+        Verdicts::several(expected, all, "as theory expects")
     }
 
     fn body(&self, id: &str) -> Markup {

@@ -63,6 +63,14 @@ impl Verdicts {
         Self { expected: is_expected.into(), all: 1, word: word.into() }
     }
 
+    /// Several verdicts. None at all is no good one: something was to be judged.
+    pub fn several(expected: usize, all: usize, word: &str) -> Self {
+        match all {
+            0 => Self::one("nothing was judged", false),
+            _ => Self { expected, all, word: format!("{expected} of {all} {word}") },
+        }
+    }
+
     /// Whether there is none that is not.
     pub fn are_expected(&self) -> bool {
         self.expected == self.all
@@ -193,5 +201,18 @@ fn origin(entry: &Entry) -> Markup {
                 dt { "machine" } dd { (machine.processor) ", " (machine.cores) " cores" }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_nothing_was_judged_nothing_is_as_expected() {
+        let none = Verdicts::several(0, 0, "pass");
+        assert_eq!((none.are_expected(), none.word.as_str()), (false, "nothing was judged"));
+        assert!(Verdicts::several(2, 2, "pass").are_expected());
+        assert!(!Verdicts::several(1, 2, "pass").are_expected());
     }
 }

@@ -59,7 +59,7 @@ impl Section for Matrix {
     fn verdicts(&self) -> Verdicts {
         let (all, expected) =
             (self.rows.len(), self.rows.iter().filter(|row| row.is_expected()).count());
-        Verdicts { expected, all, word: format!("{expected} of {all} as theory expects") }
+        Verdicts::several(expected, all, "as theory expects")
     }
 
     fn body(&self, id: &str) -> Markup {

@@ -26,9 +26,9 @@ impl Comparison {
         self.studies.iter().filter(passes).count()
     }
 
-    /// Whether all studies pass.
+    /// Whether there are studies, and all pass.
     pub fn is_passed(&self) -> bool {
-        self.passed() == self.studies.len()
+        !self.studies.is_empty() && self.passed() == self.studies.len()
     }
 
     /// What tells each method from the others.

@@ -140,12 +140,24 @@ impl Judged {
     }
 }
 
+/// What is said where nothing ran.
+const UNMEASURED: &str = "nothing was measured";
+
 impl Report {
+    /// Whether the field could be put at no extreme that was asked for.
+    fn is_unmeasured(&self) -> bool {
+        let is_left_out = |row: &Judged| row.verdict == Verdict::LeftOut;
+        self.rows.iter().all(is_left_out) && self.stability.is_empty()
+    }
+
     /// What is not as theory says, in words.
     pub fn unexpected(&self) -> Vec<String> {
         let rows = self.rows.iter().filter(|row| !row.verdict.is_expected());
         let rows = rows.map(|row| row.row.name.clone());
         let limits = self.stability.iter().filter(|it| !it.is_expected());
+        if self.is_unmeasured() {
+            return vec![UNMEASURED.into()];
+        }
         rows.chain(limits.map(|it| format!("stability/{}", name(&it.method)))).collect()
     }
 
@@ -228,6 +240,9 @@ impl Report {
                 _ => continue,
             };
             text += &format!("\n{}: {}: {reason}", row.row.name, row.verdict.name());
+        }
+        if self.is_unmeasured() {
+            return text + "\n" + UNMEASURED;
         }
         let (unexpected, count) = (self.unexpected().len(), self.rows.len() + self.stability.len());
         text + "\n" + &tally(unexpected, count, "as theory expects")

@@ -183,6 +183,15 @@ fn verdict(order: Expected, errors: &[f64]) -> Verdict {
 
 const SECOND: Expected = Expected::Order(2.0);
 const NONE: Expected = Expected::Word(Word::None);
+
+/// Of no run theory is not known to be right.
+#[test]
+fn without_a_level_nothing_passes() {
+    for order in [SECOND, Expected::Word(Word::Exact)] {
+        assert_eq!(verdict(order, &[]), Verdict::NotAsymptotic);
+    }
+    assert!(!judge(&row(NONE), &[]).as_expected());
+}
 const EXACT: Expected = Expected::Word(Word::Exact);
 
 #[test]

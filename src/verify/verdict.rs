@@ -156,6 +156,9 @@ fn see(
 
 /// A solution that the method holds exactly.
 fn exact(row: &Row, levels: &[Outcome]) -> (Verdict, String) {
+    if levels.is_empty() {
+        return (Verdict::NotAsymptotic, "there is no level".into());
+    }
     for level in levels {
         let largest = match level {
             Outcome::Finished { .. } => level.errors(row).map_or(f64::NAN, |errors| errors[2]),

@@ -82,8 +82,9 @@ fn a_fields_own_extreme_is_a_regime() {
 fn what_cannot_be_made_is_left_out_with_the_reason() {
     let run = Folder::new()
         .mms("accuracy generalized_vortex --quantity J --regime jacobian_1e-3 --points 8");
-    let stdout = run.exits(0).stdout;
+    let stdout = run.exits(1).stdout;
     assert!(stdout.contains("left out: jacobian_1e-3: J lies between"), "{stdout}");
+    assert!(stdout.contains("\nnothing was measured"), "{stdout}");
 }
 
 /// Div P of this shear is 0, since its u is the real part of an analytic function, which no formula shows.
@@ -162,5 +163,25 @@ fn the_picture_needs_times_and_they_a_compiler() {
         let picture = folder.read("out/accuracy.svg");
         roxmltree::Document::parse(&picture).expect("well-formed");
         assert!(picture.contains("Pareto front") && picture.contains("wide"));
+    }
+}
+
+/// Nowhere in the body has the root a value.
+#[test]
+fn what_has_no_value_anywhere_is_not_measured_and_is_no_pass() {
+    let folder = Folder::new();
+    let before = &BAR[..BAR.find("[boundary]").expect("claims")];
+    let u = "X*(2*length - X)/length^2 * A";
+    assert!(before.contains(u));
+    folder.write("root.toml", &before.replace(u, &format!("{u}*sqrt(X/length - 2)")));
+    let command = "accuracy root.toml --quantity u --regime declared --form stable --points 8";
+    let run = folder.mms(command).exits(1);
+    run.prints("not measured").prints("no component has a real value");
+    let document = folder.mms(&format!("{command} --json")).exits(1).json();
+    for row in document["rows"].as_array().expect("rows") {
+        assert_eq!(row["compared"], 0, "{row}");
+        for key in ["median_eps", "p99_eps", "max_eps", "max_scaled_eps", "within_bound"] {
+            assert!(row[key].is_null(), "{key}: {row}");
+        }
     }
 }

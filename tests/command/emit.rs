@@ -213,3 +213,15 @@ fn a_folder_that_cannot_be_made_is_named() {
     folder.write("taken/bar_1d.rs/x", "");
     folder.mms("emit bar_1d -o taken").exits(2).complains("cannot write `taken/bar_1d.rs`");
 }
+
+/// Nowhere in the body has the logarithm a value.
+#[test]
+fn a_check_program_that_would_compare_nothing_is_not_written() {
+    let folder = Folder::new();
+    let before = &BAR[..BAR.find("[boundary]").expect("claims")];
+    let u = "X*(2*length - X)/length^2 * A";
+    assert!(before.contains(u));
+    folder.write("odd.toml", &before.replace(u, &format!("{u}*ln(X/length - 2)")));
+    let run = folder.mms("emit odd.toml --target c --quantity u -o out").exits(2);
+    run.complains("no point in its domain where all of these quantities have a value");
+}

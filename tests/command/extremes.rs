@@ -168,3 +168,10 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
         folder.mms(arguments).exits(code).complains(reason).prints_nothing();
     }
 }
+
+#[test]
+fn a_field_that_can_be_put_nowhere_is_not_measured() {
+    let command = "extremes expanding_ring --shape cpdi --quick --row origin --json";
+    let document = Folder::new().mms(command).exits(1).json();
+    assert_eq!(document["unexpected"], serde_json::json!(["nothing was measured"]));
+}

@@ -11,9 +11,13 @@ mod text;
 use std::sync::OnceLock;
 
 use self::port::Port;
+use self::port::callable::Callable;
 use self::port::names::Rules;
 use self::port::vectors::Vectors;
 use crate::compile::Compiled;
+
+/// Names as they are in the file.
+const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
 
 /// A field that is emitted, in one language or more: its test vectors are computed once.
 #[derive(Clone, Debug)]
@@ -30,8 +34,14 @@ impl<'a> Subject<'a> {
 
     /// The test vectors, which are the same in every language.
     pub fn vectors(&self) -> &Vectors {
-        const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
         self.vectors.get_or_init(|| Port::new(self, &ANY).compute_vectors())
+    }
+
+    /// Whether a check program has something to compare: a point where all functions have a value, if there are
+    /// functions of points.
+    pub fn has_values(&self) -> bool {
+        let is_needed = Port::new(self, &ANY).callables.iter().any(Callable::is_of_points);
+        !is_needed || !self.vectors().samples.is_empty()
     }
 }
 

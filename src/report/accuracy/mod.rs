@@ -36,11 +36,27 @@ pub struct Report {
     pub provenance: Provenance,
 }
 
-/// Whether a row is within what is promised of it; nothing is promised of some.
+/// Whether something is promised of a form in a regime.
+pub fn is_promised(form: &str, regime: &str) -> bool {
+    form == Form::Stable.name() && PROMISED.contains(&regime)
+}
+
+/// Whether something is promised of a row.
+fn has_promise(row: &Row) -> bool {
+    is_promised(row.form.name(), &row.regime)
+}
+
+/// Whether a row is within what is promised of it; nothing is promised of some, and nothing is known of those without a
+/// component that could be compared.
 fn within_bound(row: &Row) -> Option<bool> {
-    let Errors { max_scaled_eps, not_finite, .. } = row.errors;
-    let is_promised = row.form == Form::Stable && PROMISED.contains(&row.regime.as_str());
-    is_promised.then_some(max_scaled_eps <= BOUND && not_finite == 0)
+    let Errors { max_scaled_eps, not_finite, compared, .. } = row.errors;
+    let is_known = compared > 0 || not_finite > 0;
+    (has_promise(row) && is_known).then_some(max_scaled_eps <= BOUND && not_finite == 0)
+}
+
+/// An error of a row, if there is one: what was not measured has none.
+fn measured(row: &Row, of: impl Fn(&Errors) -> f64) -> Option<f64> {
+    (row.errors.compared > 0).then(|| of(&row.errors))
 }
 
 impl Report {
@@ -49,8 +65,19 @@ impl Report {
         self.accuracy.rows.iter().filter(|row| within_bound(row) == Some(false)).collect()
     }
 
-    /// Whether nothing was measured of the field as declared, although that was wanted.
+    /// The rows of which something is promised, and nothing is known.
+    pub fn unmeasured(&self) -> Vec<&Row> {
+        let rows = self.accuracy.rows.iter();
+        rows.filter(|row| has_promise(row) && within_bound(row).is_none()).collect()
+    }
+
+    /// Whether nothing at all was measured, or nothing of the field as declared, although that was wanted.
     pub fn is_unmeasured(&self) -> bool {
+        let rows = &self.accuracy.rows;
+        self.is_declared_left_out() || rows.iter().all(|row| row.errors.compared == 0)
+    }
+
+    fn is_declared_left_out(&self) -> bool {
         let [declared, ..] = PROMISED;
         let Accuracy { rows, left_out } = &self.accuracy;
         left_out.iter().any(|it| it.regime == declared)
@@ -74,10 +101,10 @@ impl Report {
                 "precision": row.precision.name(),
                 "form": row.form.name(),
                 "regime": row.regime,
-                "median_eps": errors.median_eps,
-                "p99_eps": errors.p99_eps,
-                "max_eps": errors.max_eps,
-                "max_scaled_eps": errors.max_scaled_eps,
+                "median_eps": measured(row, |it| it.median_eps),
+                "p99_eps": measured(row, |it| it.p99_eps),
+                "max_eps": measured(row, |it| it.max_eps),
+                "max_scaled_eps": measured(row, |it| it.max_scaled_eps),
                 "compared": errors.compared,
                 "not_finite": errors.not_finite,
                 "overflowed": errors.overflowed,
@@ -114,7 +141,7 @@ impl Report {
         for row in rows {
             let key = |row: &Row| (row.quantity, row.precision, row.form);
             match shown.iter_mut().find(|other| key(other) == key(row)) {
-                Some(other) if row.errors.max_scaled_eps > other.errors.max_scaled_eps => {
+                Some(other) if is_worse(row, other) => {
                     *other = row;
                 }
                 Some(_) => {}
@@ -147,15 +174,17 @@ impl Report {
                 (lost, overflowed) => format!("{lost} ({overflowed} too large)"),
             };
             let time = self.time(row.quantity, row.precision, row.form);
+            let shown =
+                |of: fn(&Errors) -> f64| measured(row, of).map_or("not measured".into(), eps);
             table.add_row([
                 row.quantity.name().to_string(),
                 row.precision.name().into(),
                 row.form.name().into(),
                 row.regime.clone(),
-                eps(errors.median_eps),
-                eps(errors.p99_eps),
-                eps(errors.max_eps),
-                eps(errors.max_scaled_eps),
+                shown(|it| it.median_eps),
+                shown(|it| it.p99_eps),
+                shown(|it| it.max_eps),
+                shown(|it| it.max_scaled_eps),
                 lost,
                 time.map_or("-".into(), |time| format!("{time:.2}")),
             ]);
@@ -174,8 +203,19 @@ impl Report {
                 left_out.regime, left_out.reason
             );
         }
-        if self.is_unmeasured() {
+        if self.is_declared_left_out() {
             text += "\nnothing was measured of the field as declared";
+        } else if self.is_unmeasured() {
+            text += "\nnothing was measured";
+        }
+        for row in self.unmeasured() {
+            text += &format!(
+                "\nnot measured: {} in {} at {}: no component has a real value, {} were looked at",
+                row.quantity.name(),
+                row.precision.name(),
+                row.regime,
+                row.errors.undefined
+            );
         }
         for row in self.broken() {
             text += &format!(
@@ -183,7 +223,7 @@ impl Report {
                 row.quantity.name(),
                 row.precision.name(),
                 row.regime,
-                eps(row.errors.max_scaled_eps),
+                measured(row, |it| it.max_scaled_eps).map_or("unknown".into(), eps),
                 row.errors.not_finite
             );
         }
@@ -199,6 +239,12 @@ impl Report {
         }
         Ok(paths)
     }
+}
+
+/// Whether a row says worse of a quantity: what was not measured says nothing.
+fn is_worse(row: &Row, other: &Row) -> bool {
+    let [row, other] = [row, other].map(|it| measured(it, |errors| errors.max_scaled_eps));
+    row > other
 }
 
 /// An error for a person.

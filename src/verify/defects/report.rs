@@ -70,9 +70,12 @@ impl<'a> Report<'a> {
         if self.whole { self.rows.iter().filter(idle).copied().collect() } else { Vec::new() }
     }
 
-    /// Whether every defect was caught, by the rows that say so; and every row earns its place.
+    /// Whether there are defects, and every one was caught, by the rows that say so; and every row earns its place.
     pub fn as_expected(&self) -> bool {
-        self.uncaught().next().is_none() && self.missed().next().is_none() && self.idle().is_empty()
+        !self.showings.is_empty()
+            && self.uncaught().next().is_none()
+            && self.missed().next().is_none()
+            && self.idle().is_empty()
     }
 
     /// The JSON document.
