@@ -8,6 +8,7 @@ mod fit;
 mod observer;
 mod order;
 mod phase;
+mod range;
 mod refinement;
 mod run;
 mod series;
