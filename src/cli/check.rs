@@ -11,12 +11,13 @@ use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, POINTS,
 use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::{Diagnostic, render_styled};
+use mms_codegen::foreign::{Foreign, shown};
 use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_codegen::source::Sources;
 use serde_json::{Value, json};
 
 use super::input::{Variant, read, settings};
-use super::{Outcome, print, print_json, say};
+use super::{Outcome, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
@@ -48,16 +49,16 @@ impl Check {
         let mut worst = Outcome::AsExpected;
         let mut documents = Vec::new();
         for file in &self.files {
-            let shown = file.display().to_string();
+            let path = Foreign::from(file.to_string_lossy());
             let (outcome, document) = match read(file, &options) {
-                Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
+                Ok(Ok(compiled)) => self.report(&path, &compiled)?,
                 Ok(Err(mut failure)) => {
                     // What is frozen here is what is set, and its mistakes are said of that.
                     let entry = |it: &Diagnostic| options.selection.entry(it.span);
                     failure.diagnostics.retain(|it| !matches!(entry(it), Some(Entry::Freeze(_))));
-                    self.report_failure(&shown, &failure)?
+                    self.report_failure(&path, &failure)?
                 }
-                Err(error) => self.report_unreadable(&shown, &error),
+                Err(error) => self.report_unreadable(&path, &error),
             };
             documents.push(document);
             worst = match (worst, outcome) {
@@ -81,7 +82,7 @@ impl Check {
         Ok(Selection { set, freeze, ..Selection::default() })
     }
 
-    fn report_unreadable(&self, path: &str, error: &anyhow::Error) -> (Outcome, Value) {
+    fn report_unreadable(&self, path: &Foreign, error: &anyhow::Error) -> (Outcome, Value) {
         if !self.json {
             say(format_args!("error: {error:#}"));
         }
@@ -89,10 +90,14 @@ impl Check {
         (Outcome::BadInput, json!({ "file": path, "diagnostics": [diagnostic] }))
     }
 
-    fn report_failure(&self, path: &str, failure: &Failure) -> anyhow::Result<(Outcome, Value)> {
+    fn report_failure(
+        &self,
+        path: &Foreign,
+        failure: &Failure,
+    ) -> anyhow::Result<(Outcome, Value)> {
         if !self.json {
-            say(failure.styled());
-            print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
+            say_styled(&failure.styled());
+            print(&format!("{}: {} mistake(s)", path.shown(), failure.diagnostics.len()))?;
         }
         let diagnostics: Vec<_> =
             failure.diagnostics.iter().map(|it| located(&failure.sources, it)).collect();
@@ -100,7 +105,7 @@ impl Check {
         Ok((Outcome::BadInput, document))
     }
 
-    fn report(&self, path: &str, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
+    fn report(&self, path: &Foreign, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
@@ -109,7 +114,7 @@ impl Check {
         let refuted = !objections.is_empty() || !gaps.is_empty() || !comparisons.iter().all(agrees);
         if !self.json {
             if !objections.is_empty() {
-                say(render_styled(&compiled.sources, &objections));
+                say_styled(&render_styled(&compiled.sources, &objections));
             }
             let proofs = proof::text(&certificate);
             print(&text(path, compiled, proofs, &gaps, &comparisons))?;
@@ -186,13 +191,13 @@ fn comparison_document(comparison: &Comparison) -> Value {
 }
 
 fn text(
-    path: &str,
+    path: &Foreign,
     compiled: &Compiled,
     proofs: Vec<String>,
     gaps: &[Gap],
     comparisons: &[Comparison],
 ) -> String {
-    let mut lines = vec![format!("{path}: {}", compiled.field.title)];
+    let mut lines = vec![format!("{}: {}", path.shown(), compiled.field.title.shown())];
     lines.extend(proofs);
     for gap in gaps {
         let (at, time) = &gap.first;
@@ -208,12 +213,13 @@ fn text(
         lines.push(format!(
             "    {}: `{}` has no value at X = {at:?}, t = {time:e}: shrink [domain], or write it in another form",
             compiled.sources.place(gap.span),
-            compiled.sources.slice(gap.span),
+            shown(compiled.sources.slice(gap.span)),
         ));
     }
     for comparison in comparisons {
         let quantity = comparison.quantity.name();
-        let source = comparison.source.as_deref().unwrap_or("no source given");
+        let source = comparison.source.as_ref().map(Foreign::shown);
+        let source = source.as_deref().unwrap_or("no source given");
         match &comparison.finding {
             Finding::Agrees => lines
                 .push(format!("  check  {quantity} agrees to 1e-20 at {POINTS} points ({source})")),

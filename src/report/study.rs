@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
+use mms_codegen::foreign::Foreign;
 use mms_runtime::study::{
     CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Reason, Refinement, Series,
     is_near,
@@ -20,9 +21,9 @@ use crate::cli::method::Arithmetic;
 /// A finished study.
 pub struct Study {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// The field's title.
-    pub title: String,
+    pub title: Foreign,
     /// The method.
     pub method: Method,
     /// How numbers were computed.
@@ -292,8 +293,8 @@ impl Study {
         let mut parts = vec![
             format!(
                 "{}: {}\n{}",
-                self.field,
-                self.title,
+                self.field.shown(),
+                self.title.shown(),
                 method::line(&self.method, self.arithmetic)
             ),
             self.levels_table().to_string(),

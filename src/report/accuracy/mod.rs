@@ -7,6 +7,7 @@ use std::path::Path;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_codegen::accuracy::{Accuracy, Errors, Precision, Row};
+use mms_codegen::foreign::Foreign;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Form;
 use serde_json::{Value, json};
@@ -25,7 +26,7 @@ const PROMISED: [&str; 4] =
 /// The measured errors of a field.
 pub struct Report {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// At how many points.
     pub points: usize,
     /// The errors.
@@ -39,7 +40,7 @@ pub struct Report {
 /// Whether a row is within what is promised of it; nothing is promised of some.
 fn within_bound(row: &Row) -> Option<bool> {
     let Errors { max_scaled_eps, not_finite, .. } = row.errors;
-    let is_promised = row.form == Form::Stable && PROMISED.contains(&row.regime.as_str());
+    let is_promised = row.form == Form::Stable && PROMISED.contains(&row.regime.raw());
     is_promised.then_some(max_scaled_eps <= BOUND && not_finite == 0)
 }
 
@@ -151,7 +152,7 @@ impl Report {
                 row.quantity.name().to_string(),
                 row.precision.name().into(),
                 row.form.name().into(),
-                row.regime.clone(),
+                row.regime.shown(),
                 eps(errors.median_eps),
                 eps(errors.p99_eps),
                 eps(errors.max_eps),
@@ -164,14 +165,15 @@ impl Report {
             column.set_cell_alignment(CellAlignment::Right);
         }
         let mut text =
-            format!("{}, {} points, errors in eps\n\n{table}\n", self.field, self.points);
+            format!("{}, {} points, errors in eps\n\n{table}\n", self.field.shown(), self.points);
         for left_out in &self.accuracy.left_out {
             let quantity = left_out.quantity.map_or(String::new(), |it| format!(", {}", it.name()));
             let precision =
                 left_out.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
             text += &format!(
                 "\nleft out: {}{quantity}{precision}: {}",
-                left_out.regime, left_out.reason
+                left_out.regime.shown(),
+                left_out.reason
             );
         }
         if self.is_unmeasured() {
@@ -182,7 +184,7 @@ impl Report {
                 "\nbeyond {BOUND} eps: {} in {} at {}: {} eps, {} not finite",
                 row.quantity.name(),
                 row.precision.name(),
-                row.regime,
+                row.regime.shown(),
                 eps(row.errors.max_scaled_eps),
                 row.errors.not_finite
             );
