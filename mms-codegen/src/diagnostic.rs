@@ -196,6 +196,7 @@ error: unknown key `titel`
         assert!(!render(&sources, &[diagnostic]).contains('\u{1b}'));
     }
 
+    /// The column is that of the line as it is shown.
     #[test]
     fn no_text_makes_lines_of_its_own_and_the_caret_stays_in_place() {
         let mut sources = Sources::default();
@@ -204,10 +205,10 @@ error: unknown key `titel`
         let diagnostic = Diagnostic::error(span, "m\n  proof").label("l\nl").help("h\r\u{1b}");
         let expected = "\
 error: m\\n  proof
- --> a\\nb.toml:1:6
+ --> a\\nb.toml:1:11
   |
 1 | \\u{9b}x = \\u{202e}y\\u{1b} z
-  |            ^^^^^^^^^^^^^^^ l\\nl
+  |           ^^^^^^^^^^^^^^^^ l\\nl
   |
   = help: h\\r\\u{1b}
 ";
