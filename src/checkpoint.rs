@@ -9,38 +9,47 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use crc32fast::Hasher;
+use mms_codegen::foreign::{self, Foreign};
 use mms_runtime::study::Checkpoint;
 use serde::{Deserialize, Serialize};
 
-use crate::report::file::{folder, is_stream};
+use crate::history::Mark;
+use crate::read;
+use crate::report::file::{is_stream, remove_unfinished, try_to_write};
 use crate::report::write_with;
 use crate::shell::quoted;
 
 /// What the first key of every file says.
-const FORMAT: &str = "mms checkpoint 1";
+const FORMAT: &str = "mms checkpoint 2";
 
 /// Bytes of the checksum.
 const SUM: u64 = 4;
+
+/// The first line has at most as many bytes: a state that was written for ParaView takes some tens of them.
+const MOST_OF_HEAD: u64 = 64 << 20;
 
 /// What a checkpoint is of.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Head {
-    format: String,
+    format: Foreign,
     /// What tells the program and the scene from all others.
     pub key: String,
     /// The command of the run.
-    pub command: String,
+    pub command: Foreign,
     /// After this step.
     pub step: usize,
     /// The states for ParaView that were written before: times and files.
     pub states: Vec<(f64, String)>,
+    /// What of the history was written before.
+    pub history: Option<Mark>,
 }
 
 impl Head {
     /// Of a scene and a command.
     pub fn new(key: String, command: String) -> Self {
-        Head { format: FORMAT.to_owned(), key, command, step: 0, states: Vec::new() }
+        let (format, command) = (FORMAT.into(), command.into());
+        Head { format, key, command, step: 0, states: Vec::new(), history: None }
     }
 }
 
@@ -60,7 +69,7 @@ pub fn write(path: &Path, head: &Head, checkpoint: &dyn Checkpoint) -> anyhow::R
         // Its name must not be older than its content.
         Ok(file.sync_all()?)
     })
-    .with_context(|| format!("cannot write `{}`", path.display()))
+    .with_context(|| format!("cannot write `{}`", foreign::path(path)))
 }
 
 /// A checkpoint that is whole.
@@ -72,37 +81,45 @@ pub struct Found {
 }
 
 impl Found {
-    /// Opens a file, and reads all of it once.
+    /// Opens a file, and reads all of it once, unless it has more than so many bytes.
     ///
     /// # Errors
     /// A file that cannot be read, or is no whole checkpoint.
-    pub fn open(path: &Path) -> anyhow::Result<Self> {
-        let shown = path.display();
-        let mut file = File::open(path).with_context(|| format!("cannot read `{shown}`"))?;
-        let length = file.metadata().with_context(|| format!("cannot read `{shown}`"))?.len();
+    pub fn open(path: &Path, most: u64) -> anyhow::Result<Self> {
+        let shown = foreign::path(path);
+        let cannot = || read::cannot_read(path);
         let damaged = |what: &str| {
             format!(
                 "`{shown}` is no whole checkpoint: {what}; it is left as it is, and the run can be \
                  started anew without `--resume`"
             )
         };
+        let mut file = read::open(path).with_context(cannot)?;
+        let length = file.metadata().with_context(cannot)?.len();
         let Some(content) = length.checked_sub(SUM) else { bail!(damaged("it is too short")) };
+        if length > most {
+            bail!(
+                "{}: it has {length} bytes, and the {most} of memory that are free cannot hold its state",
+                cannot()
+            );
+        }
+        let mut line = Vec::new();
+        let head = (&file).take(MOST_OF_HEAD.min(content));
+        BufReader::new(head).read_until(b'\n', &mut line).with_context(cannot)?;
+        if line.len() as u64 == MOST_OF_HEAD {
+            bail!(damaged("its first line has no end"));
+        }
+        file.seek(SeekFrom::Start(0)).with_context(cannot)?;
         let mut sum = Summed { to: std::io::sink(), sum: Hasher::new() };
-        std::io::copy(&mut (&file).take(content), &mut sum)
-            .with_context(|| format!("cannot read `{shown}`"))?;
+        std::io::copy(&mut (&file).take(content), &mut sum).with_context(cannot)?;
         let mut expected = [0; SUM as usize];
-        file.read_exact(&mut expected).with_context(|| format!("cannot read `{shown}`"))?;
+        file.read_exact(&mut expected).with_context(cannot)?;
         if sum.sum.finalize() != u32::from_le_bytes(expected) {
             bail!(damaged("its checksum does not fit its content"));
         }
-        file.seek(SeekFrom::Start(0)).with_context(|| format!("cannot read `{shown}`"))?;
-        let mut state = BufReader::new(file.take(content));
-        let mut line = String::new();
-        state.read_line(&mut line).with_context(|| damaged("it does not begin with a text"))?;
-        let head: Head = serde_json::from_str(&line).with_context(|| damaged("its first line"))?;
-        if head.format != FORMAT {
-            bail!(damaged(&format!("its format is `{}`, not `{FORMAT}`", head.format)));
-        }
+        let head = head_of(&line).map_err(|what| anyhow::anyhow!(damaged(&what)))?;
+        file.seek(SeekFrom::Start(line.len() as u64)).with_context(cannot)?;
+        let state = BufReader::new(file.take(content - line.len() as u64));
         Ok(Found { head, state })
     }
 
@@ -110,6 +127,21 @@ impl Found {
     pub fn state(self) -> impl Read {
         self.state
     }
+}
+
+/// What the first line says; otherwise what is wrong with it.
+fn head_of(line: &[u8]) -> Result<Head, String> {
+    #[derive(Deserialize)]
+    struct Format {
+        format: Foreign,
+    }
+    let wrong = |error: serde_json::Error| foreign::shown(&format!("its first line: {error}"));
+    let Format { format } = serde_json::from_slice(line).map_err(wrong)?;
+    if format != FORMAT {
+        let format = format.shown();
+        return Err(format!("its format is `{format}`, and this version reads `{FORMAT}`"));
+    }
+    serde_json::from_slice(line).map_err(wrong)
 }
 
 /// Where checkpoints go, and how often.
@@ -126,20 +158,23 @@ impl Keeper {
     /// A folder that cannot be written to.
     pub fn new(path: &Path, every: usize, head: Head) -> anyhow::Result<Self> {
         // Said before any work is done.
+        let option = format!("`--checkpoint {}`", foreign::path(path));
         if path.is_dir() {
-            bail!("`--checkpoint {}`: expected a file, and it is a folder", path.display());
+            bail!("{option}: expected a file, and it is a folder");
         }
         if is_stream(path) {
-            bail!("`--checkpoint {}`: expected a plain file, to go on from", path.display());
+            bail!("{option}: expected a plain file, to go on from");
         }
-        tempfile::tempfile_in(folder(path))
-            .with_context(|| format!("`--checkpoint {}`: cannot write there", path.display()))?;
+        remove_unfinished(path);
+        try_to_write(path).with_context(|| format!("{option}: cannot write there"))?;
         Ok(Self { path: path.to_owned(), every, head })
     }
 
     /// The command that goes on from the last one.
     pub fn resuming(&self) -> String {
-        format!("{} --resume {}", self.head.command, quoted(&self.path.to_string_lossy()))
+        // It was put together of quoted words.
+        let command = self.head.command.raw();
+        format!("{command} --resume {}", quoted(&self.path.to_string_lossy()))
     }
 
     /// Whether there is one after this step.
@@ -155,9 +190,10 @@ impl Keeper {
         &mut self,
         checkpoint: &dyn Checkpoint,
         states: &[(f64, String)],
+        history: Option<Mark>,
     ) -> anyhow::Result<()> {
         self.head.step = checkpoint.step();
-        self.head.states = states.to_vec();
+        (self.head.states, self.head.history) = (states.to_vec(), history);
         write(&self.path, &self.head, checkpoint)
     }
 }

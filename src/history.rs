@@ -6,8 +6,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use mms_codegen::foreign;
 use mms_runtime::study::{Balance, Record};
+use serde::{Deserialize, Serialize};
 
+use crate::read;
 use crate::report::file::is_stream;
 use crate::report::write_whole;
 
@@ -17,59 +20,58 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The steps of a run so far.
 pub struct History {
     path: PathBuf,
-    /// Rows of texts, the names first.
-    rows: Vec<Vec<String>>,
+    /// Lines, the names first.
+    text: String,
+}
+
+/// What tells the rows that were written from others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mark {
+    /// How long they are.
+    bytes: u64,
+    /// Their CRC-32.
+    checksum: u32,
 }
 
 impl History {
-    /// A history in `dimension` dimensions, for a file in a folder that is there; with the rows of the file up
-    /// to a step that the run goes on from.
+    /// A history in `dimension` dimensions, for a file in a folder that is there.
     ///
     /// # Errors
-    /// A file that cannot be written, or that lacks such rows.
-    pub fn new(path: &Path, dimension: usize, step: usize) -> anyhow::Result<Self> {
-        let history = Self { path: path.to_owned(), rows: vec![names(dimension)] };
-        if step == 0 {
-            // Said before any work is done.
-            history.keep().with_context(|| format!("`--history {}`", path.display()))?;
-            return Ok(history);
-        }
-        history.from(step)
+    /// A file that cannot be written.
+    pub fn new(path: &Path, dimension: usize) -> anyhow::Result<Self> {
+        let history = Self { path: path.to_owned(), text: line(&names(dimension)) };
+        // Said before any work is done.
+        history.keep().with_context(|| option(path))?;
+        Ok(history)
     }
 
-    /// Takes the rows of the file up to a step.
-    fn from(mut self, step: usize) -> anyhow::Result<Self> {
-        let shown = self.path.display().to_string();
+    /// The history of a run that goes on from a step: the rows of the file up to it, if they are what was written
+    /// before.
+    ///
+    /// # Errors
+    /// A file that lacks such rows, or where they were changed.
+    pub fn from(path: &Path, step: usize, mark: Option<Mark>) -> anyhow::Result<Self> {
+        let name = "name the file that the run wrote, or none";
         let lacks = || {
-            format!(
-                "`--history {shown}`: it does not hold the {step} steps before the checkpoint; name \
-                 the file that the run wrote, or none"
-            )
+            let option = option(path);
+            format!("{option}: it does not hold the {step} steps before the checkpoint; {name}")
         };
-        if is_stream(&self.path) {
+        let Some(Mark { bytes, checksum }) = mark else { bail!(lacks()) };
+        let rows = read::first(path, bytes).with_context(lacks)?;
+        if (rows.len() as u64) < bytes {
             bail!(lacks());
         }
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .from_path(&self.path)
-            .with_context(lacks)?;
-        for (number, row) in reader.records().take(step + 1).enumerate() {
-            let row: Vec<String> = row.with_context(lacks)?.iter().map(str::to_owned).collect();
-            let fits = match number {
-                0 => row == self.rows[0],
-                number => row.first() == Some(&number.to_string()),
-            };
-            if !fits {
-                bail!(lacks());
+        match String::from_utf8(rows) {
+            Ok(text) if crc32fast::hash(text.as_bytes()) == checksum => {
+                Ok(Self { path: path.to_owned(), text })
             }
-            if number > 0 {
-                self.rows.push(row);
-            }
+            _ => bail!(
+                "{}: its rows up to step {step} are not those that were written before the checkpoint, and were \
+                 changed since; {name}",
+                option(path)
+            ),
         }
-        if self.rows.len() != step + 1 {
-            bail!(lacks());
-        }
-        Ok(self)
     }
 
     /// Adds a step.
@@ -90,7 +92,12 @@ impl History {
         [Some(of), Some(kinetic_energy), strain_energy, Some(body_work), energy_residual]
             .into_iter()
             .for_each(push);
-        self.rows.push(row);
+        self.text += &line(&row);
+    }
+
+    /// What tells the rows so far from others.
+    pub fn mark(&self) -> Mark {
+        Mark { bytes: self.text.len() as u64, checksum: crc32fast::hash(self.text.as_bytes()) }
     }
 
     /// Writes the rows so far, unless what was written could not be replaced.
@@ -106,14 +113,19 @@ impl History {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&self) -> anyhow::Result<()> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for row in &self.rows {
-            writer.write_record(row)?;
-        }
-        let content = String::from_utf8(writer.into_inner()?)?;
-        write_whole(&self.path, &content)
-            .with_context(|| format!("cannot write `{}`", self.path.display()))
+        write_whole(&self.path, &self.text)
+            .with_context(|| format!("cannot write `{}`", foreign::path(&self.path)))
     }
+}
+
+/// How the file was asked for.
+fn option(path: &Path) -> String {
+    format!("`--history {}`", foreign::path(path))
+}
+
+/// Numbers and names, none of which needs quotes.
+fn line(row: &[String]) -> String {
+    row.join(",") + "\n"
 }
 
 /// All digits that a number has.

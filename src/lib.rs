@@ -5,6 +5,9 @@
 //! by the command, which interprets files that were never compiled. [`gallery`] holds the texts that
 //! ship, and what of them was compiled into this program.
 
+#![warn(clippy::disallowed_methods)]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 mod checkpoint;
 pub mod cli;
 mod extremes;
@@ -12,6 +15,7 @@ pub mod gallery;
 mod history;
 pub mod interpreted;
 mod page;
+mod read;
 pub mod report;
 mod rows;
 pub mod schema;

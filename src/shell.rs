@@ -2,13 +2,23 @@
 
 use std::ffi::OsString;
 
-/// A word.
+use mms_codegen::foreign;
+
+/// A word, on one line. What cannot be seen in it stands as the bytes of its escape, which shells read back since POSIX.1-2024.
 pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-+=.,:/@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.to_owned();
     }
-    format!("'{}'", word.replace('\'', r"'\''"))
+    if foreign::one_line(word) == word {
+        return format!("'{}'", word.replace('\'', r"'\''"));
+    }
+    let escaped = |c: char| match c {
+        '\'' | '\\' => format!("\\{c}"),
+        ' '..='~' => c.to_string(),
+        other => other.to_string().bytes().map(|byte| format!("\\{byte:03o}")).collect(),
+    };
+    format!("$'{}'", word.chars().map(escaped).collect::<String>())
 }
 
 /// `mms` with these arguments.
@@ -35,6 +45,7 @@ mod tests {
             ("", "''"),
             ("a=b*c", "'a=b*c'"),
             ("8,16", "8,16"),
+            ("a\n\u{1b}\u{9b}'\\b", r"$'a\012\033\302\233\'\\b'"),
         ] {
             assert_eq!(quoted(word), text);
         }

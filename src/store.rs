@@ -12,12 +12,14 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use anyhow::Context as _;
+use mms_codegen::foreign;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::report::write_whole;
+use crate::read::{self, Kind, Unread};
+use crate::report::write_own;
 
 /// What the first key of every file says.
 pub const FORMAT: &str = "mms result 1";
@@ -69,7 +71,7 @@ impl Store {
     /// # Errors
     /// A folder that cannot be made or read, a file that cannot be renamed.
     pub fn open(folder: &Path) -> anyhow::Result<(Self, Vec<String>)> {
-        let shown = folder.display();
+        let shown = foreign::path(folder);
         fs::create_dir_all(folder).with_context(|| format!("cannot make the folder `{shown}`"))?;
         let store = Store { folder: folder.to_owned() };
         let mut set_aside = Vec::new();
@@ -111,8 +113,8 @@ impl Store {
         let checksum = digest([&key, &result]);
         let [key, result] = [RawValue::from_string(key)?, RawValue::from_string(result)?];
         let envelope = Envelope { format: FORMAT.to_owned(), checksum, key, result };
-        write_whole(&path, &(serde_json::to_string(&envelope)? + "\n"))
-            .with_context(|| format!("cannot write `{}`", path.display()))
+        write_own(&path, &(serde_json::to_string(&envelope)? + "\n"))
+            .with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
 
     /// Claims the result of a key; nothing, if a process has claimed it already. With `wait`, only when that
@@ -123,13 +125,16 @@ impl Store {
     pub fn claim(&self, key: &impl Serialize, wait: bool) -> anyhow::Result<Option<Claim>> {
         let path = self.path(&serde_json::to_string(key)?, "lock");
         let lock = || {
+            if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+                return Err(io::Error::other("it is no plain file: remove it"));
+            }
             let lock = File::options().create(true).append(true).open(&path)?;
             match if wait { lock.lock() } else { lock.try_lock().map_err(io::Error::from) } {
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(None),
                 locked => locked.map(|()| Some(lock)),
             }
         };
-        let lock = lock().with_context(|| format!("cannot lock `{}`", path.display()))?;
+        let lock = lock().with_context(|| format!("cannot lock `{}`", foreign::path(&path)))?;
         Ok(lock.map(|lock| Claim { _lock: lock, path }))
     }
 
@@ -143,12 +148,16 @@ impl Store {
         path: &Path,
         key: Option<&str>,
     ) -> anyhow::Result<Entry<T>> {
-        let bytes = match fs::read(path) {
+        let found = match read::bytes(path, Kind::Stored) {
             // Another process that shares the folder may have set it aside since.
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Entry::Missing),
-            read => read.with_context(|| format!("cannot read `{}`", path.display()))?,
+            Err(error) if error.is_missing() => return Ok(Entry::Missing),
+            Err(error @ Unread::Failed(_)) => {
+                return Err(error).with_context(|| read::cannot_read(path));
+            }
+            Err(error) => Err(error.to_string()),
+            Ok(bytes) => self.check(path, &bytes, key),
         };
-        Ok(match self.check(path, &bytes, key) {
+        Ok(match found {
             Ok(result) => Entry::Stored(result),
             Err(reason) => Entry::SetAside(set_aside(path, &reason)?),
         })
@@ -179,22 +188,24 @@ impl Store {
 
 /// Renames a file to the first free name behind its own, and says so.
 fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = path.file_name().unwrap_or_default();
     let mut aside = path.to_owned();
     for number in 1.. {
-        aside.set_file_name(format!("{name}.aside{number}"));
-        if !aside.exists() {
+        let mut name = name.to_owned();
+        name.push(format!(".aside{number}"));
+        aside.set_file_name(name);
+        if fs::symlink_metadata(&aside).is_err() {
             break;
         }
     }
-    let shown = path.display();
+    let (shown, reason) = (foreign::path(path), foreign::shown(reason));
     match fs::rename(path, &aside) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => {
             return Err(error).with_context(|| format!("cannot rename `{shown}`: {reason}"));
         }
         _ => {}
     }
-    Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", aside.display()))
+    Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", foreign::path(&aside)))
 }
 
 /// What tells this program from any other: no result outlives the code that computed it.
@@ -208,8 +219,8 @@ pub fn program() -> anyhow::Result<String> {
         let modified = file.modified()?.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
         io::Result::Ok((file.len(), modified.as_nanos()))
     };
-    let (length, modified) =
-        built().with_context(|| format!("cannot look at this program, `{}`", path.display()))?;
+    let (length, modified) = built()
+        .with_context(|| format!("cannot look at this program, `{}`", foreign::path(&path)))?;
     Ok(format!("{}, {length} bytes, {modified}", env!("CARGO_PKG_VERSION")))
 }
 

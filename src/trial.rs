@@ -148,17 +148,42 @@ fn measure<T: Solvable>(
     best
 }
 
+/// An observer whose own memory is not that of the run: what it says depends on the terminal, and on the runs before.
+struct Apart<'a> {
+    observer: &'a mut dyn Observer,
+    /// The most that was in use, but while it was heard.
+    peak: usize,
+}
+
+impl Apart<'_> {
+    fn hear(&mut self, hear: impl FnOnce(&mut dyn Observer)) {
+        self.peak = self.peak.max(PeakAlloc.peak_usage());
+        hear(self.observer);
+        PeakAlloc.reset_peak_usage();
+    }
+}
+
+impl Observer for Apart<'_> {
+    fn begin(&mut self, particles: usize, steps: usize) {
+        self.hear(|observer| observer.begin(particles, steps));
+    }
+
+    fn step(&mut self, step: usize, steps: usize) {
+        self.hear(|observer| observer.step(step, steps));
+    }
+}
+
 fn once<T: Solvable>(
     scene: &Scene<T>,
     method: &Method,
     cells: &Division,
     observer: &mut dyn Observer,
 ) -> Trial {
-    let memory = PeakAlloc;
-    memory.reset_peak_usage();
-    let before = memory.current_usage();
-    let run = scene.run(method, cells, Watch::Displacement, observer);
-    let memory = memory.peak_usage().saturating_sub(before);
+    PeakAlloc.reset_peak_usage();
+    let before = PeakAlloc.current_usage();
+    let mut apart = Apart { observer, peak: 0 };
+    let run = scene.run(method, cells, Watch::Displacement, &mut apart);
+    let memory = apart.peak.max(PeakAlloc.peak_usage()).saturating_sub(before);
     let outcome = match run {
         Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
         Ok(run) => outcome(&run.level, run.details.as_ref(), &Quantity::Displacement),

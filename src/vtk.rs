@@ -10,9 +10,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use mms_codegen::foreign;
 use mms_runtime::study::Frame;
 
-use crate::report::write_whole;
+use crate::report::write_own;
 
 /// The number of a vertex among the types of cells.
 const VERTEX: u8 = 1;
@@ -45,10 +46,10 @@ impl Writer {
             bail!(
                 "`--vtk {}`: it does not hold the states before the checkpoint; name the folder that the run wrote \
                  to, or none",
-                folder.display()
+                foreign::path(folder)
             );
         }
-        let wrong = || format!("`--vtk {}`: cannot write there", folder.display());
+        let wrong = || format!("`--vtk {}`: cannot write there", foreign::path(folder));
         std::fs::create_dir_all(folder).with_context(wrong)?;
         let writer = Self {
             folder: folder.to_owned(),
@@ -79,8 +80,8 @@ impl Writer {
     pub fn write(&mut self, frame: &Frame) -> anyhow::Result<()> {
         let file = format!("{}_{:04}.vtu", self.name, self.written.len());
         let path = self.folder.join(&file);
-        write_whole(&path, &document(frame))
-            .with_context(|| format!("cannot write {}", path.display()))?;
+        write_own(&path, &document(frame))
+            .with_context(|| format!("cannot write `{}`", foreign::path(&path)))?;
         self.written.push((frame.time, file));
         self.write_list()
     }
@@ -99,13 +100,13 @@ impl Writer {
         }
         text += "</Collection>\n</VTKFile>\n";
         let path = self.list();
-        write_whole(&path, &text).with_context(|| format!("cannot write {}", path.display()))
+        write_own(&path, &text).with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
 }
 
 /// The text as the value of an attribute.
 fn attribute(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+    foreign::markup(text).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 fn head(kind: &str) -> String {

@@ -434,7 +434,7 @@ fn the_gallery_leaves_no_term_unseen() {
         let visibility = Visibility::of(compiled).expect("the gallery is within the bound");
         for (term, status) in &visibility.findings {
             let name = match term {
-                Term::Parameter(name) => format!("{}.{name}", compiled.material.name),
+                Term::Parameter(name) => format!("{}.{name}", compiled.material.name.shown()),
                 _ => term.name(),
             };
             if *status == Status::Present {

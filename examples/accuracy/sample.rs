@@ -47,8 +47,8 @@ pub fn columns() -> impl Iterator<Item = (Precision, Form)> {
 pub fn regimes(accuracy: &Accuracy) -> Vec<String> {
     let mut regimes: Vec<String> = Vec::new();
     for row in &accuracy.rows {
-        if !regimes.contains(&row.regime) {
-            regimes.push(row.regime.clone());
+        if !regimes.iter().any(|known| row.regime == *known) {
+            regimes.push(row.regime.shown());
         }
     }
     regimes

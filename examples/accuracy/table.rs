@@ -82,7 +82,7 @@ pub fn page(points: usize, mut progress: impl FnMut(&str)) -> String {
         }
         for it in &accuracy.left_out {
             let precision = it.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
-            left_out += &format!("* {field}, {}{precision}: {}\n", it.regime, it.reason);
+            left_out += &format!("* {field}, {}{precision}: {}\n", it.regime.shown(), it.reason);
         }
     }
     format!("{text}\nLeft out:\n\n{left_out}")

@@ -61,7 +61,7 @@ impl Field {
         let parameters = compiled.model.parameters.iter();
         Ok(Field {
             name: shown(name)?,
-            title: shown(&compiled.field.title)?,
+            title: shown(compiled.field.title.raw())?,
             parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
             faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
             settings: Settings::new(compiled.parameters(&BTreeMap::new())),
@@ -147,7 +147,7 @@ impl Field {
                 let message = format!(
                     "{} of `{}` is {odd} at point {index}, X = {coordinates:?}, t = {time:?}: not defined there, or beyond the range of a double",
                     quantity.name(),
-                    self.compiled.field.name,
+                    self.compiled.field.name.shown(),
                 );
                 return Err(Error::new(MmsCode::NotFinite, message));
             }

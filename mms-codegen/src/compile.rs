@@ -246,7 +246,7 @@ impl Compiled {
 
     /// Path and text of the material's file, where it is the user's own.
     pub fn own_material(&self) -> Option<(&str, &str)> {
-        let model = self.field.material.model.value.as_str();
+        let model = self.field.material.model.value.raw();
         let source = self.material.strain_energy.span.source;
         shipped(model).is_none().then(|| (model, self.sources.get(source).text.as_str()))
     }

@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::panic::Location;
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet, normalize_untrusted_str};
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+use crate::foreign::{lines, one_line, shown};
 use crate::source::{Sources, Span};
 
 /// More diagnostics than this are counted, not printed: nobody reads them.
@@ -65,8 +66,8 @@ impl Diagnostic {
 /// A piece of a user's text as messages quote it: in backticks, and cut where it is long.
 pub fn quoted(text: &str) -> String {
     match text.char_indices().nth(MAX_QUOTED) {
-        Some((end, _)) => format!("`{}...`", &text[..end]),
-        None => format!("`{text}`"),
+        Some((end, _)) => format!("`{}...`", shown(&text[..end])),
+        None => format!("`{}`", shown(text)),
     }
 }
 
@@ -111,22 +112,21 @@ fn render_one(renderer: &Renderer, sources: &Sources, diagnostic: &Diagnostic) -
     let (line, caret) = shown_line(sources, diagnostic.span);
     let mut annotation = AnnotationKind::Primary.span(caret);
     if !diagnostic.label.is_empty() {
-        annotation = annotation.label(diagnostic.label.as_str());
+        annotation = annotation.label(one_line(&diagnostic.label));
     }
     let snippet = Snippet::source(line)
         .line_start(line_number)
-        .path(sources.get(diagnostic.span.source).path.as_str())
+        .path(sources.get(diagnostic.span.source).path.shown())
         .annotation(annotation);
-    let help =
-        diagnostic.help.iter().map(|help| Level::HELP.message(normalize_untrusted_str(help)));
+    let help = diagnostic.help.iter().map(|help| Level::HELP.message(one_line(help)));
     let level = if diagnostic.is_warning { Level::WARNING } else { Level::ERROR };
-    let group = level.primary_title(diagnostic.message.as_str()).element(snippet).elements(help);
-    renderer.render(&[group])
+    let title = level.primary_title(one_line(&diagnostic.message));
+    renderer.render(&[title.element(snippet).elements(help)])
 }
 
 /// The line that a span starts on, and the part of the span on it. Only this line is shown, so
 /// that a message about a long array or a long file stays short.
-fn shown_line(sources: &Sources, span: Span) -> (&str, Range<usize>) {
+fn shown_line(sources: &Sources, span: Span) -> (String, Range<usize>) {
     let text = sources.get(span.source).text.as_str();
     let span = sources.span(span.source, span.start, span.end);
     let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
@@ -134,7 +134,9 @@ fn shown_line(sources: &Sources, span: Span) -> (&str, Range<usize>) {
     let line = text[start..start + length].trim_end_matches('\r');
     let first = (span.start - start).min(line.len());
     let last = (span.end - start).clamp(first, line.len());
-    (line, first..last)
+    let [before, inside, after] = [&line[..first], &line[first..last], &line[last..]].map(lines);
+    let caret = before.len()..before.len() + inside.len();
+    (before + &inside + &after, caret)
 }
 
 #[cfg(test)]
@@ -201,5 +203,24 @@ error: unknown key `titel`
         let (sources, span) = source("\"\u{1b}[31m\"");
         let diagnostic = Diagnostic::error(span(0, 3), "bad `\u{1b}`").help("not \u{1b}");
         assert!(!render(&sources, &[diagnostic]).contains('\u{1b}'));
+    }
+
+    /// The column is that of the line as it is shown.
+    #[test]
+    fn no_text_makes_lines_of_its_own_and_the_caret_stays_in_place() {
+        let mut sources = Sources::default();
+        let id = sources.add("a\nb.toml", "\u{9b}x = \u{202e}y\u{1b} z\n");
+        let span = Span { source: id, start: 7, end: 12 };
+        let diagnostic = Diagnostic::error(span, "m\n  proof").label("l\nl").help("h\r\u{1b}");
+        let expected = "\
+error: m\\n  proof
+ --> a\\nb.toml:1:11
+  |
+1 | \\u{9b}x = \\u{202e}y\\u{1b} z
+  |           ^^^^^^^^^^^^^^^^ l\\nl
+  |
+  = help: h\\r\\u{1b}
+";
+        assert_eq!(render(&sources, &[diagnostic]), expected);
     }
 }

@@ -17,6 +17,7 @@ mod defect;
 pub mod diagnostic;
 pub mod emit;
 pub mod expr;
+pub mod foreign;
 pub mod mechanics;
 pub mod operations;
 pub mod pass;

@@ -2,11 +2,13 @@
 
 use std::io;
 
+use crate::foreign::Foreign;
+
 /// A text with the path that messages show for it.
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The path as a user should read it, relative to the manifest where there is one.
-    pub path: String,
+    pub path: Foreign,
     /// The whole text.
     pub text: String,
 }
@@ -64,7 +66,7 @@ pub struct Sources(Vec<Source>);
 
 impl Sources {
     /// Adds a text.
-    pub fn add(&mut self, path: impl Into<String>, text: impl Into<String>) -> SourceId {
+    pub fn add(&mut self, path: impl Into<Foreign>, text: impl Into<String>) -> SourceId {
         let id = SourceId(u32::try_from(self.0.len()).unwrap_or(u32::MAX));
         self.0.push(Source { path: path.into(), text: text.into() });
         id
@@ -110,10 +112,10 @@ impl Sources {
         (line, before[line_start..].chars().count() + 1)
     }
 
-    /// `path:line:column` of where a span starts.
+    /// `path:line:column` of where a span starts, for a person.
     pub fn place(&self, span: Span) -> String {
         let (line, column) = self.location(span);
-        format!("{}:{line}:{column}", self.get(span.source).path)
+        format!("{}:{line}:{column}", self.get(span.source).path.shown())
     }
 }
 

@@ -91,7 +91,7 @@ fn excess(compiled: &Compiled, rates: &Rates) -> [f64; 3] {
         assert!(
             most * (1.0 - 1e-12) <= bound,
             "{}: {bound} is less than {most}",
-            compiled.field.title
+            compiled.field.title.shown()
         );
         if bound == 0.0 { 1.0 } else { bound / most }
     })

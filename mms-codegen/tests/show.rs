@@ -228,7 +228,7 @@ fn assert_shown_is_computed(field: &Compiled, document: &Document, points: usize
             let value = interpreter.output(Output::Expected(0)).remove(0);
             if let Some((quantity, k)) = reading.component {
                 let computed = program.output(Output::Quantity(quantity));
-                reading.assert_is(&field.field.name, &value, &computed, k);
+                reading.assert_is(field.field.name.raw(), &value, &computed, k);
             }
             values.push(value);
         }
@@ -293,7 +293,7 @@ fn lines_of_text_are_short() {
                 continue;
             }
             let length = line.chars().count();
-            assert!(length <= LINE, "{}: {length} characters: {line}", document.name);
+            assert!(length <= LINE, "{}: {length} characters: {line}", document.name.shown());
         }
     }
 }
@@ -336,7 +336,7 @@ fn no_line_says_that_a_name_is_itself() {
         namesakes += arguments.iter().filter(|line| document.is_identity(line)).count();
         for line in text::page(document).lines() {
             let Some((left, right)) = line.split_once(" = ") else { continue };
-            assert_ne!(left.trim(), right.trim(), "{}: {line}", document.name);
+            assert_ne!(left.trim(), right.trim(), "{}: {line}", document.name.shown());
         }
     }
     assert!(namesakes > 0, "a test without such a name");
@@ -350,10 +350,10 @@ fn operations_of_all_stages_are_told_and_whole_exponents_raised() {
             assert!(
                 page.contains(&format!("{count} {}", stage.name())),
                 "{}: {page}",
-                document.name
+                document.name.shown()
             );
         }
-        assert!(!page.contains("^(2)"), "{}: {page}", document.name);
+        assert!(!page.contains("^(2)"), "{}: {page}", document.name.shown());
     }
 }
 

@@ -2,12 +2,15 @@
 
 mod request;
 
+use std::env;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
 use mms_codegen::compile::Failure;
 use mms_codegen::emit::rust_mms_math::{module, module_named};
 use mms_codegen::source;
+use mms_codegen::spec::MAX_FILE;
 use mms_codegen::{Options, compile_with};
 use proc_macro::TokenStream;
 use quote::quote;
@@ -139,6 +142,19 @@ fn message(rendered: &str) -> String {
     rendered.strip_prefix("error: ").unwrap_or(rendered).trim_end().into()
 }
 
+/// The text of a plain file, unless it is longer than files may be: what is none might never end.
 fn read(path: &Path) -> std::result::Result<String, String> {
-    fs::read(path).and_then(source::text).map_err(|error| error.to_string())
+    let read = || {
+        if !fs::metadata(path)?.is_file() {
+            return Err(io::Error::other("it is no plain file"));
+        }
+        let mut bytes = Vec::new();
+        File::open(path)?.take(MAX_FILE as u64 + 1).read_to_end(&mut bytes)?;
+        if bytes.len() > MAX_FILE {
+            let message = format!("it has more than {MAX_FILE} bytes, the most that are read");
+            return Err(io::Error::other(message));
+        }
+        source::text(bytes)
+    };
+    read().map_err(|error| error.to_string())
 }

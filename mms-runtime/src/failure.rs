@@ -253,6 +253,20 @@ pub enum Cause {
         /// The quantity.
         quantity: &'static str,
     },
+    /// A number that the precision of the run does not have.
+    #[error(
+        "the {quantity} is {value:e}, outside the range of this precision, {least:.1e} to {most:.1e}"
+    )]
+    OutOfRange {
+        /// What it is, the largest of all particles.
+        quantity: &'static str,
+        /// Its size; infinite or not a number, if no size is known.
+        value: f64,
+        /// The least positive number with all digits.
+        least: f64,
+        /// The greatest number.
+        most: f64,
+    },
     /// A particle, or a part of its domain, left the grid.
     #[error("the particle is lost: it left the grid, x = {position:?}")]
     Lost {
@@ -304,6 +318,7 @@ impl Cause {
                 "likely an unstable or too coarse run, or forcing and material that do not belong \
                  together: try a smaller Courant number or more cells"
             }
+            Cause::OutOfRange { .. } => "use double precision, or units in which it is closer to 1",
             Cause::Lost { .. } => {
                 "likely an unstable run, for the grid holds the field's own motion with room to \
                  spare: try a smaller Courant number or more cells"

@@ -6,6 +6,7 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use mms_codegen::accuracy::regime::REGIMES;
 use mms_codegen::accuracy::{Precision, Request, measure, names};
+use mms_codegen::foreign::{Foreign, one_line, shown};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, Selection};
 use mms_codegen::suggest::advice;
@@ -98,7 +99,8 @@ impl Accuracy {
             regimes: self.regimes(&compiled)?,
             points: self.points as usize,
         };
-        let begun = |regime: &str| say(format_args!("{}: {regime}", text.name()));
+        let begun =
+            |regime: &Foreign| say(format_args!("{}: {}", text.name().shown(), regime.shown()));
         let compile = |options: &Options| text.compile(options);
         let accuracy = measure(&compile, &request, begun).map_err(refused)?;
         let times = match self.time || self.output.is_some() {
@@ -108,7 +110,7 @@ impl Accuracy {
         let twin = &options.selection.twin;
         let input = Input::new(&self.field, twin, &self.set, &compiled);
         let report = Report {
-            field: text.name().into(),
+            field: text.name().clone(),
             points: request.points,
             accuracy,
             times: times.unwrap_or_default(),
@@ -142,13 +144,13 @@ impl Accuracy {
             return Ok(None);
         }
         let known = names(&compiled.field.extremes);
-        let names = || known.iter().map(String::as_str);
+        let names = || known.iter().map(Foreign::raw);
         for name in &wanted {
-            if known.contains(name) {
+            if names().any(|known| known == name) {
                 continue;
             }
-            let advice = advice(name, names(), |all| format!("there are {all}"));
-            bail!("no regime `{name}`; {advice}");
+            let advice = advice(name, names(), |all| format!("there are {}", one_line(all)));
+            bail!("no regime `{}`; {advice}", shown(name));
         }
         Ok(Some(wanted))
     }
@@ -161,7 +163,7 @@ fn wanted<T: PartialEq, const N: usize>(all: [T; N], given: &[T]) -> Vec<T> {
 
 /// The times of the forms; `None`, with a word on stderr, where nothing can be timed.
 fn timed(text: &Text, request: &Request) -> Option<Vec<(Form, Time)>> {
-    say(format_args!("{}: compiling and timing the emitted code", text.name()));
+    say(format_args!("{}: compiling and timing the emitted code", text.name().shown()));
     let compiled = |form: Form| {
         let mut options = Options { form, ..request.options.clone() };
         options.selection.quantities = Some(request.quantities.iter().copied().collect());

@@ -12,12 +12,13 @@ use mms_codegen::certify::rest::{self, Rest};
 use mms_codegen::certify::written::{self, Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::diagnostic::{Diagnostic, render_styled};
+use mms_codegen::foreign::{Foreign, shown};
 use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_codegen::source::Sources;
 use serde_json::{Value, json};
 
 use super::input::{Variant, read, settings};
-use super::{Outcome, print, print_json, say};
+use super::{Outcome, print, print_json, say, say_styled};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///
@@ -50,16 +51,16 @@ impl Check {
         let mut worst = Outcome::AsExpected;
         let mut documents = Vec::new();
         for file in &self.files {
-            let shown = file.display().to_string();
+            let path = Foreign::from(file.to_string_lossy());
             let (outcome, document) = match read(file, &options) {
-                Ok(Ok(compiled)) => self.report(&shown, &compiled)?,
+                Ok(Ok(compiled)) => self.report(&path, &compiled)?,
                 Ok(Err(mut failure)) => {
                     // What is frozen here is what is set, and its mistakes are said of that.
                     let entry = |it: &Diagnostic| options.selection.entry(it.span);
                     failure.diagnostics.retain(|it| !matches!(entry(it), Some(Entry::Freeze(_))));
-                    self.report_failure(&shown, &failure)?
+                    self.report_failure(&path, &failure)?
                 }
-                Err(error) => self.report_unreadable(&shown, &error),
+                Err(error) => self.report_unreadable(&path, &error),
             };
             documents.push(document);
             worst = match (worst, outcome) {
@@ -83,7 +84,7 @@ impl Check {
         Ok(Selection { set, freeze, ..Selection::default() })
     }
 
-    fn report_unreadable(&self, path: &str, error: &anyhow::Error) -> (Outcome, Value) {
+    fn report_unreadable(&self, path: &Foreign, error: &anyhow::Error) -> (Outcome, Value) {
         if !self.json {
             say(format_args!("error: {error:#}"));
         }
@@ -91,10 +92,14 @@ impl Check {
         (Outcome::BadInput, json!({ "file": path, "diagnostics": [diagnostic] }))
     }
 
-    fn report_failure(&self, path: &str, failure: &Failure) -> anyhow::Result<(Outcome, Value)> {
+    fn report_failure(
+        &self,
+        path: &Foreign,
+        failure: &Failure,
+    ) -> anyhow::Result<(Outcome, Value)> {
         if !self.json {
-            say(failure.styled());
-            print(&format!("{path}: {} mistake(s)", failure.diagnostics.len()))?;
+            say_styled(&failure.styled());
+            print(&format!("{}: {} mistake(s)", path.shown(), failure.diagnostics.len()))?;
         }
         let diagnostics: Vec<_> =
             failure.diagnostics.iter().map(|it| located(&failure.sources, it)).collect();
@@ -102,7 +107,7 @@ impl Check {
         Ok((Outcome::BadInput, document))
     }
 
-    fn report(&self, path: &str, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
+    fn report(&self, path: &Foreign, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
@@ -117,7 +122,7 @@ impl Check {
             let warning = rest.warning(compiled);
             if !objections.is_empty() || warning.is_some() {
                 let all: Vec<_> = objections.iter().cloned().chain(warning).collect();
-                say(render_styled(&compiled.sources, &all));
+                say_styled(&render_styled(&compiled.sources, &all));
             }
             let mut proofs = proof::text(&certificate);
             proofs.extend(rest_line(&rest));
@@ -220,13 +225,13 @@ fn comparison_document(comparison: &Comparison) -> Value {
 }
 
 fn text(
-    path: &str,
+    path: &Foreign,
     compiled: &Compiled,
     proofs: Vec<String>,
     gaps: &[Gap],
     comparisons: &[Comparison],
 ) -> String {
-    let mut lines = vec![format!("{path}: {}", compiled.field.title)];
+    let mut lines = vec![format!("{}: {}", path.shown(), compiled.field.title.shown())];
     lines.extend(proofs);
     for gap in gaps {
         let (at, time) = &gap.first;
@@ -242,12 +247,13 @@ fn text(
         lines.push(format!(
             "    {}: `{}` has no value at X = {at:?}, t = {time:e}: shrink [domain], or write it in another form",
             compiled.sources.place(gap.span),
-            compiled.sources.slice(gap.span),
+            shown(compiled.sources.slice(gap.span)),
         ));
     }
     for comparison in comparisons {
         let quantity = comparison.quantity.name();
-        let source = comparison.source.as_deref().unwrap_or("no source given");
+        let source = comparison.source.as_ref().map(Foreign::shown);
+        let source = source.as_deref().unwrap_or("no source given");
         match &comparison.finding {
             Finding::Agrees => lines.push(format!(
                 "  check  {quantity} agrees to 1e-20 at {} points ({source})",

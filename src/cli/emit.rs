@@ -9,6 +9,7 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
+use mms_codegen::foreign::Foreign;
 use mms_codegen::selection::{Freeze, Selection};
 use serde_json::{Value, json};
 
@@ -92,8 +93,10 @@ impl Emit {
         let mut outcome = Outcome::AsExpected;
         for name in names {
             let (name, bundle) = emitted(name)?;
-            let folder =
-                self.output.as_ref().map(|it| if self.all { it.join(&name) } else { it.clone() });
+            let folder = self
+                .output
+                .as_ref()
+                .map(|it| if self.all { it.join(name.raw()) } else { it.clone() });
             let delivered = match folder {
                 None => self.printed(&bundle)?,
                 Some(folder) if self.check => compared(&folder, &bundle)?,
@@ -155,7 +158,7 @@ impl Emit {
 #[derive(Default)]
 struct Delivered {
     texts: Option<Vec<String>>,
-    paths: Vec<String>,
+    paths: Vec<Foreign>,
     states: Option<Vec<State>>,
     /// The line that checks them, from where the command was run.
     verify: Option<String>,
@@ -164,8 +167,7 @@ struct Delivered {
 fn written(folder: &Path, bundle: &Bundle) -> anyhow::Result<Delivered> {
     let paths = bundle.files.iter().map(|file| write(folder, file)).collect::<Result<_, _>>()?;
     let verify = bundle.verify.as_ref();
-    let verify =
-        verify.map(|line| format!("cd {} && {line}", quoted(&folder.display().to_string())));
+    let verify = verify.map(|line| format!("cd {} && {line}", quoted(&folder.to_string_lossy())));
     Ok(Delivered { paths, verify, ..Delivered::default() })
 }
 
@@ -185,11 +187,14 @@ impl Delivered {
             return print(&texts[0]);
         }
         match &self.states {
-            None => print(&self.paths.join("\n"))?,
+            None => {
+                let paths = self.paths.iter().map(Foreign::shown);
+                print(&paths.collect::<Vec<_>>().join("\n"))?;
+            }
             Some(states) => {
                 let found = self.paths.iter().zip(states);
                 for (path, state) in found.filter(|(_, state)| **state != State::Current) {
-                    print(&format!("{path}: {}", state.name()))?;
+                    print(&format!("{}: {}", path.shown(), state.name()))?;
                 }
             }
         }
@@ -200,7 +205,7 @@ impl Delivered {
     }
 
     /// The first file under keys of its own: for some targets it is the only one.
-    fn document(&self, field: &str, target: &Target, bundle: &Bundle) -> Value {
+    fn document(&self, field: &Foreign, target: &Target, bundle: &Bundle) -> Value {
         let files: Vec<Value> = (bundle.files.iter().enumerate())
             .map(|(index, file)| {
                 let mut document = json!({

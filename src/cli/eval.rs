@@ -4,6 +4,7 @@ use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::accuracy::Precision;
 use mms_codegen::compile::constant;
+use mms_codegen::foreign::Foreign;
 use mms_codegen::program::Output;
 use mms_codegen::program::interpret::{Interpreter, Number, Point};
 use mms_codegen::program::precise::Precise;
@@ -134,7 +135,7 @@ impl Serialize for Record {
 
 #[derive(Serialize)]
 struct Document<'a> {
-    field: &'a str,
+    field: &'a Foreign,
     time: Box<RawValue>,
     precision: &'static str,
     form: &'static str,
@@ -287,7 +288,7 @@ impl Eval {
             Some(odd) => bail!(
                 "{} of `{}` is {odd} at X = {at}, t = {}: not defined there, or beyond the range of {}",
                 quantity.name(),
-                input.name,
+                input.name.shown(),
                 self.time,
                 self.precision.name()
             ),

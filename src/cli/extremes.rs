@@ -88,13 +88,13 @@ impl Extremes {
             }
             Seen::Ended { .. } => bail!(
                 "the method makes no error on `{}`, so that there is nothing to compare with: choose another one",
-                declared.input.name
+                declared.input.name.shown()
             ),
             Seen::Stopped { reason, .. } | Seen::LeftOut { reason } => {
                 progress.finish();
                 say(format_args!(
                     "error: `{}` does not run as declared: {reason}",
-                    declared.input.name
+                    declared.input.name.shown()
                 ));
                 return Ok(Outcome::RunFailed);
             }

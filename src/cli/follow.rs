@@ -63,7 +63,11 @@ impl Followers<'_> {
         let Some(keeper) = &mut self.keeper else { return Ok(()) };
         // Never behind the checkpoint.
         self.history.as_ref().map_or(Ok(()), History::keep)?;
-        keeper.keep(checkpoint, self.vtk.as_ref().map_or(&[], Writer::written))
+        let (states, mark) = (
+            self.vtk.as_ref().map_or(&[][..], Writer::written),
+            self.history.as_ref().map(History::mark),
+        );
+        keeper.keep(checkpoint, states, mark)
     }
 }
 

@@ -11,6 +11,7 @@ use dashu_ratio::RBig;
 use mms_codegen::accuracy::Precision;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
+use mms_codegen::foreign::{Foreign, shown};
 use mms_codegen::program::interpret::Number;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
@@ -21,7 +22,8 @@ use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_runtime::Real;
 
 use crate::gallery::{self, Entry};
-use crate::report::{file, provenance};
+use crate::read::{self, Kind};
+use crate::report::provenance;
 use mms_runtime::scene::{Code, Scene};
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
@@ -115,7 +117,7 @@ fn motion(text: &str) -> Result<String, String> {
 /// A field that the user named: of the gallery, or of a file.
 pub struct Input {
     /// Its name.
-    pub name: String,
+    pub name: Foreign,
     /// What follows from its text.
     pub compiled: Arc<Compiled>,
     /// Its compiled code, where that is part of this program and the field is taken as it is.
@@ -211,20 +213,20 @@ impl Input {
         let parameters = &self.compiled.model.parameters;
         let mut set = BTreeMap::new();
         for setting in settings {
-            let (name, value) = setting
-                .split_once('=')
-                .with_context(|| format!("`--set {setting}`: expected name=value"))?;
+            let given = given(setting);
+            let (name, value) =
+                setting.split_once('=').with_context(|| format!("{given}: expected name=value"))?;
             let name = name.trim();
             let index = parameters.iter().position(|parameter| parameter.name == name);
             let index = index.with_context(|| {
                 let names = parameters.iter().map(|parameter| parameter.name.as_str());
                 let advice = advice(name, names, |all| format!("the field has {all}"));
-                format!("`--set {setting}`: no parameter `{name}`; {advice}")
+                format!("{given}: no parameter `{}`; {advice}", shown(name))
             })?;
             let value = mms_codegen::compile::constant(value.trim())
-                .map_err(|failure| anyhow!("`--set {setting}`: not a number\n{failure}"))?;
+                .map_err(|failure| anyhow!("{given}: not a number\n{failure}"))?;
             if set.insert(index, value).is_some() {
-                bail!("`--set {setting}`: `{name}` is set twice");
+                bail!("{given}: `{name}` is set twice");
             }
         }
         if !set.is_empty() {
@@ -255,8 +257,13 @@ impl Input {
 
 /// What is wrong with settings, at its place in the field file.
 fn not_allowed(settings: &[String], failure: &Failure) -> Error {
-    let settings: Vec<_> = settings.iter().map(|setting| format!("`--set {setting}`")).collect();
+    let settings: Vec<_> = settings.iter().map(|setting| given(setting)).collect();
     anyhow!("{}: not what the field file allows\n{failure}", settings.join(" "))
+}
+
+/// How a parameter was set.
+fn given(setting: &str) -> String {
+    format!("`--set {}`", shown(setting))
 }
 
 /// Whether the user named a file, and not a field of the gallery.
@@ -273,13 +280,13 @@ fn entry(field: &str) -> anyhow::Result<&'static Entry> {
     let advice = advice(field, names, |all| {
         format!("it holds {all}; a file of your own is given by its path, ending in .toml")
     });
-    bail!("no field `{field}` in the gallery; {advice}")
+    bail!("no field `{}` in the gallery; {advice}", shown(field))
 }
 
 /// The text of a field that the user named, to be compiled in one way or more.
 pub struct Text {
-    name: String,
-    shown: String,
+    name: Foreign,
+    path: Foreign,
     text: String,
     origin: Origin,
 }
@@ -300,20 +307,20 @@ impl Text {
             return Self::read(Path::new(field));
         }
         let entry = entry(field)?;
-        let [name, shown, text] = [entry.name, entry.path, entry.text].map(String::from);
-        Ok(Text { name, shown, text, origin: Origin::Gallery(entry) })
+        let [name, path] = [entry.name, entry.path].map(Foreign::from);
+        Ok(Text { name, path, text: entry.text.into(), origin: Origin::Gallery(entry) })
     }
 
     fn read(path: &Path) -> anyhow::Result<Self> {
-        let shown = path.display().to_string();
-        let text = file::read(path)?;
+        let text = read::text(path, Kind::Field)?;
         let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Text { name, shown, text, origin: Origin::Folder(folder) })
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into();
+        let path = path.to_string_lossy().into();
+        Ok(Text { name, path, text, origin: Origin::Folder(folder) })
     }
 
     /// The name of the field.
-    pub fn name(&self) -> &str {
+    pub fn name(&self) -> &Foreign {
         &self.name
     }
 
@@ -333,10 +340,11 @@ impl Text {
         let load = |material: &str| match &self.origin {
             Origin::Gallery(entry) => entry.own_material(),
             Origin::Folder(folder) => {
-                file::read(&folder.join(material)).map_err(|error| error.root_cause().to_string())
+                let read = read::text(&folder.join(material), Kind::Field);
+                read.map_err(|error| error.root_cause().to_string())
             }
         };
-        compile(&self.name, &self.shown, &self.text, &load, options)
+        compile(self.name.raw(), self.path.raw(), &self.text, &load, options)
     }
 
     /// What is to blame: all of the field, or what was selected of it.
@@ -353,7 +361,7 @@ impl Text {
 pub fn settings(settings: &[String]) -> anyhow::Result<Vec<(String, String)>> {
     let pair = |setting: &String| match setting.split_once('=') {
         Some((name, value)) => Ok((name.trim().to_string(), value.trim().to_string())),
-        None => bail!("`--set {setting}`: expected name=value"),
+        None => bail!("{}: expected name=value", given(setting)),
     };
     settings.iter().map(pair).collect()
 }

@@ -63,12 +63,12 @@ fn table(fields: &[FieldSpec]) -> Table {
     table.set_header(["field", "dimension", "material", "body", "faces", "title"]);
     for field in fields {
         table.add_row([
-            &field.name,
-            &field.dimension.to_string(),
-            &field.material.model.value,
-            field.domain.body.name(),
-            &claims(field),
-            &field.title,
+            field.name.shown(),
+            field.dimension.to_string(),
+            field.material.model.value.shown(),
+            field.domain.body.name().into(),
+            claims(field),
+            field.title.shown(),
         ]);
     }
     table

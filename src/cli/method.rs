@@ -169,7 +169,7 @@ fn processors() -> usize {
 
 /// How many bytes of memory are free here, within the limit of a container if there is one; without bound where
 /// the system does not tell.
-fn memory() -> u64 {
+pub fn memory() -> u64 {
     let mut system = sysinfo::System::new();
     system.refresh_memory();
     let free = match system.cgroup_limits() {
@@ -218,7 +218,7 @@ impl MethodOptions {
         if end <= start {
             bail!(
                 "`--time {end}`: `{}` begins at {start}; expected a later time, as in `--time {usual:.3e}`",
-                input.name
+                input.name.shown()
             );
         }
         Ok(())

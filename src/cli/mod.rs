@@ -22,13 +22,16 @@ pub(crate) mod study;
 mod tradeoff;
 mod verify;
 
+use std::ffi::OsString;
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use mms_codegen::foreign;
 
-use crate::report::file::is_same;
+use crate::report::file::{is_same, try_to_write};
 use crate::report::provenance::{Input, Provenance};
 use crate::shell::words;
 
@@ -82,7 +85,8 @@ enum Outcome {
 pub fn run() -> ExitCode {
     let outcome = answer().unwrap_or_else(|error| {
         let style = anstyle::AnsiColor::Red.on_default().bold();
-        say(format_args!("{style}error{style:#}: {error:#}"));
+        let error = foreign::lines(&format!("{error:#}"));
+        say_styled(&format!("{style}error{style:#}: {error}"));
         Outcome::BadInput
     });
     ExitCode::from(match outcome {
@@ -96,10 +100,10 @@ pub fn run() -> ExitCode {
 /// Does what the command line asks for.
 fn answer() -> anyhow::Result<Outcome> {
     let arguments = saved::expand(std::env::args_os())?;
-    let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
-    let matches = command.clone().get_matches_from(&arguments);
-    let parsed = Arguments::from_arg_matches(&matches)
-        .unwrap_or_else(|error| error.format(&mut command).exit());
+    let parsed = match parse(&arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => return refused(&arguments, &error),
+    };
     match parsed.command {
         None => study::main_job(),
         Some(Command::List(list)) => list.run(),
@@ -119,6 +123,29 @@ fn answer() -> anyhow::Result<Outcome> {
     }
 }
 
+/// What a command line asks for.
+fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
+    let mut command = Arguments::command().mut_subcommands(|it| it.mut_args(with_signs));
+    let matches = command.try_get_matches_from_mut(arguments)?;
+    Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+}
+
+/// Says what is wrong with a command line; or the help, or the version, that it asks for.
+fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<Outcome> {
+    if !error.use_stderr() {
+        let printed = error.print().and_then(|()| io::stdout().flush());
+        printed_to_the_end(printed)?;
+        return Ok(Outcome::AsExpected);
+    }
+    // It quotes words: what they hold is shown.
+    let shown: Vec<_> =
+        words(arguments.iter().cloned()).iter().map(|it| foreign::shown(it).into()).collect();
+    let of_shown = parse(&shown).err().filter(clap::Error::use_stderr);
+    let text = of_shown.as_ref().unwrap_or(error).render();
+    say_styled(text.ansi().to_string().trim_end());
+    Ok(Outcome::BadInput)
+}
+
 /// Lets the value of an option begin with a sign, as in `--jitter -1`: what is wrong with it is said of it, then, and not
 /// of an unknown option `-1`.
 fn with_signs(argument: Arg) -> Arg {
@@ -134,16 +161,15 @@ fn this_command(kind: &str, input: Input) -> Provenance {
 /// Asks whether the folder of `--output` can be made and written to: what is wrong with it is said before any work is
 /// done. Nothing is left there.
 fn hold_output(folder: &Path) -> anyhow::Result<()> {
-    let shown = folder.display();
+    let shown = foreign::path(folder);
     if folder.exists() && !folder.is_dir() {
         anyhow::bail!("`--output {shown}`: not a folder");
     }
     let what = if folder.exists() { "write to" } else { "make" };
     let mut folders = folder.ancestors().filter(|it| !it.as_os_str().is_empty());
     let nearest = folders.find(|it| it.exists()).unwrap_or(Path::new("."));
-    tempfile::tempfile_in(nearest)
-        .with_context(|| format!("cannot {what} the folder `{shown}`"))?;
-    Ok(())
+    try_to_write(&nearest.join("output"))
+        .with_context(|| format!("cannot {what} the folder `{shown}`"))
 }
 
 /// Refuses a file for results that one of the `inputs` was read from: it would be lost.
@@ -155,7 +181,7 @@ fn spare<'a>(
     if inputs.into_iter().any(|input| is_same(input, path)) {
         anyhow::bail!(
             "`{option} {}`: that file is read, and would be lost; name another one",
-            path.display()
+            foreign::path(path)
         );
     }
     Ok(())
@@ -172,20 +198,32 @@ fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
 
 /// Prints one JSON document.
 fn print_json(document: &impl serde::Serialize) -> anyhow::Result<()> {
-    print(&serde_json::to_string_pretty(document)?)
+    print_shown(&foreign::json(&serde_json::to_string_pretty(document)?))
 }
 
-/// Says a line on stderr. Where it cannot be written, the work goes on without it.
+/// Says a line on stderr, in which nothing steers the terminal. Where it cannot be written, the work goes on without it.
 pub(crate) fn say(line: impl std::fmt::Display) {
-    use std::io::Write as _;
+    say_styled(&foreign::lines(&line.to_string()));
+}
+
+/// Says a line on stderr that steers the terminal where it means to, and holds nothing foreign that is not shown.
+fn say_styled(line: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{line}");
 }
 
-/// Prints a text to stdout. A reader that stopped reading is not an error of ours.
+/// Prints a text to stdout, in which nothing steers the terminal.
 fn print(text: &str) -> anyhow::Result<()> {
-    use std::io::{ErrorKind, Write as _};
+    print_shown(&foreign::lines(text))
+}
+
+fn print_shown(text: &str) -> anyhow::Result<()> {
     let mut stdout = anstream::stdout().lock();
-    match writeln!(stdout, "{}", text.trim_end()).and_then(|()| stdout.flush()) {
+    printed_to_the_end(writeln!(stdout, "{}", text.trim_end()).and_then(|()| stdout.flush()))
+}
+
+/// A reader that stopped reading is not an error of ours.
+fn printed_to_the_end(printed: io::Result<()>) -> anyhow::Result<()> {
+    match printed {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(anyhow::Error::new(error).context("cannot write to stdout"))
         }

@@ -30,6 +30,7 @@ impl Progress {
 
     /// Follows a run.
     pub fn of(&self, cells: Division) -> OfRun<'_> {
+        self.bar.set_message(format!("{cells} cells"));
         OfRun { bar: &self.bar, cells }
     }
 
@@ -52,7 +53,6 @@ impl Observer for OfRun<'_> {
     fn begin(&mut self, particles: usize, steps: usize) {
         self.bar.reset();
         self.bar.set_length(particles as u64 * steps as u64);
-        self.bar.set_message(format!("{} cells", self.cells));
     }
 
     fn step(&mut self, step: usize, steps: usize) {

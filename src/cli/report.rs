@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::Args;
+use mms_codegen::foreign;
 
 use super::{Outcome, print, say, spare};
 use crate::gallery::{self, FIELDS};
 use crate::page::{self, Page, Verdicts};
-use crate::report::{write_files, write_whole};
+use crate::report::{write_files, write_own, write_whole};
 
 /// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
 /// convergence, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
@@ -51,10 +52,12 @@ impl Report {
         for line in page.set_aside() {
             say(format_args!("not on the page: {line}"));
         }
-        write_whole(&path, &page.html())
-            .with_context(|| format!("cannot write `{}`", path.display()))?;
+        // By default, a name of ours in the folder.
+        let write = if self.output.is_some() { write_whole } else { write_own };
+        write(&path, &page.html())
+            .with_context(|| format!("cannot write `{}`", foreign::path(&path)))?;
         let verdicts = page.verdicts();
-        print(&format!("{}\nwrote {}", verdicts.word, path.display()))?;
+        print(&format!("{}\nwrote {}", verdicts.word, foreign::path(&path)))?;
         Ok(verdicts)
     }
 }
@@ -74,6 +77,7 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
         (expected + verdicts.expected, all + verdicts.all)
     });
     let verdicts = Verdicts::several(expected, all, "studies pass");
-    print(&format!("{}\nwrote {} pages to {}", verdicts.word, FIELDS.len() + 1, folder.display()))?;
+    let folder = foreign::path(folder);
+    print(&format!("{}\nwrote {} pages to {folder}", verdicts.word, FIELDS.len() + 1))?;
     Ok(verdicts)
 }

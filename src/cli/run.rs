@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
+use mms_codegen::foreign;
 use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
 
 use super::follow::{Followers, Interrupted};
 use super::input::{Input, Motion};
-use super::method::{MethodOptions, Precision, hold_division};
+use super::method::{MethodOptions, Precision, hold_division, memory};
 use super::progress::Progress;
 use super::{Outcome, hold_output, print, print_json, say, spare};
 use crate::checkpoint::{Found, Head, Keeper};
@@ -105,7 +106,7 @@ impl Run {
         let run = match &report.run {
             Ok(run) => run,
             Err(Refused { reason, .. }) => {
-                say(format_args!("error: `{}` cannot be run: {reason}", input.name));
+                say(format_args!("error: `{}` cannot be run: {reason}", input.name.shown()));
                 if self.json {
                     print_json(&report.document())?;
                 }
@@ -113,7 +114,7 @@ impl Run {
             }
         };
         // What cannot be written loses nothing of what can be printed.
-        let states = followers.list_of_states().map(|list| list.display().to_string());
+        let states = followers.list_of_states().map(|list| foreign::path(&list));
         let mut written: Vec<String> = states.into_iter().collect();
         if self.json {
             print_json(&report.document())?;
@@ -145,7 +146,10 @@ impl Run {
         if let (Some(history), Some(checkpoint)) = (&self.history, &self.checkpoint)
             && is_same(history, checkpoint)
         {
-            bail!("`--history` and `--checkpoint` name the same file, `{}`", history.display());
+            bail!(
+                "`--history` and `--checkpoint` name the same file, `{}`",
+                foreign::path(history)
+            );
         }
         Ok(())
     }
@@ -158,26 +162,30 @@ impl Run {
         head: Head,
         progress: &'a Progress,
     ) -> anyhow::Result<Followers<'a>> {
-        let resumed = self.resume.as_deref().map(Found::open).transpose()?;
+        let resumed = self.resume.as_deref().map(|path| Found::open(path, memory())).transpose()?;
         if let (Some(path), Some(found)) = (&self.resume, &resumed)
             && found.head.key != head.key
         {
             bail!(
                 "`--resume {}`: it is a checkpoint of another run, `{}`, and goes on with its options \
                  only, in the same build of this program",
-                path.display(),
-                found.head.command
+                foreign::path(path),
+                found.head.command.shown()
             );
         }
         let before = resumed.as_ref().map(|found| found.head.clone());
-        let (step, states) = before.map_or_else(Default::default, |head| (head.step, head.states));
-        let name = input.name.trim_start_matches('.');
+        let (step, states, mark) =
+            before.map_or_else(Default::default, |head| (head.step, head.states, head.history));
+        let name = input.name.raw().trim_start_matches('.');
         let vtk = self.vtk.as_deref();
         let vtk = vtk.map(|folder| Writer::new(folder, name, self.frames as usize, step, states));
         let vtk = vtk.transpose()?;
         let dimension = input.compiled.field.dimension;
-        let history =
-            self.history.as_deref().map(|path| History::new(path, dimension, step)).transpose()?;
+        let history = self.history.as_deref().map(|path| match step {
+            0 => History::new(path, dimension),
+            step => History::from(path, step, mark),
+        });
+        let history = history.transpose()?;
         let keeper = self.checkpoint.as_deref();
         let keeper = keeper.map(|path| Keeper::new(path, self.every as usize, head)).transpose()?;
         let interrupted = Interrupted::listen()?;

@@ -12,7 +12,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::study::Study;
-use crate::report::file;
+use crate::read::{self, Kind};
 
 /// The arguments of a command line, with those of a study file in front of the others. What is also given on
 /// the command line is not taken from the file, nor what that excludes; parameters are set by both.
@@ -32,10 +32,9 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
     if arguments.iter().any(named) {
         bail!("`--study` is given twice");
     }
-    let shown = path.to_string_lossy().into_owned();
-    let text = file::read(path.as_ref())?;
+    let text = read::text(path.as_ref(), Kind::Study)?;
     let own = &arguments[2..];
-    let saved = read(&shown, &text, &Given::new(own))?;
+    let saved = options(&path.to_string_lossy(), &text, &Given::new(own))?;
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())
 }
 
@@ -104,7 +103,7 @@ fn is_option(argument: &str, name: &str) -> bool {
 }
 
 /// The arguments that a study file stands for, but for the options that are given.
-fn read(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString>> {
+fn options(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString>> {
     let options: Vec<&str> = given.command.get_opts().filter_map(|it| it.get_long()).collect();
     let known = || options.iter().copied().filter(|name| *name != "study").chain(["field"]);
     let mut sources = Sources::default();

@@ -76,7 +76,7 @@ impl Show {
             let script = sympy::script(&input.compiled).map_err(|sympy::Undefined| {
                 anyhow!(
                     "`{}` has no {} points in its domain where all quantities are finite: there is nothing to compare",
-                    input.name,
+                    input.name.shown(),
                     sympy::POINTS
                 )
             })?;
@@ -88,7 +88,10 @@ impl Show {
             named => quantities(named)?,
         };
         let too_large = |TooLarge(what): TooLarge| {
-            anyhow!("the {what} of `{}` has too many terms; ask for one --quantity", input.name)
+            anyhow!(
+                "the {what} of `{}` has too many terms; ask for one --quantity",
+                input.name.shown()
+            )
         };
         let mut document = Document::new(&input.compiled, &quantities).map_err(too_large)?;
         // The whole page ends with what the field as a whole is good for.

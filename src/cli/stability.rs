@@ -49,7 +49,7 @@ pub fn fastest_wave_with(
     if fastest.is_none() {
         say(format_args!(
             "note: no stable time step of `{}` is known, since nothing bounds its waves: see `mms check`",
-            input.name
+            input.name.shown()
         ));
     }
     fastest

@@ -156,7 +156,7 @@ impl Study {
         self.validate()?;
         let cases = self.cases()?;
         let input = &cases[0].input;
-        let folder = output_folder(self.output.as_deref(), &input.name)?;
+        let folder = output_folder(self.output.as_deref(), input.name.raw())?;
         let provenance = Provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, &provenance)?;
         let is_started = studies.iter().any(Report::is_started);
@@ -167,7 +167,7 @@ impl Study {
             print(&report.table())?;
         }
         if !is_started {
-            say(format_args!("error: the study of `{}` cannot be started", input.name));
+            say(format_args!("error: the study of `{}` cannot be started", input.name.shown()));
             return Ok(Outcome::RunFailed);
         }
         let written = report.write(&folder)?;
@@ -298,7 +298,7 @@ impl Study {
         let Some(&last) = self.wanted().last() else { return Ok(None) };
         let set = input.settings(&self.set)?;
         let length = period(&input.compiled, &set)
-            .with_context(|| format!("`--periods`: `{}` has no period", input.name))?;
+            .with_context(|| format!("`--periods`: `{}` has no period", input.name.shown()))?;
         let (_, [start, _]) = domain(&input.compiled, &input.compiled.parameters::<f64>(&set));
         method.setup.end_time = Some(start + last as f64 * length);
         method.setup.parts = last;

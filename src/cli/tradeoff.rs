@@ -87,7 +87,7 @@ impl Tradeoff {
         let Some(field) = &self.field else { bail!("no field") };
         let input = self.input(field)?;
         input.hold(&self.set)?;
-        let folder = super::output_folder(self.output.as_deref(), &input.name)?;
+        let folder = super::output_folder(self.output.as_deref(), input.name.raw())?;
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let target = self.target_linf.map(Goal::Error);
         let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));

@@ -37,7 +37,7 @@ impl Diagnosis {
         match cause {
             Cause::UnstableStep { .. } => Diagnosis::UnstableStep,
             Cause::Inverted { .. } => Diagnosis::Inverted,
-            Cause::NotFinite { .. } => Diagnosis::NotFinite,
+            Cause::NotFinite { .. } | Cause::OutOfRange { .. } => Diagnosis::NotFinite,
             Cause::Lost { .. } => Diagnosis::Lost,
             Cause::HalfWidth { .. } => Diagnosis::HalfWidth,
             Cause::FlatDomain => Diagnosis::FlatDomain,

@@ -64,8 +64,8 @@ fn content(input: &Input) -> Result<Content, String> {
     let document = Document::new(&found.compiled, &QUANTITIES)
         .map_err(|_| "its formulas are too large".to_owned())?;
     Ok(Content {
-        name: found.name.clone(),
-        title: found.compiled.field.title.clone(),
+        name: found.name.shown(),
+        title: found.compiled.field.title.shown(),
         formulas: mathml::part(&document, 4),
         motion: Motion::of(&found.compiled, &set),
         files: found.files(),

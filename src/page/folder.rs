@@ -1,11 +1,14 @@
 //! What a folder holds: results, and files that are none.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
+use mms_codegen::foreign;
 use serde_json::Value;
 
 use super::{Entry, Page, entry, states};
+use crate::read::{self, Kind};
 use crate::store;
 
 impl Page {
@@ -15,20 +18,26 @@ impl Page {
     /// # Errors
     /// A folder that is not there, cannot be read, or has no results.
     pub fn read(folder: &Path) -> anyhow::Result<Self> {
-        let shown = folder.display();
+        let shown = foreign::path(folder);
         if !folder.is_dir() {
             bail!("`{shown}`: not a folder; give the one that `--output` of other commands named");
         }
-        let mut files = Vec::new();
-        walk(folder, &mut files)?;
+        let (mut files, mut unread) = (Vec::new(), Vec::new());
+        walk(folder, &mut files, &mut unread).with_context(|| read::cannot_read(folder))?;
         let (mut entries, mut set_aside, mut stored) = (Vec::new(), Vec::new(), 0);
+        let name = |path: &Path| foreign::path(path.strip_prefix(folder).unwrap_or(path));
+        let mut leave_out = |path: &Path, reason: &str| {
+            set_aside.push(format!("{}: {}", name(path), foreign::shown(reason)));
+        };
         for path in files.iter().filter(|path| !has_extension(path, "vtu")) {
-            let name = path.strip_prefix(folder).unwrap_or(path).display().to_string();
-            match read(path, &name)? {
+            match found(path, &name(path)) {
                 Found::Result(entry) => entries.push(*entry),
                 Found::Stored => stored += 1,
-                Found::Other(reason) => set_aside.push(format!("{name}: {reason}")),
+                Found::Other(reason) => leave_out(path, &reason),
             }
+        }
+        for (path, error) in unread {
+            leave_out(&path, &format!("cannot be read: {error}"));
         }
         if stored > 0 {
             set_aside.push(format!(
@@ -40,9 +49,9 @@ impl Page {
             bail!("{}", set_aside.join("\n"));
         }
         let name = folder.canonicalize().ok();
-        let name = name.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
-        let page = Self::new(&format!("Results in {name}"), entries, set_aside);
-        Ok(Self { read: files, ..page })
+        let name = name.as_deref().and_then(Path::file_name).unwrap_or_default();
+        let title = format!("Results in {}", foreign::path(Path::new(name)));
+        Ok(Self { read: files, ..Self::new(&title, entries, set_aside) })
     }
 }
 
@@ -55,20 +64,25 @@ enum Found {
     Other(String),
 }
 
-/// Files that may be results or parts of them, in the order of their paths.
-fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> anyhow::Result<()> {
-    let wrong = || format!("cannot read `{}`", folder.display());
+/// Files that may be results or parts of them, in the order of their paths; and folders that cannot be read.
+fn walk(
+    folder: &Path,
+    files: &mut Vec<PathBuf>,
+    unread: &mut Vec<(PathBuf, io::Error)>,
+) -> io::Result<()> {
     let mut paths = Vec::new();
-    for entry in std::fs::read_dir(folder).with_context(wrong)? {
-        let entry = entry.with_context(wrong)?;
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
         // A link may lead back to where it is.
-        let is_folder = entry.file_type().with_context(wrong)?.is_dir();
+        let is_folder = entry.file_type()?.is_dir();
         paths.push((entry.path(), is_folder));
     }
     paths.sort();
     for (path, is_folder) in paths {
         if is_folder {
-            walk(&path, files)?;
+            if let Err(error) = walk(&path, files, unread) {
+                unread.push((path, error));
+            }
         } else if ["json", "pvd", "vtu"].iter().any(|it| has_extension(&path, it)) {
             files.push(path);
         }
@@ -80,25 +94,25 @@ fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|own| own == extension)
 }
 
+fn found(path: &Path, name: &str) -> Found {
+    read(path, name).unwrap_or_else(|error| Found::Other(format!("{error:#}")))
+}
+
 fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read `{}`", path.display()))?;
-    let Ok(text) = String::from_utf8(bytes) else { return Ok(Found::Other("not text".into())) };
-    if has_extension(path, "pvd") {
-        return Ok(match states::States::read(path, &text) {
-            Ok(states) => Found::Result(Box::new(Entry {
-                id: String::new(),
-                heading: states::HEADING,
-                file: name.to_owned(),
-                provenance: None,
-                section: Box::new(states),
-            })),
-            Err(error) => Found::Other(format!("{error:#}")),
-        });
+    let is_list = has_extension(path, "pvd");
+    let bytes = read::bytes(path, if is_list { Kind::States } else { Kind::Result })?;
+    let Ok(text) = String::from_utf8(bytes) else { bail!("not text") };
+    if is_list {
+        return Ok(Found::Result(Box::new(Entry {
+            id: String::new(),
+            heading: states::HEADING,
+            file: name.to_owned(),
+            provenance: None,
+            section: Box::new(states::States::read(path, &text)?),
+        })));
     }
-    let document: Value = match serde_json::from_str(&text) {
-        Ok(document) => document,
-        Err(error) => return Ok(Found::Other(format!("not JSON: {error}"))),
-    };
+    let document: Value =
+        serde_json::from_str(&text).map_err(|error| anyhow!("not JSON: {error}"))?;
     if document.get("format").is_some_and(|format| format == store::FORMAT) {
         return Ok(Found::Stored);
     }

@@ -1,6 +1,7 @@
 //! The page around the sections: verdict first, then what there is, then each of it.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use mms_codegen::foreign;
 
 use super::mark::{table, verdict, words};
 use super::{Entry, Page, Verdicts, origin};
@@ -13,9 +14,10 @@ const META: &str = "<meta charset=\"utf-8\"/>\
 /// Colours for light and dark screens and for paper, and nothing from elsewhere.
 const STYLE: &str = include_str!("style.css");
 
-/// A document around what its body holds. Empty elements are closed, so that it is XML too.
-pub fn shell(title: &str, body: &Markup) -> Markup {
-    html! {
+/// A document around what its body holds. Empty elements are closed, so that it is XML too; what both forbid in texts is
+/// left out, wherever it came from.
+pub fn shell(title: &str, body: &Markup) -> String {
+    let page = html! {
         (DOCTYPE) "\n"
         html lang="en" xmlns="http://www.w3.org/1999/xhtml" {
             head {
@@ -25,11 +27,12 @@ pub fn shell(title: &str, body: &Markup) -> Markup {
             }
             body { (body) }
         }
-    }
+    };
+    foreign::markup(&page.into_string())
 }
 
 /// The whole page.
-pub fn page(page: &Page) -> Markup {
+pub fn page(page: &Page) -> String {
     let verdicts = page.verdicts();
     let body = html! {
         a.skip href="#main" { "Skip to the results" }

@@ -16,10 +16,10 @@ use crate::gallery::Entry;
 /// A field that does not compile, or that the solver cannot take.
 pub fn page(entry: &Entry) -> anyhow::Result<Page> {
     let field = entry.compile().map_err(|failure| anyhow::anyhow!("{failure}"))?.field;
-    let title = format!("{}: {}", field.name, field.title);
+    let title = format!("{}: {}", field.name.shown(), field.title.shown());
     let mut results = Vec::new();
     for (number, study) in field.studies.iter().enumerate() {
-        let report = Study::anywhere(&command(&field.name, study))?;
+        let report = Study::anywhere(&command(field.name.raw(), study))?;
         let mut document = report.map(|report| report.document()).unwrap_or_default();
         for level in document["levels"].as_array_mut().into_iter().flatten() {
             level["seconds"] = Value::Null;
@@ -60,9 +60,9 @@ pub fn index(fields: &[(FieldSpec, Verdicts)]) -> String {
     let columns = [words("field"), words("dimension"), words("title"), words("studies")];
     let rows = fields.iter().map(|(field, verdicts)| {
         vec![
-            html! { a href=(format!("{}.html", field.name)) { (field.name) } },
+            html! { a href=(format!("{}.html", field.name.shown())) { (field.name.shown()) } },
             html! { (field.dimension) },
-            html! { (field.title) },
+            html! { (field.title.shown()) },
             frame::said(verdicts),
         ]
     });
@@ -73,7 +73,7 @@ pub fn index(fields: &[(FieldSpec, Verdicts)]) -> String {
             (table("Fields of the gallery", &columns, rows))
         }
     };
-    frame::shell("The gallery", &body).into_string()
+    frame::shell("The gallery", &body)
 }
 
 #[cfg(test)]

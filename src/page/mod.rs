@@ -170,7 +170,7 @@ impl Page {
 
     /// The page.
     pub fn html(&self) -> String {
-        frame::page(self).into_string()
+        frame::page(self)
     }
 }
 

@@ -10,6 +10,7 @@ use roxmltree::Document;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::{Section, Verdicts};
+use crate::read::{self, Kind};
 
 /// What stands above all of them.
 pub const HEADING: &str = "States of runs";
@@ -56,6 +57,7 @@ impl States {
         wanted.dedup();
         let read = |at: usize| {
             let (time, file) = named[at];
+            ensure!(is_beside(file), "`{file}` is no name of a file beside it");
             let path = path.with_file_name(file);
             let particles = particles(&path).with_context(|| file.to_owned())?;
             Ok(State { time, particles })
@@ -89,9 +91,15 @@ impl States {
     }
 }
 
+/// Whether a name leads nowhere else.
+fn is_beside(file: &str) -> bool {
+    Path::new(file).file_name().is_some_and(|name| name == file)
+}
+
 /// The particles of a state.
 fn particles(path: &Path) -> anyhow::Result<Vec<([f64; 3], f64)>> {
-    let text = std::fs::read_to_string(path).context("cannot read it")?;
+    let bytes = read::bytes(path, Kind::State).context("cannot read it")?;
+    let text = String::from_utf8(bytes).context("not text")?;
     let document = Document::parse(&text).context("not XML")?;
     let [place, error] = ["position", "displacement_error"].map(|name| vectors(&document, name));
     let (place, error) = (place?, error?);

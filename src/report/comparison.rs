@@ -73,8 +73,10 @@ impl Comparison {
             return alone.table();
         }
         let first = &self.studies[0];
-        let mut parts =
-            vec![format!("{}: {}", first.field, first.title), self.errors().to_string()];
+        let mut parts = vec![
+            format!("{}: {}", first.field.shown(), first.title.shown()),
+            self.errors().to_string(),
+        ];
         let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.verdict());
         let conclusions: Vec<_> = self.named().map(verdict).collect();
         parts.push(conclusions.join("\n"));

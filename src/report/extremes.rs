@@ -2,6 +2,7 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_codegen::foreign::Foreign;
 use mms_runtime::Method;
 use serde_json::{Value, json};
 
@@ -14,9 +15,9 @@ use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
 /// What came of a field at its extremes.
 pub struct Report {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// The field's title.
-    pub title: String,
+    pub title: Foreign,
     /// The method.
     pub method: Method,
     /// How numbers were computed.
@@ -221,8 +222,8 @@ impl Report {
         }
         let mut text = format!(
             "{}: {}\n{}\nas declared, l2 is {:.2e} of the largest displacement\n",
-            self.field,
-            self.title,
+            self.field.shown(),
+            self.title.shown(),
             method::line(&self.method, self.arithmetic),
             self.declared.l2
         );

@@ -1,11 +1,13 @@
 //! How files are read and written: whole or not at all, without a change to what else is at their place.
 
-use std::fs::{self, File, Metadata};
+use std::ffi::OsString;
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, anyhow};
-use mms_codegen::source::Sources;
+use tempfile::TempPath;
+
+use crate::read;
 
 /// Where a path leads.
 enum Target {
@@ -47,29 +49,25 @@ pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
     write_with(path, |file| Ok(file.write_all(content.as_bytes())?))
 }
 
-/// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
-pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
-    let mut file = builder().tempfile_in(folder(path))?;
-    file.write_all(content.as_bytes())?;
-    file.persist_noclobber(path)?;
-    Ok(())
+/// The same, of a file in a folder that was named, by a name of ours. Nothing but a plain file is written to there: who
+/// named the folder named neither what is behind a link, nor a FIFO that may have no reader.
+pub(crate) fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !found.is_file() => {
+            let what = read::what(found.file_type());
+            anyhow::bail!(
+                "it is {what}, which is not written to: remove it, or name another folder"
+            )
+        }
+        _ => write_whole(path, content),
+    }
 }
 
-/// The text of a file, in UTF-8.
-///
-/// # Errors
-/// A file that cannot be read, or is no text, and where.
-pub(crate) fn read(path: &Path) -> anyhow::Result<String> {
-    let shown = path.display();
-    let bytes = fs::read(path).with_context(|| format!("cannot read `{shown}`"))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let mut sources = Sources::default();
-        let text = String::from_utf8_lossy(error.as_bytes());
-        let source = sources.add(shown.to_string(), text);
-        let odd = error.utf8_error().valid_up_to();
-        let place = sources.place(sources.span(source, odd, odd));
-        anyhow!("{place}: expected text in UTF-8; save the file in that encoding")
-    })
+/// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
+pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
+    let mut new = Unfinished::of(path)?;
+    new.file.write_all(content.as_bytes())?;
+    Ok(new.path.persist_noclobber(path).map_err(|error| error.error)?)
 }
 
 /// Whether two paths lead to the same file, there or not, by whatever folders and links.
@@ -95,13 +93,117 @@ pub(crate) fn write_with(
         Target::Plain(path, replaced) => (path, replaced),
         Target::Stream => return write(&mut stream(path)?),
     };
-    let mut file = builder().tempfile_in(folder(&path))?;
-    write(file.as_file_mut())?;
+    let mut new = Unfinished::of(&path)?;
+    write(&mut new.file)?;
     if let Some(replaced) = replaced {
-        file.as_file().set_permissions(replaced.permissions())?;
+        new.file.set_permissions(replaced.permissions())?;
     }
-    file.persist(&path)?;
-    Ok(())
+    Ok(new.path.persist(&path).map_err(|error| error.error)?)
+}
+
+/// Whether a file could be written, without a trace of the attempt.
+pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+    Unfinished::of(&without_links(path)).map(drop)
+}
+
+/// As many processes that write one file at the same time are cleaned up after.
+const WRITERS: u32 = 16;
+
+/// Removes what earlier processes left of a file that they were killed over.
+pub(crate) fn remove_unfinished(path: &Path) {
+    let path = without_links(path);
+    for number in 0..WRITERS {
+        let _ = remove_stale(&unfinished(&path, number));
+    }
+}
+
+/// A file on its way to its name: it has another one in the same folder until then, which says of what it is a part, and is
+/// locked as long as it is written. One that nobody has locked is left of a process that ended.
+struct Unfinished {
+    // Dropped first: removed while it is locked.
+    path: TempPath,
+    file: File,
+}
+
+impl Unfinished {
+    /// The part of a file, by the first name that nobody uses.
+    fn of(path: &Path) -> io::Result<Self> {
+        for number in 0.. {
+            let at = unfinished(path, number);
+            // Once more, if it was stale, or somebody took it for stale.
+            loop {
+                match create(&at) {
+                    Ok(file) => {
+                        let path = TempPath::try_from_path(&at)?;
+                        // Where there are no locks, nothing is taken for stale.
+                        if file.lock().is_err() || leads_to(&at, &file) {
+                            return Ok(Self { path, file });
+                        }
+                        let _ = path.keep();
+                    }
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                        if !remove_stale(&at)? {
+                            break;
+                        }
+                    }
+                    Err(error) => return Err(error),
+                }
+            }
+        }
+        Err(io::ErrorKind::AlreadyExists.into())
+    }
+}
+
+/// As much of a file's name as leaves room for what makes it that of a part.
+const MOST_OF_NAME: usize = 200;
+
+/// The name of a part of a file.
+fn unfinished(path: &Path, number: u32) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let end = (0..=name.len().min(MOST_OF_NAME)).rev().find(|&end| name.is_char_boundary(end));
+    let own = format!(".{}.mms-unfinished{number}", &name[..end.unwrap_or(0)]);
+    folder(path).join(OsString::from(own))
+}
+
+/// Opens a file that is not there yet. These are results, as open as any other file.
+fn create(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true).create_new(true);
+    options.open(path)
+}
+
+/// Removes a part that no process has locked; whether it did.
+fn remove_stale(path: &Path) -> io::Result<bool> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if !found.is_file() => return Ok(false),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        found => drop(found?),
+    }
+    let file = match OpenOptions::new().append(true).open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        Err(_) => return Ok(false),
+        Ok(file) => file,
+    };
+    if file.try_lock().is_err() {
+        return Ok(false);
+    }
+    if leads_to(path, &file) {
+        fs::remove_file(path)?;
+    }
+    Ok(true)
+}
+
+/// Whether a name is still that of a file.
+#[cfg(unix)]
+fn leads_to(path: &Path, file: &File) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let place = |found: io::Result<Metadata>| found.map(|it| (it.dev(), it.ino())).ok();
+    place(file.metadata()).is_some_and(|own| place(fs::symlink_metadata(path)) == Some(own))
+}
+
+#[cfg(not(unix))]
+fn leads_to(_: &Path, _: &File) -> bool {
+    true
 }
 
 /// How many links lead on from each other before they are taken for a circle, as systems do.
@@ -147,11 +249,85 @@ fn own(_: &Metadata) -> io::Result<Option<File>> {
     Ok(None)
 }
 
-/// A temporary file is private by default; these are results, as open as any other file.
-fn builder() -> tempfile::Builder<'static, 'static> {
-    #[cfg_attr(not(unix), allow(unused_mut))]
-    let mut builder = tempfile::Builder::new();
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let names = fs::read_dir(folder).unwrap().map(|it| it.unwrap().file_name());
+        let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_removed_and_what_another_writes_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        let parts = [0, 1, 2].map(|number| unfinished(&path, number));
+        // Of a killed process, of a living one, of another file.
+        fs::write(&parts[0], "half").unwrap();
+        let living = create(&parts[1]).unwrap();
+        living.lock().unwrap();
+        let other = unfinished(&folder.path().join("y"), 0);
+        fs::write(&other, "half").unwrap();
+        write_whole(&path, "whole").unwrap();
+        let own = |path: &PathBuf| path.file_name().unwrap().to_string_lossy().into_owned();
+        assert_eq!(names(folder.path()), [own(&parts[1]), own(&other), "x".into()]);
+        fs::write(&parts[0], "half").unwrap();
+        remove_unfinished(&path);
+        assert!(!parts[0].exists() && parts[1].exists());
+        drop(living);
+        fs::write(&parts[0], "half").unwrap();
+        remove_unfinished(&path);
+        assert_eq!(names(folder.path()), [own(&other), "x".into()]);
+        assert_eq!(fs::read_to_string(path).unwrap(), "whole");
+    }
+
+    #[test]
+    fn a_name_may_be_as_long_as_names_are() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["x".repeat(255), "\u{3bb}".repeat(127)] {
+            let path = folder.path().join(name);
+            write_whole(&path, "whole").unwrap();
+            write_new(&path, "other").unwrap_err();
+            assert_eq!(fs::read_to_string(path).unwrap(), "whole");
+        }
+        assert_eq!(names(folder.path()).len(), 2);
+    }
+
+    #[test]
+    fn many_write_one_file_and_it_is_always_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        std::thread::scope(|scope| {
+            for writer in 0..8 {
+                let path = &path;
+                scope.spawn(move || {
+                    for _ in 0..50 {
+                        write_whole(path, &writer.to_string().repeat(9000)).unwrap();
+                        let text = fs::read_to_string(path).unwrap();
+                        assert!(
+                            text.len() == 9000 && text.bytes().all(|it| it == text.as_bytes()[0])
+                        );
+                    }
+                });
+            }
+        });
+        assert_eq!(names(folder.path()), ["x"]);
+    }
+
+    #[test]
     #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
+    fn a_link_in_a_folder_is_not_written_through() {
+        let folder = tempfile::tempdir().unwrap();
+        let [link, target] = ["link", "target"].map(|name| folder.path().join(name));
+        fs::write(&target, "mine").unwrap();
+        std::os::unix::fs::symlink("target", &link).unwrap();
+        let said = write_own(&link, "other").unwrap_err().to_string();
+        assert!(said.contains("it is a link, which is not written to"), "{said}");
+        assert_eq!(fs::read_to_string(&target).unwrap(), "mine");
+        write_own(&target, "other").unwrap();
+        assert_eq!(fs::read_to_string(&target).unwrap(), "other");
+    }
 }

@@ -17,13 +17,14 @@ pub use comparison::Comparison;
 pub use phase::Phases;
 pub use study::{Refused, Study};
 
-pub(crate) use file::{write_whole, write_with};
+pub(crate) use file::{write_own, write_whole, write_with};
 
 use std::path::Path;
 
 use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_codegen::foreign;
 use serde_json::Value;
 
 /// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns
@@ -34,12 +35,12 @@ pub(crate) fn write_files<const N: usize>(
     files: [(&str, String); N],
 ) -> anyhow::Result<Vec<String>> {
     std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        .with_context(|| format!("cannot make the folder `{}`", foreign::path(folder)))?;
     let write = |(extension, content): (&str, String)| {
         let path = folder.join(stem).with_extension(extension);
-        write_whole(&path, &content)
-            .with_context(|| format!("cannot write `{}`", path.display()))?;
-        Ok(path.display().to_string())
+        let shown = foreign::path(&path);
+        write_own(&path, &content).with_context(|| format!("cannot write `{shown}`"))?;
+        Ok(shown)
     };
     files.into_iter().map(write).collect()
 }

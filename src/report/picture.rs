@@ -42,7 +42,8 @@ struct Picture {
 
 /// The picture of a study as SVG text: a line for each norm.
 pub fn draw(study: &Study) -> anyhow::Result<String> {
-    let caption = format!("{}: {}", study.field, method::line(&study.method, study.arithmetic));
+    let caption =
+        format!("{}: {}", study.field.shown(), method::line(&study.method, study.arithmetic));
     let line = |name: &str, norm: fn(&Errors) -> f64| (name.to_owned(), points(study, norm));
     let lines = vec![
         line("l1", |errors| errors.l1),
@@ -56,7 +57,7 @@ pub fn draw(study: &Study) -> anyhow::Result<String> {
 pub fn draw_all(studies: &[Study], names: &[String]) -> anyhow::Result<String> {
     let lines = names.iter().zip(studies);
     let lines = lines.map(|(name, study)| (name.clone(), points(study, |errors| errors.l2)));
-    let caption = format!("{}: l2 of {} methods", studies[0].field, studies.len());
+    let caption = format!("{}: l2 of {} methods", studies[0].field.shown(), studies.len());
     Picture::of(&studies.iter().collect::<Vec<_>>(), caption, lines.collect()).svg()
 }
 

@@ -1,10 +1,13 @@
 //! Where a document is from: who made it, of what, on which machine, and how to make it again.
 
+use std::path::Path;
+
 use mms_codegen::Compiled;
 use mms_codegen::twin::Twin;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::read::{self, Kind};
 use crate::shell::command;
 
 /// The key `provenance` of a document.
@@ -68,7 +71,9 @@ pub struct Machine {
 impl Machine {
     /// This one.
     pub fn this() -> Self {
-        let described = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        let described = read::first(Path::new("/proc/cpuinfo"), Kind::System.most());
+        let described = described.unwrap_or_default();
+        let described = String::from_utf8_lossy(&described);
         let name = described.lines().find_map(|line| {
             let (key, value) = line.split_once(':')?;
             (key.trim() == "model name").then(|| value.trim().to_owned())

@@ -2,6 +2,7 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_codegen::foreign::Foreign;
 use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
 use serde_json::{Map, Value, json};
@@ -13,9 +14,9 @@ use crate::cli::method::Arithmetic;
 /// A run.
 pub struct Run {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// The field's title.
-    pub title: String,
+    pub title: Foreign,
     /// The method.
     pub method: Method,
     /// How numbers were computed.
@@ -97,8 +98,8 @@ impl Run {
         let level = &run.level;
         let head = format!(
             "{}: {}\n{}\n\n{} cells, {} particles, {} steps of {:.3e}",
-            self.field,
-            self.title,
+            self.field.shown(),
+            self.title.shown(),
             method::line(&self.method, self.arithmetic),
             level.cells,
             level.particles,

@@ -4,10 +4,12 @@ use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
+use mms_codegen::foreign::Foreign;
 use mms_runtime::study::{
-    CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Refinement, Series, is_near,
+    CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Reason, Refinement, Series,
+    is_near,
 };
-use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
+use mms_runtime::{Division, Errors, Level, Method, Refusal, Run, Verdict};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -19,9 +21,9 @@ use crate::cli::method::Arithmetic;
 /// A finished study.
 pub struct Study {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// The field's title.
-    pub title: String,
+    pub title: Foreign,
     /// The method.
     pub method: Method,
     /// How numbers were computed.
@@ -291,8 +293,8 @@ impl Study {
         let mut parts = vec![
             format!(
                 "{}: {}\n{}",
-                self.field,
-                self.title,
+                self.field.shown(),
+                self.title.shown(),
                 method::line(&self.method, self.arithmetic)
             ),
             self.levels_table().to_string(),
@@ -381,14 +383,38 @@ impl Study {
         to_the_right(table)
     }
 
-    /// The verdict, and the order that it rests on.
+    /// The verdict, and the orders that it rests on.
     pub(super) fn verdict(&self) -> String {
         let observed = match self.judgement.observed_order {
             Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
             None => "no observed order".into(),
         };
         let (order, tolerance) = (self.expected_order, self.tolerance);
-        format!("{}: {observed}, expected {order} within {tolerance}", self.judgement.verdict)
+        let reason = self.reason().map(|reason| format!("; {reason}")).unwrap_or_default();
+        format!(
+            "{}: {observed}, expected {order} within {tolerance}{reason}",
+            self.judgement.verdict
+        )
+    }
+
+    /// The norm and the levels that decided, unless it was l2 on the finest pair alone.
+    fn reason(&self) -> Option<String> {
+        let Reason { norm, order, levels: [coarse, fine] } =
+            Series::new(self.points()).reason(self.expected_order, self.tolerance)?;
+        let started = self.levels.iter().zip(self.names_of_levels());
+        let names: Vec<_> = started.filter(|(level, _)| level.is_ok()).map(|(_, it)| it).collect();
+        let (from, to) = (names.get(coarse)?, names.get(fine)?);
+        match order {
+            None => Some(format!("{norm} has no order from {from} to {to}")),
+            Some(_) if norm == "l2" && self.judgement.verdict == Verdict::Fail => None,
+            Some(order) if order == self.judgement.observed_order.unwrap_or(f64::NAN) => {
+                Some(format!("it is too high from {from} to {to}"))
+            }
+            Some(order) if norm == "l2" => {
+                Some(format!("not settled, since it was {order:.2} from {from} to {to}"))
+            }
+            Some(order) => Some(format!("{norm} decides, of order {order:.2} from {from} to {to}")),
+        }
     }
 
     /// The verdict, and all that it rests on.

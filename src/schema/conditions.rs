@@ -138,7 +138,10 @@ fn rigid() -> Value {
 fn materials() -> Vec<Value> {
     let condition = |stem: &str| has(&[("material.model", json!({ "const": stem }))]);
     let shipped = gallery::materials();
-    shipped.iter().map(|spec| if_then(condition(&spec.name), at("material", keys(spec)))).collect()
+    shipped
+        .iter()
+        .map(|spec| if_then(condition(spec.name.raw()), at("material", keys(spec))))
+        .collect()
 }
 
 /// The keys of `[material]` for a material.

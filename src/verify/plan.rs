@@ -62,7 +62,7 @@ impl Plan {
     pub fn new(rows: &[&Row], quick: bool, program: &str) -> anyhow::Result<Self> {
         let fields = gallery::fields();
         let dimensions: BTreeMap<_, _> =
-            fields.iter().map(|field| (field.name.as_str(), field.dimension)).collect();
+            fields.iter().map(|field| (field.name.raw(), field.dimension)).collect();
         let mut jobs: Vec<Job> = Vec::new();
         let mut known = BTreeMap::new();
         let mut levels = Vec::new();

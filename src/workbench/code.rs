@@ -1,11 +1,10 @@
 //! The machine code of what is emitted.
 
-use std::fs;
-
 use mms_codegen::accuracy::Precision;
 
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};
+use crate::read::{self, Kind};
 
 /// An object file with what is called on the way from parameters, time and position to every quantity
 /// of a module: `prepare`, `at_time`, what keeps points where they are kept, a function for each
@@ -64,7 +63,7 @@ pub fn to_kept(field: &Field<Number>, points: Many) -> Points<Number> {
     bench.write("code.rs", &source)?;
     // In one piece, so that there is one file.
     let options = ["--crate-type", "lib", "--emit", "obj", "-C", "codegen-units=1"];
-    Ok(fs::read(bench.compile("code.rs", "code.o", &options)?)?)
+    Ok(read::bytes(&bench.compile("code.rs", "code.o", &options)?, Kind::Object)?)
 }
 
 /// A function that can be called from elsewhere, so that it is compiled.

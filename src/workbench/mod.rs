@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, bail};
+use mms_codegen::foreign;
 use tempfile::TempDir;
 
 pub use code::object;
@@ -63,7 +64,12 @@ impl Workbench {
     fn write(&self, name: &str, text: &str) -> anyhow::Result<()> {
         let path = self.folder.path().join(name);
         fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
-        fs::write(&path, text).with_context(|| format!("cannot write `{}`", path.display()))
+        #[expect(
+            clippy::disallowed_methods,
+            reason = "the folder is new, and goes with the program"
+        )]
+        let written = fs::write(&path, text);
+        written.with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
 
     /// Compiles a crate of this folder as a release is.

@@ -30,7 +30,7 @@ fn written(folder: &Folder) -> Vec<(String, String)> {
     let name = |entry: std::io::Result<fs::DirEntry>| {
         format!("states/{}", entry.expect("an entry").file_name().to_string_lossy())
     };
-    names.extend(states.map(name).filter(|name| !name.contains(".tmp")));
+    names.extend(states.map(name));
     names.sort();
     names.into_iter().map(|name| (name.clone(), folder.read(&name))).collect()
 }
@@ -82,6 +82,10 @@ fn killed_a_hundred_times_it_ends_with_the_same_bytes() {
         let last = folder.mms(&arguments(&folder)).exits(0);
         assert_eq!(timeless(last.json()), document);
         assert_eq!(written(&folder), files);
+        // Nor is there anything else: what was killed half-way is gone.
+        let mut left = fs::read_dir(folder.path("")).expect("a folder");
+        let is_ours = |name: &str| ["run.csv", "states", "run.checkpoint"].contains(&name);
+        assert!(left.all(|it| is_ours(&it.expect("an entry").file_name().to_string_lossy())));
     }
     assert!(resumed > 10, "{resumed} of {kills} went on from a checkpoint");
 }
@@ -193,6 +197,53 @@ fn what_cannot_be_written_is_refused_at_once() {
     kept(&folder);
     folder.mms(wrong).exits(2).complains("does not hold the");
     assert_eq!(folder.read("file"), "", "left as it was");
+}
+
+/// Rows behind the checkpoint are written anew; those before it stand for what the run did.
+#[test]
+fn a_history_that_was_changed_before_the_checkpoint_is_refused() {
+    let folder = Folder::new();
+    let run = "run bar_1d --cells 8 --history run.csv";
+    folder.mms(&format!("{run} --checkpoint kept --every 7")).exits(0);
+    let whole = folder.read("run.csv");
+    let resumed = format!("{run} --resume kept");
+    let lines: Vec<&str> = whole.lines().collect();
+    let with = |at: usize, line: &str| {
+        let mut lines = lines.clone();
+        lines[at] = line;
+        lines.join("\n") + "\n"
+    };
+    let digit = lines[20].replacen('1', "2", 1);
+    for changed in [with(20, &digit), with(0, "time,step"), whole.replacen("\n2,", "\n02,", 1)] {
+        assert_ne!(changed, whole);
+        folder.write("run.csv", &changed);
+        let said = "`--history run.csv`: its rows up to step 35 are not those that were written";
+        folder.mms(&resumed).exits(2).complains(said);
+        assert_eq!(folder.read("run.csv"), changed, "left as it was");
+    }
+    folder.write("run.csv", &lines[..20].join("\n"));
+    folder.mms(&resumed).exits(2).complains("does not hold the 35 steps before the checkpoint");
+    for kept in [whole.clone(), with(39, "rubbish"), lines[..36].join("\n") + "\n"] {
+        folder.write("run.csv", &kept);
+        folder.mms(&resumed).exits(0);
+        assert_eq!(folder.read("run.csv"), whole);
+    }
+}
+
+/// One of another version does not look damaged.
+#[test]
+fn an_older_checkpoint_is_refused_by_its_format() {
+    let folder = Folder::new();
+    let whole = kept(&folder);
+    let end = whole.len() - 4;
+    let at = whole.windows(16).position(|it| it == b"mms checkpoint 2").expect("its format");
+    let mut older = whole[..end].to_vec();
+    older[at + 15] = b'1';
+    let sum = crc32fast::hash(&older);
+    older.extend(sum.to_le_bytes());
+    fs::write(folder.path("kept"), &older).expect("written");
+    let said = "its format is `mms checkpoint 1`, and this version reads `mms checkpoint 2`";
+    folder.mms("run bar_1d --cells 8 --resume kept").exits(2).complains(said);
 }
 
 /// A list of the states behind the checkpoint alone would look like one of the whole run.

@@ -75,6 +75,80 @@ fn what_is_no_plain_file_is_written_to() {
     assert_eq!(found.lines().count(), printed.lines().count());
 }
 
+/// Who names a folder does not name what a link in it leads to.
+#[test]
+fn a_link_in_a_folder_of_results_is_not_written_through() {
+    let folder = Folder::new();
+    folder.write("mine", "mine");
+    for (arguments, name) in [
+        ("emit bar_1d --target c -o out", "bar_1d.c"),
+        ("study bar_1d --cells 4,8,16 --output out", "convergence.json"),
+        ("run bar_1d --cells 8 --output out", "run.json"),
+        ("run bar_1d --cells 8 --vtk out --frames 1", "bar_1d.pvd"),
+    ] {
+        fs::create_dir_all(folder.path("out")).expect("a folder");
+        symlink("../mine", folder.path("out").join(name)).expect("a link");
+        let run = folder.mms(arguments);
+        run.complains(&format!("out/{name}`")).complains("it is a link, which is not written to");
+        assert!(run.exits(2).stderr.contains("remove it, or name another folder"));
+        assert_eq!(folder.read("mine"), "mine", "{arguments}");
+        fs::remove_file(folder.path("out").join(name)).expect("the link is still there");
+        folder.mms(arguments).exits(0);
+    }
+    // Nor is a FIFO, which may have no reader.
+    let fifo = folder.path("out/report.html");
+    assert!(Command::new("mkfifo").arg(fifo).status().expect("mkfifo").success());
+    folder.mms("report out").exits(2).complains("out/report.html`: it is a FIFO");
+    // Behind a link to a folder is what was named.
+    fs::create_dir(folder.path("other")).expect("a folder");
+    symlink("other", folder.path("link")).expect("a link");
+    folder.mms("emit bar_1d --target c -o link").exits(0);
+    assert!(folder.path("other/bar_1d.c").is_file());
+}
+
+/// What a process leaves that is killed while it writes is of the size of what it wrote.
+#[test]
+fn what_a_killed_run_left_is_removed_by_the_next_one_and_nothing_else_is() {
+    let folder = Folder::new();
+    let [stale, other] = [".kept.mms-unfinished0", ".other.mms-unfinished0"];
+    for name in [stale, other, ".run.csv.mms-unfinished0", "out/.run.json.mms-unfinished0"] {
+        folder.write(name, "half");
+    }
+    folder
+        .mms(&format!("{RUN} --checkpoint kept --every 1000 --history run.csv --output out"))
+        .exits(0);
+    let found = fs::read_dir(folder.path("")).expect("a folder");
+    let mut found: Vec<_> =
+        found.map(|it| it.expect("an entry").file_name().into_string().expect("a name")).collect();
+    found.sort();
+    assert_eq!(found, [other, "out", "run.csv"]);
+    assert_eq!(fs::read_dir(folder.path("out")).expect("a folder").count(), 1);
+}
+
+/// The name that the user gave, and no other.
+#[test]
+fn errors_name_the_file_that_was_asked_for() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    let long = "x".repeat(300);
+    for (arguments, name, reason) in [
+        (
+            format!("{RUN} --history missing/run.csv"),
+            "missing/run.csv",
+            "No such file or directory",
+        ),
+        (format!("{RUN} --history {long}"), long.as_str(), "File name too long"),
+        (format!("{RUN} --checkpoint missing/kept"), "missing/kept", "No such file or directory"),
+        (format!("{RUN} --checkpoint file/kept"), "file/kept", "Not a directory"),
+        (format!("{RUN} --output file/out"), "file/out", "Not a directory"),
+        ("emit bar_1d --target c -o file/out".into(), "file/out", "Not a directory"),
+    ] {
+        let run = folder.mms(&arguments).exits(2);
+        run.complains(&format!("{name}`")).complains(reason);
+        assert!(!run.stderr.contains("unfinished") && !run.stderr.contains(".tmp"), "{run}");
+    }
+}
+
 /// What cannot be said is lost, and nothing else.
 #[test]
 #[cfg(target_os = "linux")]

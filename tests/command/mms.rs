@@ -48,11 +48,18 @@ impl Folder {
 
     /// Runs `mms` with these arguments.
     pub fn run(&self, arguments: &[impl AsRef<OsStr>]) -> Run {
-        let output = Command::new(env!("CARGO_BIN_EXE_mms"))
-            .args(arguments)
-            .current_dir(self.0.path())
-            .output()
-            .expect("the program starts");
+        self.run_with(arguments, |command| command)
+    }
+
+    /// Runs `mms` with these arguments, in surroundings that `change` makes.
+    pub fn run_with(
+        &self,
+        arguments: &[impl AsRef<OsStr>],
+        change: impl FnOnce(&mut Command) -> &mut Command,
+    ) -> Run {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mms"));
+        let command = change(command.args(arguments).current_dir(self.0.path()));
+        let output = command.output().expect("the program starts");
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
         let words = arguments.iter().map(|word| word.as_ref().to_string_lossy());
         Run {

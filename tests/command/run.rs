@@ -261,3 +261,14 @@ fn what_cannot_be_written_is_said_before_the_run() {
     run.prints_nothing().complains("`--output file`: not a folder");
     assert!(!folder.path("target").exists(), "nothing is stored of what did not begin");
 }
+
+/// Units in which single precision has no number for the body force: nothing about the run is unstable.
+#[test]
+fn numbers_that_a_precision_does_not_have_are_named() {
+    let folder = Folder::new();
+    let set = "--set young=1e14 --set rho0=1e2 --set length=1e-19 --set amplitude=2e-33";
+    let run = folder.mms(&format!("run bar_1d --cells 8 --precision f32 {set}")).exits(3);
+    run.complains("the field's body force is inf, outside the range of this precision");
+    run.complains("use double precision");
+    assert!(!run.stderr.contains("unstable"), "{run}");
+}

@@ -397,3 +397,12 @@ fn bad_settings_exit_2_and_name_the_option() {
         run.complains(message).prints_nothing();
     }
 }
+
+/// An order of l2 that is as expected is no reason to fail.
+#[test]
+fn a_verdict_names_the_norm_and_the_levels_that_decide() {
+    let study = "study sheared_block_2d --formulation total --shape linear --cells 8,16";
+    let run = Folder::new().mms(study).exits(1);
+    let observed = "fail: observed order 1.91 (l2, finest pair), expected 2 within 0.15";
+    run.prints(&format!("{observed}; linf decides, of order 1.39 from 8 cells to 16 cells"));
+}

@@ -203,3 +203,25 @@ fn what_makes_no_sense_is_refused_with_the_reason() {
         folder.mms(arguments).exits(2).complains(reason).prints_nothing();
     }
 }
+
+/// Of the same run, whatever ran before it, and however long it took.
+#[test]
+fn the_memory_of_a_run_is_the_same_each_time() {
+    let folder = Folder::new();
+    let memory = |store: &str| {
+        let search = "tradeoff bar_1d --cost particle-steps --most-work 3e4 --json --store";
+        let search = format!("{search} {store}");
+        let run = folder.mms(&search);
+        let runs = run.json()["runs"].as_array().expect("runs").clone();
+        let of = |run: &Value| (run["command"].to_string(), run["memory"].to_string());
+        runs.iter().map(of).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let first = memory("one");
+    assert_eq!(memory("other"), first);
+    // Half of the results are there: the others have other runs before them.
+    let results = std::fs::read_dir(folder.path("other")).expect("a store");
+    for path in results.map(|it| it.expect("a file").path()).step_by(2) {
+        std::fs::remove_file(path).expect("removed");
+    }
+    assert_eq!(memory("other"), first);
+}

@@ -31,6 +31,7 @@ use subject::{Subject, first_line};
 use crate::certify::declared::accepts;
 use crate::compile::{Compiled, Failure, Options};
 use crate::expr::Rational;
+use crate::foreign::Foreign;
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::program::precise::Binary;
@@ -85,7 +86,7 @@ impl Default for Request {
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The name of the regime.
-    pub regime: String,
+    pub regime: Foreign,
     /// The quantity.
     pub quantity: Quantity,
     /// The precision.
@@ -100,7 +101,7 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
     /// Its name.
-    pub regime: String,
+    pub regime: Foreign,
     /// The quantity, where others were measured.
     pub quantity: Option<Quantity>,
     /// The precision, where it is made in others.
@@ -141,8 +142,8 @@ pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<
 }
 
 /// The names of the regimes of a field: those of all fields, then its own.
-pub fn names(own: &[crate::spec::ExtremeSpec]) -> Vec<String> {
-    let shared = REGIMES.iter().map(|regime| regime.name.to_string());
+pub fn names(own: &[crate::spec::ExtremeSpec]) -> Vec<Foreign> {
+    let shared = REGIMES.iter().map(|regime| regime.name.into());
     shared.chain(own.iter().map(|extreme| extreme.name.value.clone())).collect()
 }
 
@@ -150,7 +151,7 @@ pub fn names(own: &[crate::spec::ExtremeSpec]) -> Vec<String> {
 pub fn measure(
     compile: Compile<'_>,
     request: &Request,
-    mut progress: impl FnMut(&str),
+    mut progress: impl FnMut(&Foreign),
 ) -> Result<Accuracy, Failure> {
     let subject = Subject::new(compile, &request.options, &request.quantities)?;
     let mut accuracy = Accuracy::default();
@@ -158,18 +159,18 @@ pub fn measure(
         Some(names) => names.iter().any(|wanted| wanted == name),
         None => true,
     };
-    let shared = REGIMES.iter().map(|regime| (regime.name, Maker::Shared(regime)));
+    let shared = REGIMES.iter().map(|regime| (Foreign::from(regime.name), Maker::Shared(regime)));
     let own = subject.plain().field.extremes.iter().enumerate();
-    let own = own.map(|(index, extreme)| (extreme.name.value.as_str(), Maker::Own(index)));
-    for (name, maker) in shared.chain(own).filter(|(name, _)| wanted(name)) {
-        progress(name);
+    let own = own.map(|(index, extreme)| (extreme.name.value.clone(), Maker::Own(index)));
+    for (name, maker) in shared.chain(own).filter(|(name, _)| wanted(name.raw())) {
+        progress(&name);
         let case = match maker {
             Maker::Shared(regime) => {
                 regime.case(&subject, Search::Points(request.points.max(SEARCHED)))
             }
             Maker::Own(index) => Ok(Case::extreme(index)),
         };
-        accuracy.add(name, case, &subject, request);
+        accuracy.add(&name, case, &subject, request);
     }
     Ok(accuracy)
 }
@@ -183,13 +184,13 @@ enum Maker {
 impl Accuracy {
     fn add(
         &mut self,
-        name: &str,
+        name: &Foreign,
         case: Result<Case, String>,
         subject: &Subject,
         request: &Request,
     ) {
         let mut leave_out = |quantity, precision, reason: String| {
-            self.left_out.push(LeftOut { regime: name.into(), quantity, precision, reason });
+            self.left_out.push(LeftOut { regime: name.clone(), quantity, precision, reason });
         };
         let made = case.and_then(|case| Made::new(case, subject, request));
         let made = match made {
@@ -209,7 +210,7 @@ impl Accuracy {
                 leave_out(Some(quantity), Some(*precision), UNSETTLED.into());
             }
             rows.extend(errors.into_iter().map(|(quantity, form, errors)| Row {
-                regime: name.into(),
+                regime: name.clone(),
                 quantity,
                 precision: *precision,
                 form,

@@ -3,6 +3,7 @@
 
 use crate::compile::Compiled;
 use crate::expr::Rational;
+use crate::foreign::Foreign;
 use crate::mechanics::model::Check;
 use crate::program::interpret::{Interpreter, Number as _, Point};
 use crate::program::precise::Precise;
@@ -24,7 +25,7 @@ pub struct Comparison {
     /// What it is a closed form of.
     pub quantity: Quantity,
     /// Where it was published.
-    pub source: Option<String>,
+    pub source: Option<Foreign>,
     /// Where it stands in the file.
     pub span: Span,
     /// At how many points both were evaluated: [`POINTS`], or fewer where that takes too long.

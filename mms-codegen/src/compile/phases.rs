@@ -180,24 +180,25 @@ impl<'a> Phases<'a> {
     fn find_material(&mut self, field: &FieldSpec) -> Option<(SourceId, String)> {
         let Self { load, sources, diagnostics, .. } = self;
         let model = &field.material.model;
-        let shown = &model.value;
-        if shown.is_empty() {
+        let path = model.value.raw();
+        if path.is_empty() {
             // The missing model has been reported.
             return None;
         }
-        if let Some((stem, text)) = shipped(shown) {
+        if let Some((stem, text)) = shipped(path) {
             return Some((sources.add(format!("materials/{stem}.toml"), *text), stem.to_string()));
         }
-        if shown.ends_with(".toml") {
-            return match load(shown) {
+        if path.ends_with(".toml") {
+            return match load(path) {
                 Ok(text) => {
-                    let file = shown.rsplit('/').next().unwrap_or(shown);
+                    let file = path.rsplit('/').next().unwrap_or(path);
                     let stem = file.trim_end_matches(".toml").to_string();
                     let field_path = &sources.get(model.span.source).path;
-                    Some((sources.add(beside(field_path, shown), text), stem))
+                    Some((sources.add(beside(field_path.raw(), path), text), stem))
                 }
                 Err(reason) => {
-                    let message = format!("cannot read the material file `{shown}`");
+                    let message =
+                        format!("cannot read the material file `{}`", model.value.shown());
                     diagnostics.push(
                         Diagnostic::error(model.span, message)
                             .label(reason)
@@ -208,9 +209,10 @@ impl<'a> Phases<'a> {
             };
         }
         let stems = MATERIALS.iter().map(|(stem, _)| *stem);
-        let diagnostic = Diagnostic::error(model.span, format!("unknown material `{shown}`"))
-            .label("no such material");
-        diagnostics.push(diagnostic.help(advice(shown, stems, |all| {
+        let diagnostic =
+            Diagnostic::error(model.span, format!("unknown material `{}`", model.value.shown()))
+                .label("no such material");
+        diagnostics.push(diagnostic.help(advice(path, stems, |all| {
             format!("shipped materials: {all}; one of your own is written \"./mine.toml\"")
         })));
         None
@@ -232,7 +234,8 @@ fn misread(graph: &mut Graph, read: &mut Read, derived: Derivation) -> Option<De
 /// A rotation of a material that a rotation strains.
 fn rotates_unfit_material(field: &FieldSpec, material: &MaterialSpec) -> Option<Diagnostic> {
     let angle = field.rigid.as_ref()?.angle().filter(|_| !material.frame_indifferent)?;
-    let message = format!("`{}` cannot be rotated: it is not frame-indifferent", material.name);
+    let message =
+        format!("`{}` cannot be rotated: it is not frame-indifferent", material.name.shown());
     Some(
         Diagnostic::error(angle.span, message)
             .label("would strain the material")

@@ -1,20 +1,12 @@
 //! What a user wrote, inside of what is emitted: it can neither end its comment nor hide what follows.
 
-/// A text on one line, without characters that end lines or change the direction of writing.
-pub(super) fn on_one_line(text: &str) -> String {
-    let visible = |c: char| {
-        let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        let ends = matches!(c, '\u{2028}' | '\u{2029}');
-        if c.is_control() || turns || ends { ' ' } else { c }
-    };
-    text.chars().map(visible).collect::<String>().trim_end().into()
-}
+use crate::foreign::blanked;
 
 /// The words of a text in lines of at most `width` characters, where words allow it.
 pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
-    for word in on_one_line(text).split_whitespace() {
+    for word in blanked(text).split_whitespace() {
         if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > width {
             lines.push(std::mem::take(&mut line));
         }
@@ -47,12 +39,6 @@ pub(super) fn listed<T: AsRef<str>>(items: &[T], width: usize) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn no_text_leaves_its_line() {
-        assert_eq!(on_one_line("a\nevil()\r\u{202e}b \u{2028}"), "a evil()  b");
-        assert_eq!(on_one_line(""), "");
-    }
 
     #[test]
     fn lines_break_between_words() {

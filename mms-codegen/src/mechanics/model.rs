@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, quoted};
 use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Graph, Rational, Symbol};
+use crate::foreign::Foreign;
 use crate::quantity::Quantity;
 use crate::selection::Meanings;
 use crate::source::{Span, Spanned};
@@ -30,7 +31,7 @@ pub struct Parameter {
     /// Its unit, where the file states one.
     pub unit: Option<String>,
     /// What it is.
-    pub doc: Option<String>,
+    pub doc: Option<Foreign>,
 }
 
 /// The reference body.
@@ -81,7 +82,7 @@ pub struct Check {
     /// Its components.
     pub equals: Vec<Expr>,
     /// Where it was published.
-    pub source: Option<String>,
+    pub source: Option<Foreign>,
     /// Where it stands in the file.
     pub span: Span,
 }

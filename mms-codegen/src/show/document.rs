@@ -11,6 +11,7 @@ use super::stress;
 use super::walk::{Notation, write};
 use crate::compile::Compiled;
 use crate::expr::{Expr, Graph};
+use crate::foreign::Foreign;
 use crate::mechanics::TooLarge;
 use crate::mechanics::invariant::Kind;
 use crate::program::{Output, Stage};
@@ -46,9 +47,9 @@ pub struct Section {
 #[derive(Clone, Debug)]
 pub struct Material {
     /// The stem of its file.
-    pub name: String,
+    pub name: Foreign,
     /// What it is, in a few words.
-    pub title: String,
+    pub title: Foreign,
     /// Which invariants W is a function of.
     pub kind: Kind,
     /// W in the parameters of the material and in the invariants, after the parts that it is put
@@ -65,11 +66,11 @@ pub struct Material {
 /// The derivation of a field.
 pub struct Document {
     /// The name of the field.
-    pub name: String,
+    pub name: Foreign,
     /// What it is, in a few words.
-    pub title: String,
+    pub title: Foreign,
     /// Where it comes from.
-    pub reference: Option<String>,
+    pub reference: Option<Foreign>,
     /// The dimension of space.
     pub dimension: usize,
     /// The material.

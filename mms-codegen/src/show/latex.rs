@@ -23,8 +23,8 @@ pub fn page(document: &Document) -> String {
     let mut text = String::from(HEAD);
     for block in blocks(document) {
         match block {
-            Block::Title(name, title) => {
-                text.push_str(&format!("\\section*{{{}: {}}}\n", escape(name), escape(title)));
+            Block::Title(title) => {
+                text.push_str(&format!("\\section*{{{}}}\n", escape(&title)));
             }
             Block::Note(note) => text.push_str(&format!("\\noindent {}\\par\n", escape(&note))),
             Block::Heading { name, relation, note, .. } => {
@@ -255,7 +255,6 @@ pub(super) fn escape(text: &str) -> String {
                 escaped.push('\\');
                 escaped.push(character);
             }
-            control if control.is_control() => escaped.push(' '),
             other => escaped.push(other),
         }
     }

@@ -3,7 +3,7 @@
 
 use super::document::Document;
 use super::name::{Name, greek};
-use super::page::{Block, blocks, left};
+use super::page::{Block, blocks, left, title};
 use super::relation::Setting;
 use super::text::{scientific, word};
 use super::walk::{Exponent, Notation};
@@ -12,7 +12,7 @@ use crate::quantity::Quantity;
 
 /// The whole derivation as a page.
 pub fn page(document: &Document) -> String {
-    let title = format!("{}: {}", escape(&document.name), escape(&document.title));
+    let title = escape(&title(document));
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n\
          <head><meta charset=\"utf-8\"/><title>{title}</title></head>\n<body>\n\
@@ -274,8 +274,6 @@ pub(super) fn escape(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            control if control.is_control() => escaped.push(' '),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
             other => escaped.push(other),
         }
     }

@@ -10,8 +10,8 @@ use crate::visibility::{NEGLIGIBLE, POINTS, Status, Visibility};
 
 /// A part of a page, from top to bottom.
 pub(super) enum Block<'a> {
-    /// The name of the field, and what it is.
-    Title(&'a str, &'a str),
+    /// The name of the field, and what it is: as they are shown, as all texts of a page.
+    Title(String),
     /// A sentence.
     Note(String),
     /// What comes next.
@@ -38,14 +38,14 @@ pub(super) enum Block<'a> {
 
 /// The page of a document.
 pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
-    let mut blocks = vec![Block::Title(&document.name, &document.title)];
-    blocks.extend(document.reference.clone().map(Block::Note));
+    let mut blocks = vec![Block::Title(title(document))];
+    blocks.extend(document.reference.iter().map(|it| Block::Note(it.shown())));
     if !document.definitions.is_empty() {
         blocks.push(heading("with"));
         blocks.push(formulas(&document.definitions));
     }
     let material = &document.material;
-    let note = Some(format!("{}: {}", material.name, material.title));
+    let note = Some(format!("{}: {}", material.name.shown(), material.title.shown()));
     blocks.push(Block::Heading { name: "material", relation: None, note, operations: None });
     blocks.push(formulas(&material.energy));
     blocks.push(formulas(&material.whereby));
@@ -75,6 +75,11 @@ pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
     blocks.extend(document.visibility.iter().flat_map(visibility));
     blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
     blocks
+}
+
+/// The name of the field, and what it is.
+pub(super) fn title(document: &Document) -> String {
+    format!("{}: {}", document.name.shown(), document.title.shown())
 }
 
 /// What a field sees, and what it does not, the latter by how that is known.

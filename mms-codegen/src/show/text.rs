@@ -15,12 +15,12 @@ pub fn page(document: &Document) -> String {
     let mut lines = Vec::new();
     for block in blocks(document) {
         match block {
-            Block::Title(name, title) => lines.push(format!("{name}: {}", plain(title))),
-            Block::Note(note) => lines.extend(wrapped(&plain(&note))),
+            Block::Title(title) => lines.push(title),
+            Block::Note(note) => lines.extend(wrapped(&note)),
             Block::Heading { name, relation, note, operations } => {
                 lines.push(String::new());
                 let relation = relation.map(|parts| format!("  {}", Text.relation(parts)));
-                let note = note.or(operations).map(|note| format!("  ({})", plain(&note)));
+                let note = note.or(operations).map(|note| format!("  ({note})"));
                 let [relation, note] = [relation, note].map(Option::unwrap_or_default);
                 lines.push(format!("{name}{relation}{note}"));
             }
@@ -53,11 +53,6 @@ fn wrapped(note: &str) -> Vec<String> {
         }
     }
     lines
-}
-
-/// A text on one line: what steers a terminal becomes a blank.
-fn plain(text: &str) -> String {
-    text.chars().map(|character| if character.is_control() { ' ' } else { character }).collect()
 }
 
 /// The length of a line of prose.

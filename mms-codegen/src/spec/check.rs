@@ -7,6 +7,7 @@ use super::table::{Reader, Table, list};
 use super::value::{plural, unknown_word};
 use crate::accuracy::regime;
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::foreign::Foreign;
 use crate::quantity::Quantity;
 use crate::source::{Span, Spanned};
 use crate::suggest::advice;
@@ -21,14 +22,14 @@ pub struct CheckSpec {
     /// Names of this check alone.
     pub lets: Vec<LetSpec>,
     /// Where the closed form comes from.
-    pub source: Option<String>,
+    pub source: Option<Foreign>,
 }
 
 /// A set of parameters at which evaluation is tested, named by what is extreme about it.
 #[derive(Clone, Debug)]
 pub struct ExtremeSpec {
     /// The name.
-    pub name: Spanned<String>,
+    pub name: Spanned<Foreign>,
     /// The parameters that differ from their defaults, in the order of the file.
     pub set: Vec<(Spanned<String>, Formula)>,
     /// The table.
@@ -50,7 +51,7 @@ pub(super) fn check<'a>(
     };
     let lets = lets.unwrap_or_default();
     let quantity = quantity(table, reader);
-    let source = reader.optional_string(table, "source");
+    let source = reader.optional_foreign(table, "source");
     let equals = reader.required(table, "equals");
     let Some(quantity) = quantity else {
         reader.stray.extend(lets.into_iter().map(|definition| definition.value));
@@ -104,13 +105,14 @@ pub(super) fn extremes<'a>(
             reader.stray.extend(set.into_iter().map(|(_, value)| value));
             continue;
         };
-        if extremes.iter().any(|earlier| earlier.name.value == name.value) {
+        if extremes.iter().any(|earlier| earlier.name.value == *name.value) {
             let message = format!("the extreme {} is defined twice", quoted(&name.value));
             reader.report(Diagnostic::error(name.span, message).label("give it another name"));
         } else if regime::find(&name.value).is_some() {
             let message = format!("{} is a regime of every field", quoted(&name.value));
             reader.report(Diagnostic::error(name.span, message).label("give it another name"));
         }
+        let name = Spanned { value: name.value.into(), span: name.span };
         extremes.push(ExtremeSpec { name, set, span: table.span });
     }
     extremes

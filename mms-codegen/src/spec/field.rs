@@ -14,6 +14,7 @@ use super::study::{StudySpec, studies};
 use super::symbols::{LetSpec, ParameterSpec, lets, parameters};
 use super::table::{Entry, Reader, Table};
 use crate::diagnostic::Diagnostic;
+use crate::foreign::Foreign;
 use crate::source::{SourceId, Sources};
 
 /// A field file. Vectors have exactly one component per dimension, tensors one per pair; a
@@ -21,13 +22,13 @@ use crate::source::{SourceId, Sources};
 #[derive(Clone, Debug)]
 pub struct FieldSpec {
     /// The file's stem.
-    pub name: String,
+    pub name: Foreign,
     /// What it is, in a few words.
-    pub title: String,
+    pub title: Foreign,
     /// The dimension of space: 1, 2 or 3.
     pub dimension: usize,
     /// Where it comes from.
-    pub reference: Option<String>,
+    pub reference: Option<Foreign>,
     /// The parameters, in order.
     pub parameters: Vec<ParameterSpec>,
     /// The definitions, in order.
@@ -153,9 +154,9 @@ pub fn read_field(
 /// `[field]`.
 #[derive(Default)]
 struct Header {
-    title: String,
+    title: Foreign,
     dimension: Option<usize>,
-    reference: Option<String>,
+    reference: Option<Foreign>,
 }
 
 fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
@@ -166,9 +167,9 @@ fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
     Header {
         title: reader
             .required_string(&table, "title")
-            .map_or_else(String::new, |title| title.value),
+            .map_or_else(Foreign::default, |title| title.value.into()),
         dimension: reader.required(&table, "dimension").and_then(|entry| dimension(&entry, reader)),
-        reference: reader.optional_string(&table, "reference"),
+        reference: reader.optional_foreign(&table, "reference"),
     }
 }
 

@@ -8,6 +8,7 @@ use super::names::{Keeper, Names};
 use super::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
 use super::table::{Entry, Reader, Table};
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::foreign::Foreign;
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::did_you_mean;
 use crate::syntax::{self, Kind};
@@ -17,7 +18,7 @@ use crate::syntax::{self, Kind};
 pub struct MaterialUse {
     /// A shipped material's stem, or the path of a material file; empty where it is missing, which
     /// has been reported.
-    pub model: Spanned<String>,
+    pub model: Spanned<Foreign>,
     /// The reference density rho0.
     pub density: Formula,
     /// A formula for each parameter of the material, in the order of the file.
@@ -32,11 +33,11 @@ pub struct MaterialUse {
 #[derive(Clone, Debug)]
 pub struct MaterialSpec {
     /// The file's stem.
-    pub name: String,
+    pub name: Foreign,
     /// What it is, in a few words.
-    pub title: String,
+    pub title: Foreign,
     /// Where it comes from.
-    pub reference: Option<String>,
+    pub reference: Option<Foreign>,
     /// The strain-energy density W per unit reference volume.
     pub strain_energy: Formula,
     /// Whether W stays the same under rotations: not in the small strain, and not where the file
@@ -93,7 +94,7 @@ impl MaterialUse {
     /// A material without content, in place of one whose absence has been reported.
     pub(super) fn reported(span: Span) -> Self {
         MaterialUse {
-            model: Spanned { value: String::new(), span },
+            model: Spanned { value: Foreign::default(), span },
             density: Formula::reported(span),
             arguments: Vec::new(),
             fibre: None,
@@ -129,14 +130,14 @@ pub(super) fn material_use<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Ma
     spec
 }
 
-fn model<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
+fn model<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<Foreign>> {
     let model = reader.required_string(table, "model")?;
     if model.value.is_empty() {
         let message =
             "`model` must be a shipped material's name, or a path such as \"./mine.toml\"";
         reader.report(Diagnostic::error(model.span, message).label("this is empty"));
     }
-    Some(model)
+    Some(Spanned { value: model.value.into(), span: model.span })
 }
 
 /// Keys that would be arguments, but for their likeness to a key that is absent.
@@ -189,7 +190,7 @@ pub fn read_material(
     let definitions = reader.names(&root, "let").map(|table| lets(&table, &mut names, &mut reader));
     let mut spec = MaterialSpec {
         name: name.into(),
-        title: String::new(),
+        title: Foreign::default(),
         reference: None,
         strain_energy: Formula::reported(root.span),
         frame_indifferent: true,
@@ -214,9 +215,9 @@ pub fn read_material(
 fn header<'a>(entry: &Entry<'a>, spec: &mut MaterialSpec, reader: &mut Reader<'a>) {
     let Some(table) = reader.table(entry, "[material]", MATERIAL_HEADER) else { return };
     if let Some(title) = reader.required_string(&table, "title") {
-        spec.title = title.value;
+        spec.title = title.value.into();
     }
-    spec.reference = reader.optional_string(&table, "reference");
+    spec.reference = reader.optional_foreign(&table, "reference");
     spec.strain_energy = reader.required_formula(&table, "strain_energy");
     let claim = table.get("frame_indifferent");
     let claimed = claim.as_ref().and_then(|entry| reader.boolean(entry));

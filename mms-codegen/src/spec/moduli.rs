@@ -80,7 +80,7 @@ pub fn convert(
         rewrite(sources, own, pair, material);
         return;
     }
-    diagnostics.push(mistake(field, &material.name, &given, own, &others));
+    diagnostics.push(mistake(field, &material.name.shown(), &given, own, &others));
     let span = field.material.span;
     let given = given.iter().map(|name| (name.value.clone(), name.span));
     material.parameters.retain(|parameter| !own.contains(&parameter.name.value.as_str()));
@@ -139,7 +139,7 @@ fn rewrite(sources: &mut Sources, own: Pair, pair: Pair, material: &mut Material
             "nu" => stress.as_ref().map(|_| Spanned { value: "1".into(), span: unit }),
             _ => stress.clone(),
         };
-        let doc = DOCS.iter().find(|(known, _)| *known == name).map(|(_, doc)| doc.to_string());
+        let doc = DOCS.iter().find(|(known, _)| *known == name).map(|(_, doc)| (*doc).into());
         MaterialParameter { name: Spanned { value: name.into(), span }, unit, doc }
     });
     let converted =

@@ -3,6 +3,7 @@
 use super::table::{Reader, Table};
 use super::value::plural;
 use crate::diagnostic::Diagnostic;
+use crate::foreign::Foreign;
 use crate::selection::Form;
 use crate::source::Span;
 
@@ -56,7 +57,7 @@ pub struct StudySpec {
     /// By how much the observed order may differ.
     pub tolerance: Option<f64>,
     /// Why this order is expected.
-    pub reason: Option<String>,
+    pub reason: Option<Foreign>,
     /// The table.
     pub span: Span,
 }
@@ -132,7 +133,7 @@ fn study<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> StudySpec {
         cells: cells(table, reader).unwrap_or_default(),
         order: order.unwrap_or(DEFAULT_ORDER),
         tolerance,
-        reason: reader.optional_string(table, "reason"),
+        reason: reader.optional_foreign(table, "reason"),
         span: table.span,
     }
 }

@@ -4,6 +4,7 @@ use super::format::{MATERIAL_PARAMETER, PARAMETER};
 use super::formula::Formula;
 use super::names::Names;
 use super::table::{Entry, Reader, Table};
+use crate::foreign::Foreign;
 use crate::source::Spanned;
 
 /// A name for an expression.
@@ -25,7 +26,7 @@ pub struct ParameterSpec {
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
     /// One line on what it is.
-    pub doc: Option<String>,
+    pub doc: Option<Foreign>,
     /// The least and the greatest value it may take.
     pub range: Option<[Formula; 2]>,
     /// Whether a selection makes it a constant.
@@ -40,7 +41,7 @@ pub struct MaterialParameter {
     /// The unit, as written.
     pub unit: Option<Spanned<String>>,
     /// One line on what it is.
-    pub doc: Option<String>,
+    pub doc: Option<Foreign>,
 }
 
 /// Definitions in the order of the file. One whose name is refused is kept as a stray formula.
@@ -104,7 +105,7 @@ fn parameter<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> ParameterSpec {
     };
     parameter.value = reader.required_formula(&table, "value");
     parameter.unit = table.get("unit").and_then(|unit| reader.string(&unit));
-    parameter.doc = reader.optional_string(&table, "doc");
+    parameter.doc = reader.optional_foreign(&table, "doc");
     parameter.range = table
         .get("range")
         .map(|range| reader.pair(&range, "expected the least and the greatest value"));
@@ -125,7 +126,7 @@ pub(super) fn material_parameters<'a>(
             .as_ref()
             .and_then(|fields| fields.get("unit"))
             .and_then(|unit| reader.string(&unit));
-        let doc = fields.as_ref().and_then(|fields| reader.optional_string(fields, "doc"));
+        let doc = fields.as_ref().and_then(|fields| reader.optional_foreign(fields, "doc"));
         if names.define(&entry.key, reader) {
             parameters.push(MaterialParameter { name: entry.key.clone(), unit, doc });
         }

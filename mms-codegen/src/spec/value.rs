@@ -5,6 +5,7 @@ use toml::de::DeValue;
 use super::formula::Formula;
 use super::table::{Entry, Reader, Table, Value, list};
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::foreign::Foreign;
 use crate::source::{Span, Spanned};
 use crate::suggest::advice;
 
@@ -25,10 +26,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The string of a key that may be left out.
-    pub fn optional_string(&mut self, table: &Table<'a>, key: &str) -> Option<String> {
+    /// The text for people of a key that may be left out.
+    pub fn optional_foreign(&mut self, table: &Table<'a>, key: &str) -> Option<Foreign> {
         let entry = table.get(key)?;
-        self.string(&entry).map(|text| text.value)
+        self.string(&entry).map(|text| text.value.into())
     }
 
     /// The string of a key that must be there.

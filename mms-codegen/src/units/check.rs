@@ -193,8 +193,11 @@ impl Checker<'_> {
         self.expect([&material.density], Dimension::density(), message, FORCING);
         for (name, formula) in &material.arguments {
             let Some(dimension) = arguments.get(&name.value) else { continue };
-            let message =
-                format!("`{}` of `{}` must be in {dimension}", name.value, material.model.value);
+            let message = format!(
+                "`{}` of `{}` must be in {dimension}",
+                name.value,
+                material.model.value.shown()
+            );
             self.expect([formula], dimension.clone(), message, FORCING);
         }
         let direction = material.fibre.iter().flatten();

@@ -8,6 +8,7 @@ mod fit;
 mod observer;
 mod order;
 mod phase;
+mod range;
 mod refinement;
 mod run;
 mod series;
@@ -23,7 +24,7 @@ pub use order::{Orders, observed_order, orders};
 pub use phase::{Phase, Phases};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
-pub use series::{Point, Series};
+pub use series::{Point, Reason, Series};
 pub use snapshots::Snapshots;
 pub use verdict::{CONSTANT_TOLERANCE, Judgement, TOLERANCE, Verdict, is_near, judge};
 

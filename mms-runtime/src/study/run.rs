@@ -1,6 +1,7 @@
 //! One run of a method on a field, and what is said of it.
 
 use super::course::{Course, Saved, SavedCourse, Stopwatch};
+use super::range::explained;
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
 use crate::particle::Particles;
 use crate::solver::{AnySolver, Seconds, of_method};
@@ -182,7 +183,7 @@ fn run<T: Solve<D>, const D: usize>(
             (run.details, run.seconds, run.snapshots) = (Some(details), seconds, snapshots);
             Ok(errors)
         }
-        Err(failure) => Err(failure),
+        Err(failure) => Err(explained(&solver.present(), run.level.cell_size, failure)),
     };
     Ok(run)
 }

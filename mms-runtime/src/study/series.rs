@@ -39,6 +39,17 @@ impl Point {
     }
 }
 
+/// The order that a verdict rests on, where that is no `pass`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reason {
+    /// `l2` or `linf`.
+    pub norm: &'static str,
+    /// The order that is not as expected, or has not settled; `None`, where there is none.
+    pub order: Option<f64>,
+    /// The positions of its levels among the [points](Series::points): the coarser one, the finer one.
+    pub levels: [usize; 2],
+}
+
 /// The points of a study, from coarse to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
@@ -80,28 +91,48 @@ impl Series {
     ///
     /// Levels are those before the first whose error may be nothing but round-off.
     pub fn judge(&self, expected_order: f64, tolerance: f64) -> Judgement {
-        // Pairs of neighbouring levels, the finest pair first.
-        let mut pairs = self.sound().windows(2).rev().map(|pair| pair[1].orders_from(&pair[0]));
-        let finest = pairs.next().unwrap_or_default();
-        let before = pairs.next();
+        let (verdict, _) = self.decide(expected_order, tolerance);
+        Judgement { observed_order: self.pair(0).and_then(|(orders, _)| orders.l2), verdict }
+    }
 
-        let lowest = expected_order - tolerance;
-        let too_low = |order: Option<f64>| order.is_some_and(|order| order < lowest);
+    /// What orders led to a verdict that is no `pass`; nothing, where none did.
+    pub fn reason(&self, expected_order: f64, tolerance: f64) -> Option<Reason> {
+        self.decide(expected_order, tolerance).1
+    }
+
+    /// The orders between two neighbouring levels, and the positions of these; 0 is the finest pair.
+    fn pair(&self, before_finest: usize) -> Option<(Orders, [usize; 2])> {
+        let sound = self.sound();
+        let fine = sound.len().checked_sub(before_finest + 1)?;
+        let coarse = fine.checked_sub(1)?;
+        Some((sound[fine].orders_from(&sound[coarse]), [coarse, fine]))
+    }
+
+    fn decide(&self, expected_order: f64, tolerance: f64) -> (Verdict, Option<Reason>) {
         let stopped = self.points.iter().any(|point| point.errors.is_none());
-        let settled = |order: f64| {
-            order <= expected_order + tolerance
-                && before.is_none_or(|pair| {
-                    pair.l2.is_some_and(|earlier| (order - earlier).abs() <= tolerance)
-                })
+        let (finest, levels) = match self.pair(0) {
+            _ if stopped => return (Verdict::Fail, None),
+            None => return (Verdict::NotAsymptotic, None),
+            Some(pair) => pair,
         };
-        let verdict = if stopped || too_low(finest.l2) || too_low(finest.linf) {
-            Verdict::Fail
-        } else if finest.linf.is_none() || !finest.l2.is_some_and(settled) {
-            Verdict::NotAsymptotic
-        } else {
-            Verdict::Pass
+        let of = |norm, order| Some(Reason { norm, order, levels });
+        let too_low = |order: Option<f64>| order.is_some_and(|it| it < expected_order - tolerance);
+        let too_high = |order: f64| order > expected_order + tolerance;
+        let unsettled = |order: f64, earlier: Orders| {
+            !earlier.l2.is_some_and(|earlier| (order - earlier).abs() <= tolerance)
         };
-        Judgement { observed_order: finest.l2, verdict }
+        match (finest.l2, self.pair(1)) {
+            (l2, _) if too_low(l2) => (Verdict::Fail, of("l2", l2)),
+            _ if too_low(finest.linf) => (Verdict::Fail, of("linf", finest.linf)),
+            _ if finest.linf.is_none() => (Verdict::NotAsymptotic, of("linf", None)),
+            (None, _) => (Verdict::NotAsymptotic, of("l2", None)),
+            (Some(l2), _) if too_high(l2) => (Verdict::NotAsymptotic, of("l2", Some(l2))),
+            (Some(l2), Some((earlier, levels))) if unsettled(l2, earlier) => {
+                let (norm, order) = ("l2", earlier.l2);
+                (Verdict::NotAsymptotic, Some(Reason { norm, order, levels }))
+            }
+            _ => (Verdict::Pass, None),
+        }
     }
 
     /// How far the observed order of l2 may be from that of the limit: with e = C h^p (1 + K h + ..) orders
@@ -156,6 +187,43 @@ mod tests {
             let error = (order - 2.0).abs();
             assert!(error < 1.1 * away && away < 1.5 * error, "{next}: {order} {away}");
         }
+    }
+
+    /// Errors of l2 and of linf.
+    fn two_norms(errors: &[[f64; 2]]) -> Series {
+        Series::new(errors.iter().enumerate().map(|(k, &[l2, linf])| Point {
+            length: 0.5f64.powi(k as i32),
+            errors: Some(Errors { l1: l2, l2, linf }),
+            floor: 0.0,
+        }))
+    }
+
+    #[test]
+    fn the_norm_and_the_levels_that_decide_are_named() {
+        let reason = |errors: &[[f64; 2]]| {
+            let series = two_norms(errors);
+            let reason = series.reason(2.0, 0.15);
+            let named = reason.map(|it| (it.norm, it.order.map(f64::round), it.levels));
+            (series.judge(2.0, 0.15).verdict, named)
+        };
+        let (fail, not) = (Verdict::Fail, Verdict::NotAsymptotic);
+        assert_eq!(reason(&[[16.0; 2], [4.0; 2], [1.0; 2]]), (Verdict::Pass, None));
+        assert_eq!(
+            reason(&[[16.0; 2], [4.0; 2], [2.0; 2]]),
+            (fail, Some(("l2", Some(1.0), [1, 2])))
+        );
+        let of_largest = [[16.0, 16.0], [4.0, 4.0], [1.0, 2.0]];
+        assert_eq!(reason(&of_largest), (fail, Some(("linf", Some(1.0), [1, 2]))));
+        assert_eq!(
+            reason(&[[32.0; 2], [4.0; 2], [1.0; 2]]),
+            (not, Some(("l2", Some(3.0), [0, 1])))
+        );
+        assert_eq!(
+            reason(&[[16.0; 2], [8.0; 2], [1.0; 2]]),
+            (not, Some(("l2", Some(3.0), [1, 2])))
+        );
+        assert_eq!(reason(&[[4.0, 0.0], [1.0, 0.0]]), (not, Some(("linf", None, [0, 1]))));
+        assert_eq!(reason(&[[1.0; 2]]), (not, None));
     }
 
     #[test]

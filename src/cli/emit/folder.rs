@@ -5,16 +5,19 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use mms_codegen::emit::File;
+use mms_codegen::foreign::{self, Foreign};
 
-use crate::report::write_whole;
+use crate::read;
+use crate::report::write_own;
 
 /// Writes a file into a folder, whole or not at all, and returns its path.
-pub fn write(folder: &Path, file: &File) -> anyhow::Result<String> {
+pub fn write(folder: &Path, file: &File) -> anyhow::Result<Foreign> {
     fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        .with_context(|| format!("cannot make the folder `{}`", foreign::path(folder)))?;
     let path = folder.join(&file.name);
-    write_whole(&path, &file.text).with_context(|| format!("cannot write `{}`", path.display()))?;
-    Ok(path.display().to_string())
+    write_own(&path, &file.text)
+        .with_context(|| format!("cannot write `{}`", foreign::path(&path)))?;
+    Ok(path.to_string_lossy().into())
 }
 
 /// How a file in a folder compares with what would be written.
@@ -40,14 +43,14 @@ impl State {
 }
 
 /// Compares a file with that in a folder.
-pub fn compare(folder: &Path, file: &File) -> anyhow::Result<(String, State)> {
+pub fn compare(folder: &Path, file: &File) -> anyhow::Result<(Foreign, State)> {
     let path = folder.join(&file.name);
-    let shown = path.display().to_string();
-    let state = match fs::read(&path) {
+    // What is longer is not the same.
+    let state = match read::first(&path, file.text.len() as u64 + 1) {
         Ok(bytes) if bytes == file.text.as_bytes() => State::Current,
         Ok(_) => State::Stale,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => State::Missing,
-        Err(error) => return Err(error).with_context(|| format!("cannot read `{shown}`")),
+        Err(error) if error.is_missing() => State::Missing,
+        Err(error) => return Err(error).with_context(|| read::cannot_read(&path)),
     };
-    Ok((shown, state))
+    Ok((path.to_string_lossy().into(), state))
 }

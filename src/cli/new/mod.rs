@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_codegen::foreign;
 use mms_codegen::spec::field_name;
 
 use self::template::{Body, Template};
@@ -53,10 +54,10 @@ impl New {
         let material = template::material(&self.material)?;
         let folder = self.folder();
         let path = folder.join(format!("{}.toml", self.name));
-        let shown = path.display().to_string();
+        let shown = foreign::path(&path);
         // First, since `..` leads nowhere from a folder that is not there.
         fs::create_dir_all(&folder)
-            .with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+            .with_context(|| format!("cannot make the folder `{}`", foreign::path(&folder)))?;
         let template = Template {
             name: &self.name,
             path: &shown,
@@ -99,7 +100,7 @@ impl New {
 
 /// Writes a file that must not be there yet.
 fn write_new(path: &Path, text: &str) -> anyhow::Result<()> {
-    let shown = path.display();
+    let shown = foreign::path(path);
     match file::write_new(path, text) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {

@@ -7,6 +7,7 @@
 
 use anyhow::bail;
 use mms_codegen::compile::MATERIALS;
+use mms_codegen::foreign::Foreign;
 use mms_codegen::spec::names::FUNCTIONS;
 use mms_codegen::spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
@@ -71,7 +72,7 @@ pub fn material(name: &str) -> anyhow::Result<MaterialSpec> {
     if let Some(material) = materials.iter().find(|material| material.name == name) {
         return Ok(material.clone());
     }
-    let stems = materials.iter().map(|material| material.name.as_str());
+    let stems = materials.iter().map(|material| material.name.raw());
     let advice =
         advice(name, stems, |all| format!("there are {all}. One of your own is named in the file"));
     bail!("no material `{name}`; {advice}")
@@ -126,7 +127,7 @@ impl Template<'_> {
             "functions" => FUNCTIONS.join(" "),
             "parameters" => self.parameters(),
             "arguments" => self.arguments(),
-            "model" => self.material.name.clone(),
+            "model" => self.material.name.raw().into(),
             "materials" => materials(),
             "shapes" => SHAPES.join(" "),
             "integrators" => INTEGRATORS.join(" "),
@@ -158,7 +159,7 @@ impl Template<'_> {
             // the user knows the body, the template does not.
             let value = if unit == Some("Pa") { "1e6" } else { "10" };
             let mut line = format!("{:<9} = {{ value = {value}", renamed(&parameter.name.value));
-            for (key, text) in [("unit", unit), ("doc", parameter.doc.as_deref())] {
+            for (key, text) in [("unit", unit), ("doc", parameter.doc.as_ref().map(Foreign::raw))] {
                 if let Some(text) = text {
                     line.push_str(&format!(", {key} = {text:?}"));
                 }

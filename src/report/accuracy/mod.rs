@@ -7,6 +7,7 @@ use std::path::Path;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use mms_codegen::accuracy::{Accuracy, Errors, Precision, Row};
+use mms_codegen::foreign::Foreign;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Form;
 use serde_json::{Value, json};
@@ -25,7 +26,7 @@ const PROMISED: [&str; 4] =
 /// The measured errors of a field.
 pub struct Report {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// At how many points.
     pub points: usize,
     /// The errors.
@@ -43,7 +44,7 @@ pub fn is_promised(form: &str, regime: &str) -> bool {
 
 /// Whether something is promised of a row.
 fn has_promise(row: &Row) -> bool {
-    is_promised(row.form.name(), &row.regime)
+    is_promised(row.form.name(), row.regime.raw())
 }
 
 /// Whether a row is within what is promised of it; nothing is promised of some, and nothing is known of those without a
@@ -180,7 +181,7 @@ impl Report {
                 row.quantity.name().to_string(),
                 row.precision.name().into(),
                 row.form.name().into(),
-                row.regime.clone(),
+                row.regime.shown(),
                 shown(|it| it.median_eps),
                 shown(|it| it.p99_eps),
                 shown(|it| it.max_eps),
@@ -193,14 +194,15 @@ impl Report {
             column.set_cell_alignment(CellAlignment::Right);
         }
         let mut text =
-            format!("{}, {} points, errors in eps\n\n{table}\n", self.field, self.points);
+            format!("{}, {} points, errors in eps\n\n{table}\n", self.field.shown(), self.points);
         for left_out in &self.accuracy.left_out {
             let quantity = left_out.quantity.map_or(String::new(), |it| format!(", {}", it.name()));
             let precision =
                 left_out.precision.map_or(String::new(), |it| format!(" in {}", it.name()));
             text += &format!(
                 "\nleft out: {}{quantity}{precision}: {}",
-                left_out.regime, left_out.reason
+                left_out.regime.shown(),
+                left_out.reason
             );
         }
         if self.is_declared_left_out() {
@@ -213,7 +215,7 @@ impl Report {
                 "\nnot measured: {} in {} at {}: no component has a real value, {} were looked at",
                 row.quantity.name(),
                 row.precision.name(),
-                row.regime,
+                row.regime.shown(),
                 row.errors.undefined
             );
         }
@@ -222,7 +224,7 @@ impl Report {
                 "\nbeyond {BOUND} eps: {} in {} at {}: {} eps, {} not finite",
                 row.quantity.name(),
                 row.precision.name(),
-                row.regime,
+                row.regime.shown(),
                 measured(row, |it| it.max_scaled_eps).map_or("unknown".into(), eps),
                 row.errors.not_finite
             );

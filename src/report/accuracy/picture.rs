@@ -33,7 +33,7 @@ pub fn draw(report: &Report) -> anyhow::Result<String> {
 
 /// The regime that is shown: the declared one if it was measured, or else the first that was.
 fn regime(report: &Report) -> &str {
-    let mut regimes = report.accuracy.rows.iter().map(|row| row.regime.as_str());
+    let mut regimes = report.accuracy.rows.iter().map(|row| row.regime.raw());
     let first = regimes.clone().next().unwrap_or("declared");
     regimes.find(|regime| *regime == "declared").unwrap_or(first)
 }
@@ -73,7 +73,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
     let errors = span(marks.iter().map(|mark| mark.error), 100.0);
     let ((times_shown, times_between), (decades, _)) = (ticks(times), ticks(errors));
     let errors_shown: Vec<f64> = decades.iter().copied().step_by(decades.len() / 10 + 1).collect();
-    let caption = format!("{}: {}, {} points", report.field, regime(report), report.points);
+    let caption = format!("{}: {}, {} points", report.field.shown(), regime(report), report.points);
     let mut chart = ChartBuilder::on(&root)
         .caption(caption, ("sans-serif", 18))
         .margin(16)

@@ -5,23 +5,23 @@ mod picture;
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
+use mms_codegen::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::front::front;
 use super::provenance::Provenance;
-use super::{bytes, duration, write_whole};
+use super::{bytes, duration, pretty, write_files};
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
 
 /// What was found for a field.
 pub struct Report<'a> {
     /// The field's name.
-    pub field: String,
+    pub field: Foreign,
     /// The field's title.
-    pub title: String,
+    pub title: Foreign,
     /// What was searched.
     pub plan: Plan,
     /// What was found.
@@ -210,7 +210,13 @@ impl Report<'_> {
 
     /// The text for a terminal: all runs, or those on the front, those of the default and those that stopped.
     pub fn text(&self, all: bool) -> String {
-        format!("{}: {}\n\n{}\n\n{}", self.field, self.title, self.table(all), self.advice())
+        format!(
+            "{}: {}\n\n{}\n\n{}",
+            self.field.shown(),
+            self.title.shown(),
+            self.table(all),
+            self.advice()
+        )
     }
 
     /// The runs from cheap to dear, and those that stopped.
@@ -380,20 +386,8 @@ impl Report<'_> {
 
     /// Writes tradeoff.json and tradeoff.svg, and says where.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
-        let files = [
-            ("tradeoff.json", serde_json::to_string_pretty(&self.document())? + "\n"),
-            ("tradeoff.svg", picture::draw(self)?),
-        ];
-        let shown = folder.display();
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder `{shown}`"))?;
-        let written = files.into_iter().map(|(name, content)| {
-            let path = folder.join(name);
-            write_whole(&path, &content)
-                .with_context(|| format!("cannot write `{}`", path.display()))?;
-            Ok(path.display().to_string())
-        });
-        written.collect()
+        let files = [("json", pretty(&self.document())?), ("svg", picture::draw(self)?)];
+        write_files(folder, "tradeoff", files)
     }
 }
 

@@ -1,5 +1,7 @@
 //! The page docs/tradeoff.md.
 
+use mms_codegen::foreign::Foreign;
+
 use super::{Report, factor};
 use crate::tradeoff::search::{Cost, Goal};
 use crate::tradeoff::setting::Setting;
@@ -23,7 +25,7 @@ made.
 /// Tables of fields, one after the other.
 pub struct Page {
     text: String,
-    field: String,
+    field: Foreign,
 }
 
 impl Page {
@@ -36,7 +38,7 @@ impl Page {
 
     /// Without fields.
     pub fn new() -> Self {
-        Page { text: INTRODUCTION.into(), field: String::new() }
+        Page { text: INTRODUCTION.into(), field: Foreign::default() }
     }
 
     /// Adds what was found for a target.
@@ -45,7 +47,8 @@ impl Page {
             self.field = report.field.clone();
             self.text += &format!(
                 "\n## {}\n\n{}.\n\n| linf | choice | cells | time | particle-steps | memory | the default takes | half the error costs |\n|---|---|---|---|---|---|---|---|\n",
-                report.field, report.title
+                report.field.shown(),
+                report.title.shown()
             );
         }
         self.text += &line(report);

@@ -43,7 +43,7 @@ fn draw_into(report: &Report, svg: &mut String) -> Result<(), Box<dyn std::error
     let ((costs_shown, costs_between), (errors_shown, errors_between)) =
         (ticks(costs), ticks(errors));
     let mut chart = ChartBuilder::on(&root)
-        .caption(format!("{}: error against cost", report.field), ("sans-serif", 18))
+        .caption(format!("{}: error against cost", report.field.shown()), ("sans-serif", 18))
         .margin(16)
         .x_label_area_size(48)
         .y_label_area_size(72)

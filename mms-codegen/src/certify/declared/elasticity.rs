@@ -145,7 +145,11 @@ impl Declared<'_> {
     /// Where W is written: the field's own choice, if it is that of a shipped material.
     fn density_of_energy(&self) -> Span {
         let model = &self.field.material.model;
-        if shipped(&model.value).is_some() { model.span } else { self.material.strain_energy.span }
+        if shipped(model.value.raw()).is_some() {
+            model.span
+        } else {
+            self.material.strain_energy.span
+        }
     }
 }
 

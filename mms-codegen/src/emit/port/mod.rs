@@ -90,7 +90,7 @@ impl<'a> Port<'a> {
         Port {
             subject,
             compiled,
-            name: of_holder(&compiled.field.name, rules, &functions),
+            name: of_holder(compiled.field.name.raw(), rules, &functions),
             parameters: positions.into_iter().zip(unique(&names, rules)).collect(),
             callables,
             kept,

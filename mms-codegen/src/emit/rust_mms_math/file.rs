@@ -7,12 +7,11 @@ use syn::{Attribute, Item};
 use super::{Emitter, docs, identifier};
 use crate::compile::Compiled;
 use crate::emit::File;
-use crate::emit::text::on_one_line;
 
 /// The selected quantities as one file, which needs `mms-math` alone. It is a module: say
 /// `mod bar_1d;` beside it, or `include!` it in a module.
 pub fn file(compiled: &Compiled) -> File {
-    let name = identifier(&compiled.field.name).to_string();
+    let name = identifier(compiled.field.name.raw()).to_string();
     let name = format!("{}.rs", name.trim_start_matches("r#"));
     let mut file: syn::File =
         syn::parse2(Emitter::new(compiled, false).kernels()).expect("emitted tokens are items");
@@ -26,16 +25,11 @@ pub fn file(compiled: &Compiled) -> File {
             _ => {}
         }
     }
-    let header: String = docs(compiled).iter().map(|line| comment(line)).collect();
+    let header: String = docs(compiled).iter().map(|line| format!("//{line}\n")).collect();
     File { name, text: format!("{header}\n{}", prettyplease::unparse(&file)) }
 }
 
 fn attribute(tokens: TokenStream) -> Attribute {
     let item: syn::ItemStruct = syn::parse_quote!(#tokens struct S;);
     item.attrs.into_iter().next().expect("one attribute was written")
-}
-
-/// A line of a comment.
-fn comment(text: &str) -> String {
-    format!("//{}\n", on_one_line(text))
 }

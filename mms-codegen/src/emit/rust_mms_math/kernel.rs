@@ -4,6 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::{Emitter, Place};
+use crate::foreign::{Foreign, blanked};
 use crate::mechanics::Response;
 use crate::mechanics::model::Body;
 use crate::program::{Bound, Output, Stage};
@@ -20,9 +21,10 @@ impl Emitter<'_> {
         // A parameter may be called like something that a pattern cannot bind, such as `None`.
         let locals: Vec<_> = (0..names.len()).map(|index| format_ident!("p{index}")).collect();
         let docs = parameters.iter().map(|parameter| {
-            let what = parameter.doc.as_deref().unwrap_or("A parameter of the field");
+            let what = parameter.doc.as_ref().map(Foreign::in_a_comment);
+            let what = what.as_deref().unwrap_or("A parameter of the field");
             match &parameter.unit {
-                Some(unit) => format!(" {what} ({unit})."),
+                Some(unit) => format!(" {what} ({}).", blanked(unit)),
                 None => format!(" {what}."),
             }
         });

@@ -5,6 +5,7 @@ use crate::diagnostic::Diagnostic;
 use crate::expr::print::Names;
 use crate::expr::resolve::Scope;
 use crate::expr::{Expr, Rational};
+use crate::foreign::Foreign;
 use crate::mechanics::invariant::{INVARIANTS, Kind, VOLUME};
 use crate::source::Spanned;
 use crate::spec::moduli::ENGINEERING;
@@ -68,8 +69,10 @@ impl Reader<'_> {
                 continue;
             }
             let model = &field.material.model;
-            let what = parameter.doc.as_deref().unwrap_or("no description");
-            let message = format!("material parameter `{name}` of `{}` is missing", model.value);
+            let what = parameter.doc.as_ref().map(Foreign::shown);
+            let what = what.as_deref().unwrap_or("no description");
+            let message =
+                format!("material parameter `{name}` of `{}` is missing", model.value.shown());
             self.diagnostics.push(
                 Diagnostic::error(model.span, message)
                     .label(format!("needs `{name}`: {what}"))
@@ -91,7 +94,7 @@ impl Reader<'_> {
     }
 
     fn unknown_argument(&mut self, field: &FieldSpec, name: &Spanned<String>, known: &[&str]) {
-        let model = &field.material.model.value;
+        let model = field.material.model.value.shown();
         let message = format!("`{}` is not a parameter of `{model}`", name.value);
         let diagnostic = Diagnostic::error(name.span, message).label("unknown parameter");
         let advice = advice(&name.value, known.iter().copied(), |all| match all {
@@ -131,7 +134,7 @@ impl Reader<'_> {
         }
         let (material, first) = (material?, formulas.first()?);
         if !material.has_fibres() && !material.incomplete {
-            let message = format!("`{}` has no fibres", field.material.model.value);
+            let message = format!("`{}` has no fibres", field.material.model.value.shown());
             self.diagnostics.push(
                 Diagnostic::error(first.span, message)
                     .label("its density is no function of I4")
@@ -177,7 +180,8 @@ impl Reader<'_> {
             (None, _) => {
                 if field.material.fibre.is_none() && !field.incomplete {
                     let model = &field.material.model;
-                    let message = format!("`{}` needs the direction of its fibres", model.value);
+                    let message =
+                        format!("`{}` needs the direction of its fibres", model.value.shown());
                     self.diagnostics.push(
                         Diagnostic::error(model.span, message)
                             .label("its density is a function of I4")

@@ -4,6 +4,7 @@
 mod python;
 
 use crate::compile::Compiled;
+use crate::foreign::{Foreign, blanked};
 use crate::program::Output;
 use crate::program::interpret::{Interpreter, Point};
 use crate::quantity::Quantity;
@@ -47,18 +48,17 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
     Ok(text)
 }
 
-/// A text of the user in a comment, which ends with the line.
-fn comment(text: &str) -> String {
-    text.chars().map(|character| if character.is_control() { ' ' } else { character }).collect()
-}
-
 fn head(compiled: &Compiled) -> String {
     let field = &compiled.field;
     let mut lines = vec![
         "#!/usr/bin/env python3".to_string(),
-        format!("# Audit of the field {}: {}", comment(&field.name), comment(&field.title)),
+        format!(
+            "# Audit of the field {}: {}",
+            field.name.in_a_comment(),
+            field.title.in_a_comment()
+        ),
     ];
-    lines.extend(field.reference.as_ref().map(|reference| format!("# {}", comment(reference))));
+    lines.extend(field.reference.iter().map(|reference| format!("# {}", reference.in_a_comment())));
     lines.push(format!("# Written by {}", compiled.provenance()));
     lines.push("#\n".into());
     lines.join("\n")
@@ -86,8 +86,8 @@ fn field(compiled: &Compiled) -> String {
         let (name, value) =
             (names.name(&parameter.name.value), translated(&parameter.value, &names));
         let unit = parameter.unit.as_ref().map(|unit| format!("[{}]", unit.value));
-        let notes: Vec<_> = parameter.doc.iter().cloned().chain(unit).collect();
-        let note = comment(&notes.join(" "));
+        let doc = parameter.doc.iter().map(Foreign::in_a_comment);
+        let note = blanked(&doc.chain(unit).collect::<Vec<_>>().join(" "));
         let note = if note.is_empty() { note } else { format!("  # {note}") };
         lines.push(format!("    {name} = {value}{note}"));
     }
@@ -155,7 +155,11 @@ fn strain_energy(compiled: &Compiled) -> String {
         parameters.map(|parameter| format!(", {}", names.name(&parameter.name.value))).collect();
     let invariants = "I1, I2, I3, J, I4, eps_trace, eps_squared";
     let mut lines = vec![format!("def strain_energy({invariants}{parameters}):")];
-    lines.push(format!("    # {}: {}", comment(&material.name), comment(&material.title)));
+    lines.push(format!(
+        "    # {}: {}",
+        material.name.in_a_comment(),
+        material.title.in_a_comment()
+    ));
     for definition in &material.lets {
         let value = translated(&definition.value, &names);
         lines.push(format!("    {} = {value}", names.name(&definition.name.value)));

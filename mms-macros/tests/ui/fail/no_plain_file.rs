@@ -1,0 +1,3 @@
+mms_macros::field!("/dev/zero");
+
+fn main() {}

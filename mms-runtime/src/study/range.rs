@@ -1,0 +1,96 @@
+//! Numbers beyond the range of a precision: a run that stops for them looks like an unstable one, and is none.
+
+use crate::solver::Present;
+use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Vector};
+
+/// What stopped a run, with what leaves the range of its precision in the place of what that led to.
+pub(super) fn explained<T: Real, const D: usize>(
+    present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
+    cell_size: f64,
+    failure: Failure,
+) -> Failure {
+    match failure.cause {
+        Cause::UnstableStep { .. } | Cause::Stopped { .. } => failure,
+        _ => match beyond(&sizes(present, cell_size), range::<T>()) {
+            Some(cause) => Failure { cause, ..failure },
+            None => failure,
+        },
+    }
+}
+
+/// The least positive number with all digits, and the greatest number.
+fn range<T: Real>() -> [f64; 2] {
+    let most = T::max_value().map_or(f64::INFINITY, Real::to_f64);
+    // As IEEE 754 balances exponents.
+    [4.0 / most, most]
+}
+
+/// A number that steps compute with, the largest of all particles; and whether it cannot be 0.
+type Size = (&'static str, f64, bool);
+
+/// The first that has no number of that range.
+fn beyond(sizes: &[Size], [least, most]: [f64; 2]) -> Option<Cause> {
+    let is_beyond = |&&(_, value, is_positive): &&Size| {
+        !(value <= most) || (value < least && (value > 0.0 || is_positive))
+    };
+    let &(quantity, value, _) = sizes.iter().find(is_beyond)?;
+    Some(Cause::OutOfRange { quantity, value, least, most })
+}
+
+/// The sizes of a scene as the field has it now.
+fn sizes<T: Real, const D: usize>(
+    present: &Present<'_, T, D, dyn ManufacturedField<T, D> + '_>,
+    cell_size: f64,
+) -> Vec<Size> {
+    let Present { field, particles, .. } = present;
+    let (reference, now) = (&particles.reference_position, T::of(present.time));
+    let mut vectors = vec![Vector::<T, D>::zeros(); particles.len()];
+    field.velocity(now, reference, &mut vectors);
+    let velocity = largest(vectors.iter().flat_map(Vector::iter));
+    field.body_force(now, reference, &mut vectors);
+    let force = largest(vectors.iter().flat_map(Vector::iter));
+    let mut gradients = vec![Matrix::<T, D>::zeros(); particles.len()];
+    field.displacement_gradient(now, reference, &mut gradients);
+    let mut stresses = vec![Matrix::<T, D>::zeros(); particles.len()];
+    field.kirchhoff_stress(reference, &gradients, &mut stresses);
+    let stress = largest(stresses.iter().flat_map(Matrix::iter));
+    let [mass, volume] =
+        [&particles.mass, &particles.reference_volume].map(|it| largest(it.iter()));
+    vec![
+        ("time step", present.time_step, true),
+        ("volume of a particle", volume, true),
+        ("field's velocity", velocity, false),
+        ("field's body force", force, false),
+        ("field's stress", stress, false),
+        ("momentum of a particle", mass * velocity, false),
+        ("body force on a particle", mass * force, false),
+        ("force of the stress of a particle", volume * stress / cell_size, false),
+    ]
+}
+
+/// The largest magnitude; not a number, if one is none.
+fn largest<'a, T: Real>(numbers: impl Iterator<Item = &'a T>) -> f64 {
+    let magnitudes = numbers.map(|number| number.to_f64().abs());
+    magnitudes.fold(0.0, |most, it| if it > most || it.is_nan() { it } else { most })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_number_is_named_and_nothing_else() {
+        let [least, most] = range::<f32>();
+        assert_eq!([least as f32, most as f32], [f32::MIN_POSITIVE, f32::MAX]);
+        let of = |value: f64, is_positive| beyond(&[("size", value, is_positive)], [least, most]);
+        for value in [1.0, 1e-37, 3e38] {
+            assert_eq!(of(value, true), None);
+        }
+        for value in [1e-39, 1e39, f64::INFINITY, f64::NAN] {
+            let named = |cause| matches!(cause, Cause::OutOfRange { quantity: "size", .. });
+            assert!(of(value, false).is_some_and(named), "{value}");
+        }
+        assert_eq!(of(0.0, false), None);
+        assert!(of(0.0, true).is_some());
+    }
+}

@@ -1,0 +1,283 @@
+//! How files are read: plain ones alone, and none beyond what a file of its kind may hold.
+
+use std::fmt;
+use std::fs::{self, File, FileType, Metadata};
+use std::io::{self, Read as _};
+use std::path::Path;
+
+use anyhow::{Context as _, anyhow};
+use mms_codegen::foreign;
+use mms_codegen::source::Sources;
+use mms_codegen::spec::MAX_FILE;
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A field or a material.
+    Field,
+    /// A saved study.
+    Study,
+    /// A document that a command wrote.
+    Result,
+    /// The result of one run in a store.
+    Stored,
+    /// The list of the states of a run.
+    States,
+    /// One of these states.
+    State,
+    /// What a compiler made of emitted code.
+    Object,
+    /// What the system says of itself.
+    System,
+}
+
+impl Kind {
+    /// What a person calls it.
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Field => "a field or material file",
+            Kind::Study => "a study file",
+            Kind::Result => "a result",
+            Kind::Stored => "a stored result",
+            Kind::States => "a list of states",
+            Kind::State => "a state",
+            Kind::Object => "compiled code",
+            Kind::System => "a description of the system",
+        }
+    }
+
+    /// How many bytes it may have.
+    pub fn most(self) -> u64 {
+        match self {
+            Kind::Field | Kind::Study | Kind::System => MAX_FILE as u64,
+            Kind::Result | Kind::Stored | Kind::States => 16 << 20,
+            Kind::State | Kind::Object => 256 << 20,
+        }
+    }
+
+    /// What to do about one that is longer.
+    fn advice(self) -> &'static str {
+        match self {
+            Kind::Field => {
+                "is it the file that was meant? then write its formulas shorter, with [let]"
+            }
+            Kind::Study => "is it the file that was meant? its keys are the options of `mms study`",
+            Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
+            Kind::Stored => "remove it, and the run is made again",
+            Kind::States => "write fewer states, with `--frames`",
+            Kind::State => "draw it with ParaView, or run with fewer particles",
+            Kind::Object => "compile fewer quantities, with `--quantity`",
+            Kind::System => "nothing depends on it",
+        }
+    }
+}
+
+/// Why a file was not read.
+#[derive(Debug)]
+pub enum Unread {
+    /// The system says so.
+    Failed(io::Error),
+    /// It is something else, and what.
+    NotPlain(&'static str),
+    /// It is longer than a file of its kind may be.
+    TooLong(Kind),
+}
+
+impl std::error::Error for Unread {}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unread::Failed(error) => write!(f, "{error}"),
+            Unread::NotPlain(what) => write!(f, "it is {what}, and only plain files are read"),
+            Unread::TooLong(kind) => write!(
+                f,
+                "it has more than {} bytes, the most that {} may have: {}",
+                kind.most(),
+                kind.name(),
+                kind.advice()
+            ),
+        }
+    }
+}
+
+impl From<io::Error> for Unread {
+    fn from(error: io::Error) -> Self {
+        Unread::Failed(error)
+    }
+}
+
+impl Unread {
+    /// Whether there is no such file.
+    pub fn is_missing(&self) -> bool {
+        matches!(self, Unread::Failed(error) if error.kind() == io::ErrorKind::NotFound)
+    }
+}
+
+/// Opens a plain file. What is none is not opened: one may wait for a FIFO for ever, and devices may do something.
+pub fn open(path: &Path) -> Result<File, Unread> {
+    open_where(path, Metadata::is_file)
+}
+
+/// The same, or a pipe without a name, as `/dev/stdin` may be one: somebody is at its other end.
+fn open_given(path: &Path) -> Result<File, Unread> {
+    open_where(path, |found| found.is_file() || is_pipe(found))
+}
+
+fn open_where(path: &Path, fits: impl Fn(&Metadata) -> bool) -> Result<File, Unread> {
+    let hold = |found: Metadata| match fits(&found) {
+        true => Ok(()),
+        false => Err(Unread::NotPlain(what(found.file_type()))),
+    };
+    hold(fs::metadata(path).map_err(|error| lost(path, error))?)?;
+    #[expect(clippy::disallowed_methods, reason = "this is where files are opened")]
+    let file = File::open(path)?;
+    // It may have been replaced since.
+    hold(file.metadata()?)?;
+    Ok(file)
+}
+
+/// Whether this is a pipe that no file system has.
+#[cfg(unix)]
+fn is_pipe(found: &Metadata) -> bool {
+    use std::os::fd::OwnedFd;
+    use std::os::unix::fs::{FileTypeExt as _, MetadataExt as _};
+    let device = |(reader, _): (io::PipeReader, io::PipeWriter)| {
+        File::from(OwnedFd::from(reader)).metadata().map(|pipe| pipe.dev())
+    };
+    found.file_type().is_fifo() && io::pipe().and_then(device).is_ok_and(|it| it == found.dev())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Metadata) -> bool {
+    false
+}
+
+/// What a file is that is not plain.
+pub fn what(file_type: FileType) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt as _;
+        if file_type.is_fifo() {
+            return "a FIFO";
+        }
+        if file_type.is_socket() {
+            return "a socket";
+        }
+        if file_type.is_block_device() || file_type.is_char_device() {
+            return "a device";
+        }
+    }
+    match file_type {
+        it if it.is_dir() => "a folder",
+        it if it.is_symlink() => "a link",
+        _ => "no plain file",
+    }
+}
+
+/// That nothing is found behind a link is said of the link.
+fn lost(path: &Path, error: io::Error) -> Unread {
+    let leads_nowhere = error.kind() == io::ErrorKind::NotFound && path.is_symlink();
+    if leads_nowhere { Unread::NotPlain("a link that leads nowhere") } else { error.into() }
+}
+
+/// All bytes of a file of some kind.
+pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, Unread> {
+    all(open(path)?, kind)
+}
+
+fn all(file: File, kind: Kind) -> Result<Vec<u8>, Unread> {
+    let bytes = first_of(file, kind.most() + 1)?;
+    if bytes.len() as u64 > kind.most() { Err(Unread::TooLong(kind)) } else { Ok(bytes) }
+}
+
+/// The first bytes of a file, so many at most.
+pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
+    Ok(first_of(open(path)?, most)?)
+}
+
+fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The text of a file of some kind that a user has named, in UTF-8.
+///
+/// # Errors
+/// A file that cannot be read, or is no text, and where.
+pub fn text(path: &Path, kind: Kind) -> anyhow::Result<String> {
+    let bytes = open_given(path).and_then(|file| all(file, kind));
+    let bytes = bytes.with_context(|| cannot_read(path))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let mut sources = Sources::default();
+        let text = String::from_utf8_lossy(error.as_bytes());
+        let source = sources.add(path.to_string_lossy(), text);
+        let odd = error.utf8_error().valid_up_to();
+        let place = sources.place(sources.span(source, odd, odd));
+        anyhow!("{place}: expected text in UTF-8; save the file in that encoding")
+    })
+}
+
+/// That a file cannot be read, by its name.
+pub fn cannot_read(path: &Path) -> String {
+    format!("cannot read `{}`", foreign::path(path))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::symlink;
+    use std::process::Command;
+
+    use super::*;
+
+    /// A file of so many bytes that takes no room.
+    fn sparse(path: &Path, length: u64) {
+        File::create(path).unwrap().set_len(length).unwrap();
+    }
+
+    #[test]
+    fn no_file_is_read_beyond_what_its_kind_may_hold() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        for kind in [Kind::Field, Kind::Study, Kind::Result, Kind::Stored, Kind::States] {
+            sparse(&path, kind.most());
+            assert_eq!(bytes(&path, kind).unwrap().len() as u64, kind.most());
+            for length in [kind.most() + 1, 3 << 30] {
+                sparse(&path, length);
+                let said = bytes(&path, kind).unwrap_err().to_string();
+                assert!(said.contains(&kind.most().to_string()), "{said}");
+                assert!(said.contains(kind.name()) && said.ends_with(kind.advice()), "{said}");
+            }
+        }
+        assert_eq!(first(&path, 7).unwrap().len(), 7);
+    }
+
+    #[test]
+    fn what_is_no_plain_file_is_named_and_not_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        assert!(Command::new("mkfifo").arg(at("fifo")).status().unwrap().success());
+        let _socket = std::os::unix::net::UnixListener::bind(at("socket")).unwrap();
+        for (link, target) in [("loop", "loop"), ("nowhere", "none"), ("to_fifo", "fifo")] {
+            symlink(target, at(link)).unwrap();
+        }
+        for (name, what) in [
+            ("fifo", "it is a FIFO"),
+            ("to_fifo", "it is a FIFO"),
+            ("socket", "it is a socket"),
+            (".", "it is a folder"),
+            ("/dev/zero", "it is a device"),
+            ("nowhere", "it is a link that leads nowhere"),
+            ("loop", "symbolic link"),
+            ("missing", "No such file"),
+        ] {
+            let said = bytes(&at(name), Kind::Field).unwrap_err().to_string();
+            assert!(said.contains(what), "{name}: {said}");
+        }
+        assert!(bytes(&at("missing"), Kind::Field).unwrap_err().is_missing());
+        symlink("file", at("link")).unwrap();
+        fs::write(at("file"), "text").unwrap();
+        assert_eq!(text(&at("link"), Kind::Field).unwrap(), "text");
+    }
+}
