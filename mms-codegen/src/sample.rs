@@ -93,9 +93,17 @@ pub fn halton<T: Number>(index: usize) -> [T; 4] {
 
 /// The point of that index, from 1 on, of the Halton sequence in the unit cube of any dimension.
 pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
-    let is_prime = |n: &usize| (2..*n).take_while(|d| d * d <= *n).all(|d| !n.is_multiple_of(d));
-    let primes = (2..).filter(is_prime).take(dimension);
-    primes.map(|base| radical_inverse(index, base)).collect()
+    let mut primes: Vec<usize> = Vec::with_capacity(dimension);
+    for n in 2.. {
+        if primes.len() == dimension {
+            break;
+        }
+        let mut divisors = primes.iter().take_while(|prime| *prime * *prime <= n);
+        if divisors.all(|prime| !n.is_multiple_of(*prime)) {
+            primes.push(n);
+        }
+    }
+    primes.into_iter().map(|base| radical_inverse(index, base)).collect()
 }
 
 /// The body of a field with these parameters, and the two ends of its time window.

@@ -67,11 +67,14 @@ impl Amplitude {
             let mut parameters = defaults.clone();
             parameters[index] = Double::from_f64(0.0);
             let body = places(graph, model, &parameters, PLACES);
+            if graph.work().is_over() || moves(&body) {
+                return None;
+            }
             let anywhere = anywhere(graph, model, &parameters, Some(index));
             let symbol = Symbol::Parameter(index);
             let edges = edges.clone();
             let usual = size(&defaults[index]);
-            (!moves(&body)).then_some(Amplitude { symbol, index, usual, body, anywhere, edges })
+            Some(Amplitude { symbol, index, usual, body, anywhere, edges })
         })
     }
 
