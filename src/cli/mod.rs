@@ -27,6 +27,7 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use mms_runtime::math::dispatch::{Instructions, LIMIT};
 
 use crate::report::file::is_same;
 use crate::report::provenance::{Input, Provenance};
@@ -40,6 +41,9 @@ use crate::shell::words;
 ///
 /// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or
 /// bad input; 3 the run itself failed.
+///
+/// The environment variable MMS_INSTRUCTIONS limits what the processor is asked for: baseline, avx2 or
+/// avx512. By default it is the most that the processor has.
 #[derive(Parser)]
 #[command(name = "mms", version)]
 struct Arguments {
@@ -100,6 +104,10 @@ fn answer() -> anyhow::Result<Outcome> {
     let matches = command.clone().get_matches_from(&arguments);
     let parsed = Arguments::from_arg_matches(&matches)
         .unwrap_or_else(|error| error.format(&mut command).exit());
+    if let Some(word) = Instructions::unknown_limit() {
+        let names: Vec<_> = Instructions::names().collect();
+        anyhow::bail!("`{LIMIT}={word}`: expected one of {}", names.join(", "));
+    }
     match parsed.command {
         None => study::main_job(),
         Some(Command::List(list)) => list.run(),

@@ -48,8 +48,14 @@ impl Folder {
 
     /// Runs `mms` with these arguments.
     pub fn run(&self, arguments: &[impl AsRef<OsStr>]) -> Run {
+        self.run_with(arguments, &[])
+    }
+
+    /// The same with some variables of the environment.
+    pub fn run_with(&self, arguments: &[impl AsRef<OsStr>], variables: &[(&str, &str)]) -> Run {
         let output = Command::new(env!("CARGO_BIN_EXE_mms"))
             .args(arguments)
+            .envs(variables.iter().copied())
             .current_dir(self.0.path())
             .output()
             .expect("the program starts");
