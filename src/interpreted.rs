@@ -1,32 +1,79 @@
-//! A field that was never compiled, behind the solver's contract: the reference interpreter.
+//! A field that was never compiled, behind the solver's contract: its program, run in blocks of points to the bits that
+//! compiled code has.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use dashu_ratio::RBig;
 use mms_codegen::Compiled;
+use mms_codegen::expr::Symbol;
 use mms_codegen::mechanics::Response;
-use mms_codegen::program::interpret::{Interpreter, Number, Point};
+use mms_codegen::program::block::{
+    Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way,
+};
+use mms_codegen::program::interpret::Interpreter;
 use mms_codegen::program::{Bound, Output};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::{self, Claim};
+use mms_runtime::column::Matrices;
+use mms_runtime::material::by_bunches;
+use mms_runtime::stencil::BUNCH;
 use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
 
 use mms_runtime::scene::Scene;
 
+/// How many outputs a solver asks for.
+const ASKED: usize = 9;
+
 /// A field evaluated by the interpreter, for one set of parameters.
-struct Interpreted<T> {
+struct Interpreted<T: Blockwise> {
     compiled: Arc<Compiled>,
     parameters: Vec<T>,
+    asked: [Asked<T>; ASKED],
+}
+
+/// What a solver asks a field for.
+struct Asked<T: Blockwise> {
+    output: Output,
+    way: Way,
+    /// Made when it is asked for.
+    prepared: OnceLock<Prepared<T>>,
+    rooms: Rooms<T>,
+}
+
+/// The outputs, each to the bits of compiled code: there the first three are loops over many points, and the others are
+/// computed point by point.
+fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
+    let (fused, portable) = (Way::fused(), Way::portable());
+    [
+        (Output::Quantity(Quantity::Displacement), fused),
+        (Output::Quantity(Quantity::BodyForce), fused),
+        (Output::Response(Response::KirchhoffStress), fused),
+        (Output::Quantity(Quantity::Velocity), portable),
+        (Output::Quantity(Quantity::Acceleration), portable),
+        (Output::Quantity(Quantity::DisplacementGradient), portable),
+        (Output::Response(Response::Density), portable),
+        (Output::Response(Response::WaveSpeed), portable),
+        (Output::Response(Response::StrainEnergy), portable),
+    ]
+    .map(|(output, way)| Asked {
+        output,
+        way,
+        prepared: OnceLock::new(),
+        rooms: Rooms::default(),
+    })
 }
 
 /// The scene of a compiled text, some of its parameters set by the caller.
-pub fn scene<T: Real + Number>(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<T> {
+pub fn scene<T: Real + Blockwise>(
+    compiled: Arc<Compiled>,
+    set: &BTreeMap<usize, RBig>,
+) -> Scene<T> {
     let parameters = compiled.parameters(set);
     let dimension = compiled.field.dimension;
-    let field = Interpreted { compiled, parameters };
+    let field = Interpreted { compiled, parameters, asked: asked() };
     match dimension {
         1 => Scene::Line(Box::new(field)),
         2 => Scene::Plane(Box::new(field)),
@@ -34,30 +81,62 @@ pub fn scene<T: Real + Number>(compiled: Arc<Compiled>, set: &BTreeMap<usize, RB
     }
 }
 
-impl<T: Real + Number> Interpreted<T> {
-    fn interpreter(&self) -> Interpreter<'_, T> {
-        Interpreter::new(&self.compiled.program, &self.parameters)
-    }
+/// Writes a coordinate of points, one for each place.
+fn coordinate<T: Real, const D: usize>(column: &mut [T], points: &[Vector<T, D>], axis: usize) {
+    column.iter_mut().zip(points).for_each(|(to, point)| *to = point[axis]);
+}
 
+impl<T: Real + Blockwise> Interpreted<T> {
     fn bound(&self, bound: Bound) -> Vec<T> {
-        self.interpreter().output(Output::Bound(bound))
+        let interpreter = Interpreter::new(&self.compiled.program, &self.parameters);
+        interpreter.output(Output::Bound(bound))
     }
 
-    /// Evaluates `output` at every point of a batch, and passes its components on.
-    fn at_points<const D: usize>(
+    /// Evaluates an output at `count` points, block by block.
+    fn evaluate(
+        &self,
+        output: Output,
+        time: T,
+        count: usize,
+        bring: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
+        take: &mut dyn FnMut(usize, &Outputs<'_, T>),
+    ) {
+        let asked = self.asked.iter().find(|asked| asked.output == output);
+        let asked = asked.expect("every output that is evaluated is listed");
+        let prepared = asked.prepared.get_or_init(|| {
+            let plan = Plan::new(&self.compiled.program, &[output]);
+            Prepared::new(Arc::new(plan), asked.way, &self.parameters)
+        });
+        asked.rooms.lend(|room| prepared.run(room, time, count, bring, take));
+    }
+
+    /// Evaluates an output of positions. `place` is that of a component in the result of a point.
+    fn at_points<R, const D: usize>(
         &self,
         time: T,
         output: Output,
         reference: &[Vector<T, D>],
-        mut take: impl FnMut(usize, &[T]),
+        out: &mut [R],
+        place: impl Fn(&mut R, usize) -> &mut T,
     ) {
-        let mut interpreter = self.interpreter();
-        interpreter.set_time(&time);
-        let plan = interpreter.plan(&[output]);
-        for (index, point) in reference.iter().enumerate() {
-            interpreter.set_point(&plan, Point::at(point.as_slice()));
-            take(index, &interpreter.output(output));
-        }
+        self.evaluate(
+            output,
+            time,
+            reference.len(),
+            &mut |start, inputs| {
+                for (symbol, column) in inputs.columns() {
+                    if let Symbol::Coordinate(axis) = symbol {
+                        coordinate(column, &reference[start..], axis);
+                    }
+                }
+            },
+            &mut |start, outputs| {
+                let out = &mut out[start..start + outputs.count()];
+                for (index, component) in outputs.components(0).enumerate() {
+                    component.write(out.iter_mut().map(|it| place(it, index)));
+                }
+            },
+        );
     }
 
     fn vectors<const D: usize>(
@@ -67,9 +146,7 @@ impl<T: Real + Number> Interpreted<T> {
         reference: &[Vector<T, D>],
         out: &mut [Vector<T, D>],
     ) {
-        self.at_points(time, Output::Quantity(quantity), reference, |index, components| {
-            out[index] = Vector::from_column_slice(components);
-        });
+        self.at_points(time, Output::Quantity(quantity), reference, out, |it, axis| &mut it[axis]);
     }
 
     fn scalars<const D: usize>(
@@ -78,13 +155,11 @@ impl<T: Real + Number> Interpreted<T> {
         reference: &[Vector<T, D>],
         out: &mut [T],
     ) {
-        self.at_points(T::of(0.0), Output::Response(response), reference, |index, components| {
-            out[index] = components[0];
-        });
+        self.at_points(T::of(0.0), Output::Response(response), reference, out, |it, _| it);
     }
 }
 
-impl<T: Real + Number, const D: usize> Material<T, D> for Interpreted<T> {
+impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
     fn density(&self, reference: &[Vector<T, D>], density: &mut [T]) {
         self.scalars(Response::Density, reference, density);
     }
@@ -99,18 +174,50 @@ impl<T: Real + Number, const D: usize> Material<T, D> for Interpreted<T> {
         displacement_gradient: &[Matrix<T, D>],
         stress: &mut [Matrix<T, D>],
     ) {
-        let output = Output::Response(Response::KirchhoffStress);
-        let mut interpreter = self.interpreter();
-        let plan = interpreter.plan(&[output]);
-        let points = reference.iter().zip(displacement_gradient);
-        for (stress, (point, gradient)) in stress.iter_mut().zip(points) {
-            // Matrices are stored by columns, programs take rows.
-            let rows = gradient.transpose();
-            let coordinates = point.as_slice();
-            interpreter
-                .set_point(&plan, Point { coordinates, normal: &[], gradient: rows.as_slice() });
-            *stress = Matrix::from_row_slice(&interpreter.output(output));
-        }
+        by_bunches(self, reference, displacement_gradient, stress);
+    }
+
+    fn kirchhoff_stress_of_bunches(
+        &self,
+        reference: &[[Vector<T, D>; BUNCH]],
+        displacement_gradient: &[Matrices<T, D>],
+        stress: &mut [Matrices<T, D>],
+    ) {
+        let points = reference.as_flattened();
+        self.evaluate(
+            Output::Response(Response::KirchhoffStress),
+            T::of(0.0),
+            BUNCH * stress.len(),
+            &mut |start, inputs| {
+                for (symbol, column) in inputs.columns() {
+                    match symbol {
+                        Symbol::Gradient(row, axis) => {
+                            let bunches = &displacement_gradient[start / BUNCH..];
+                            let columns = column.as_chunks_mut().0.iter_mut().zip(bunches);
+                            columns.for_each(|(to, bunch)| *to = bunch.0[axis][row]);
+                        }
+                        Symbol::Coordinate(axis) => coordinate(column, &points[start..], axis),
+                        _ => {}
+                    }
+                }
+            },
+            &mut |start, outputs| {
+                let bunches = &mut stress[start / BUNCH..];
+                for (index, component) in outputs.components(0).enumerate() {
+                    let entries =
+                        bunches.iter_mut().map(|bunch| &mut bunch.0[index % D][index / D]);
+                    match component {
+                        Component::Each(numbers) => {
+                            let numbers = numbers.as_chunks().0;
+                            entries.zip(numbers).for_each(|(to, numbers)| *to = *numbers);
+                        }
+                        Component::Same(number) => entries
+                            .take(outputs.count() / BUNCH)
+                            .for_each(|to| *to = [number; BUNCH]),
+                    }
+                }
+            },
+        );
     }
 
     fn strain_energy(
@@ -119,22 +226,33 @@ impl<T: Real + Number, const D: usize> Material<T, D> for Interpreted<T> {
         displacement_gradient: &[Matrix<T, D>],
         energy: &mut [T],
     ) -> bool {
-        let output = Output::Response(Response::StrainEnergy);
-        let mut interpreter = self.interpreter();
-        let plan = interpreter.plan(&[output]);
-        let points = reference.iter().zip(displacement_gradient);
-        for (energy, (point, gradient)) in energy.iter_mut().zip(points) {
-            let rows = gradient.transpose();
-            let coordinates = point.as_slice();
-            interpreter
-                .set_point(&plan, Point { coordinates, normal: &[], gradient: rows.as_slice() });
-            *energy = interpreter.output(output)[0];
-        }
+        self.evaluate(
+            Output::Response(Response::StrainEnergy),
+            T::of(0.0),
+            energy.len(),
+            &mut |start, inputs| {
+                for (symbol, column) in inputs.columns() {
+                    match symbol {
+                        Symbol::Gradient(row, axis) => {
+                            let gradients = &displacement_gradient[start..];
+                            let columns = column.iter_mut().zip(gradients);
+                            columns.for_each(|(to, gradient)| *to = gradient[(row, axis)]);
+                        }
+                        Symbol::Coordinate(axis) => coordinate(column, &reference[start..], axis),
+                        _ => {}
+                    }
+                }
+            },
+            &mut |start, outputs| {
+                let out = &mut energy[start..start + outputs.count()];
+                outputs.components(0).for_each(|component| component.write(out.iter_mut()));
+            },
+        );
         true
     }
 }
 
-impl<T: Real + Number, const D: usize> ManufacturedField<T, D> for Interpreted<T> {
+impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interpreted<T> {
     fn domain(&self) -> Domain<T, D> {
         let body = match self.compiled.field.domain.body {
             spec::Body::Box { .. } => Body::Box {
@@ -174,9 +292,7 @@ impl<T: Real + Number, const D: usize> ManufacturedField<T, D> for Interpreted<T
 
     fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]) {
         let output = Output::Quantity(Quantity::DisplacementGradient);
-        self.at_points(time, output, reference, |index, components| {
-            out[index] = Matrix::from_row_slice(components);
-        });
+        self.at_points(time, output, reference, out, |it, index| &mut it[(index / D, index % D)]);
     }
 }
 
@@ -200,3 +316,6 @@ fn condition(claim: Claim) -> Condition {
         Claim::Traction => Condition::Traction,
     }
 }
+
+#[cfg(test)]
+mod tests;

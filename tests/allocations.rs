@@ -1,5 +1,13 @@
 //! No evaluation allocates. One test alone, since it counts what the whole process does.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use mms::gallery::find;
+use mms_codegen::expr::Symbol;
+use mms_codegen::program::Output;
+use mms_codegen::program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};
+use mms_codegen::quantity::Quantity;
 use mms_gallery::axis_aligned_3d;
 use peak_alloc::PeakAlloc;
 
@@ -31,8 +39,44 @@ fn no_evaluation_allocates() {
     }
     assert_eq!((MEMORY.current_usage(), MEMORY.peak_usage()), (before, before));
     assert!(out[0][500] != 0.0 && rows[500][0] != 0.0);
+    no_evaluation_in_blocks_allocates(&points, &mut rows);
 
     // The count sees what is allocated and given back.
     drop(vec![0_u8; 4096]);
     assert!(MEMORY.peak_usage() >= before + 4096);
+}
+
+/// Once a room has been used, for however few points: neither do other times, nor other parameters.
+fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]]) {
+    let entry = find("axis_aligned_3d").expect("a field of the gallery");
+    let compiled = entry.compile().expect("a right field");
+    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let plan = Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)]);
+    let mut prepared = Prepared::new(Arc::new(plan), Way::fused(), &parameters);
+    let rooms = Rooms::default();
+    let mut evaluate = |prepared: &Prepared<f64>, time: f64, count: usize| {
+        let mut bring = |start: usize, inputs: &mut Inputs<'_, f64>| {
+            for (symbol, column) in inputs.columns() {
+                let Symbol::Coordinate(axis) = symbol else { unreachable!("positions alone") };
+                column.iter_mut().zip(&points[start..]).for_each(|(to, point)| *to = point[axis]);
+            }
+        };
+        let mut take = |start: usize, outputs: &Outputs<'_, f64>| {
+            for (axis, component) in outputs.components(0).enumerate() {
+                component
+                    .write(rows[start..start + outputs.count()].iter_mut().map(|it| &mut it[axis]));
+            }
+        };
+        rooms.lend(|room| prepared.run(room, time, count, &mut bring, &mut take));
+        rows[0][0]
+    };
+    let first = evaluate(&prepared, 0.01, 1);
+    MEMORY.reset_peak_usage();
+    let before = MEMORY.current_usage();
+    for step in 0..3 {
+        evaluate(&prepared, 0.01 * f64::from(step), points.len());
+        prepared.set(&parameters);
+    }
+    assert_eq!((MEMORY.current_usage(), MEMORY.peak_usage()), (before, before));
+    assert_eq!(evaluate(&prepared, 0.01, points.len()), first);
 }

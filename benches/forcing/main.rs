@@ -8,6 +8,7 @@
 mod dual;
 mod floor;
 mod hand;
+mod interpreted;
 mod ours;
 mod peer;
 mod single;
@@ -69,7 +70,7 @@ pub struct Run {
     pub contender: &'static str,
     /// `f64` or `f32`.
     pub precision: &'static str,
-    /// `scalar`, `batch` or `cached`.
+    /// `scalar`, `batch` or `cached`; `portable` rounds products by themselves.
     pub mode: &'static str,
     /// The seconds of each round.
     pub seconds: Vec<f64>,
@@ -170,6 +171,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut contenders = peer::contenders(&case)?;
         contenders.extend([hand::contender(&case), dual::contender(&case)]);
         contenders.extend(ours::contenders(&case));
+        contenders.extend(interpreted::contenders(&case)?);
         let mut slots = Slot::all();
         for _ in 0..ROUNDS {
             for contender in &mut contenders {

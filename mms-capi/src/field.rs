@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
+use std::sync::OnceLock;
 
 use mms_codegen::Compiled;
 use mms_codegen::certify::declared::accepts;
+use mms_codegen::certify::declared::quick::Quick;
 use mms_codegen::compile::compile;
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::boundary::Datum;
@@ -17,6 +19,7 @@ use mms_codegen::suggest::advice;
 
 use crate::border::on_own_stack;
 use crate::error::{Error, MmsCode};
+use crate::evaluator::{BLOCK, Evaluator};
 use crate::settings::Settings;
 
 /// How far the length of a normal may be from 1.
@@ -27,6 +30,9 @@ const UNIT: f64 = 1e-6;
 pub struct Field {
     compiled: Compiled,
     settings: Settings<Rational>,
+    evaluator: Evaluator,
+    /// Which values are surely allowed, once any are set.
+    quick: OnceLock<Option<Quick>>,
     /// What C programs are shown, with a NUL at the end.
     pub name: CString,
     /// Its title.
@@ -65,6 +71,8 @@ impl Field {
             parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
             faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
             settings: Settings::new(compiled.parameters(&BTreeMap::new())),
+            evaluator: Evaluator::default(),
+            quick: OnceLock::new(),
             compiled,
         })
     }
@@ -102,11 +110,18 @@ impl Field {
                 return refuse(format!("`{name}` is set twice"));
             }
         }
-        self.settings.change(new, |set| {
-            accepts(&self.compiled, set)
-                .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
-            Ok(self.compiled.parameters(set))
-        })
+        self.settings.change(new, |set| self.accepted(set))
+    }
+
+    /// The values of all parameters where some are set, if the field allows them.
+    fn accepted(&self, set: &BTreeMap<usize, Rational>) -> Result<Vec<f64>, Error> {
+        let quick = self.quick.get_or_init(|| Quick::new(&self.compiled));
+        if let Some(all) = quick.as_ref().and_then(|quick| quick.accepted(set)) {
+            return Ok(all);
+        }
+        accepts(&self.compiled, set)
+            .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
+        Ok(self.compiled.parameters(set))
     }
 
     /// Evaluates a quantity at points of `dimension` coordinates each; `normals` has one for each
@@ -131,29 +146,71 @@ impl Field {
             }
             _ => &[],
         };
-        let mut interpreter = Interpreter::new(&self.compiled.program, &self.settings.now());
-        interpreter.set_time(&time);
-        let output = Output::Quantity(quantity);
-        let plan = interpreter.plan(&[output]);
-        for (index, coordinates) in points.chunks_exact(dimension).enumerate() {
-            finite(&format!("point {index}"), coordinates)?;
-            let normal = match normals {
-                [] => &[][..],
-                normals => unit(index, &normals[index * dimension..][..dimension])?,
-            };
-            interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
-            let result = interpreter.output(output);
-            if let Some(odd) = result.iter().find(|value| !value.is_finite()) {
-                let message = format!(
-                    "{} of `{}` is {odd} at point {index}, X = {coordinates:?}, t = {time:?}: not defined there, or beyond the range of a double",
-                    quantity.name(),
-                    self.compiled.field.name.shown(),
-                );
-                return Err(Error::new(MmsCode::NotFinite, message));
+        let components = quantity.shape().components(dimension);
+        let parameters = self.settings.now();
+        self.evaluator.with(&self.compiled.program, quantity, &parameters, |ready| {
+            for (block, points) in points.chunks(BLOCK * dimension).enumerate() {
+                let first = block * BLOCK;
+                let normals = match normals {
+                    [] => &[][..],
+                    normals => &normals[first * dimension..][..points.len()],
+                };
+                let (count, mistake) = self.sound(first, points, normals);
+                let ends = |numbers: &[f64]| numbers.len().min(count * dimension);
+                let (points, normals) = (&points[..ends(points)], &normals[..ends(normals)]);
+                let values = ready.evaluate(time, dimension, [points, normals], components);
+                let undefined = self.undefined(first, quantity, time, points, values);
+                let found = undefined.as_ref().map_or(count, |(index, _)| *index);
+                put(&values[..found * components]);
+                undefined.map(|(_, error)| error).or(mistake).map_or(Ok(()), Err)?;
             }
-            put(&result);
+            Ok(())
+        })
+    }
+
+    /// How many points there are before the first that is none, or whose normal is none, and what is wrong with that;
+    /// `first` is the place of the first among all.
+    fn sound(&self, first: usize, points: &[f64], normals: &[f64]) -> (usize, Option<Error>) {
+        let dimension = self.dimension();
+        let count = points.len() / dimension;
+        if are_finite(points) && normals.is_empty() {
+            return (count, None);
         }
-        Ok(())
+        for (index, coordinates) in points.chunks_exact(dimension).enumerate() {
+            let normal = normals.get(index * dimension..(index + 1) * dimension);
+            let held = finite(&format!("point {}", first + index), coordinates)
+                .and_then(|()| normal.map_or(Ok(()), |normal| unit(first + index, normal)));
+            if let Err(mistake) = held {
+                return (index, Some(mistake));
+            }
+        }
+        (count, None)
+    }
+
+    /// The first point of a block where a value is no finite number, and what to say of it.
+    fn undefined(
+        &self,
+        first: usize,
+        quantity: Quantity,
+        time: f64,
+        points: &[f64],
+        values: &[f64],
+    ) -> Option<(usize, Error)> {
+        if are_finite(values) {
+            return None;
+        }
+        let place = values.iter().position(|value| !value.is_finite())?;
+        let dimension = self.dimension();
+        let index = place / quantity.shape().components(dimension);
+        let message = format!(
+            "{} of `{}` is {} at point {}, X = {:?}, t = {time:?}: not defined there, or beyond the range of a double",
+            quantity.name(),
+            self.compiled.field.name.shown(),
+            values[place],
+            first + index,
+            &points[index * dimension..][..dimension],
+        );
+        Some((index, Error::new(MmsCode::NotFinite, message)))
     }
 
     /// The outward reference unit normals of a face at points of it: `put` gets each in turn.
@@ -219,6 +276,11 @@ fn find(name: &str) -> Result<Quantity, Error> {
     quantity(name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
 }
 
+/// Whether all are finite, without a branch for each.
+fn are_finite(numbers: &[f64]) -> bool {
+    numbers.iter().fold(true, |all, number| all & number.is_finite())
+}
+
 fn finite(what: &str, numbers: &[f64]) -> Result<(), Error> {
     match numbers.iter().find(|number| !number.is_finite()) {
         None => Ok(()),
@@ -229,11 +291,11 @@ fn finite(what: &str, numbers: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// A normal, if it is one.
-fn unit(index: usize, normal: &[f64]) -> Result<&[f64], Error> {
+/// Whether a normal is one.
+fn unit(index: usize, normal: &[f64]) -> Result<(), Error> {
     let squared: f64 = normal.iter().map(|component| component * component).sum();
     if (squared - 1.0).abs() <= UNIT {
-        return Ok(normal);
+        return Ok(());
     }
     let message = format!(
         "the normal at point {index} has the length {}: expected a unit vector",

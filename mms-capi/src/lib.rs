@@ -13,6 +13,7 @@
 mod abi;
 mod border;
 mod error;
+mod evaluator;
 mod field;
 mod gallery;
 mod memory;

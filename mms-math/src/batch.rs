@@ -10,7 +10,7 @@
 
 use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};
-use crate::{Lane, Real};
+use crate::{Double, Lane, Real};
 
 pub use crate::block::{Block, Blocked, Columns};
 pub use crate::kept::{Kept, KeptColumns};
@@ -34,19 +34,27 @@ pub trait Float: Real + Blocked + Stand<Self> + PartialOrd + Send + Sync {
     type PlainMachine: Machine<Self> + From<machine::Plain>;
 }
 
+macro_rules! itself {
+    ($($number:ident)*) => {
+        $(
+            impl Stand<$number> for $number {
+                #[inline(always)]
+                fn standing_for(value: $number) -> Self {
+                    value
+                }
+                #[inline(always)]
+                fn value(self) -> $number {
+                    self
+                }
+            }
+        )*
+    };
+}
+
+itself!(f32 f64 Double);
+
 macro_rules! float {
     ($float:ident, $wide:ident) => {
-        impl Stand<$float> for $float {
-            #[inline(always)]
-            fn standing_for(value: $float) -> Self {
-                value
-            }
-            #[inline(always)]
-            fn value(self) -> $float {
-                self
-            }
-        }
-
         impl<const FUSED: bool> Stand<$float> for Lane<$float, FUSED> {
             #[inline(always)]
             fn standing_for(value: $float) -> Self {

@@ -1,5 +1,8 @@
 //! Compiles work for several instruction sets, and takes the best one that the processor has.
 
+use core::fmt;
+use core::sync::atomic::{AtomicU8, Ordering};
+
 use crate::batch::Float;
 #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
 use crate::machine::Wide;
@@ -15,23 +18,139 @@ pub trait Work<T> {
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output;
 }
 
-/// Does work with the most that the processor has. With debug assertions there is no version for AVX-512: every
-/// batch and every step of a solver would be compiled once more, for programs that need not be fast.
+/// Does work with the most that the processor has.
 #[inline]
 pub fn best<T: Float, W: Work<T>>(work: W) -> W::Output {
-    #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
-    if has_avx512() {
-        // Safety: the processor has what the function is compiled for.
-        #[allow(unsafe_code)]
-        return unsafe { avx512(work) };
+    Instructions::best().run(work)
+}
+
+/// The environment variable that limits [`Instructions::best`]: `baseline`, `avx2` or `avx512`. What the processor
+/// does not have is not used in any case, and another word is no limit.
+pub const LIMIT: &str = "MMS_INSTRUCTIONS";
+
+/// Instructions that the processor has: there is a value of this type for no others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Instructions(Level);
+
+/// From the least to the most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+enum Level {
+    Baseline,
+    Avx2,
+    Avx512,
+}
+
+const LEVELS: [Level; 3] = [Level::Baseline, Level::Avx2, Level::Avx512];
+
+impl Level {
+    const fn name(self) -> &'static str {
+        match self {
+            Level::Baseline => "baseline",
+            Level::Avx2 => "avx2",
+            Level::Avx512 => "avx512",
+        }
     }
-    #[cfg(target_arch = "x86_64")]
-    if has_avx2() {
-        // Safety: likewise.
-        #[allow(unsafe_code)]
-        return unsafe { avx2(work) };
+
+    /// Whether the processor has it, and this crate was compiled for it. With debug assertions there is no version for
+    /// AVX-512: every batch and every step of a solver would be compiled once more, for programs that need not be fast.
+    fn is_here(self) -> bool {
+        match self {
+            Level::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => {
+                std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
+            }
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+            Level::Avx512 => {
+                std::is_x86_feature_detected!("avx512f")
+                    && std::is_x86_feature_detected!("avx512dq")
+                    && std::is_x86_feature_detected!("avx512vl")
+                    && Level::Avx2.is_here()
+            }
+            #[allow(unreachable_patterns)]
+            _ => false,
+        }
     }
-    baseline(work)
+}
+
+impl fmt::Display for Instructions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.name())
+    }
+}
+
+impl Instructions {
+    /// What every processor of this kind has.
+    pub const BASELINE: Instructions = Instructions(Level::Baseline);
+
+    /// All that the processor has, from the least to the most.
+    pub fn all() -> impl Iterator<Item = Instructions> {
+        LEVELS.into_iter().filter(|level| level.is_here()).map(Instructions)
+    }
+
+    /// The words for instructions, from the least to the most.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        LEVELS.into_iter().map(Level::name)
+    }
+
+    /// What the environment variable [`LIMIT`] says where that is none of the words for instructions.
+    pub fn unknown_limit() -> Option<std::string::String> {
+        let limit = std::env::var_os(LIMIT)?.to_string_lossy().into_owned();
+        (!Instructions::names().any(|name| name == limit)).then_some(limit)
+    }
+
+    /// The most that the processor has, and that the environment variable [`LIMIT`] allows. It is read once.
+    #[inline]
+    pub fn best() -> Instructions {
+        // A position in `LEVELS`; none at first.
+        static FOUND: AtomicU8 = AtomicU8::new(u8::MAX);
+        let found = FOUND.load(Ordering::Relaxed);
+        match LEVELS.get(usize::from(found)) {
+            Some(level) => Instructions(*level),
+            None => {
+                let level = found_with(std::env::var(LIMIT).ok());
+                FOUND.store(level as u8, Ordering::Relaxed);
+                Instructions(level)
+            }
+        }
+    }
+
+    /// Does work with these instructions.
+    #[inline]
+    pub fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
+        match self.0 {
+            // Safety: the processor has what the function is compiled for, or there would be no such value.
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+            #[allow(unsafe_code)]
+            Level::Avx512 => unsafe { avx512(work) },
+            // Safety: likewise.
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            Level::Avx2 => unsafe { avx2(work) },
+            _ => baseline(work),
+        }
+    }
+
+    /// Does work with these instructions, up to AVX2, and rounds products before they are added to something: the
+    /// results are the same bits on all processors.
+    #[inline]
+    pub fn run_plainly<T: Float, W: Work<T>>(self, work: W) -> W::Output {
+        match self.0 {
+            // Safety: as above; AVX-512 is there where AVX2 is.
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            Level::Avx2 | Level::Avx512 => unsafe { plain_avx2(work) },
+            _ => work.on(T::PlainMachine::from(Plain)),
+        }
+    }
+}
+
+#[cold]
+fn found_with(limit: Option<std::string::String>) -> Level {
+    let limit = LEVELS.into_iter().find(|level| Some(level.name()) == limit.as_deref());
+    let mut levels = LEVELS.into_iter().rev().filter(|level| level.is_here());
+    levels.find(|level| limit.is_none_or(|limit| *level <= limit)).unwrap_or(Level::Baseline)
 }
 
 fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
@@ -44,19 +163,6 @@ fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
 }
 
 #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
-fn has_avx512() -> bool {
-    std::is_x86_feature_detected!("avx512f")
-        && std::is_x86_feature_detected!("avx512dq")
-        && std::is_x86_feature_detected!("avx512vl")
-        && has_avx2()
-}
-
-#[cfg(target_arch = "x86_64")]
-fn has_avx2() -> bool {
-    std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
-}
-
-#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::WideMachine::from(Wide::known()))
@@ -66,4 +172,31 @@ fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
 #[target_feature(enable = "avx2,fma")]
 fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::FusedMachine::from(Fused::known()))
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn plain_avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
+    work.on(T::PlainMachine::from(Plain))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::string::String;
+    use std::vec::Vec;
+
+    use super::{Instructions, LEVELS, Level, found_with};
+
+    #[test]
+    fn instructions_are_limited_and_never_more_than_the_processor_has() {
+        let all: Vec<_> = Instructions::all().collect();
+        assert!(all.is_sorted() && all[0] == Instructions::BASELINE);
+        let most = all[all.len() - 1].0;
+        for level in LEVELS {
+            let limit = Some(String::from(level.name()));
+            assert_eq!(found_with(limit), level.min(most));
+        }
+        assert_eq!([found_with(None), found_with(Some("sse".into()))], [most; 2]);
+        assert_eq!(found_with(Some("baseline".into())), Level::Baseline);
+    }
 }

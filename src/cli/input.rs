@@ -12,7 +12,7 @@ use mms_codegen::accuracy::Precision;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::foreign::{Foreign, shown};
-use mms_codegen::program::interpret::Number;
+use mms_codegen::program::block::Blockwise;
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Form, quantity};
 use mms_codegen::suggest::advice;
@@ -187,7 +187,7 @@ impl Input {
 
     /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters
     /// of `name=value` settings. `build` takes the code of the precision.
-    pub fn scene<T: Real + Number>(
+    pub fn scene<T: Real + Blockwise>(
         &self,
         settings: &[String],
         build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
@@ -196,7 +196,7 @@ impl Input {
     }
 
     /// The same, with parameters that are set by position.
-    pub fn scene_with<T: Real + Number>(
+    pub fn scene_with<T: Real + Blockwise>(
         &self,
         set: &BTreeMap<usize, RBig>,
         build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,

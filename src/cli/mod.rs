@@ -30,6 +30,7 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use mms_codegen::foreign;
+use mms_runtime::math::dispatch::{Instructions, LIMIT};
 
 use crate::report::file::{is_same, try_to_write};
 use crate::report::provenance::{Input, Provenance};
@@ -43,6 +44,9 @@ use crate::shell::words;
 ///
 /// Exit codes: 0 done and as expected; 1 done, but a claim, check or order failed; 2 bad usage or
 /// bad input; 3 the run itself failed.
+///
+/// The environment variable MMS_INSTRUCTIONS limits what the processor is asked for: baseline, avx2 or
+/// avx512. By default it is the most that the processor has.
 #[derive(Parser)]
 #[command(name = "mms", version)]
 struct Arguments {
@@ -104,6 +108,10 @@ fn answer() -> anyhow::Result<Outcome> {
         Ok(parsed) => parsed,
         Err(error) => return refused(&arguments, &error),
     };
+    if let Some(word) = Instructions::unknown_limit() {
+        let names: Vec<_> = Instructions::names().collect();
+        anyhow::bail!("`{LIMIT}={}`: expected one of {}", foreign::shown(&word), names.join(", "));
+    }
     match parsed.command {
         None => study::main_job(),
         Some(Command::List(list)) => list.run(),

@@ -107,6 +107,20 @@ fn bad_usage_exits_2_and_prints_nothing() {
 }
 
 #[test]
+fn instructions_are_limited_by_words_that_are_known() {
+    let with = |word: &str| {
+        let arguments = ["eval", "bar_1d", "--at", "0.3", "--time", "0.01"];
+        Folder::new().run_with(&arguments, |command| command.env("MMS_INSTRUCTIONS", word))
+    };
+    let [baseline, avx2, avx512] = ["baseline", "avx2", "avx512"].map(|word| with(word).exits(0));
+    assert_eq!([&avx2.stdout, &avx512.stdout], [&baseline.stdout; 2]);
+    with("sse2")
+        .exits(2)
+        .complains("`MMS_INSTRUCTIONS=sse2`: expected one of baseline, avx2, avx512")
+        .prints_nothing();
+}
+
+#[test]
 fn help_and_version_exit_0() {
     let help = Folder::new().mms("--help").exits(0);
     for command in ["list", "show", "check", "eval", "accuracy", "study", "new", "schema"] {

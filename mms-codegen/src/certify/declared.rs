@@ -3,6 +3,7 @@
 
 mod elasticity;
 mod material;
+pub mod quick;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;

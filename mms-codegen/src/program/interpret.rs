@@ -194,7 +194,7 @@ impl<'a, T: Number> Interpreter<'a, T> {
     }
 }
 
-fn apply<T: Scalar>(
+pub(super) fn apply<T: Scalar>(
     op: &Op,
     values: &[T],
     constant: impl Fn(&Rational) -> T,

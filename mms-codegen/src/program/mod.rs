@@ -4,11 +4,13 @@
 //! [`Stage`]; the instructions stand in order of stage, operands first. A program knows no target
 //! language.
 
+pub mod block;
 pub mod dual;
 mod effort;
 pub(crate) mod fusion;
 pub mod interpret;
 pub mod interval;
+pub(crate) mod loops;
 pub mod precise;
 pub mod schedule;
 

@@ -9,10 +9,11 @@ use super::material::Counterexample;
 use super::{Declared, digits};
 use crate::compile::shipped;
 use crate::diagnostic::Diagnostic;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Graph, Symbol};
 use crate::mechanics::invariant::{INVARIANTS, Kind};
 use crate::mechanics::kinematics::Strain;
 use crate::mechanics::material::tangent;
+use crate::mechanics::model::Model;
 use crate::mechanics::tensor::Tensor;
 use crate::pass::differentiate::differentiate;
 use crate::pass::relations::Relations;
@@ -35,21 +36,7 @@ impl Declared<'_> {
     /// Whether W, its slopes and its curvatures by the invariants exist at F = I: the stress and its
     /// divergence are made of them. Reports the first that does not.
     fn smoothness(&mut self, extent: &Extent<Precise>) -> bool {
-        let (model, graph) = (self.model, &mut self.graph);
-        let symbols = model.kind.symbols();
-        let (mut names, mut exprs) = (vec!["W".to_string()], vec![model.energy]);
-        for (place, a) in symbols.iter().enumerate() {
-            let slope = differentiate(graph, &[model.energy], *a)[0];
-            names.push(format!("dW/d{}", name(*a)));
-            exprs.push(slope);
-            for b in &symbols[place..] {
-                names.push(format!("d(dW/d{})/d{}", name(*a), name(*b)));
-                exprs.push(differentiate(graph, &[slope], *b)[0]);
-            }
-        }
-        let zero = graph.number(0);
-        let undeformed: BTreeMap<_, _> = symbols.iter().map(|symbol| (*symbol, zero)).collect();
-        let exprs = substitute(graph, &exprs, &undeformed);
+        let (names, exprs) = curvatures(&mut self.graph, self.model);
         let Some(found) = self.sought_with_arguments(extent, &exprs, |_| true) else {
             return true;
         };
@@ -84,13 +71,9 @@ impl Declared<'_> {
     /// tensor Q_ik = A_iJkL n_J n_L has a negative eigenvalue, or all are 0 (Ogden, Non-linear
     /// Elastic Deformations, 1984, section 6.2). A fluid has waves, though none are transverse.
     fn waves(&mut self, extent: &Extent<Precise>) {
-        let (model, graph) = (self.model, &mut self.graph);
-        let dimension = model.displacement.len();
-        let zero = graph.number(0);
-        let gradient = Tensor::from_fn(dimension, |_, _| zero);
-        let strain = Strain::new(graph, gradient, &model.kind, &Relations::default());
-        let tangent = tangent(graph, model.energy, &model.kind, &strain);
-        let normals = normals(&model.kind, dimension);
+        let model = self.model;
+        let tangent = stiffness(&mut self.graph, model);
+        let normals = normals(&model.kind, model.displacement.len());
         let count = model.arguments.len();
         let found = self
             .sought_with_arguments(extent, &tangent, |it| fault(&it[count..], &normals).is_none());
@@ -151,6 +134,32 @@ impl Declared<'_> {
             self.material.strain_energy.span
         }
     }
+}
+
+/// W, its slopes and its curvatures by the invariants at F = I, with their names.
+pub(super) fn curvatures(graph: &mut Graph, model: &Model) -> (Vec<String>, Vec<Expr>) {
+    let symbols = model.kind.symbols();
+    let (mut names, mut exprs) = (vec!["W".to_string()], vec![model.energy]);
+    for (place, a) in symbols.iter().enumerate() {
+        let slope = differentiate(graph, &[model.energy], *a)[0];
+        names.push(format!("dW/d{}", name(*a)));
+        exprs.push(slope);
+        for b in &symbols[place..] {
+            names.push(format!("d(dW/d{})/d{}", name(*a), name(*b)));
+            exprs.push(differentiate(graph, &[slope], *b)[0]);
+        }
+    }
+    let zero = graph.number(0);
+    let undeformed: BTreeMap<_, _> = symbols.iter().map(|symbol| (*symbol, zero)).collect();
+    (names, substitute(graph, &exprs, &undeformed))
+}
+
+/// dP/dF at F = I.
+pub(super) fn stiffness(graph: &mut Graph, model: &Model) -> Vec<Expr> {
+    let zero = graph.number(0);
+    let gradient = Tensor::from_fn(model.displacement.len(), |_, _| zero);
+    let strain = Strain::new(graph, gradient, &model.kind, &Relations::default());
+    tangent(graph, model.energy, &model.kind, &strain)
 }
 
 /// The name of an invariant in a density.

@@ -5,28 +5,12 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
-use super::cut::Cut;
 use super::quantity::at;
 use super::{Emitter, MATH, Place, RUNTIME, input};
 use crate::expr::{Function, Symbol};
+use crate::program::loops::{Columns, Cut, is_worth_two};
 use crate::program::{Op, Output, Stage, Value};
 use crate::quantity::{Quantity, Shape};
-
-/// What a function of a point takes from the cache of the point.
-#[derive(Clone)]
-pub(super) struct Columns {
-    /// Coordinates, by axis.
-    pub axes: Vec<usize>,
-    /// Members.
-    pub values: Vec<Value>,
-}
-
-impl Columns {
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.axes.len() + self.values.len()
-    }
-}
 
 impl Emitter<'_> {
     /// The module of batches.
@@ -41,7 +25,8 @@ impl Emitter<'_> {
         let reads: Vec<_> = self
             .quantities()
             .map(|quantity| {
-                let columns = self.columns(quantity);
+                let roots = self.values(Output::Quantity(quantity));
+                let columns = Columns::of(self.program, roots);
                 (quantity, self.kept_for(&columns), columns)
             })
             .collect();
@@ -188,7 +173,7 @@ impl Emitter<'_> {
         let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
         let indices = own_axes.iter().copied().chain(values.iter().map(column));
         let indices = indices.map(count);
-        let from_position = if self.is_worth_two_loops(quantity) {
+        let from_position = if is_worth_two(self.program, self.values(Output::Quantity(quantity))) {
             self.two_loops(quantity, columns)
         } else {
             let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
@@ -248,17 +233,6 @@ impl Emitter<'_> {
         self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect()
     }
 
-    /// Whether the stages of a quantity are loops of their own: each then has a shorter chain of
-    /// operations that wait for each other. That pays where both have something to do.
-    fn is_worth_two_loops(&self, quantity: Quantity) -> bool {
-        let roots = self.values(Output::Quantity(quantity));
-        let needed = self.program.needed_for(roots.iter().copied());
-        [Stage::Point, Stage::PointTime].into_iter().all(|stage| {
-            let work = self.program.range(stage).filter(|index| needed[*index]);
-            work.map(|index| weight(&self.program.instrs[index].op)).sum::<usize>() >= WORTH_A_LOOP
-        })
-    }
-
     /// How those loops go about it: together, if the first one has divisions or roots and, beside them, only sums and
     /// products. Functions have coefficients, more than there are registers for beside those of the second loop.
     pub(super) fn loops_of(&self, quantity: Quantity) -> Ident {
@@ -287,29 +261,6 @@ impl Emitter<'_> {
         }
     }
 
-    /// What a quantity reads of the cache of a point; something, so that a batch has a length.
-    fn columns(&self, quantity: Quantity) -> Columns {
-        let roots = self.values(Output::Quantity(quantity));
-        let needed = self.program.needed_for(roots.iter().copied());
-        let mut read = vec![false; self.program.instrs.len()];
-        roots.iter().for_each(|root| read[root.index()] = true);
-        for index in self.program.range(Stage::PointTime).filter(|index| needed[*index]) {
-            let operands = self.program.instrs[index].op.operands();
-            operands.for_each(|operand| read[operand.index()] = true);
-        }
-        let mut columns = Columns { axes: Vec::new(), values: Vec::new() };
-        for index in self.program.range(Stage::Point).filter(|index| read[*index]) {
-            match self.program.instrs[index].op {
-                Op::Input(Symbol::Coordinate(axis)) => columns.axes.push(axis),
-                _ => columns.values.push(Value(index as u32)),
-            }
-        }
-        if columns.axes.is_empty() && columns.values.is_empty() {
-            columns.axes.push(0);
-        }
-        columns
-    }
-
     /// A point of which only these columns are known.
     fn point_of(&self, columns: &Columns) -> TokenStream {
         let zero = quote!(S::from_f64(0.0));
@@ -325,19 +276,6 @@ impl Emitter<'_> {
             }
         });
         quote!(Point { reference_position: [#(#position),*], #(#members),* })
-    }
-}
-
-/// What a loop has to do at least, as [`weight`] counts.
-const WORTH_A_LOOP: usize = 20;
-
-/// How long an operation takes, in sums or products: roughly, and of vectors.
-fn weight(op: &Op) -> usize {
-    match op {
-        Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_) => 0,
-        Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) => 1,
-        Op::Divide(..) => 10,
-        Op::Unary(..) | Op::Binary(..) => 20,
     }
 }
 

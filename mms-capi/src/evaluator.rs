@@ -1,0 +1,119 @@
+//! Quantities at many points, in blocks: to the bits of the interpreter of one point.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use mms_codegen::expr::Symbol;
+use mms_codegen::program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
+use mms_codegen::program::{Output, Program};
+use mms_codegen::quantity::Quantity;
+
+/// How many points are evaluated together.
+pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
+
+/// What the evaluation of each quantity needs, kept from call to call.
+#[derive(Debug)]
+pub struct Evaluator(Vec<Asked>);
+
+/// What one quantity takes.
+#[derive(Debug, Default)]
+struct Asked {
+    plan: OnceLock<Arc<Plan>>,
+    /// Of calls that have ended, as many as there were at a time.
+    idle: Mutex<Vec<Ready>>,
+}
+
+/// What one call needs.
+#[derive(Debug)]
+pub struct Ready {
+    /// The parameters that it was prepared for.
+    parameters: Vec<f64>,
+    prepared: Prepared<f64>,
+    room: Room<f64>,
+    /// The components of a block.
+    values: Vec<f64>,
+}
+
+impl Default for Evaluator {
+    fn default() -> Self {
+        Evaluator(Quantity::ALL.iter().map(|_| Asked::default()).collect())
+    }
+}
+
+impl Evaluator {
+    /// Lends what a call needs that evaluates a quantity with these parameters. Other parameters than those of the call
+    /// before run the stage Parameter, and nothing else.
+    pub fn with<R>(
+        &self,
+        program: &Program,
+        quantity: Quantity,
+        parameters: &[f64],
+        work: impl FnOnce(&mut Ready) -> R,
+    ) -> R {
+        let place = Quantity::ALL.iter().position(|it| *it == quantity);
+        let asked = &self.0[place.expect("all quantities are listed")];
+        let idle = || asked.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = idle().pop();
+        let mut ready = known.unwrap_or_else(|| {
+            let plan = || Arc::new(Plan::new(program, &[Output::Quantity(quantity)]));
+            let plan = asked.plan.get_or_init(plan).clone();
+            Ready {
+                parameters: parameters.to_vec(),
+                prepared: Prepared::new(plan, Way::portable(), parameters),
+                room: Room::default(),
+                values: Vec::new(),
+            }
+        });
+        let mut pairs = ready.parameters.iter().zip(parameters);
+        if !pairs.all(|(known, new)| known.to_bits() == new.to_bits()) {
+            ready.prepared.set(parameters);
+            ready.parameters.copy_from_slice(parameters);
+        }
+        let result = work(&mut ready);
+        idle().push(ready);
+        result
+    }
+}
+
+impl Ready {
+    /// Evaluates at points of `dimension` coordinates each, of which there may be normals, no more than a block of them.
+    /// Gives the components of each point in turn.
+    pub fn evaluate(
+        &mut self,
+        time: f64,
+        dimension: usize,
+        [points, normals]: [&[f64]; 2],
+        components: usize,
+    ) -> &[f64] {
+        let count = points.len() / dimension;
+        if self.values.len() < count * components {
+            self.values.resize(count * components, 0.0);
+        }
+        let values = &mut self.values[..count * components];
+        let mut bring = |_: usize, inputs: &mut Inputs<'_, f64>| {
+            for (symbol, column) in inputs.columns() {
+                let (numbers, axis) = match symbol {
+                    Symbol::Coordinate(axis) => (points, axis),
+                    Symbol::Normal(axis) => (normals, axis),
+                    _ => unreachable!("a quantity takes positions and normals"),
+                };
+                match dimension {
+                    1 => column.copy_from_slice(&numbers[..column.len()]),
+                    _ => {
+                        let numbers = numbers[axis..].iter().step_by(dimension);
+                        column.iter_mut().zip(numbers).for_each(|(to, number)| *to = *number);
+                    }
+                }
+            }
+        };
+        let mut take = |_: usize, outputs: &Outputs<'_, f64>| {
+            for (index, component) in outputs.components(0).enumerate() {
+                match components {
+                    1 => component.write(values.iter_mut()),
+                    _ => component.write(values[index..].iter_mut().step_by(components)),
+                }
+            }
+        };
+        self.prepared.run(&mut self.room, time, count, &mut bring, &mut take);
+        &self.values[..count * components]
+    }
+}

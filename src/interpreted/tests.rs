@@ -1,0 +1,137 @@
+//! What is interpreted has the bits of compiled code.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use mms_codegen::program::block::Blockwise;
+use mms_codegen::sample::samples;
+use mms_runtime::column::{Bunch as _, Matrices};
+use mms_runtime::scene::{Code, Scene};
+use mms_runtime::stencil::BUNCH;
+use mms_runtime::{ManufacturedField, Matrix, Real, Vector};
+
+use super::scene;
+use crate::gallery::{Entry, FIELDS};
+
+/// Less than a block, one, and more of either precision.
+const COUNTS: [usize; 5] = [1, 9, 64, 70, 260];
+
+/// Both to the bit: the shortest text that reads back as a number is that of no other.
+fn same<V: Debug>(what: &str, compiled: &[V], interpreted: &[V]) {
+    for (point, (compiled, interpreted)) in compiled.iter().zip(interpreted).enumerate() {
+        let [compiled, interpreted] = [compiled, interpreted].map(|it| format!("{it:?}"));
+        assert_eq!(compiled, interpreted, "{what}, point {point}");
+    }
+}
+
+type Field<T, const D: usize> = dyn ManufacturedField<T, D>;
+
+/// A displacement gradient of some strain at a point.
+fn gradient<T: Real, const D: usize>(point: &Vector<T, D>) -> Matrix<T, D> {
+    Matrix::from_fn(|i, j| T::of(0.1) * (point[i] - T::of(0.3) * point[j]) + T::of(0.05))
+}
+
+fn agree<T: Real, const D: usize>(
+    name: &str,
+    [compiled, interpreted]: [&Field<T, D>; 2],
+    time: T,
+    points: &[Vector<T, D>],
+) {
+    let what = |quantity: &str| format!("{quantity} of {name} at {} points", points.len());
+    let [zero, none] = [Vector::<T, D>::zeros(); 2].map(|it| vec![it; points.len()]);
+    for (quantity, evaluate) in [
+        ("u", Field::<T, D>::displacement as fn(&Field<T, D>, T, &[_], &mut [_])),
+        ("v", Field::<T, D>::velocity),
+        ("a", Field::<T, D>::acceleration),
+        ("b", Field::<T, D>::body_force),
+    ] {
+        let [mut first, mut second] = [zero.clone(), none.clone()];
+        evaluate(compiled, time, points, &mut first);
+        evaluate(interpreted, time, points, &mut second);
+        same(&what(quantity), &first, &second);
+    }
+    let both = |evaluate: &dyn Fn(&Field<T, D>, &mut [Matrix<T, D>])| {
+        [compiled, interpreted].map(|field| {
+            let mut found = vec![Matrix::zeros(); points.len()];
+            evaluate(field, &mut found);
+            found
+        })
+    };
+    let [first, second] = both(&|field, out| field.displacement_gradient(time, points, out));
+    same(&what("H"), &first, &second);
+    let gradients: Vec<_> = points.iter().map(gradient).collect();
+    let [first, second] = both(&|field, out| field.kirchhoff_stress(points, &gradients, out));
+    same(&what("tau"), &first, &second);
+    let scalars = |evaluate: &dyn Fn(&Field<T, D>, &mut [T])| {
+        [compiled, interpreted].map(|field| {
+            let mut found = vec![T::zero(); points.len()];
+            evaluate(field, &mut found);
+            found
+        })
+    };
+    let [first, second] = scalars(&|field, out| field.density(points, out));
+    same(&what("rho0"), &first, &second);
+    let [first, second] = scalars(&|field, out| field.wave_speed(points, out));
+    same(&what("c0"), &first, &second);
+    let [first, second] =
+        scalars(&|field, out| assert!(field.strain_energy(points, &gradients, out)));
+    same(&what("W"), &first, &second);
+    stress_of_bunches(&what("tau of bunches"), [compiled, interpreted], points);
+}
+
+fn stress_of_bunches<T: Real, const D: usize>(
+    what: &str,
+    fields: [&Field<T, D>; 2],
+    points: &[Vector<T, D>],
+) {
+    let bunches = points.as_chunks::<BUNCH>().0;
+    let of_bunch = |bunch: &[Vector<T, D>; BUNCH]| {
+        let mut gradients = Matrices::zeros();
+        bunch.iter().enumerate().for_each(|(k, point)| gradients.set(k, &gradient(point)));
+        gradients
+    };
+    let gradients: Vec<_> = bunches.iter().map(of_bunch).collect();
+    let [first, second] = fields.map(|field| {
+        let mut stress = vec![Matrices::zeros(); bunches.len()];
+        field.kirchhoff_stress_of_bunches(bunches, &gradients, &mut stress);
+        stress
+    });
+    same(what, &first, &second);
+}
+
+fn hold<T: Real + Blockwise>(entry: &Entry, of: fn(&Code) -> fn(&[T]) -> Option<Scene<T>>) {
+    let code = entry.code().expect("the field is compiled");
+    let compiled = Arc::new(entry.compile().expect("a field of the gallery"));
+    let parameters = compiled.parameters::<T>(&BTreeMap::new());
+    let all = samples(&compiled, &parameters, COUNTS[COUNTS.len() - 1]);
+    let time = all[0].time;
+    let interpreted = scene::<T>(compiled, &BTreeMap::new());
+    let Some(compiled) = of(code)(&parameters) else { panic!("as many parameters") };
+    macro_rules! dimension {
+        ($compiled:expr, $interpreted:expr) => {{
+            assert_eq!($compiled.domain(), $interpreted.domain());
+            for count in COUNTS {
+                let points =
+                    all[..count].iter().map(|it| Vector::from_column_slice(&it.coordinates));
+                let points: Vec<_> = points.collect();
+                agree(entry.name, [&**$compiled, &**$interpreted], time, &points);
+            }
+        }};
+    }
+    match (&compiled, &interpreted) {
+        (Scene::Line(compiled), Scene::Line(interpreted)) => dimension!(compiled, interpreted),
+        (Scene::Plane(compiled), Scene::Plane(interpreted)) => dimension!(compiled, interpreted),
+        (Scene::Space(compiled), Scene::Space(interpreted)) => dimension!(compiled, interpreted),
+        _ => panic!("{} has two dimensions", entry.name),
+    }
+}
+
+/// All that a solver asks for, of all compiled fields, in both precisions.
+#[test]
+fn interpreted_fields_have_the_bits_of_compiled_ones() {
+    for entry in FIELDS.iter().filter(|entry| entry.code().is_some()) {
+        hold::<f64>(entry, |code| code.double);
+        hold::<f32>(entry, |code| code.single);
+    }
+}
