@@ -1,7 +1,7 @@
 ! The interface of mms_capi.h for Fortran 2003 and later; the header says what the functions do.
 ! Texts are passed as `'bar_1d' // c_null_char`; `c_text` makes one of what comes back.
 module mms_capi
-    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_null_char, c_ptr, &
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int32_t, c_null_char, c_ptr, &
         c_size_t, c_associated, c_f_pointer
     implicit none
     private
@@ -14,10 +14,13 @@ module mms_capi
     integer(c_int32_t), parameter, public :: mms_code_not_finite = 5
     integer(c_int32_t), parameter, public :: mms_code_defect = 6
     integer(c_int32_t), parameter, public :: mms_code_no_thread = 7
+    integer(c_int32_t), parameter, public :: mms_code_stopped = 8
 
     public :: c_text
     public :: mms_version, mms_gallery_size, mms_gallery_name, mms_quantity_count, mms_quantity_name
     public :: mms_field_from_gallery, mms_field_from_text, mms_field_free
+    public :: mms_stop_new, mms_stop_request, mms_stop_is_requested, mms_stop_free
+    public :: mms_field_from_text_stoppable, mms_field_evaluate_stoppable
     public :: mms_field_name, mms_field_title, mms_field_dimension
     public :: mms_field_parameter_count, mms_field_parameter_name
     public :: mms_field_face_count, mms_field_face_name
@@ -74,6 +77,39 @@ module mms_capi
             integer(c_size_t), value :: capacity
             integer(c_int32_t) :: code
         end function
+
+        ! `stop` is `c_null_ptr`, or of `mms_stop_new`.
+        function mms_field_from_text_stoppable(name, toml, material, stop, field, message, &
+            capacity) result(code) bind(c)
+            import :: c_char, c_int32_t, c_ptr, c_size_t
+            character(kind=c_char), intent(in) :: name(*), toml(*)
+            type(c_ptr), value :: material, stop
+            type(c_ptr), intent(out) :: field
+            character(kind=c_char), intent(out) :: message(*)
+            integer(c_size_t), value :: capacity
+            integer(c_int32_t) :: code
+        end function
+
+        function mms_stop_new() result(stop) bind(c)
+            import :: c_ptr
+            type(c_ptr) :: stop
+        end function
+
+        subroutine mms_stop_request(stop) bind(c)
+            import :: c_ptr
+            type(c_ptr), value :: stop
+        end subroutine
+
+        function mms_stop_is_requested(stop) result(requested) bind(c)
+            import :: c_int, c_ptr
+            type(c_ptr), value :: stop
+            integer(c_int) :: requested
+        end function
+
+        subroutine mms_stop_free(stop) bind(c)
+            import :: c_ptr
+            type(c_ptr), value :: stop
+        end subroutine
 
         subroutine mms_field_free(field) bind(c)
             import :: c_ptr
@@ -179,6 +215,21 @@ module mms_capi
             integer(c_size_t), value :: count
             real(c_double), intent(in) :: points(*)
             type(c_ptr), value :: normals
+            real(c_double), intent(out) :: values(*)
+            character(kind=c_char), intent(out) :: message(*)
+            integer(c_size_t), value :: capacity
+            integer(c_int32_t) :: code
+        end function
+
+        function mms_field_evaluate_stoppable(field, quantity, time, count, points, normals, stop, &
+            values, message, capacity) result(code) bind(c)
+            import :: c_char, c_double, c_int32_t, c_ptr, c_size_t
+            type(c_ptr), value :: field
+            character(kind=c_char), intent(in) :: quantity(*)
+            real(c_double), value :: time
+            integer(c_size_t), value :: count
+            real(c_double), intent(in) :: points(*)
+            type(c_ptr), value :: normals, stop
             real(c_double), intent(out) :: values(*)
             character(kind=c_char), intent(out) :: message(*)
             integer(c_size_t), value :: capacity

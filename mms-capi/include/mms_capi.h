@@ -20,6 +20,10 @@
  * an evaluation has the parameters of the moment at which it starts. Only mms_field_free must come
  * after all else. No panic leaves the library: it becomes MMS_CODE_DEFECT.
  *
+ * A field from a text may take seconds to make, and an evaluation as long as there are points. The functions whose
+ * names end with _stoppable do the same as those without, until somebody requests to stop: from another
+ * thread, or in a signal handler. All else takes about a second at most, or stops where points are passed in parts.
+ *
  * Two things end the program, as abort() does: memory that the system does not have, and a stack that is too
  * small. Making a field takes at most 128 MiB of memory while it lasts, all else little, however many points there
  * are. Making a field runs on a thread of its own with a stack of 2 MiB, which ends before the call
@@ -70,6 +74,8 @@ enum mms_code
   MMS_CODE_DEFECT = 6,
   // The system gives no thread. Making a field takes one, with a stack of 2 MiB.
   MMS_CODE_NO_THREAD = 7,
+  // Somebody requested to stop, and nothing was made.
+  MMS_CODE_STOPPED = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -81,6 +87,9 @@ typedef int32_t mms_code;
 
 // A field and the values of its parameters.
 typedef struct mms_field mms_field;
+
+// By which calls are told to stop.
+typedef struct mms_stop mms_stop;
 
 #ifdef __cplusplus
 extern "C" {
@@ -122,6 +131,31 @@ mms_code mms_field_from_text(const char *name,
                              struct mms_field **field,
                              char *message,
                              size_t capacity);
+
+// The same as `mms_field_from_text`, until somebody requests to stop. NULL for `stop` means that nobody will.
+//
+// Codes: MMS_CODE_INVALID_FIELD, MMS_CODE_STOPPED. On failure `*field` is NULL.
+mms_code mms_field_from_text_stoppable(const char *name,
+                                       const char *toml,
+                                       const char *material,
+                                       const struct mms_stop *stop,
+                                       struct mms_field **field,
+                                       char *message,
+                                       size_t capacity);
+
+// Makes what a program requests to stop with, by which calls of its are told to. It is never NULL.
+struct mms_stop *mms_stop_new(void);
+
+// Requests that calls to which `stop` was passed, now or later, end soon: within milliseconds, or some hundred of
+// them where a formula is large. There is no way back; the next work gets a new one. Any thread may call
+// this at any time, and so may a signal handler. NULL is allowed.
+void mms_stop_request(const struct mms_stop *stop);
+
+// Whether somebody requested to stop: 1 or 0; 0 for NULL. A signal handler may call this, too.
+int mms_stop_is_requested(const struct mms_stop *stop);
+
+// Frees it, when all calls to which it was passed have ended. NULL is allowed.
+void mms_stop_free(struct mms_stop *stop);
 
 // Frees a field, and what its functions returned. NULL is allowed. No other call may be at work on
 // the field.
@@ -207,6 +241,20 @@ mms_code mms_field_evaluate(const struct mms_field *field,
                             double *values,
                             char *message,
                             size_t capacity);
+
+// The same as `mms_field_evaluate`, until somebody requests to stop. NULL for `stop` means that nobody will.
+//
+// Codes: those of `mms_field_evaluate`, MMS_CODE_STOPPED.
+mms_code mms_field_evaluate_stoppable(const struct mms_field *field,
+                                      const char *quantity,
+                                      double time,
+                                      size_t count,
+                                      const double *points,
+                                      const double *normals,
+                                      const struct mms_stop *stop,
+                                      double *values,
+                                      char *message,
+                                      size_t capacity);
 
 // Writes the outward reference unit normals of a face at `count` points of it: count x D numbers for
 // count x D coordinates.

@@ -3,8 +3,8 @@
 //! written last.
 #![allow(unsafe_code)]
 
-use std::ffi::c_char;
-use std::ptr::null_mut;
+use std::ffi::{c_char, c_int};
+use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
 
 use mms_codegen::quantity::Quantity;
@@ -14,7 +14,8 @@ use crate::border::{attempt, guarded, guarded_or};
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
 use crate::gallery;
-use crate::memory::{Extent, Message, Room, array, handle, text};
+use crate::memory::{Extent, Message, Room, array, handle, reference, text};
+use crate::stop::Stop;
 
 /// The most bytes of a name. What has more is read no further.
 const MAX_NAME: usize = 4096;
@@ -41,7 +42,7 @@ pub extern "C" fn mms_gallery_size() -> usize {
 /// order, and are never freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn mms_gallery_name(index: usize) -> *const c_char {
-    gallery::FIELDS.get(index).map_or(std::ptr::null(), |(name, ..)| name.as_ptr())
+    gallery::FIELDS.get(index).map_or(null(), |(name, ..)| name.as_ptr())
 }
 
 /// How many quantities there are. Every field has all of them.
@@ -54,9 +55,7 @@ pub extern "C" fn mms_quantity_count() -> usize {
 /// freed.
 #[unsafe(no_mangle)]
 pub extern "C" fn mms_quantity_name(index: usize) -> *const c_char {
-    guarded_or(std::ptr::null(), || {
-        QUANTITIES.get(index).map_or(std::ptr::null(), |name| name.as_ptr().cast())
-    })
+    guarded_or(null(), || QUANTITIES.get(index).map_or(null(), |name| name.as_ptr().cast()))
 }
 
 /// Makes `*field` the field of that name of the gallery.
@@ -88,14 +87,66 @@ pub unsafe extern "C" fn mms_field_from_text(
     capacity: usize,
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
+    unsafe { mms_field_from_text_stoppable(name, toml, material, null(), field, message, capacity) }
+}
+
+/// The same as `mms_field_from_text`, until somebody requests to stop. NULL for `stop` means that nobody will.
+///
+/// Codes: MMS_CODE_INVALID_FIELD, MMS_CODE_STOPPED. On failure `*field` is NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_from_text_stoppable(
+    name: *const c_char,
+    toml: *const c_char,
+    material: *const c_char,
+    stop: *const Stop,
+    field: *mut *mut Field,
+    message: *mut c_char,
+    capacity: usize,
+) -> MmsCode {
+    // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
         make(field, Message::new(message, capacity), || {
             let name = text("name", name, MAX_NAME, MmsCode::InvalidArgument)?;
             let toml = content("toml", toml)?;
             let material =
                 if material.is_null() { None } else { Some(content("material", material)?) };
-            Field::compile(name, toml, material)
+            let stop = if stop.is_null() { &Stop::default() } else { handle("stop", stop)? };
+            Field::compile(name, toml, material, stop)
         })
+    }
+}
+
+/// Makes what a program requests to stop with, by which calls of its are told to. It is never NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn mms_stop_new() -> *mut Stop {
+    Box::into_raw(Box::new(Stop::default()))
+}
+
+/// Requests that calls to which `stop` was passed, now or later, end soon: within milliseconds, or some hundred of
+/// them where a formula is large. There is no way back; the next work gets a new one. Any thread may call
+/// this at any time, and so may a signal handler. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_stop_request(stop: *const Stop) {
+    // SAFETY: the caller passes what `mms_stop_new` made, or NULL.
+    if let Some(stop) = unsafe { reference(stop) } {
+        stop.ask();
+    }
+}
+
+/// Whether somebody requested to stop: 1 or 0; 0 for NULL. A signal handler may call this, too.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_stop_is_requested(stop: *const Stop) -> c_int {
+    // SAFETY: the caller passes what `mms_stop_new` made, or NULL.
+    unsafe { reference(stop) }.is_some_and(Stop::is_asked).into()
+}
+
+/// Frees it, when all calls to which it was passed have ended. NULL is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_stop_free(stop: *mut Stop) {
+    // SAFETY: the caller passes what `mms_stop_new` made, once, or NULL.
+    if unsafe { reference(stop) }.is_some() {
+        // SAFETY: the same.
+        drop(unsafe { Box::from_raw(stop) });
     }
 }
 
@@ -104,7 +155,7 @@ pub unsafe extern "C" fn mms_field_from_text(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
     // SAFETY: the caller passes what `make` made, once, or NULL.
-    if unsafe { known(field) }.is_some() {
+    if unsafe { reference(field) }.is_some() {
         // SAFETY: the same.
         guarded_or((), || drop(unsafe { Box::from_raw(field) }));
     }
@@ -114,28 +165,28 @@ pub unsafe extern "C" fn mms_field_free(field: *mut Field) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_name(field: *const Field) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { known(field) }.map_or(std::ptr::null(), |field| field.name.as_ptr())
+    unsafe { reference(field) }.map_or(null(), |field| field.name.as_ptr())
 }
 
 /// The title of a field, a sentence; NULL for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_title(field: *const Field) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { known(field) }.map_or(std::ptr::null(), |field| field.title.as_ptr())
+    unsafe { reference(field) }.map_or(null(), |field| field.title.as_ptr())
 }
 
 /// D, the number of coordinates of a point: 1, 2 or 3; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_dimension(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { known(field) }.map_or(0, Field::dimension)
+    unsafe { reference(field) }.map_or(0, Field::dimension)
 }
 
 /// How many parameters a field has; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_parameter_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { known(field) }.map_or(0, |field| field.parameters.len())
+    unsafe { reference(field) }.map_or(0, |field| field.parameters.len())
 }
 
 /// The name of a parameter, in the order of the file; NULL beyond the last.
@@ -145,23 +196,23 @@ pub unsafe extern "C" fn mms_field_parameter_name(
     index: usize,
 ) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    let name = unsafe { known(field) }.and_then(|field| field.parameters.get(index));
-    name.map_or(std::ptr::null(), |name| name.as_ptr())
+    let name = unsafe { reference(field) }.and_then(|field| field.parameters.get(index));
+    name.map_or(null(), |name| name.as_ptr())
 }
 
 /// How many faces the body of a field has; 0 for NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_face_count(field: *const Field) -> usize {
     // SAFETY: the caller passes a field or NULL.
-    unsafe { known(field) }.map_or(0, |field| field.faces.len())
+    unsafe { reference(field) }.map_or(0, |field| field.faces.len())
 }
 
 /// The name of a face, such as "x_max" or "inner"; NULL beyond the last.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mms_field_face_name(field: *const Field, index: usize) -> *const c_char {
     // SAFETY: the caller passes a field or NULL.
-    let name = unsafe { known(field) }.and_then(|field| field.faces.get(index));
-    name.map_or(std::ptr::null(), |name| name.as_ptr())
+    let name = unsafe { reference(field) }.and_then(|field| field.faces.get(index));
+    name.map_or(null(), |name| name.as_ptr())
 }
 
 /// Writes the value of a parameter to `*value`.
@@ -276,6 +327,39 @@ pub unsafe extern "C" fn mms_field_evaluate(
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
+        mms_field_evaluate_stoppable(
+            field,
+            quantity,
+            time,
+            count,
+            points,
+            normals,
+            null(),
+            values,
+            message,
+            capacity,
+        )
+    }
+}
+
+/// The same as `mms_field_evaluate`, until somebody requests to stop. NULL for `stop` means that nobody will.
+///
+/// Codes: those of `mms_field_evaluate`, MMS_CODE_STOPPED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mms_field_evaluate_stoppable(
+    field: *const Field,
+    quantity: *const c_char,
+    time: f64,
+    count: usize,
+    points: *const f64,
+    normals: *const f64,
+    stop: *const Stop,
+    values: *mut f64,
+    message: *mut c_char,
+    capacity: usize,
+) -> MmsCode {
+    // SAFETY: the caller vouches for every pointer, as the header says.
+    unsafe {
         guarded(Message::new(message, capacity), |message| {
             let field = this(field)?;
             let name = word("quantity", quantity)?;
@@ -293,7 +377,8 @@ pub unsafe extern "C" fn mms_field_evaluate(
                 message.extent(),
             ];
             let mut values = Room::new("values", values, room, &others)?;
-            field.evaluate(name, time, points, normals, |result| values.put(result))
+            let stop = if stop.is_null() { None } else { Some(handle("stop", stop)?) };
+            field.evaluate(name, time, points, normals, stop, |result| values.put(result))
         })
     }
 }
@@ -417,12 +502,6 @@ unsafe fn make(
         place.put(&[made.as_ref().map_or(null_mut(), |field| *field)]);
         made.map(drop)
     })
-}
-
-/// A field that is asked for what is always there.
-unsafe fn known<'a>(field: *const Field) -> Option<&'a Field> {
-    // SAFETY: passed on.
-    unsafe { this(field) }.ok()
 }
 
 unsafe fn this<'a>(field: *const Field) -> Result<&'a Field, Error> {

@@ -26,6 +26,8 @@ pub enum MmsCode {
     Defect = 6,
     /// The system gives no thread. Making a field takes one, with a stack of 2 MiB.
     NoThread = 7,
+    /// Somebody requested to stop, and nothing was made.
+    Stopped = 8,
 }
 
 /// Why a call did not do what it is for.

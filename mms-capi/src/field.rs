@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
+use std::mem;
 use std::sync::OnceLock;
 
-use mms_codegen::Compiled;
 use mms_codegen::certify::declared::accepts;
 use mms_codegen::certify::declared::quick::Quick;
-use mms_codegen::compile::compile;
+use mms_codegen::compile::compile_with;
 use mms_codegen::expr::Rational;
 use mms_codegen::mechanics::boundary::Datum;
 use mms_codegen::program::interpret::{Interpreter, Point};
@@ -16,11 +16,13 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::quantity;
 use mms_codegen::spec::Face;
 use mms_codegen::suggest::advice;
+use mms_codegen::{Compiled, Options};
 
 use crate::border::on_own_stack;
 use crate::error::{Error, MmsCode};
 use crate::evaluator::{BLOCK, Evaluator};
 use crate::settings::Settings;
+use crate::stop::Stop;
 
 /// How far the length of a normal may be from 1.
 const UNIT: f64 = 1e-6;
@@ -46,18 +48,33 @@ pub struct Field {
 impl Field {
     /// The field of a text. `name` is what messages call it; `material` is the text of its material,
     /// where that is none of those that ship.
-    pub fn compile(name: &str, text: &str, material: Option<&str>) -> Result<Self, Error> {
-        on_own_stack(|| Field::compile_here(name, text, material))
+    pub fn compile(
+        name: &str,
+        text: &str,
+        material: Option<&str>,
+        stop: &Stop,
+    ) -> Result<Self, Error> {
+        let made = on_own_stack(|| Field::compile_here(name, text, material, stop));
+        // What comes of work that was stopped looks like a mistake, or like a field.
+        stop.check().and(made)
     }
 
-    fn compile_here(name: &str, text: &str, material: Option<&str>) -> Result<Self, Error> {
+    fn compile_here(
+        name: &str,
+        text: &str,
+        material: Option<&str>,
+        stop: &Stop,
+    ) -> Result<Self, Error> {
         let load = |_: &str| {
             material
                 .map(String::from)
                 .ok_or_else(|| "the text of the material was not given".into())
         };
-        let compiled = compile(name, &format!("{name}.toml"), text, &load)
+        let options = Options { stop: stop.of_compiler(), ..Options::default() };
+        let mut compiled = compile_with(name, &format!("{name}.toml"), text, &load, &options)
             .map_err(|failure| Error::new(MmsCode::InvalidField, failure))?;
+        // Whoever stops other work later does not mean this field.
+        compiled.graph = mem::take(&mut compiled.graph).stopped_by(&Default::default());
         let shown = |text: &str| {
             CString::new(text).map_err(|error| {
                 Error::new(MmsCode::InvalidField, format!("{text:?} cannot be shown: {error}"))
@@ -126,13 +143,14 @@ impl Field {
 
     /// Evaluates a quantity at points of `dimension` coordinates each; `normals` has one for each
     /// point where the quantity is the traction, and is not read otherwise. `put` gets the
-    /// components of each point in turn, tensors in rows, up to the point where this fails.
+    /// components of each point in turn, tensors in rows, up to the point where this fails or is stopped.
     pub fn evaluate(
         &self,
         name: &str,
         time: f64,
         points: &[f64],
         normals: Option<&[f64]>,
+        stop: Option<&Stop>,
         mut put: impl FnMut(&[f64]),
     ) -> Result<(), Error> {
         let quantity = find(name)?;
@@ -150,6 +168,7 @@ impl Field {
         let parameters = self.settings.now();
         self.evaluator.with(&self.compiled.program, quantity, &parameters, |ready| {
             for (block, points) in points.chunks(BLOCK * dimension).enumerate() {
+                stop.map_or(Ok(()), Stop::check)?;
                 let first = block * BLOCK;
                 let normals = match normals {
                     [] => &[][..],

@@ -6,6 +6,7 @@ use mms_codegen::suggest::advice;
 
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
+use crate::stop::Stop;
 
 /// Names, texts, and the texts of the materials that fields bring along, in the order of the names.
 pub const FIELDS: &[(&CStr, &str, Option<&str>)] =
@@ -20,7 +21,7 @@ pub fn field(name: &str) -> Result<Field, Error> {
         let message = format!("no field `{name}` in the gallery; {advice}");
         return Err(Error::new(MmsCode::UnknownName, message));
     };
-    Field::compile(name, text, *material)
+    Field::compile(name, text, *material, &Stop::default())
 }
 
 #[cfg(test)]

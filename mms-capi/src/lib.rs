@@ -18,6 +18,7 @@ mod field;
 mod gallery;
 mod memory;
 mod settings;
+mod stop;
 
 /// The locks. `interleavings/` has others in their place.
 mod locks {

@@ -111,7 +111,16 @@ impl<T: Copy> Room<T> {
     }
 }
 
-/// What a handle refers to.
+/// What a handle refers to, if it can be one. It is found without a message, as a signal handler needs it.
+///
+/// # Safety
+/// NULL, or a `T` that lives for `'a`.
+pub unsafe fn reference<'a, T>(place: *const T) -> Option<&'a T> {
+    // SAFETY: not NULL and aligned; the caller vouches for the rest.
+    (!place.is_null() && place.is_aligned()).then(|| unsafe { &*place })
+}
+
+/// The same, where it must be one.
 ///
 /// # Safety
 /// NULL, or a `T` that lives for `'a`.

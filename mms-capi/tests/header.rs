@@ -13,6 +13,7 @@ fn the_header_is_that_of_the_functions() {
         .with_src(root.join("src/abi.rs"))
         .with_src(root.join("src/error.rs"))
         .with_src(root.join("src/field.rs"))
+        .with_src(root.join("src/stop.rs"))
         .generate()
         .expect("sources that can be read");
     let mut header = Vec::new();

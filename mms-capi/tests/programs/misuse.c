@@ -3,8 +3,10 @@
 #include "support.h"
 #include <mms_capi.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdint.h>
 #include <sys/resource.h>
+#include <time.h>
 
 static int calls;
 static char message[65536];
@@ -313,6 +315,92 @@ static void a_small_stack(void)
     MUST(!failed);
 }
 
+/* The text of a field that takes seconds to make, or of one that does not where that takes minutes. */
+static char *long_text(void)
+{
+#ifdef HEAP
+    return strcpy(room(sizeof cube_text), cube_text);
+#else
+    const char *end = strstr(cube_text, "rate*X*t^2"), *rest = end + strlen("rate*X*t^2");
+    char *text = room(1 << 17), *next = text + sprintf(text, "%.*s1e-6*(X", (int)(end - cube_text), cube_text);
+    for (int k = 1; k <= 400; ++k) {
+        next += sprintf(next, " + sin(%d*X + t)*cos(%d*Y)/(3 + sin(%d*t + Z))", k, 2 * k + 1, k);
+    }
+    sprintf(next, ")%s", rest);
+    return text;
+#endif
+}
+
+static mms_stop *stop;
+static clock_t requested_at;
+
+static void *request_soon(void *unused)
+{
+    usleep(100000);
+    requested_at = clock();
+    mms_stop_request(stop);
+    return unused;
+}
+
+static void request_in_handler(int number)
+{
+    (void)number;
+    mms_stop_request(stop);
+}
+
+/* Whatever is at work when somebody requests to stop ends soon, and what comes after it does not begin. */
+static void work_that_is_stopped(void)
+{
+    enum { COUNT = 20000 };
+    double *points = numbers(COUNT, 0.5), *values = numbers(COUNT, 7);
+    char *text = long_text();
+    mms_field *field, *early;
+    OK(mms_field_from_text_stoppable, "cube", cube_text, NULL, NULL, &early);
+    mms_field_free(early);
+    stop = mms_stop_new();
+    MUST(stop != NULL && mms_stop_is_requested(stop) == 0);
+    OK(mms_field_from_text_stoppable, "cube", cube_text, NULL, stop, &early);
+    OK(mms_field_evaluate_stoppable, bar, "b", 0, COUNT, points, NULL, stop, values);
+    WRONG("`stop` is not aligned", mms_field_from_text_stoppable, "cube", cube_text, NULL, askew(stop), &field);
+    WRONG("`stop` is not aligned", mms_field_evaluate_stoppable, bar, "b", 0, 1, points, NULL, askew(stop), values);
+    for (int work = 0; work < 2; ++work) {
+        pthread_t thread;
+        mms_code code = MMS_CODE_OK;
+        MUST(pthread_create(&thread, NULL, request_soon, NULL) == 0);
+        while (code == MMS_CODE_OK && work == 0) {
+            code = mms_field_from_text_stoppable("cube", text, NULL, stop, &field, message, sizeof message);
+            mms_field_free(field);
+        }
+        while (code == MMS_CODE_OK && work == 1) {
+            code = mms_field_evaluate_stoppable(bar, "b", 0, COUNT, points, NULL, stop, values, message,
+                                                sizeof message);
+        }
+        SAYS(MMS_CODE_STOPPED, "as was requested", message, code);
+        MUST(pthread_join(thread, NULL) == 0);
+        printf("%.3f s from the request to the end\n", (double)(clock() - requested_at) / CLOCKS_PER_SEC);
+        MUST(clock() - requested_at < 3 * CLOCKS_PER_SEC);
+        MUST(mms_stop_is_requested(stop) == 1);
+        REFUSED(MMS_CODE_STOPPED, "", mms_field_from_text_stoppable, "cube", cube_text, NULL, stop, &field);
+        MUST(field == NULL);
+        values[0] = 7;
+        REFUSED(MMS_CODE_STOPPED, "", mms_field_evaluate_stoppable, bar, "b", 0, 1, points, NULL, stop, values);
+        MUST(values[0] == 7);
+        mms_stop_free(stop);
+        stop = mms_stop_new();
+    }
+    /* What was made before is as it was. */
+    OK(mms_field_set_parameter, early, "rho0", 7);
+    OK(mms_field_evaluate, early, "mass_density", 0, 1, points, NULL, values);
+    mms_field_free(early);
+    signal(SIGUSR1, request_in_handler);
+    raise(SIGUSR1);
+    MUST(mms_stop_is_requested(stop) == 1);
+    mms_stop_free(stop);
+    mms_stop_request(NULL);
+    MUST(mms_stop_is_requested(NULL) == 0);
+    mms_stop_free(NULL);
+}
+
 /* Where the system gives no thread, that is an answer. Comes first, for the stack of a thread that was is kept. */
 static void no_thread(void)
 {
@@ -344,7 +432,7 @@ int main(void)
     void (*const tests[])(void) = {
         counts_that_no_array_has, more_settings_than_parameters, pointers_out_of_line,
         results_over_arguments, messages_over_arguments, texts_that_are_none, texts_without_an_end,
-        bounds_and_their_room, capacities_of_messages, a_small_stack,
+        bounds_and_their_room, capacities_of_messages, a_small_stack, work_that_is_stopped,
     };
     for (size_t i = 0; i < sizeof tests / sizeof *tests; ++i) {
         tests[i]();

@@ -10,6 +10,7 @@ enum { FIELDS = 3 };
 
 static uint64_t state;
 static mms_field *fields[FIELDS];
+static mms_stop *stops[2]; /* the second is requested */
 static unsigned long done, attempts;
 
 /* SplitMix64 (Steele, Lea & Flood). */
@@ -115,7 +116,7 @@ static mms_field *a_field(void)
 static void look(mms_code code, struct text message)
 {
     done += code == MMS_CODE_OK;
-    if (code < MMS_CODE_OK || code == MMS_CODE_DEFECT || code > MMS_CODE_NO_THREAD) {
+    if (code < MMS_CODE_OK || code == MMS_CODE_DEFECT || code > MMS_CODE_STOPPED) {
         wrong(message.size > 0 ? message.first : "a code that there is not");
     }
     if (message.first == NULL || message.size == 0) {
@@ -226,9 +227,13 @@ static void evaluate(void)
     double *normals = once_in(2) ? NULL : an_array(count * dimension, NULL);
     double *values = an_array(count * components, points);
     message = a_message(name);
-    mms_code code = mms_field_evaluate(field, name.first, a_number(), count, points, normals, values,
-                                       message.first, message.size);
+    const mms_stop *stop = once_in(2) ? NULL : stops[once_in(8)];
+    mms_code code = mms_field_evaluate_stoppable(field, name.first, a_number(), count, points, normals, stop,
+                                                 values, message.first, message.size);
     look(code, message);
+    if (code == MMS_CODE_STOPPED && stop != stops[1]) {
+        wrong("stopped though nobody asked");
+    }
     for (size_t i = 0; code == MMS_CODE_OK && i < count * components; ++i) {
         if (!isfinite(values[i])) {
             wrong("a value that is not finite");
@@ -253,6 +258,9 @@ int main(int arguments, char **argument)
     mms_field_from_gallery("bar_1d", &fields[0], NULL, 0);
     mms_field_from_text("ring", ring_text, NULL, &fields[1], NULL, 0);
     mms_field_from_text("cube", cube_text, NULL, &fields[2], NULL, 0);
+    stops[0] = mms_stop_new();
+    stops[1] = mms_stop_new();
+    mms_stop_request(stops[1]);
     for (attempts = 1; attempts <= calls; ++attempts) {
         size_t kind = below(256);
         if (kind == 0) {
@@ -271,6 +279,8 @@ int main(int arguments, char **argument)
     for (int i = 0; i < FIELDS; ++i) {
         mms_field_free(fields[i]);
     }
+    mms_stop_free(stops[0]);
+    mms_stop_free(stops[1]);
     printf("%lu calls, %lu did what they are for\n", calls, done);
     return done * 4 < calls;
 }

@@ -196,7 +196,7 @@ impl Graph {
     }
 
     /// With a budget that somebody may end.
-    pub(crate) fn stopped_by(mut self, stop: &Stop) -> Self {
+    pub fn stopped_by(mut self, stop: &Stop) -> Self {
         self.work = Work::new(stop.clone());
         self
     }
