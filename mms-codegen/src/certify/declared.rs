@@ -94,7 +94,7 @@ pub fn extremes(
 
 /// A mistake of a field at the values of an extreme, where these stand.
 fn at_extreme(extreme: &ExtremeSpec, wrong: Diagnostic) -> Diagnostic {
-    let name = quoted(&extreme.name.value);
+    let name = quoted(extreme.name.value.raw());
     let message = format!("the extreme {name} is no state of this field: {}", wrong.message);
     let set = extreme.set.iter();
     let set: Vec<_> = set
