@@ -4,6 +4,7 @@
 //! [`Stage`]; the instructions stand in order of stage, operands first. A program knows no target
 //! language.
 
+pub mod computed;
 pub mod dual;
 mod effort;
 pub(crate) mod fusion;
