@@ -7,7 +7,7 @@ use super::enclosure::Formulas;
 use super::limits::Must;
 use super::witness::{Witness, digits};
 use crate::compile::Compiled;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::quantity::Quantity;
 use crate::source::Span;
 use crate::spec::{BoundarySpec, Claim};
@@ -54,7 +54,7 @@ pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) 
 
 /// An operation ends, or is not proved not to.
 pub fn leaves_branch(compiled: &Compiled, exit: &Exit) -> Diagnostic {
-    let written = compiled.sources.slice(exit.span);
+    let written = quoted(compiled.sources.slice(exit.span));
     let place = place(compiled, &exit.witness);
     let (why, help) = match exit.must {
         Must::BePositive => {
@@ -72,9 +72,9 @@ pub fn leaves_branch(compiled: &Compiled, exit: &Exit) -> Diagnostic {
         ),
     };
     let (message, label) = match exit.is_certain {
-        true => (format!("`{written}` is not analytic everywhere"), format!("{why} at {place}")),
+        true => (format!("{written} is not analytic everywhere"), format!("{why} at {place}")),
         false => (
-            format!("`{written}` is not proved to be analytic everywhere"),
+            format!("{written} is not proved to be analytic everywhere"),
             format!("near {place}: it may be that {why}"),
         ),
     };
