@@ -25,10 +25,11 @@ use super::{Outcome, print, print_json, say, say_styled};
 /// What holds over the whole body, time window and parameter ranges is proved: symbolically, or with
 /// intervals. A claim is `proved`; `enclosed`, where all that is certain is that it is within
 /// 1e-12 of what it should be, relative to the size of the body or the modulus; `refuted` at a point
-/// that is named; or `unproved`. The last two exit 1, as do J <= 0, a quantity without a finite
-/// value, and a closed form that differs or was compared nowhere. What takes more steps than a budget allows is said not to
-/// be proved. A stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain
-/// rate, the wave speed, and the time step that waves allow.
+/// that is named; or `unproved`. The last two exit 1, as do J <= 0, a function that ends or jumps within the domain, a
+/// quantity without a finite value or that f64 does not compute as one, and a closed form that differs or was compared
+/// nowhere. What takes more steps than a budget allows is said not to be proved. What f32 computes is a line of its own. A
+/// stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave
+/// speed, and the time step that waves allow, and of the digits that sums such as X + c*t leave of angles.
 #[derive(Args)]
 pub struct Check {
     /// Field files.
@@ -124,7 +125,7 @@ impl Check {
                 let all: Vec<_> = objections.iter().cloned().chain(warning).collect();
                 say_styled(&render_styled(&compiled.sources, &all));
             }
-            let mut proofs = proof::text(&certificate);
+            let mut proofs = proof::text(compiled, &certificate);
             proofs.extend(rest_line(&rest));
             print(&text(path, compiled, proofs, &gaps, &comparisons))?;
         }

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use anyhow::bail;
 use clap::Args;
+use mms_codegen::certify::certificate::not_computed;
 use mms_codegen::sample::domain;
 use mms_codegen::selection::Form;
 use mms_runtime::{
@@ -203,11 +204,26 @@ impl MethodOptions {
         input.hold(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
         self.hold_end(input, settings)?;
+        self.hold_precision(input, settings)?;
         method.setup.memory = Some(memory());
         if !self.allow_unstable {
             method.setup.fastest_wave = fastest_wave(input, settings, &method)?;
         }
         Ok(method)
+    }
+
+    /// Refuses single precision where it does not compute the field. Of double precision that is an error of the file.
+    fn hold_precision(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
+        if self.arithmetic.precision == Precision::F64 {
+            return Ok(());
+        }
+        let set = input.settings(settings)?;
+        match not_computed(&input.compiled, &set, mms_codegen::accuracy::Precision::F32) {
+            Some(found) => {
+                bail!("{}: {}; run it with `--precision f64`", found.message, found.label)
+            }
+            None => Ok(()),
+        }
     }
 
     /// Refuses an end that is not behind the beginning.

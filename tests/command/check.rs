@@ -213,6 +213,58 @@ fn what_is_proved_is_told_with_its_bounds() {
     assert!((1.0 / (fastest * 1.1)..=1.0 / fastest).contains(&step), "{step}");
 }
 
+#[test]
+fn a_cut_is_refused_where_it_stands_and_elsewhere_with_the_same_text() {
+    let folder = Folder::new();
+    let text = include_str!("../../mms-codegen/tests/data/faults/atan2_cut_1d.toml");
+    folder.write("cut.toml", text);
+    let check = folder.mms("check cut.toml").exits(1);
+    let message = "`atan2(X-L/2,-1)` is not analytic everywhere";
+    check.complains("cut.toml:16:10").complains(message).complains("at X = 0.5");
+    check.prints("LEAVE their analytic branch");
+    let json = folder.mms("check cut.toml --json").exits(1).json();
+    let certificate = &json["files"][0]["certificate"];
+    assert_eq!((&certificate["analytic"], &certificate["finite"]), (&false.into(), &true.into()));
+    folder.mms("eval cut.toml --at 0.3 --time 0").exits(2).complains(message);
+    folder.mms("emit cut.toml --target c").exits(2).complains(message);
+}
+
+#[test]
+fn what_a_precision_does_not_compute_is_told_and_refused_where_it_is_asked_for() {
+    let folder = Folder::with_bar("bar.toml");
+    folder.mms("check bar.toml").exits(0).prints("in f32 every quantity is finite, too\n");
+    let stiff = folder.mms("check bar.toml --set young=1e39").exits(0);
+    stiff.prints("in f32 every quantity is finite, too: ").prints("NOT, as computed");
+    let json = folder.mms("check bar.toml --set young=1e39 --json").exits(0).json();
+    let certificate = &json["files"][0]["certificate"];
+    assert_eq!((&certificate["finite_f32"], &certificate["finite"]), (&false.into(), &true.into()));
+    let run = folder.mms("run bar.toml --cells 4 --set young=1e39 --precision f32").exits(2);
+    run.complains("but not as f32 computes it").complains("--precision f64");
+    let text = include_str!("../../mms-codegen/tests/data/faults/time_sine_nan.toml");
+    folder.write("sine.toml", text);
+    let check = folder.mms("check sine.toml").exits(1);
+    check.complains("finite everywhere, but not as f64 computes it").complains("sin(1e17)");
+    check.prints("every quantity is finite everywhere: displacement is NOT, as computed");
+    folder.mms("emit sine.toml --target c").exits(2).complains("sin(1e17)");
+}
+
+#[test]
+fn digits_that_a_sum_loses_are_told() {
+    let wave = "[displacement]\nu = [\"0.01*sin(X + 30*t)\"]\n";
+    let folder = Folder::new();
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n{wave}[material]\nmodel = \"neo_hookean\"\nlambda = 1\n\
+         mu = 1\ndensity = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
+    );
+    folder.write("near.toml", &text);
+    folder.mms("check near.toml").exits(0).prints("angles are right to 14 digits after the point");
+    folder.write("far.toml", &text.replace("[0, 1]\n", "[0, 1e13]\n"));
+    let far = folder.mms("check far.toml").exits(0);
+    far.prints("FEWER THAN SIX digits after the point: 1 near X = 1, t = 1e13");
+    let json = folder.mms("check far.toml --json").exits(0).json();
+    assert_eq!(json["files"][0]["certificate"]["angle_digits"], 1);
+}
+
 /// A product on the way to it is beyond the largest number.
 #[test]
 fn a_speed_without_a_bound_is_no_number() {

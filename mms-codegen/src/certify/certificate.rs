@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::branches::{self, Exit};
 use super::chart::Chart;
 use super::claims::{self, Finding};
+use super::computed::{self, AsComputed};
 use super::enclosure::Formulas;
 use super::finite::{self, Finite};
 use super::jacobian::{self, Jacobian};
@@ -11,6 +13,7 @@ use super::message;
 use super::motion::Motion;
 use super::rates::{self, Frame, Rates};
 use super::witness::Witness;
+use crate::accuracy::Precision;
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Graph, Rational};
@@ -24,15 +27,23 @@ pub const CELLS: usize = 2000;
 const CELLS_OF_RATES: usize = 500;
 
 /// What each part of a proof may take, in steps of the budget of [`crate::work`]: the formulas, J, the rates, finite
-/// values, and all claims.
+/// values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;
 const RATES: u64 = 300_000_000;
 const FINITE: u64 = 60_000_000;
+const BRANCHES: u64 = 60_000_000;
+const COMPUTED: u64 = 80_000_000;
 const CLAIMS: u64 = 80_000_000;
 
 /// What a compilation may take for the contradictions that it looks for.
 const QUICK: u64 = 30_000_000;
+
+/// How many operations the proofs about branches may take, all of them together.
+const OPERATIONS_OF_BRANCHES: usize = 4_000_000;
+
+/// How many operations a proof about a program in one precision may take.
+const OPERATIONS_AS_COMPUTED: usize = 8_000_000;
 
 /// How many operations a compilation spends on looking for J <= 0, and cells at most.
 const QUICK_OPERATIONS: usize = 100_000;
@@ -51,8 +62,12 @@ pub struct Certificate {
     pub claims: Vec<(BoundarySpec, Finding)>,
     /// Whether J > 0.
     pub jacobian: Jacobian,
+    /// The operations that are not proved to stay within one analytic branch.
+    pub exits: Vec<Exit>,
     /// Whether all quantities exist.
     pub finite: Finite,
+    /// Whether they are computed in `f64`, and in `f32`.
+    pub computed: [AsComputed; 2],
     /// The largest stretch, strain rate and wave speed; only of a field with J > 0.
     pub rates: Option<Rates>,
     /// How many cells it took.
@@ -85,11 +100,27 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         budget.end(&graph, "stretch, rate and wave speed");
         (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
     }
+    budget.begin(&graph, BRANCHES);
+    let positive = rates.is_some().then_some(&motion);
+    let (exits, cells) =
+        branches::exits(&mut graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES]);
+    budget.end(&graph, "branches of functions");
+    boxes += cells;
     let limit = if rates.is_some() { CELLS } else { 0 };
     budget.begin(&graph, FINITE);
     let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);
     budget.end(&graph, "finite values");
     boxes += cells;
+    budget.begin(&graph, COMPUTED);
+    let computed = match jacobian {
+        Jacobian::Positive(bounds) if finite == Finite::Proved => {
+            let known = (motion.jacobian, bounds);
+            computed::bound(&mut graph, &chart, compiled, known, OPERATIONS_AS_COMPUTED)
+        }
+        _ => [AsComputed::NOT_ASKED; 2],
+    };
+    budget.end(&graph, "what is computed");
+    boxes += computed[0].cells;
     let mut claims = Vec::new();
     for claim in &compiled.field.boundary {
         budget.begin(&graph, CLAIMS / compiled.field.boundary.len() as u64);
@@ -98,7 +129,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         claims.push((claim.clone(), finding));
         boxes += cells;
     }
-    Certificate { claims, jacobian, finite, rates, boxes, spent: budget.spent }
+    Certificate { claims, jacobian, exits, finite, computed, rates, boxes, spent: budget.spent }
 }
 
 /// The budgets of the parts, and those that were spent.
@@ -130,14 +161,7 @@ pub fn wave_speed(
 ) -> Option<f64> {
     let mut graph = room(compiled);
     graph.work().allow(4 * RATES);
-    let mut model = compiled.model.clone();
-    for (index, parameter) in model.parameters.iter_mut().enumerate() {
-        parameter.range = None;
-        if let Some(value) = set.get(&index) {
-            parameter.default = graph.number(value.clone());
-        }
-    }
-    let chart = Chart::new(&mut graph, &compiled.field, &model, None);
+    let chart = chart_of(&mut graph, compiled, set);
     let motion = Motion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     let (Jacobian::Positive(bounds), _) = jacobian::bound(&chart, &formulas, CELLS) else {
@@ -148,10 +172,36 @@ pub fn wave_speed(
     bound.is_finite().then_some(bound)
 }
 
+/// What a precision does not compute at a corner or in the middle of the domain of a field, though it has a value there.
+/// Parameters have their defaults, but for those that are `set`, by position.
+pub fn not_computed(
+    compiled: &Compiled,
+    set: &BTreeMap<usize, Rational>,
+    precision: Precision,
+) -> Option<Diagnostic> {
+    let mut graph = room(compiled);
+    let chart = chart_of(&mut graph, compiled, set);
+    let finding = computed::failure(compiled, &chart, precision)?;
+    message::not_computed(compiled, precision.name(), &finding)
+}
+
+/// The body and the time window for one set of parameters.
+fn chart_of(graph: &mut Graph, compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Chart {
+    let mut model = compiled.model.clone();
+    for (index, parameter) in model.parameters.iter_mut().enumerate() {
+        parameter.range = None;
+        if let Some(value) = set.get(&index) {
+            parameter.default = graph.number(value.clone());
+        }
+    }
+    Chart::new(graph, &compiled.field, &model, None)
+}
+
 impl Certificate {
     /// What is refuted or not proved, each at its place in the file.
     pub fn objections(&self, compiled: &Compiled) -> Vec<Diagnostic> {
-        let mut objections = Vec::new();
+        let mut objections: Vec<_> =
+            self.exits.iter().map(|exit| message::leaves_branch(compiled, exit)).collect();
         match &self.finite {
             Finite::Proved => {}
             // Where J is not proved, neither is what it divides.
@@ -180,6 +230,8 @@ impl Certificate {
                 objections.push(message::not_positive(compiled, witness, *value));
             }
         }
+        let [double, _] = &self.computed;
+        objections.extend(message::not_computed(compiled, "f64", &double.finding));
         for (claim, finding) in &self.claims {
             match finding {
                 Finding::Proved | Finding::Enclosed(_) => {}
@@ -210,6 +262,12 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     if let Some((witness, value)) = inversion(&mut graph, &chart, compiled) {
         found.push(message::inverted(compiled, &witness, value));
     }
+    let (exits, _) =
+        branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
+    let certain = exits.iter().filter(|exit| exit.is_certain);
+    found.extend(certain.map(|exit| message::leaves_branch(compiled, exit)));
+    let failure = computed::failure(compiled, &chart, Precision::F64);
+    found.extend(failure.and_then(|it| message::not_computed(compiled, "f64", &it)));
     for claim in &compiled.field.boundary {
         if let Some(Finding::Refuted(witness, value)) =
             claims::refute(&mut graph, compiled, claim, QUICK_POINTS)

@@ -99,7 +99,7 @@ fn is_bounded(value: &Interval) -> bool {
 
 /// The variable across which to split a cell: one whose width alone keeps it from being `well`, else
 /// the widest.
-fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
+pub(super) fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
     let is_to_blame = |variable: &usize| {
         let mut thin = cell.clone();
         let middle = thin.0[*variable].middle();
@@ -109,7 +109,8 @@ fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
     (0..cell.0.len()).find(is_to_blame).unwrap_or_else(|| cell.widest())
 }
 
-fn corners(cell: &Cell) -> Vec<Vec<f64>> {
+/// The corners of a cell.
+pub(super) fn corners(cell: &Cell) -> Vec<Vec<f64>> {
     let sides = &cell.0;
     // Beyond a few parameters with a range their corners are too many to look at.
     let count = sides.len().min(6);

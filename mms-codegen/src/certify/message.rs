@@ -1,10 +1,13 @@
 //! What is said of a field that is not what it claims to be.
 
+use super::branches::Exit;
 use super::chart::Chart;
+use super::computed;
 use super::enclosure::Formulas;
+use super::limits::Must;
 use super::witness::{Witness, digits};
 use crate::compile::Compiled;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, quoted};
 use crate::quantity::Quantity;
 use crate::source::Span;
 use crate::spec::{BoundarySpec, Claim};
@@ -49,6 +52,38 @@ pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) 
         .help("where it is meant, the solver that you test needs the same stress in its undeformed body")
 }
 
+/// An operation ends, or is not proved not to.
+pub fn leaves_branch(compiled: &Compiled, exit: &Exit) -> Diagnostic {
+    let written = quoted(compiled.sources.slice(exit.span));
+    let place = place(compiled, &exit.witness);
+    let (why, help) = match exit.must {
+        Must::BePositive => {
+            ("what must be positive is not", "keep what it is taken of away from 0")
+        }
+        Must::NotBeNegative => ("what must not be negative is", "write what is left of it instead"),
+        Must::NotVanish => ("what must not be 0 is", "keep what it is taken of away from 0"),
+        Must::KeepOffCut => (
+            "the point (x, y) of atan2(y, x) is on the negative x axis, and the angle jumps by a turn",
+            "turn the axes so that the cut lies outside, or take the angle only in sines and cosines of whole multiples of it",
+        ),
+        Must::KeepOffOrigin => (
+            "both arguments of atan2 are 0",
+            "there is no angle about the origin: keep it out of the body",
+        ),
+    };
+    let (message, label) = match exit.is_certain {
+        true => (format!("{written} is not analytic everywhere"), format!("{why} at {place}")),
+        false => (
+            format!("{written} is not proved to be analytic everywhere"),
+            format!("near {place}: it may be that {why}"),
+        ),
+    };
+    Diagnostic::error(exit.span, message)
+        .label(label)
+        .help("derivatives do not see where a function ends or jumps: shrink the body, the time window or a range")
+        .help(help)
+}
+
 /// A quantity has no value.
 pub fn undefined(compiled: &Compiled, quantity: Quantity, witness: &Witness) -> Diagnostic {
     let message = format!("{} has no finite value everywhere", quantity.name());
@@ -63,6 +98,30 @@ pub fn not_finite(compiled: &Compiled, quantity: Quantity, witness: &Witness) ->
     Diagnostic::error(displacement(compiled), message)
         .label(format!("near {}", place(compiled, witness)))
         .help("shrink the body or the time window, or write u in another form")
+}
+
+/// A quantity that has a value is not computed in a precision, or not proved to be.
+pub fn not_computed(
+    compiled: &Compiled,
+    precision: &str,
+    finding: &computed::Finding,
+) -> Option<Diagnostic> {
+    let (message, label) = match finding {
+        computed::Finding::Proved | computed::Finding::NotAsked => return None,
+        computed::Finding::Fails(quantity, witness, cause) => (
+            format!("{} is finite everywhere, but not as {precision} computes it", quantity.name()),
+            format!("{cause} at {}", place(compiled, witness)),
+        ),
+        computed::Finding::Unproved(quantity, witness) => (
+            format!("{} is not proved to be finite as {precision} computes it", quantity.name()),
+            format!("near {}", place(compiled, witness)),
+        ),
+    };
+    Some(
+        Diagnostic::error(displacement(compiled), message)
+            .label(label)
+            .help("choose units in which numbers are smaller, shrink the body or the time window, or write u in another form"),
+    )
 }
 
 /// A claim does not hold.

@@ -1,15 +1,18 @@
 //! What a field file claims, tested against what follows from it.
 
 mod angles;
+pub mod branches;
 pub mod certificate;
 pub mod chart;
 pub mod claims;
 pub mod closed_form;
+pub mod computed;
 pub mod declared;
 pub mod enclosure;
 pub mod finite;
 pub mod forms;
 pub mod jacobian;
+pub mod limits;
 pub mod matrix;
 pub mod message;
 pub mod motion;

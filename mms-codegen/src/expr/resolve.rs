@@ -15,6 +15,15 @@ use crate::syntax::{Ast, Kind, Operator};
 const NON_SMOOTH: &[&str] =
     &["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step", "heaviside"];
 
+/// An operation that may not have a value or a derivative everywhere, as it is written.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Where it stands.
+    pub span: Span,
+    /// What it makes, by itself: a power or a call. Canonical form may cancel that in what uses it.
+    pub value: Expr,
+}
+
 /// The names that a formula may use.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
@@ -77,11 +86,22 @@ impl Scope {
         ast: &Ast,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Expr> {
+        self.resolve_in_steps(graph, ast, diagnostics, &mut Vec::new())
+    }
+
+    /// The same, with the powers, quotients and calls of it.
+    pub fn resolve_in_steps(
+        &self,
+        graph: &mut Graph,
+        ast: &Ast,
+        diagnostics: &mut Vec<Diagnostic>,
+        steps: &mut Vec<Step>,
+    ) -> Option<Expr> {
         if graph.is_exhausted() {
             return None;
         }
         let reported = diagnostics.len();
-        let mut resolver = Resolver { scope: self, graph, diagnostics };
+        let mut resolver = Resolver { scope: self, graph, diagnostics, steps };
         let mut values = Vec::<Option<Partial>>::with_capacity(ast.nodes.len());
         for node in &ast.nodes {
             let value = resolver.node(&node.kind, node.span, ast, &mut values);
@@ -137,6 +157,7 @@ struct Resolver<'a> {
     scope: &'a Scope,
     graph: &'a mut Graph,
     diagnostics: &'a mut Vec<Diagnostic>,
+    steps: &'a mut Vec<Step>,
 }
 
 impl Resolver<'_> {
@@ -159,7 +180,7 @@ impl Resolver<'_> {
                 let (a, b) = (values[*left].take(), values[*right].take());
                 let b = b.map(|b| b.finish(self.graph));
                 let (left, right) = (ast.nodes[*left].span, ast.nodes[*right].span);
-                return self.binary(*operator, a?, b?, left, right);
+                return self.binary(*operator, a?, b?, [span, left, right]);
             }
             Kind::Call { name, arguments } => {
                 let spans: Vec<_> = arguments.iter().map(|index| ast.nodes[*index].span).collect();
@@ -167,7 +188,9 @@ impl Resolver<'_> {
                     .iter()
                     .map(|index| values[*index].take().map(|value| value.finish(self.graph)))
                     .collect();
-                self.call(name, &values, &spans)
+                let value = self.call(name, &values, &spans);
+                self.steps.extend(value.map(|value| Step { span, value }));
+                value
             }
         };
         expr.map(Partial::Done)
@@ -225,8 +248,7 @@ impl Resolver<'_> {
         operator: Operator,
         a: Partial,
         b: Expr,
-        left: Span,
-        right: Span,
+        [span, left, right]: [Span; 3],
     ) -> Option<Partial> {
         match operator {
             Operator::Add | Operator::Subtract => {
@@ -242,13 +264,22 @@ impl Resolver<'_> {
             }
             Operator::Multiply | Operator::Divide => {
                 let mut factors = a.into_factors(self.graph);
-                let times = operator == Operator::Multiply;
-                factors.push((b, if times { Rational::ONE } else { Rational::NEG_ONE }));
+                let exponent = match operator {
+                    Operator::Multiply => Rational::ONE,
+                    _ => Rational::NEG_ONE,
+                };
+                if operator == Operator::Divide && self.graph.as_number(b).is_none() {
+                    let value = self.graph.power(b, -1);
+                    self.steps.push(Step { span, value });
+                }
+                factors.push((b, exponent));
                 Some(Partial::Product(factors))
             }
             Operator::Power => {
                 let base = a.finish(self.graph);
-                self.power(base, b, left, right).map(Partial::Done)
+                let value = self.power(base, b, left, right);
+                self.steps.extend(value.map(|value| Step { span, value }));
+                value.map(Partial::Done)
             }
         }
     }

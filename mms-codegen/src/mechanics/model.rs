@@ -1,6 +1,7 @@
 //! A field file with its names resolved: expressions instead of text.
 
 pub mod energy;
+mod written;
 
 use std::collections::BTreeMap;
 
@@ -16,6 +17,9 @@ use crate::selection::Meanings;
 use crate::source::{Span, Spanned};
 use crate::spec::{self, FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
 use crate::syntax;
+
+use written::Read;
+pub use written::{Part, Written};
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
@@ -116,6 +120,8 @@ pub struct Model {
     pub extremes: Vec<BTreeMap<usize, Expr>>,
     /// The rigid motion on top of u.
     pub rigid: Option<RigidMotion>,
+    /// The formulas as they are written.
+    pub written: Written,
 }
 
 impl Model {
@@ -128,7 +134,7 @@ impl Model {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Model> {
         let reported = diagnostics.len();
-        let mut reader = Reader { graph, diagnostics, scope: Scope::default() };
+        let mut reader = Reader::new(graph, diagnostics);
         if field.incomplete {
             reader.scope.tolerate_unknown_names();
         }
@@ -146,9 +152,12 @@ impl Model {
         let energy = material.and_then(|material| reader.energy(field, material, &arguments));
         let fibre = reader.fibre(field, material);
         let kind = material.and_then(|material| reader.kind(field, material, fibre.as_deref()));
+        let of_the_field = reader.read.len();
         let domain = reader.domain(&field.domain);
         let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
+        reader.read.truncate(of_the_field);
         let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
+        let written = reader.written();
         let extremes = reader.extremes(field);
         reader.strays(field);
         reader.within_bound(field, reported);
@@ -169,6 +178,7 @@ impl Model {
                 Some(rigid) => Some(rigid?),
                 None => None,
             },
+            written,
         })
     }
 }
@@ -215,7 +225,7 @@ pub fn energy_with(
     arguments: &[Expr],
 ) -> Option<Expr> {
     let mut diagnostics = Vec::new();
-    let mut reader = Reader { graph, diagnostics: &mut diagnostics, scope: Scope::default() };
+    let mut reader = Reader::new(graph, &mut diagnostics);
     let arguments: Vec<_> = arguments.iter().copied().map(Some).collect();
     reader.energy(field, material, &arguments)
 }
@@ -224,12 +234,25 @@ struct Reader<'a> {
     graph: &'a mut Graph,
     diagnostics: &'a mut Vec<Diagnostic>,
     scope: Scope,
+    /// The formulas so far: of the field, and of the density of its material.
+    read: Vec<Read>,
+    of_energy: Vec<Read>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(graph: &'a mut Graph, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
+        let scope = Scope::default();
+        Reader { graph, diagnostics, scope, read: Vec::new(), of_energy: Vec::new() }
+    }
 }
 
 impl Reader<'_> {
     fn formula(&mut self, formula: &Formula) -> Option<Expr> {
         let ast = syntax::parse(formula, self.diagnostics)?;
-        self.scope.resolve(self.graph, &ast, self.diagnostics)
+        let mut steps = Vec::new();
+        let value = self.scope.resolve_in_steps(self.graph, &ast, self.diagnostics, &mut steps)?;
+        self.read.push(Read::new(&ast, value, formula.span, steps));
+        Some(value)
     }
 
     /// Resolves all, so that every one reports its mistakes.
@@ -255,10 +278,13 @@ impl Reader<'_> {
         for (index, parameter) in field.parameters.iter().enumerate() {
             let name = &parameter.name.value;
             let default = self.formula(&parameter.value);
+            self.definition_of(name);
+            let own = self.read.len();
             let range = parameter.range.as_ref().and_then(|range| {
                 let [least, greatest] = range.each_ref().map(|bound| self.formula(bound));
                 Some([least?, greatest?])
             });
+            self.read.truncate(own);
             let symbol = Symbol::Parameter(index);
             if default.is_some_and(|value| self.scope.is_positive(self.graph, value)) {
                 self.scope.assume_positive(symbol);
@@ -295,6 +321,7 @@ impl Reader<'_> {
     fn definitions(&mut self, definitions: &[LetSpec], names: &mut Names) {
         for definition in definitions {
             let value = self.formula(&definition.value);
+            self.definition_of(&definition.name.value);
             self.scope.define(&definition.name.value, value);
             // A definition that is only another name for a leaf or a number names nothing new.
             if let Some(value) =

@@ -194,7 +194,8 @@ impl<'a, T: Number> Interpreter<'a, T> {
     }
 }
 
-pub(super) fn apply<T: Scalar>(
+/// One operation on the values before it.
+pub(crate) fn apply<T: Scalar>(
     op: &Op,
     values: &[T],
     constant: impl Fn(&Rational) -> T,

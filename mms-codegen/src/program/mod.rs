@@ -5,6 +5,7 @@
 //! language.
 
 pub mod block;
+pub mod computed;
 pub mod dual;
 mod effort;
 pub(crate) mod fusion;

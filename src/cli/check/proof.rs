@@ -1,7 +1,9 @@
 //! What `mms check` says of proofs.
 
+use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::Certificate;
-use mms_codegen::certify::claims::Finding;
+use mms_codegen::certify::claims;
+use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::Rates;
@@ -9,7 +11,8 @@ use mms_codegen::spec::BoundarySpec;
 use serde_json::{Value, json};
 
 /// One line for each thing that was to be proved.
-pub fn text(certificate: &Certificate) -> Vec<String> {
+pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
+    let [double, single] = &certificate.computed;
     let mut lines = vec![
         match &certificate.jacobian {
             Jacobian::Positive([lower, upper]) => {
@@ -20,7 +23,7 @@ pub fn text(certificate: &Certificate) -> Vec<String> {
             Jacobian::Unproved(..) => "  proof  J > 0 is UNPROVED".into(),
         },
         match &certificate.finite {
-            Finite::Proved => "  proof  every quantity is finite everywhere".into(),
+            Finite::Proved => finite("  proof  every quantity is finite everywhere", double),
             Finite::Undefined(quantity, _) => {
                 format!("  proof  {} is NOT FINITE everywhere", quantity.name())
             }
@@ -29,16 +32,28 @@ pub fn text(certificate: &Certificate) -> Vec<String> {
             }
         },
     ];
+    lines.push(match certificate.exits.as_slice() {
+        [] => "  proof  u and what it is made of stay within one analytic branch".into(),
+        exits if exits.iter().any(|exit| exit.is_certain) => {
+            "  proof  u and what it is made of LEAVE their analytic branch".into()
+        }
+        _ => "  proof  u and what it is made of are UNPROVED to stay within one analytic branch"
+            .into(),
+    });
+    if single.finding != Finding::NotAsked {
+        lines.push(finite("  proof  in f32 every quantity is finite, too", single));
+    }
     lines.extend(certificate.rates.iter().flat_map(rates));
+    lines.extend(angles(compiled, double));
     for (claim, finding) in &certificate.claims {
         let (face, word) = (claim.face.value.name(), claim.claim.value);
         let found = match finding {
-            Finding::Proved => "proved".to_string(),
-            Finding::Enclosed([lower, upper]) => {
+            claims::Finding::Proved => "proved".to_string(),
+            claims::Finding::Enclosed([lower, upper]) => {
                 format!("enclosed [{lower:e}, {upper:e}], not proved")
             }
-            Finding::Refuted(_, value) => format!("REFUTED: {value:e} instead of 0"),
-            Finding::Unproved([lower, upper]) => {
+            claims::Finding::Refuted(_, value) => format!("REFUTED: {value:e} instead of 0"),
+            claims::Finding::Unproved([lower, upper]) => {
                 format!("UNPROVED: enclosed [{lower:e}, {upper:e}]")
             }
         };
@@ -52,6 +67,36 @@ pub fn text(certificate: &Certificate) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// What is said where all is computed, and what else.
+fn finite(proved: &str, computed: &AsComputed) -> String {
+    match &computed.finding {
+        Finding::Proved | Finding::NotAsked => proved.into(),
+        Finding::Fails(quantity, ..) => {
+            format!("{proved}: {} is NOT, as computed", quantity.name())
+        }
+        Finding::Unproved(quantity, _) => {
+            format!("{proved}: {} is UNPROVED to be, as computed", quantity.name())
+        }
+    }
+}
+
+/// What sums of places and times leave of the digits of an angle.
+fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
+    let (digits, witness) = computed.angles.as_ref()?;
+    let count = digits.floor().max(0.0);
+    Some(match *digits < ENOUGH_DIGITS {
+        false => format!("  bound  angles are right to {count} digits after the point"),
+        true => {
+            let names: Vec<String> =
+                compiled.model.parameters.iter().map(|it| it.name.clone()).collect();
+            let place = witness.describe(&names);
+            format!(
+                "  bound  angles keep FEWER THAN SIX digits after the point: {count} near {place}"
+            )
+        }
+    })
 }
 
 fn rates(rates: &Rates) -> [String; 2] {
@@ -96,18 +141,18 @@ fn rounded(value: f64, direction: f64) -> String {
 }
 
 /// A claim, and what is known of it.
-pub fn claim((claim, finding): &(BoundarySpec, Finding)) -> Value {
+pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> Value {
     let mut document = json!({
         "face": claim.face.value.name(),
         "claim": claim.claim.value.name(),
         "status": finding.status(),
     });
     match finding {
-        Finding::Proved => {}
-        Finding::Enclosed(interval) | Finding::Unproved(interval) => {
+        claims::Finding::Proved => {}
+        claims::Finding::Enclosed(interval) | claims::Finding::Unproved(interval) => {
             document["interval"] = json!(interval);
         }
-        Finding::Refuted(witness, value) => {
+        claims::Finding::Refuted(witness, value) => {
             document["at"] = json!(witness.coordinates);
             document["time"] = json!(witness.time);
             document["value"] = json!(value);
@@ -123,9 +168,17 @@ pub fn document(certificate: &Certificate) -> Value {
         Jacobian::Inverted(..) | Jacobian::Unproved(..) => None,
     };
     let rates = certificate.rates;
+    let [angle_digits, angle_digits_f32] = certificate
+        .computed
+        .each_ref()
+        .map(|computed| computed.angles.as_ref().map(|(digits, _)| digits.floor().max(0.0) as u32));
     json!({
         "jacobian": jacobian,
-        "finite": certificate.finite == Finite::Proved,
+        "analytic": certificate.exits.is_empty(),
+        "finite": certificate.computed[0].finding == Finding::Proved,
+        "finite_f32": certificate.computed[1].finding == Finding::Proved,
+        "angle_digits": angle_digits,
+        "angle_digits_f32": angle_digits_f32,
         "principal_stretch": rates.map(|it| it.principal_stretch),
         "strain_rate": rates.map(|it| it.strain_rate),
         "wave_speed": rates.map(|it| it.wave_speed),

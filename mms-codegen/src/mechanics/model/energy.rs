@@ -81,6 +81,7 @@ impl Reader<'_> {
         }
         inner.refuse(&material.refused);
         let outer = std::mem::replace(&mut self.scope, inner);
+        let of_the_field = std::mem::take(&mut self.read);
         for definition in &material.lets {
             self.scope.announce(&definition.name);
         }
@@ -90,6 +91,7 @@ impl Reader<'_> {
             syntax::parse(stray, self.diagnostics);
         }
         self.scope = outer;
+        self.of_energy = std::mem::replace(&mut self.read, of_the_field);
         energy.filter(|_| complete)
     }
 

@@ -1,0 +1,313 @@
+//! Whether a field stays within one analytic branch of every function that it uses.
+//!
+//! A derivative knows of no cut: where u jumps, all that follows from it may be finite and J positive. So each limit of the
+//! table in `limits.rs` is proved over the body, the time window and the ranges of parameters, for the formulas of the
+//! field in canonical form, and for W at the strain of the field. What all else is made of is then analytic, and so is all
+//! else where it is finite. What canonical form has cancelled must have a value as it is written.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+
+use mms_math::Scalar as _;
+
+use super::chart::Chart;
+use super::enclosure::{Evaluation, Formulas};
+use super::finite::corners;
+use super::limits::{Limit, Must, limits, limits_of};
+use super::motion::Motion;
+use super::search::{Cell, Measure, largest};
+use super::witness::Witness;
+use crate::compile::Compiled;
+use crate::expr::{Expr, Graph, Symbol};
+use crate::mechanics::invariant::{Kind, VOLUME};
+use crate::mechanics::kinematics::Strain;
+use crate::mechanics::model::{Part, Written};
+use crate::mechanics::tensor::Tensor;
+use crate::pass::relations::Relations;
+use crate::pass::substitute::substitute;
+use crate::program::interval::Interval;
+use crate::program::precise::Precise;
+use crate::source::Span;
+
+/// How often the way between two points is halved on which a limit is met.
+const HALVINGS: usize = 60;
+
+/// How many evaluations a cell takes: its bounds, those in its middle, and its corners.
+const OF_A_CELL: usize = 4;
+
+/// An operation that ends within the domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exit {
+    /// Where it stands.
+    pub span: Span,
+    /// What does not hold.
+    pub must: Must,
+    /// A place where it does not, or near which it is not proved to.
+    pub witness: Witness,
+    /// Whether 77 digits say that it does not.
+    pub is_certain: bool,
+}
+
+/// What must hold for an operation, in the variables of a chart.
+struct Condition {
+    must: Must,
+    operands: Vec<Expr>,
+    /// What it follows from.
+    limit: Limit,
+}
+
+/// The operations that are not proved to stay within one branch, and how many cells it took: at most `cells` for each,
+/// and so many that all take no more than some `operations`. `motion` is that of a field whose J is positive: without it,
+/// nothing is asked of W.
+pub fn exits(
+    graph: &mut Graph,
+    chart: &Chart,
+    compiled: &Compiled,
+    motion: Option<&Motion>,
+    [cells, operations]: [usize; 2],
+) -> (Vec<Exit>, usize) {
+    let Written { field, energy } = &compiled.model.written;
+    let mut parts = vec![(field, BTreeMap::new())];
+    if let Some(motion) = motion {
+        parts.push((energy, invariants(graph, chart, compiled, motion)));
+    }
+    let (mut found, mut taken, mut left) = (Vec::new(), 0, operations);
+    for (part, invariants) in parts {
+        let steps = Steps::new(graph, chart, part);
+        for condition in steps.conditions(graph, chart, &invariants) {
+            let formulas = Formulas::new(graph, chart, &condition.operands);
+            let cost = OF_A_CELL * formulas.size().max(1);
+            let limit = (left / cost).clamp(1, cells);
+            let (exit, count) = judge(chart, &formulas, condition.must, limit);
+            let exit = exit.and_then(|(witness, is_certain)| {
+                let span = steps.blame(graph, &condition.limit)?;
+                Some(Exit { span, must: condition.must, witness, is_certain })
+            });
+            found.extend(exit);
+            taken += count;
+            left = left.saturating_sub(count * cost);
+        }
+    }
+    (found, taken)
+}
+
+/// J as W knows it.
+fn volume(graph: &mut Graph) -> Expr {
+    let (one, change) = (graph.number(1), graph.symbol(VOLUME));
+    graph.add(one, change)
+}
+
+/// Some formulas and their steps, for the parameters of a chart.
+struct Steps<'a> {
+    part: &'a Part,
+    formulas: Vec<Expr>,
+    values: Vec<Expr>,
+    limits: Vec<Vec<Limit>>,
+}
+
+impl<'a> Steps<'a> {
+    fn new(graph: &mut Graph, chart: &Chart, part: &'a Part) -> Self {
+        let formulas: Vec<Expr> = part.formulas.iter().map(|(formula, _)| *formula).collect();
+        let formulas = chart.fix(graph, &formulas);
+        let values: Vec<Expr> = part.steps.iter().map(|step| step.value).collect();
+        let values = chart.fix(graph, &values);
+        let limits = values.iter().map(|value| limits_of(graph, *value)).collect();
+        Steps { part, formulas, values, limits }
+    }
+
+    /// What must hold of all of it, each once. Of W it is J > 0 that is known already.
+    fn conditions(
+        &self,
+        graph: &mut Graph,
+        chart: &Chart,
+        invariants: &BTreeMap<Symbol, Expr>,
+    ) -> Vec<Condition> {
+        let left = limits(graph, &self.formulas);
+        let key = |limit: &Limit| (limit.analytic, limit.operands.clone());
+        let known: BTreeSet<_> = left.iter().map(key).collect();
+        let strict = left.into_iter().filter(|limit| !limit.is_pole);
+        let strict = strict.map(|limit| (Some(limit.analytic), limit));
+        // What canonical form has cancelled needs no more than a value.
+        let cancelled = self.limits.iter().flatten().filter(|limit| !known.contains(&key(limit)));
+        let cancelled = cancelled.map(|limit| (limit.defined, limit.clone()));
+        let volume = volume(graph);
+        let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+        for (must, limit) in strict.chain(cancelled).filter(|(_, it)| it.operands != [volume]) {
+            let operands = substitute(graph, &limit.operands, invariants);
+            let operands = chart.pull_back(graph, &operands);
+            let varies = operands.iter().any(|operand| {
+                graph.symbols(*operand).iter().any(|symbol| chart.variables().contains(symbol))
+            });
+            // What does not vary needs no derivative either.
+            let Some(must) = (if varies { must } else { limit.defined }) else { continue };
+            if seen.insert((must, operands.clone())) {
+                found.push(Condition { must, operands, limit });
+            }
+        }
+        found
+    }
+
+    /// Where a limit stands: the step that has it, else the first whose limits are about what it needs, else the formula.
+    fn blame(&self, graph: &Graph, limit: &Limit) -> Option<Span> {
+        let operand = limit.operands[0];
+        let uses = |expr: Expr| graph.reachable(&[expr]).contains(&operand);
+        let is_it = |it: &Limit| (it.is_pole, &it.operands) == (limit.is_pole, &limit.operands);
+        let has_it = |limits: &Vec<Limit>| limits.iter().any(is_it);
+        let is_about = |index: &usize| !self.limits[*index].is_empty() && uses(self.values[*index]);
+        let step = self.limits.iter().position(has_it);
+        let step = step.or_else(|| (0..self.values.len()).find(is_about));
+        let formula = || self.formulas.iter().position(|it| uses(*it)).unwrap_or(0);
+        match step {
+            Some(step) => Some(self.part.steps[step].span),
+            None => self.part.formulas.get(formula()).map(|(_, span)| *span),
+        }
+    }
+}
+
+/// The invariants that W is a function of, in the variables of a chart.
+fn invariants(
+    graph: &mut Graph,
+    chart: &Chart,
+    compiled: &Compiled,
+    motion: &Motion,
+) -> BTreeMap<Symbol, Expr> {
+    let kind = match &compiled.model.kind {
+        Kind::Fibrous(direction) => Kind::Fibrous(chart.pull_back(graph, direction)),
+        other => other.clone(),
+    };
+    let gradient = motion.oriented.as_ref().unwrap_or(&motion.gradient);
+    let tensor = Tensor::from_components(motion.dimension(), gradient.clone());
+    Strain::new(graph, tensor, &kind, &Relations::default()).invariants
+}
+
+/// Proves what must hold of formulas, or finds where it does not, and whether that is certain; the cells that it took come
+/// second.
+fn judge(
+    chart: &Chart,
+    formulas: &Formulas,
+    must: Must,
+    limit: usize,
+) -> (Option<(Witness, bool)>, usize) {
+    let mut bounds = formulas.run::<Interval>(chart);
+    let mut hunter =
+        Hunter { chart, must, doubles: formulas.run(chart), precise: formulas.run(chart) };
+    let mut exit = None;
+    let enough = |bound: f64, attained: f64| bound <= 0.0 || attained > 0.0;
+    let found = largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
+        let place = chart.place(&cell.0);
+        let enclosure = bounds.enclose(&place);
+        let at = cell.centre();
+        if holds(must, &enclosure.values) {
+            return Measure { bound: 0.0, attained: 0.0, at, split: 0 };
+        }
+        exit = exit.take().or_else(|| hunter.hunt(cell));
+        let attained = if exit.is_some() { 1.0 } else { 0.0 };
+        let split = cell.steepest(&chart.changes(cell, &place, &enclosure.slopes));
+        Measure { bound: f64::INFINITY, attained, at, split }
+    });
+    if found.bound <= 0.0 {
+        return (None, found.cells);
+    }
+    let is_certain = exit.is_some();
+    let witness = exit.unwrap_or_else(|| Witness::at(chart, &found.worst.centre()).0);
+    (Some((witness, is_certain)), found.cells)
+}
+
+/// Whether what must hold of values does so everywhere within their bounds.
+fn holds(must: Must, values: &[Interval]) -> bool {
+    let is_not_zero = |value: &Interval| !value.contains(0.0);
+    values.iter().all(|value| value.is_defined())
+        && match (must, values) {
+            (Must::BePositive, [x]) => x.lower() > 0.0,
+            (Must::NotBeNegative, [x]) => x.lower() >= 0.0,
+            (Must::KeepOffCut, [y, x]) => is_not_zero(y) || x.lower() > 0.0,
+            _ => values.iter().any(is_not_zero),
+        }
+}
+
+/// Looks for a point where what must hold does not.
+struct Hunter<'a> {
+    chart: &'a Chart,
+    must: Must,
+    doubles: Evaluation<'a, f64>,
+    precise: Evaluation<'a, Precise>,
+}
+
+/// On which side of a limit a point is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Below,
+    Beyond,
+    Above,
+}
+
+/// The side of a point by the signs of the operands; `None` where it is nowhere near.
+fn side(must: Must, signs: &[Option<Ordering>]) -> Option<Side> {
+    use Ordering::{Equal, Greater, Less};
+    let all = signs.iter().copied().collect::<Option<Vec<_>>>()?;
+    match (must, all.as_slice()) {
+        (Must::BePositive, [Less | Equal]) | (Must::NotBeNegative, [Less]) => Some(Side::Beyond),
+        (Must::BePositive | Must::NotBeNegative, _) => None,
+        (Must::KeepOffCut, [_, Greater]) => None,
+        (Must::KeepOffOrigin, [Equal, Equal]) => Some(Side::Beyond),
+        (Must::KeepOffOrigin, _) => None,
+        (Must::NotVanish | Must::KeepOffCut, [Equal, ..]) => Some(Side::Beyond),
+        (Must::NotVanish | Must::KeepOffCut, [Less, ..]) => Some(Side::Below),
+        (Must::NotVanish | Must::KeepOffCut, _) => Some(Side::Above),
+    }
+}
+
+fn sign(value: &Precise) -> Option<Ordering> {
+    let zero = Precise::from_f64(0.0);
+    match (value.at_most(&zero), zero.at_most(value)) {
+        (true, true) => Some(Ordering::Equal),
+        (true, false) => Some(Ordering::Less),
+        (false, true) => Some(Ordering::Greater),
+        (false, false) => None,
+    }
+}
+
+impl Hunter<'_> {
+    /// In the middle and at the corners of a cell, and between two of them that are on both sides of the limit: there the
+    /// operand, which is continuous, passes 0.
+    fn hunt(&mut self, cell: &Cell) -> Option<Witness> {
+        let mut points = corners(cell);
+        points.push(cell.centre());
+        let [mut below, mut above] = [None, None];
+        for point in points {
+            let values = self.doubles.values(&self.chart.place(&point));
+            let signs: Vec<_> = values.iter().map(|value| value.partial_cmp(&0.0)).collect();
+            match side(self.must, &signs) {
+                Some(Side::Beyond) if self.side(&point) == Some(Side::Beyond) => {
+                    return Some(Witness::at(self.chart, &point).0);
+                }
+                Some(Side::Below) => below = Some(point),
+                Some(Side::Above) => above = Some(point),
+                _ => {}
+            }
+        }
+        self.between(below?, above?)
+    }
+
+    /// The point between two others where the limit is met.
+    fn between(&mut self, mut below: Vec<f64>, mut above: Vec<f64>) -> Option<Witness> {
+        if [&below, &above].map(|end| self.side(end)) != [Some(Side::Below), Some(Side::Above)] {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle: Vec<f64> = below.iter().zip(&above).map(|(a, b)| (a + b) / 2.0).collect();
+            match self.side(&middle)? {
+                Side::Below => below = middle,
+                Side::Above => above = middle,
+                Side::Beyond => return Some(Witness::at(self.chart, &middle).0),
+            }
+        }
+        Some(Witness::at(self.chart, &above).0)
+    }
+
+    fn side(&mut self, fractions: &[f64]) -> Option<Side> {
+        let fractions: Vec<Precise> = fractions.iter().map(|it| Precise::from_f64(*it)).collect();
+        let values = self.precise.values(&self.chart.place(&fractions));
+        side(self.must, &values.iter().map(sign).collect::<Vec<_>>())
+    }
+}

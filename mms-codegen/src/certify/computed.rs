@@ -1,0 +1,494 @@
+//! Whether what is finite is finite as computed: the program itself, with all that it makes on the way, in the precision
+//! that it runs in.
+
+use std::collections::BTreeSet;
+
+use mms_math::Scalar as _;
+
+use super::chart::{Chart, Run, Spot};
+use super::enclosure::Formulas;
+use super::finite::{blame, corners};
+use super::search::{Cell, Measure, largest};
+use super::witness::{Witness, digits};
+use crate::accuracy::Precision;
+use crate::compile::Compiled;
+use crate::expr::{Expr, Function, Graph, Symbol};
+use crate::program::computed::{Computed, Double, Format, Single};
+use crate::program::interpret::{Number, apply};
+use crate::program::interval::Interval;
+use crate::program::precise::Precise;
+use crate::program::{Op, Output, Program, Stage, Value};
+use crate::quantity::Quantity;
+
+/// Angles of which so many digits are right after the point are told from their neighbours.
+pub const ENOUGH_DIGITS: f64 = 6.0;
+
+/// What an operation of bounds and errors takes, in steps of a budget.
+const STEPS: u64 = 20;
+
+/// What is known of a program in one precision.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Finding {
+    /// Every quantity is computed as a finite number everywhere, and J as a positive one.
+    Proved,
+    /// Not here, and what has no value there.
+    Fails(Quantity, Witness, String),
+    /// Not refuted, and near here not proved.
+    Unproved(Quantity, Witness),
+    /// There is nothing to compute: not everything has a value, or J > 0 is not proved.
+    NotAsked,
+}
+
+/// A program in one precision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AsComputed {
+    /// Whether it computes.
+    pub finding: Finding,
+    /// How many digits after the point are right of every angle that a sine, a cosine or a tangent is taken of, and
+    /// where the fewest are; `None` where there are no such angles, or where it is not known.
+    pub angles: Option<(f64, Witness)>,
+    /// How many cells it took.
+    pub cells: usize,
+}
+
+impl AsComputed {
+    /// Of a field of which there is nothing to prove.
+    pub const NOT_ASKED: AsComputed =
+        AsComputed { finding: Finding::NotAsked, angles: None, cells: 0 };
+}
+
+/// The program of a field in `f64` and in `f32`, each with at most so many operations. J, an expression, is known to lie
+/// within bounds.
+pub fn bound(
+    graph: &mut Graph,
+    chart: &Chart,
+    compiled: &Compiled,
+    jacobian: (Expr, [f64; 2]),
+    operations: usize,
+) -> [AsComputed; 2] {
+    let subject = Subject::new(compiled);
+    let operands = Operands::new(graph, chart, &subject, jacobian);
+    [
+        subject.bound::<Double, f64>(chart, &operands, operations),
+        subject.bound::<Single, f32>(chart, &operands, operations),
+    ]
+}
+
+/// What a precision does not compute at a corner or in the middle of a chart, though it has a value there. It proves
+/// nothing.
+pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Option<Finding> {
+    let subject = Subject::new(compiled);
+    let whole = Cell::whole(chart.variables().len());
+    let mut at = chart.points::<f64>();
+    let mut fails = |fractions: &Vec<f64>| {
+        let spot = at.point(&chart.place(fractions));
+        let (quantity, cause) = match precision {
+            Precision::F32 => subject.failure::<f32>(&spot)?,
+            Precision::F64 => subject.failure::<f64>(&spot)?,
+            Precision::Wide => return None,
+        };
+        let (witness, exact) = Witness::at(chart, fractions);
+        subject.has_value(&exact, quantity).then_some(Finding::Fails(quantity, witness, cause))
+    };
+    corners(&whole).iter().chain([&whole.centre()]).find_map(&mut fails)
+}
+
+/// Points of a box whose coordinates and times are numbers of a format.
+fn computed<F: Format>(spot: &Spot<Interval>) -> Spot<Computed<F>> {
+    Spot {
+        parameters: spot.parameters.iter().copied().map(Computed::rounded).collect(),
+        time: Computed::input(spot.time),
+        coordinates: spot.coordinates.iter().copied().map(Computed::input).collect(),
+    }
+}
+
+/// The components of a unit vector.
+const ANY_NORMAL: Interval = Interval::UNIT;
+
+/// The part of a program that makes the quantities.
+struct Subject<'a> {
+    program: &'a Program,
+    /// What the quantities need.
+    plan: Vec<bool>,
+    /// The angles that circular functions are taken of, by position, and in which unit.
+    angles: Vec<(usize, f64)>,
+}
+
+/// The values of a program: rounded, and with the digits of the first two stages.
+struct Values<T: Number> {
+    narrow: Vec<T>,
+    wide: Vec<T::Wide>,
+}
+
+impl<'a> Subject<'a> {
+    fn new(compiled: &'a Compiled) -> Self {
+        let program = &compiled.program;
+        let is_quantity = |output: &&Output| matches!(output, Output::Quantity(_));
+        let outputs: Vec<Output> = program.outputs.keys().filter(is_quantity).copied().collect();
+        let plan = program.needed(&outputs);
+        let angle = |(index, needed): (usize, &bool)| match program.instrs[index].op {
+            Op::Unary(function, angle) if *needed => Some((angle.index(), unit(function)?)),
+            _ => None,
+        };
+        let angles = plan.iter().enumerate().filter_map(angle).collect();
+        Subject { program, plan, angles }
+    }
+
+    /// What is divided by, and what roots, logarithms, powers and arcs are taken of, in order.
+    fn sensitive(&self) -> Vec<usize> {
+        let of = |op: &Op| match *op {
+            Op::Divide(_, x) => Some(x),
+            Op::Unary(function, x) if ends(function) => Some(x),
+            Op::Binary(Function::Powf, x, _) => Some(x),
+            _ => None,
+        };
+        let instrs = self.program.instrs.iter().zip(&self.plan);
+        let operands = instrs.filter(|(_, needed)| **needed).filter_map(|(it, _)| of(&it.op));
+        let output = self.program.outputs.get(&Output::Quantity(Quantity::Jacobian));
+        let all: BTreeSet<usize> =
+            operands.chain(output.into_iter().flatten().copied()).map(Value::index).collect();
+        all.into_iter().collect()
+    }
+
+    /// What is known of the program in a precision.
+    fn bound<F: Format, T: Number + Into<f64> + Copy>(
+        &self,
+        chart: &Chart,
+        operands: &Operands,
+        operations: usize,
+    ) -> AsComputed {
+        let dimension = chart.variables().len();
+        let mut judge = Judge { subject: self, chart, operands, spots: chart.points() };
+        let mut at = chart.points::<f64>();
+        let (mut worst, mut failure) = (None::<(f64, Cell)>, None);
+        let mut fails = |fractions: &[f64]| {
+            let (quantity, cause) = self.failure::<T>(&at.point(&chart.place(fractions)))?;
+            Some(Finding::Fails(quantity, Witness::at(chart, fractions).0, cause))
+        };
+        let mut candidates = corners(&Cell::whole(dimension));
+        // Of a cell itself, of its operands, and of what is thinner by one variable.
+        let limit = operations / ((4 + dimension) * self.program.instrs.len().max(1));
+        let is_enough = |bound: f64, attained: f64| bound <= 0.0 || attained > 0.0;
+        let found = largest(dimension, chart.limit(limit), is_enough, |cell| {
+            let (gap, error) = judge.judge::<F>(cell);
+            let at = cell.centre();
+            if gap.is_none() {
+                let error = error.unwrap_or(0.0);
+                if worst.as_ref().is_none_or(|(worst, _)| error > *worst) {
+                    worst = Some((error, cell.clone()));
+                }
+                return Measure { bound: 0.0, attained: 0.0, at, split: 0 };
+            }
+            candidates.push(at.clone());
+            failure = failure.take().or_else(|| candidates.drain(..).find_map(|it| fails(&it)));
+            let attained = if failure.is_some() { 1.0 } else { 0.0 };
+            let split = blame(cell, |thin| judge.judge::<F>(thin).0.is_none());
+            Measure { bound: f64::INFINITY, attained, at, split }
+        });
+        let unproved = |judge: &mut Judge<'_>| {
+            let quantity = judge.judge::<F>(&found.worst).0.unwrap_or(Quantity::Displacement);
+            Finding::Unproved(quantity, Witness::at(chart, &found.worst.centre()).0)
+        };
+        let finding = match failure {
+            Some(failure) => failure,
+            None if found.bound <= 0.0 => Finding::Proved,
+            None => unproved(&mut judge),
+        };
+        let is_told = finding == Finding::Proved && !self.angles.is_empty();
+        let angles = worst.filter(|_| is_told).map(|(error, cell)| {
+            (-error.max(F::UNIT).log10(), Witness::at(chart, &farthest_corner(chart, &cell)).0)
+        });
+        AsComputed { finding, angles, cells: found.cells }
+    }
+
+    /// All values at a spot, and for any normal, where some exact ones are bounded.
+    fn bounded<F: Format>(
+        &self,
+        spot: &Spot<Computed<F>>,
+        known: impl Fn(usize) -> Option<Interval>,
+    ) -> Values<Computed<F>> {
+        let normal = Computed::input(ANY_NORMAL);
+        let meet = |index: usize, value: Computed<F>| {
+            known(index).map_or(value, |bounds| value.meet(bounds))
+        };
+        let meet_wide = |index: usize, value: Computed<F::Wide>| {
+            known(index).map_or(value, |bounds| value.meet(bounds))
+        };
+        self.values(spot, normal, meet, meet_wide)
+    }
+
+    /// All values that are needed at a spot; what is known of a value goes in before others use it.
+    fn values<T: Number>(
+        &self,
+        spot: &Spot<T>,
+        normal: T,
+        meet: impl Fn(usize, T) -> T,
+        meet_wide: impl Fn(usize, T::Wide) -> T::Wide,
+    ) -> Values<T> {
+        let input = |symbol| match symbol {
+            Symbol::Parameter(index) => spot.parameters[index].clone(),
+            Symbol::Time => spot.time.clone(),
+            Symbol::Coordinate(axis) => spot.coordinates[axis].clone(),
+            _ => normal.clone(),
+        };
+        let zero = T::from_f64(0.0);
+        let mut narrow = vec![zero.clone(); self.program.instrs.len()];
+        let mut wide = vec![zero.widen(); self.program.start(Stage::Point)];
+        for (index, instr) in self.program.instrs.iter().enumerate() {
+            if !self.plan[index] {
+                continue;
+            }
+            if index < wide.len() {
+                let (constant, square) = (T::wide_from_rational, T::wide_square);
+                let value = apply(&instr.op, &wide, constant, square, |it| input(it).widen());
+                wide[index] = meet_wide(index, value);
+                narrow[index] = T::narrow(wide[index].clone());
+            } else {
+                let value = apply(&instr.op, &narrow, T::from_rational, T::square, input);
+                narrow[index] = meet(index, value);
+            }
+        }
+        Values { narrow, wide }
+    }
+
+    /// The first quantity that may not be computed, in the order of derivation.
+    fn gap<F: Format>(&self, values: &Values<Computed<F>>) -> Option<Quantity> {
+        self.first_quantity(|quantity, index| {
+            let value = values.narrow[index];
+            value.is_finite() && (quantity != Quantity::Jacobian || value.reach().lower() > 0.0)
+        })
+    }
+
+    fn first_quantity(&self, well: impl Fn(Quantity, usize) -> bool) -> Option<Quantity> {
+        let components = |quantity: Quantity| self.program.outputs.get(&Output::Quantity(quantity));
+        Quantity::ALL.iter().copied().find(|quantity| {
+            components(*quantity)
+                .is_some_and(|values| !values.iter().all(|value| well(*quantity, value.index())))
+        })
+    }
+
+    /// How far an angle may be off, in radians.
+    fn angle_error<F: Format>(&self, values: &Values<Computed<F>>) -> Option<f64> {
+        let error = |&(index, unit): &(usize, f64)| match values.wide.get(index) {
+            Some(wide) => unit * wide.error(),
+            None => unit * values.narrow[index].error(),
+        };
+        self.angles.iter().map(error).reduce(f64::max)
+    }
+
+    /// Whether a quantity has a value in 77 digits, and J > 0.
+    fn has_value(&self, spot: &Spot<Precise>, quantity: Quantity) -> bool {
+        let same = |_, value| value;
+        let values = self.values(spot, Precise::from_f64(1.0), same, same).narrow;
+        let zero = Precise::from_f64(0.0);
+        let is_well = |asked: Quantity, index: usize| {
+            let is_negative = values[index].at_most(&zero);
+            match asked {
+                Quantity::Jacobian => values[index].is_defined() && !is_negative,
+                _ => asked != quantity || values[index].is_defined(),
+            }
+        };
+        self.first_quantity(is_well).is_none()
+    }
+
+    /// The first quantity that is not computed at a spot, and why.
+    fn failure<T: Number + Into<f64> + Copy>(
+        &self,
+        spot: &Spot<f64>,
+    ) -> Option<(Quantity, String)> {
+        let all = |numbers: &[f64]| numbers.iter().map(|x| T::from_f64(*x)).collect();
+        let spot = Spot {
+            parameters: all(&spot.parameters),
+            time: T::from_f64(spot.time),
+            coordinates: all(&spot.coordinates),
+        };
+        let values = self.values(&spot, T::from_f64(1.0), |_, value| value, |_, value| value);
+        let number = |index: usize| -> f64 { values.narrow[index].into() };
+        let quantity = self.first_quantity(|quantity, index| {
+            let value = number(index);
+            value.is_finite() && (quantity != Quantity::Jacobian || value > 0.0)
+        })?;
+        let needed = self.program.needed(&[Output::Quantity(quantity)]);
+        let is_first = |index: &usize| needed[*index] && !number(*index).is_finite();
+        let first = (0..needed.len()).find(is_first);
+        let cause = first.map_or("J is not positive".into(), |index| {
+            self.describe(index, &|index| digits(number(index)))
+        });
+        Some((quantity, cause))
+    }
+
+    /// `sin of 1e17`
+    fn describe(&self, index: usize, number: &dyn Fn(usize) -> String) -> String {
+        let op = &self.program.instrs[index].op;
+        let of: Vec<String> = op.operands().map(|value| number(value.index())).collect();
+        match (op, of.as_slice()) {
+            (Op::Unary(function, _), [x]) => format!("{}({x})", function.of_any_argument().name()),
+            (Op::Binary(Function::Offset, ..) | Op::Subtract(..), [a, b]) => format!("{a} - {b}"),
+            (Op::Binary(function, ..), [a, b]) => format!("{}({a}, {b})", function.name()),
+            (Op::Add(..), [a, b]) => format!("{a} + {b}"),
+            (Op::Multiply(..), [a, b]) => format!("{a} * {b}"),
+            (Op::Divide(..), [a, b]) => format!("{a} / {b}"),
+            (Op::Input(_), _) => "what is given is beyond the largest number".into(),
+            _ => "a constant is beyond the largest number".into(),
+        }
+    }
+}
+
+/// Whether a function of one argument has no value, or no slope, somewhere.
+fn ends(function: Function) -> bool {
+    matches!(
+        function,
+        Function::Sqrt
+            | Function::Cbrt
+            | Function::Ln
+            | Function::Ln1p
+            | Function::Ln1pRest
+            | Function::Tan
+            | Function::Asin
+            | Function::Acos
+    )
+}
+
+/// In which unit a circular function takes its angle.
+fn unit(function: Function) -> Option<f64> {
+    match function.of_any_argument() {
+        Function::Sin | Function::Cos | Function::Tan => Some(1.0),
+        Function::SinPi | Function::CosPi => Some(core::f64::consts::PI),
+        _ => None,
+    }
+}
+
+/// The corner where numbers are largest, and their digits coarsest.
+fn farthest_corner(chart: &Chart, cell: &Cell) -> Vec<f64> {
+    let size = |corner: &Vec<f64>| chart.place(corner).iter().map(|x: &f64| x.abs()).sum::<f64>();
+    let farthest = corners(cell).into_iter().max_by(|a, b| size(a).total_cmp(&size(b)));
+    farthest.unwrap_or_else(|| cell.centre())
+}
+
+/// What a program divides by and takes roots and logarithms of, as formulas that a chart bounds better than one operation
+/// after the other.
+struct Operands {
+    /// In the order of the program: where it stands, and which formula or multiple of J it is.
+    known: Vec<(usize, Known)>,
+    formulas: Option<Formulas>,
+}
+
+#[derive(Clone, Copy)]
+enum Known {
+    Formula(usize),
+    Within(Interval),
+}
+
+impl Operands {
+    /// Those of a program where J, an expression, lies within bounds; none where there is no room for them.
+    fn new(
+        graph: &mut Graph,
+        chart: &Chart,
+        subject: &Subject<'_>,
+        jacobian: (Expr, [f64; 2]),
+    ) -> Self {
+        let known = graph.attempt(|graph| Self::find(graph, chart, subject, jacobian));
+        let is_void = graph.is_exhausted();
+        let none = || Operands { known: Vec::new(), formulas: None };
+        known.filter(|_| !is_void).unwrap_or_else(none)
+    }
+
+    fn find(
+        graph: &mut Graph,
+        chart: &Chart,
+        subject: &Subject<'_>,
+        (jacobian, bounds): (Expr, [f64; 2]),
+    ) -> Self {
+        let positions = subject.sensitive();
+        let exprs = expressions(graph, subject.program);
+        let exprs: Vec<Expr> = positions.iter().map(|index| exprs[*index]).collect();
+        let exprs = chart.pull_back(graph, &exprs);
+        let one = graph.number(1);
+        let change = graph.sub(jacobian, one);
+        let (part, whole) = graph.split_content(jacobian);
+        let [bounds, part] = [Interval::new(bounds[0], bounds[1]), Interval::from_rational(&part)];
+        let (mut known, mut formulas) = (Vec::new(), Vec::new());
+        for (index, expr) in positions.into_iter().zip(exprs) {
+            let (factor, primitive) = graph.split_content(expr);
+            let found = if expr == change {
+                Known::Within(bounds - Interval::from_f64(1.0))
+            } else if primitive == whole {
+                Known::Within(bounds / part * Interval::from_rational(&factor))
+            } else {
+                formulas.push(expr);
+                Known::Formula(formulas.len() - 1)
+            };
+            known.push((index, found));
+        }
+        Operands { known, formulas: Some(Formulas::new(graph, chart, &formulas)) }
+    }
+
+    /// What is known of a value, where the formulas have some bounds.
+    fn of(&self, index: usize, bounds: &[Interval]) -> Option<Interval> {
+        let place = self.known.binary_search_by_key(&index, |(index, _)| *index).ok()?;
+        match self.known[place].1 {
+            Known::Formula(formula) => bounds.get(formula).copied(),
+            Known::Within(bounds) => Some(bounds),
+        }
+    }
+}
+
+/// The values of a program as expressions.
+fn expressions(graph: &mut Graph, program: &Program) -> Vec<Expr> {
+    let mut made: Vec<Expr> = Vec::with_capacity(program.instrs.len());
+    for instr in &program.instrs {
+        let of = |value: &Value| made[value.index()];
+        let expr = match &instr.op {
+            Op::Constant(number) => graph.number(number.clone()),
+            Op::Pi => graph.pi(),
+            Op::Input(symbol) => graph.symbol(*symbol),
+            Op::Add(a, b) => graph.add(of(a), of(b)),
+            Op::Subtract(a, b) => graph.sub(of(a), of(b)),
+            Op::Multiply(a, b) => graph.mul(of(a), of(b)),
+            Op::Divide(a, b) => graph.div(of(a), of(b)),
+            Op::Negate(a) => graph.scale(of(a), -1),
+            Op::Unary(function, a) => circular(graph, *function, of(a)),
+            Op::Binary(Function::Offset, a, b) => graph.sub(of(a), of(b)),
+            Op::Binary(function, a, b) => graph.call(*function, &[of(a), of(b)]),
+        };
+        made.push(expr);
+    }
+    made
+}
+
+/// A function as files have it.
+fn circular(graph: &mut Graph, function: Function, x: Expr) -> Expr {
+    let plain = match function {
+        Function::SinPi => Function::Sin,
+        Function::CosPi => Function::Cos,
+        other => return graph.call(other.of_any_argument(), &[x]),
+    };
+    let pi = graph.pi();
+    let angle = graph.mul(pi, x);
+    graph.call(plain, &[angle])
+}
+
+/// Bounds a program in cells.
+struct Judge<'a> {
+    subject: &'a Subject<'a>,
+    chart: &'a Chart,
+    operands: &'a Operands,
+    spots: Run<'a, Interval>,
+}
+
+impl Judge<'_> {
+    /// The quantity that may not be computed in a cell, and how far an angle may be off there.
+    fn judge<F: Format>(&mut self, cell: &Cell) -> (Option<Quantity>, Option<f64>) {
+        let place = self.chart.place(&cell.0);
+        let spot = computed::<F>(&self.spots.point(&place));
+        self.chart.work().spend(STEPS * self.subject.program.instrs.len() as u64);
+        let mut values = self.subject.bounded(&spot, |index| self.operands.of(index, &[]));
+        if let Some(formulas) = &self.operands.formulas
+            && self.subject.gap(&values).is_some()
+        {
+            let bounds = formulas.run::<Interval>(self.chart).enclose(&place).values;
+            values = self.subject.bounded(&spot, |index| self.operands.of(index, &bounds));
+        }
+        (self.subject.gap(&values), self.subject.angle_error(&values))
+    }
+}

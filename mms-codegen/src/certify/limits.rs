@@ -1,0 +1,242 @@
+//! Where the functions of the language are analytic, and where they have a value.
+//!
+//! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are so everywhere. The others have limits:
+//!
+//! | | is analytic | has a value |
+//! |---|---|---|
+//! | 1/x, x^-n | x is not 0 | there |
+//! | sqrt(x), hypot, x^(p/q) | x > 0 | x >= 0, for a positive power |
+//! | x^y | x > 0 | there |
+//! | cbrt(x) | x is not 0 | everywhere |
+//! | ln(x) | x > 0 | there |
+//! | tan(x) | cos(x) is not 0 | there |
+//! | asin(x), acos(x) | -1 < x < 1 | -1 <= x <= 1 |
+//! | atan2(y, x) | y is not 0, or x > 0 | everywhere |
+//!
+//! An angle that only sines and cosines of whole multiples of it read, and tangents of half of such, may pass its cut: all
+//! that it needs is that y and x are not both 0.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::expr::{Expr, Function, Graph, Node, Rational, is_negative};
+
+/// What must hold of operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Must {
+    /// x > 0.
+    BePositive,
+    /// x >= 0.
+    NotBeNegative,
+    /// x is not 0.
+    NotVanish,
+    /// Of (y, x): y is not 0, or x > 0.
+    KeepOffCut,
+    /// Of (y, x): they are not both 0.
+    KeepOffOrigin,
+}
+
+/// Where an operation ends.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Limit {
+    /// What must hold where the operation is analytic.
+    pub analytic: Must,
+    /// What must hold where it has a value; `None` where it always has one.
+    pub defined: Option<Must>,
+    /// Of what.
+    pub operands: Vec<Expr>,
+    /// Whether it is a pole of a quotient, which has no value either.
+    pub is_pole: bool,
+}
+
+impl Limit {
+    fn new(analytic: Must, defined: impl Into<Option<Must>>, operands: Vec<Expr>) -> Self {
+        Limit { analytic, defined: defined.into(), operands, is_pole: false }
+    }
+}
+
+/// The limits of one operation, without those of its operands.
+pub fn limits_of(graph: &mut Graph, expr: Expr) -> Vec<Limit> {
+    match graph.node(expr).clone() {
+        // A number times one other expression.
+        Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+            match graph.node(terms[0].0) {
+                Node::Sum(..) => Vec::new(),
+                _ => limits_of(graph, terms[0].0),
+            }
+        }
+        Node::Product(factors) => {
+            factors.iter().filter_map(|(base, exponent)| of_power(graph, *base, exponent)).collect()
+        }
+        Node::Call(function, arguments) => of_call(graph, function, arguments),
+        Node::Sum(..) | Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
+    }
+}
+
+fn of_power(graph: &Graph, base: Expr, exponent: &Rational) -> Option<Limit> {
+    if graph.as_number(base).is_some_and(|number| *number > Rational::ZERO) {
+        return None;
+    }
+    let operands = vec![base];
+    match (exponent.is_int(), is_negative(exponent)) {
+        (true, false) => None,
+        (true, true) => {
+            Some(Limit { is_pole: true, ..Limit::new(Must::NotVanish, Must::NotVanish, operands) })
+        }
+        (false, false) => Some(Limit::new(Must::BePositive, Must::NotBeNegative, operands)),
+        (false, true) => Some(Limit::new(Must::BePositive, Must::BePositive, operands)),
+    }
+}
+
+fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<Limit> {
+    let x = arguments[0];
+    let mut one_and = |sign: i32| {
+        let one = graph.number(1);
+        vec![graph.sum([(one, Rational::ONE), (x, sign.into())])]
+    };
+    match function {
+        Function::Cbrt => vec![Limit::new(Must::NotVanish, None, vec![x])],
+        Function::Ln | Function::Powf => {
+            vec![Limit::new(Must::BePositive, Must::BePositive, vec![x])]
+        }
+        Function::Ln1p | Function::Ln1pRest => {
+            vec![Limit::new(Must::BePositive, Must::BePositive, one_and(1))]
+        }
+        Function::Asin | Function::Acos => [1, -1]
+            .map(|sign| Limit::new(Must::BePositive, Must::NotBeNegative, one_and(sign)))
+            .into(),
+        Function::Tan => {
+            let cosine = graph.call(Function::Cos, &[x]);
+            vec![Limit::new(Must::NotVanish, Must::NotVanish, vec![cosine])]
+        }
+        Function::Atan2 => vec![Limit::new(Must::KeepOffCut, None, arguments)],
+        Function::Sqrt => vec![Limit::new(Must::BePositive, Must::NotBeNegative, vec![x])],
+        Function::Exp
+        | Function::ExpM1
+        | Function::Sin
+        | Function::Cos
+        | Function::SinNearZero
+        | Function::CosNearZero
+        | Function::SinWithinOne
+        | Function::CosWithinOne
+        | Function::SinPi
+        | Function::CosPi
+        | Function::Sinh
+        | Function::Cosh
+        | Function::Tanh
+        | Function::Atan
+        | Function::Offset => Vec::new(),
+    }
+}
+
+/// All limits of some formulas and of what they are made of, operands before users.
+pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
+    let turning = single_valued_angles(graph, formulas);
+    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+    // A sum has none but those of its terms.
+    let is_own = |graph: &Graph, expr: &Expr| !matches!(graph.node(*expr), Node::Sum(..));
+    let reachable = graph.reachable(formulas);
+    for expr in reachable.into_iter().filter(|expr| is_own(graph, expr)).collect::<Vec<_>>() {
+        for mut limit in limits_of(graph, expr) {
+            if turning.contains(&expr) && limit.analytic == Must::KeepOffCut {
+                limit.analytic = Must::KeepOffOrigin;
+            }
+            if seen.insert(limit.clone()) {
+                found.push(limit);
+            }
+        }
+    }
+    found
+}
+
+/// Angles, each with how many times it is taken.
+type Turns = BTreeMap<Expr, Rational>;
+
+/// The angles whose whole turns nothing sees.
+fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> BTreeSet<Expr> {
+    let mut turns = BTreeMap::<Expr, Turns>::new();
+    let (mut angles, mut seen) = (BTreeSet::new(), BTreeSet::new());
+    for expr in graph.reachable(formulas) {
+        let none = Turns::new();
+        let of = |expr: &Expr| turns.get(expr).unwrap_or(&none);
+        let own = match graph.node(expr) {
+            Node::Sum(_, terms) => {
+                let mut own = Turns::new();
+                for (term, factor) in terms {
+                    for (angle, times) in of(term) {
+                        *own.entry(*angle).or_default() += times * factor;
+                    }
+                }
+                own
+            }
+            Node::Call(function, arguments) if hides(*function, of(&arguments[0])) => none,
+            node => {
+                seen.extend(node.children().flat_map(|child| of(&child).keys().copied()));
+                match node {
+                    Node::Call(Function::Atan2, _) => {
+                        angles.insert(expr);
+                        Turns::from([(expr, Rational::ONE)])
+                    }
+                    _ => none,
+                }
+            }
+        };
+        turns.insert(expr, own);
+    }
+    seen.extend(formulas.iter().flat_map(|formula| turns[formula].keys().copied()));
+    angles.difference(&seen).copied().collect()
+}
+
+/// Whether a function has the same value when each of these angles is a whole turn more.
+fn hides(function: Function, turns: &Turns) -> bool {
+    let whole = |parts: i32| turns.values().all(|times| (times * Rational::from(parts)).is_int());
+    match function {
+        Function::Sin | Function::Cos => whole(1),
+        Function::Tan => whole(2),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+
+    /// Whether the cut of the angle of (X, Y) is seen in what is made of it.
+    fn sees_cut(make: impl Fn(&mut Graph, Expr) -> Expr) -> bool {
+        let mut graph = Graph::default();
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let angle = graph.call(Function::Atan2, &[y, x]);
+        let made = make(&mut graph, angle);
+        limits(&mut graph, &[made]).iter().any(|limit| limit.analytic == Must::KeepOffCut)
+    }
+
+    #[test]
+    fn whole_multiples_of_an_angle_hide_its_turns() {
+        let circular = |function: Function, numerator: i32, denominator: u8| {
+            sees_cut(|graph, angle| {
+                let factor = Rational::from_parts(numerator.into(), denominator.into());
+                let time = graph.symbol(Symbol::Time);
+                let argument = graph.sum([(angle, factor), (time, Rational::ONE)]);
+                graph.call(function, &[argument])
+            })
+        };
+        for times in [1, 3, -4] {
+            assert!(!circular(Function::Sin, times, 1) && !circular(Function::Cos, times, 1));
+            assert!(!circular(Function::Tan, times, 2));
+        }
+        assert!(circular(Function::Sin, 1, 2) && circular(Function::Tan, 1, 4));
+        assert!(circular(Function::Tanh, 1, 1));
+        assert!(sees_cut(|_, angle| angle));
+        // Once is enough.
+        assert!(sees_cut(|graph, angle| {
+            let sine = graph.call(Function::Sin, &[angle]);
+            graph.mul(sine, angle)
+        }));
+        // Half a turn and half a turn are a whole one.
+        assert!(!sees_cut(|graph, angle| {
+            let half = graph.scale(angle, Rational::from_parts(1.into(), 2u8.into()));
+            let twice = graph.add(half, half);
+            graph.call(Function::Cos, &[twice])
+        }));
+    }
+}

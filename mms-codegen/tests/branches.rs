@@ -1,0 +1,293 @@
+//! Fields that leave an analytic branch, or have no value as computed: each is refused where it does, and what is
+//! single-valued passes. An adversary hunts for what a certificate overlooks.
+
+#[path = "support/hunt.rs"]
+mod hunt;
+
+use std::fs;
+use std::path::Path;
+
+use hunt::Hunt;
+use mms_codegen::certify::certificate::{Certificate, certify};
+use mms_codegen::certify::computed::Finding;
+use mms_codegen::{Compiled, Options, compile_with};
+use proptest::prelude::*;
+
+/// A field: what u is, in which body, when, and what else the file says.
+struct Case<'a> {
+    u: &'a [&'a str],
+    body: &'a str,
+    time: &'a str,
+    rest: &'a str,
+    material: &'a str,
+}
+
+/// What a proof about a program may take of a field of the gallery.
+const MOST_CELLS: usize = 250;
+
+const BOX: &str = "shape = \"box\"\nlower = [0]\nupper = [1]";
+const SQUARE: &str = "shape = \"box\"\nlower = [-1, -1]\nupper = [1, 1]";
+const RING: &str = "shape = \"annulus\"\ninner = 0.5\nouter = 1";
+const NEO_HOOKEAN: &str = "model = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1";
+
+impl<'a> Case<'a> {
+    fn of(u: &'a [&'a str], body: &'a str) -> Self {
+        Case { u, body, time: "0, 1", rest: "", material: NEO_HOOKEAN }
+    }
+
+    fn text(&self) -> String {
+        let u: Vec<String> = self.u.iter().map(|u| format!("\"{u}\"")).collect();
+        format!(
+            "[field]\ntitle = \"x\"\ndimension = {}\n{}\n[displacement]\nu = [{}]\n[material]\n{}\n[domain]\n{}\ntime = [{}]\n",
+            u.len(),
+            self.rest,
+            u.join(", "),
+            self.material,
+            self.body,
+            self.time,
+        )
+    }
+}
+
+/// An energy of one's own with a cut at J = 1.
+const CUT_ENERGY: &str = "[material]\ntitle = \"x\"\nstrain_energy = \"mu/2*(I1 - 3) - mu*ln(J) + mu/100*(J - 1)^4*atan2(J - 1, -1)\"\n\
+                          [parameters]\nmu = { unit = \"Pa\" }\n";
+
+fn certified(text: &str) -> (Compiled, Certificate) {
+    let load = |_: &str| Ok(CUT_ENERGY.to_string());
+    let compiled =
+        mms_codegen::compile::compile_unproved("x", "x.toml", text, &load, &Options::default());
+    let compiled = compiled.unwrap_or_else(|failure| panic!("{failure}"));
+    let certificate = certify(&compiled);
+    (compiled, certificate)
+}
+
+/// Asserts that a field is refused at a part of its text, and that its other proofs pass or not.
+fn refused_at(case: &Case<'_>, place: &str, is_certain: bool) {
+    let text = case.text();
+    let (compiled, certificate) = certified(&text);
+    let found: Vec<&str> =
+        certificate.exits.iter().map(|exit| compiled.sources.slice(exit.span)).collect();
+    assert!(found.contains(&place), "{place}: {found:?}\n{text}");
+    let exit = certificate.exits.iter().find(|it| compiled.sources.slice(it.span) == place);
+    assert_eq!(exit.map(|it| it.is_certain), Some(is_certain), "{place}: {exit:?}\n{text}");
+    assert!(!certificate.objections(&compiled).is_empty());
+}
+
+fn passes(case: &Case<'_>) {
+    let text = case.text();
+    let (compiled, certificate) = certified(&text);
+    let objections = certificate.objections(&compiled);
+    assert!(objections.is_empty(), "{objections:?}\n{text}");
+}
+
+#[test]
+fn a_cut_inside_the_domain_is_refused_where_it_is() {
+    let cut = "atan2(X - 1/2, -1)";
+    refused_at(&Case::of(&[&format!("-0.05*{cut}")], BOX), cut, true);
+    // Where no cell has its corner or its middle.
+    let odd = "atan2(X - 1/3, -1)";
+    refused_at(&Case::of(&[&format!("-0.05*{odd}")], BOX), odd, true);
+    let in_time = "atan2(t - 0.3, -1)";
+    refused_at(&Case::of(&[&format!("0.05*X*{in_time}")], BOX), in_time, true);
+    let moving = "atan2(X - 0.5 - 0.1*t, X - 2)";
+    refused_at(&Case::of(&[&format!("0.01*{moving}")], BOX), moving, true);
+    let ring = Case::of(&["0.01*atan2(Y, X)", "0"], RING);
+    refused_at(&ring, "atan2(Y, X)", true);
+    let half = Case::of(&["0.01*cos(atan2(Y, X)/2)", "0"], RING);
+    refused_at(&half, "atan2(Y, X)", true);
+    let parameter = "[parameters]\na = { value = 0.5, range = [-1, 1] }\n";
+    let ranged = Case { rest: parameter, ..Case::of(&["0.01*X*atan2(a - 0.1, -1)"], BOX) };
+    refused_at(&ranged, "atan2(a - 0.1, -1)", true);
+    let by_let = "[let]\nangle = \"atan2(X - 0.5, -1)\"\nunused = \"atan2(X - 0.7, -1)\"\n";
+    let by_let = Case { rest: by_let, ..Case::of(&["0.01*angle"], BOX) };
+    refused_at(&by_let, "atan2(X - 0.5, -1)", true);
+    assert_eq!(certified(&by_let.text()).1.exits.len(), 1);
+}
+
+#[test]
+fn every_formula_that_a_field_is_made_of_is_looked_at() {
+    let graded =
+        "model = \"neo_hookean\"\nlambda = \"2 + atan2(X - 1/2, -1)/10\"\nmu = 1\ndensity = 1";
+    let graded = Case { material: graded, ..Case::of(&["0.01*X"], BOX) };
+    refused_at(&graded, "atan2(X - 1/2, -1)", true);
+    let density =
+        "model = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = \"4 + atan2(X - 1/2, -1)\"";
+    let density = Case { material: density, ..Case::of(&["0.01*X"], BOX) };
+    refused_at(&density, "atan2(X - 1/2, -1)", true);
+    let rigid = "[rigid]\nrotation = \"atan2(t - 0.3, -1)\"\n";
+    let rigid = Case { rest: rigid, ..Case::of(&["0.01*X", "0"], SQUARE) };
+    refused_at(&rigid, "atan2(t - 0.3, -1)", true);
+    let energy = "model = \"./mine.toml\"\nmu = 1\ndensity = 1";
+    let energy = Case { material: energy, ..Case::of(&["0.1*sin(3*X)*cos(t)"], BOX) };
+    refused_at(&energy, "atan2(J - 1, -1)", true);
+}
+
+#[test]
+fn roots_logarithms_and_arcs_end_where_they_are_not_analytic() {
+    let at = |u: &str, place: &str, body: &str, is_certain: bool| {
+        let scaled = format!("0.01*{u}");
+        refused_at(&Case::of(&[&scaled], body), place, is_certain);
+    };
+    at("sqrt(X)", "sqrt(X)", BOX, true);
+    at("X^(5/2)", "X^(5/2)", BOX, true);
+    at("cbrt(X - 1/3)^7", "cbrt(X - 1/3)", BOX, true);
+    at("(X - 0.2)^(7/3)", "(X - 0.2)^(7/3)", BOX, true);
+    at("ln(X + t)", "ln(X + t)", BOX, true);
+    at("asin(X)", "asin(X)", BOX, true);
+    at("acos(2*X - 1.5)", "acos(2*X - 1.5)", BOX, true);
+    at("tan(2*X)", "tan(2*X)", BOX, true);
+    at("hypot(X - 0.5, t - 0.5)^5", "hypot(X - 0.5, t - 0.5)", BOX, true);
+    passes(&Case::of(&["0.01*(1 + X^2)^(1 + X)"], BOX));
+    // The square is never negative: that it is 0 somewhere is not seen where no corner is.
+    at("sqrt((X - 1/3)^2)^5", "sqrt((X - 1/3)^2)", BOX, false);
+    at("sqrt((X - 1/2)^2)^5", "sqrt((X - 1/2)^2)", BOX, true);
+}
+
+#[test]
+fn what_canonical_form_cancels_must_have_a_value() {
+    refused_at(&Case::of(&["0.01*sqrt(X - 1e-5)*sqrt(X - 1e-5)"], BOX), "sqrt(X - 1e-5)", true);
+    refused_at(&Case::of(&["0.01*(ln(X - 1e-5) - ln(X - 1e-5) + X)"], BOX), "ln(X - 1e-5)", true);
+    let pole = "0.01*(X - 1/3)*X/(X - 1/3)";
+    refused_at(&Case::of(&[pole], BOX), pole, true);
+    passes(&Case::of(&["0.01*sqrt(X)*sqrt(X)"], BOX));
+    passes(&Case::of(&["0.01*hypot(X, Y)^2", "0"], SQUARE));
+}
+
+#[test]
+fn what_is_single_valued_across_the_cut_passes() {
+    passes(&Case::of(&["0.01*cos(3*atan2(Y, X))", "0.01*sin(2*atan2(Y, X) - 5*t)"], RING));
+    let waves =
+        "[parameters]\nm = { value = 4 }\n[let]\nangle = \"atan2(Y, X)\"\nR = \"hypot(X, Y)\"\n";
+    let waves =
+        Case { rest: waves, ..Case::of(&["0.01*R*cos(m*(angle - 0.3*t))", "0.01*R^3"], RING) };
+    passes(&waves);
+    refused_at(&Case { rest: &waves.rest.replace("= 4", "= 4.5"), ..waves }, "atan2(Y, X)", true);
+    // The cut is on the other side.
+    passes(&Case::of(&["0.01*atan2(X, 2 + Y)", "0"], SQUARE));
+    let sector = "shape = \"annulus\"\ninner = 0.5\nouter = 1\ntheta = [0, \"3*pi/4\"]";
+    passes(&Case::of(&["0.01*atan2(Y, X)", "0.01*sqrt(X^2 + Y^2)"], sector));
+    // About the origin there is no angle.
+    refused_at(
+        &Case::of(&["0.01*hypot(X, Y)^2*cos(2*atan2(Y, X))", "0"], SQUARE),
+        "atan2(Y, X)",
+        true,
+    );
+}
+
+#[test]
+fn a_constant_needs_no_branch() {
+    let constant = "[parameters]\ne = { value = 0 }\n";
+    passes(&Case { rest: constant, ..Case::of(&["0.01*X*(1 + sqrt(e) + atan2(e, -1))"], BOX) });
+}
+
+/// What a compilation finds, without a proof.
+#[test]
+fn a_compilation_finds_a_cut() {
+    let text = Case::of(&["-0.05*atan2(X - 1/2, -1)"], BOX).text();
+    let load = |_: &str| Err("no files here".to_string());
+    let failure = compile_with("x", "x.toml", &text, &load, &Options::default());
+    let failure = failure.expect_err("a cut").to_string();
+    assert!(
+        failure.contains("is not analytic everywhere") && failure.contains("X = 0.5"),
+        "{failure}"
+    );
+}
+
+fn fault(name: &str) -> (Compiled, Certificate) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/faults");
+    certified(&fs::read_to_string(folder.join(name)).expect("a readable file"))
+}
+
+/// Whatever the certificate says of these, evaluation says the same.
+#[test]
+fn what_is_proved_finite_is_computed() {
+    for name in ["time_sine_nan.toml", "xbig.toml", "time_03.toml"] {
+        let (compiled, certificate) = fault(name);
+        let [double, _] = &certificate.computed;
+        let is_refused = !certificate.objections(&compiled).is_empty();
+        assert_eq!(is_refused, double.finding != Finding::Proved, "{name}: {certificate:?}");
+    }
+    assert!(!fault("atan2_cut_1d.toml").1.exits.is_empty());
+}
+
+#[test]
+fn what_overflows_on_the_way_is_told() {
+    // Pascals are too small for single precision here, and not for double.
+    let stiff = "model = \"neo_hookean\"\nlambda = 1e39\nmu = 1e39\ndensity = 1";
+    let case = Case { material: stiff, ..Case::of(&["0.01*X^2"], BOX) };
+    let (compiled, certificate) = certified(&case.text());
+    let [double, single] = &certificate.computed;
+    assert_eq!(double.finding, Finding::Proved);
+    assert!(matches!(single.finding, Finding::Fails(..)), "{single:?}");
+    assert!(certificate.objections(&compiled).is_empty());
+}
+
+#[test]
+fn digits_that_sums_lose_are_counted() {
+    let digits = |time: &str| {
+        let case = Case { time, ..Case::of(&["0.01*sin(X + 30*t)"], BOX) };
+        let (_, certificate) = certified(&case.text());
+        let (digits, witness) = certificate.computed[0].angles.clone().expect("an angle");
+        (digits, witness.time)
+    };
+    let (near, _) = digits("0, 1");
+    assert!((13.0..16.0).contains(&near), "{near}");
+    // 3e14 has a last digit of 1/32, and its half is what may be missing.
+    let (far, at) = digits("0, 1e13");
+    assert!((0.0..2.0).contains(&far) && at == 1e13, "{far} {at}");
+}
+
+#[test]
+fn honest_fields_are_computed_in_both_precisions() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["tests/data/certify", "../fields"] {
+        for entry in fs::read_dir(root.join(folder)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let (compiled, certificate) = certified(&fs::read_to_string(&path).expect("a file"));
+            let shown = path.display();
+            assert!(certificate.objections(&compiled).is_empty(), "{shown}: {certificate:?}");
+            let [double, single] = &certificate.computed;
+            assert_eq!(double.finding, Finding::Proved, "{shown}");
+            assert!(double.cells <= MOST_CELLS, "{shown}: {}", double.cells);
+            // A J of a millionth is about as large as what f32 rounds.
+            if !path.ends_with("sliver_2d.toml") {
+                assert_eq!(single.finding, Finding::Proved, "{shown}");
+                assert!(single.cells <= MOST_CELLS, "{shown}: {}", single.cells);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #[test]
+    fn no_point_contradicts_a_certificate(data in prop::collection::vec(any::<u8>(), 40..160)) {
+        hunt::hunt(&hunt::field(&data), &data);
+    }
+}
+
+/// As long as `MMS_HUNT_SECONDS` says, and how many fields that were.
+#[test]
+fn a_longer_hunt() {
+    let seconds = std::env::var("MMS_HUNT_SECONDS").ok().and_then(|it| it.parse().ok());
+    let end = std::time::Instant::now() + std::time::Duration::from_secs(seconds.unwrap_or(0));
+    // A linear congruential generator (Knuth, The Art of Computer Programming 2, section 3.3.4).
+    let seed = std::env::var("MMS_HUNT_SEED").ok().and_then(|it| it.parse().ok());
+    let mut state: u64 = seed.unwrap_or(1);
+    let mut next = || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as u8
+    };
+    let mut counts = [0_u64; 3];
+    while std::time::Instant::now() < end {
+        let data: Vec<u8> = (0..160).map(|_| next()).collect();
+        counts[match hunt::hunt(&hunt::field(&data), &data) {
+            Hunt::Refused => 0,
+            Hunt::NotCertified => 1,
+            Hunt::Held => 2,
+        }] += 1;
+    }
+    eprintln!("refused {}, not certified {}, held {}", counts[0], counts[1], counts[2]);
+}
