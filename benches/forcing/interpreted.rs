@@ -62,7 +62,7 @@ impl<T: Blockwise + Into<f64>> Contender for Interpreted<T> {
     }
 }
 
-fn contenders_in<T: Blockwise + Into<f64>>(
+fn contenders_in<T: Blockwise + Into<f64> + 'static>(
     compiled: &Compiled,
     case: &Case,
     precision: &'static str,

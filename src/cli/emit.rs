@@ -80,7 +80,7 @@ impl Emit {
                 bail!(
                     "`{}` has no point in its domain where all of these quantities have a value: a check program would \
                      compare nothing; shrink [domain], or ask for others with --quantity",
-                    input.name
+                    input.name.shown()
                 );
             }
             Ok::<_, anyhow::Error>((input.name, bundle))

@@ -226,13 +226,13 @@ impl Eval {
         for at in outside_body.iter().map(|index| &self.at[*index]) {
             say(format_args!(
                 "warning: `--at {at}` is outside the body: nothing is claimed or proved of `{}` there",
-                input.name
+                input.name.shown()
             ));
         }
         if outside_time {
             say(format_args!(
                 "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
-                self.time, input.name
+                self.time, input.name.shown()
             ));
         }
         Outside { outside_body, outside_time }
