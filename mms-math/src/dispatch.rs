@@ -1,7 +1,7 @@
 //! Compiles work for several instruction sets, and takes the best one that the processor has.
 
 use crate::batch::Float;
-#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+#[cfg(target_arch = "x86_64")]
 use crate::machine::Wide;
 use crate::machine::{Fused, Machine, Plain};
 
@@ -56,14 +56,18 @@ fn has_avx2() -> bool {
     std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
 }
 
-#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+/// Does work with AVX-512.
+#[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
+#[inline(never)]
+pub(crate) fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::WideMachine::from(Wide::known()))
 }
 
+/// Does work with AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
+#[inline(never)]
+pub(crate) fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::FusedMachine::from(Fused::known()))
 }
