@@ -45,11 +45,10 @@ struct Row {
 }
 
 /// Advances by some steps. The time of a particle in a step, in nanoseconds.
-fn turn<T, const D: usize, F, S>(solver: &mut Solver<'_, T, D, F, S>, steps: usize) -> f64
+fn turn<T, const D: usize, F>(solver: &mut Solver<'_, T, D, F>, steps: usize) -> f64
 where
     T: Real,
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     let (passed, used) = (Instant::now(), ThreadTime::now());
     for _ in 0..steps {
@@ -86,7 +85,7 @@ where
     let setup = Setup { transfer, threads, courant: 0.2, ..Setup::default() };
     let cells = Division::Uniform(along.round() as usize);
     let solver =
-        Solver::<T, D, Block<T, D>, S>::new(block, FormulationName::Updated, &setup, &cells);
+        Solver::<T, D, Block<T, D>>::new::<S>(block, FormulationName::Updated, &setup, &cells);
     let mut solver = solver.unwrap_or_else(|refusal| panic!("{case}: {refusal}"));
     let bytes = solver.particles().bytes_per_particle();
     let pool =

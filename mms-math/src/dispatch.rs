@@ -4,7 +4,7 @@ use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use crate::batch::Float;
-#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+#[cfg(target_arch = "x86_64")]
 use crate::machine::Wide;
 use crate::machine::{Fused, Machine, Plain};
 
@@ -162,15 +162,19 @@ fn baseline<T: Float, W: Work<T>>(work: W) -> W::Output {
     }
 }
 
-#[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
+/// Does work with AVX-512.
+#[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
+#[inline(never)]
+pub(crate) fn avx512<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::WideMachine::from(Wide::known()))
 }
 
+/// Does work with AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
+#[inline(never)]
+pub(crate) fn avx2<T: Float, W: Work<T>>(work: W) -> W::Output {
     work.on(T::FusedMachine::from(Fused::known()))
 }
 

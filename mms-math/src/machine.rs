@@ -11,6 +11,7 @@ mod arrays;
 mod registers;
 
 use crate::batch::Stand;
+use crate::dispatch::Work;
 
 /// A way to compute with eight numbers together.
 pub trait Machine<T>: Copy {
@@ -25,6 +26,10 @@ pub trait Machine<T>: Copy {
 
     /// The numbers of one half, and those of the other.
     fn halves(self, first: &[T; 4], second: &[T; 4]) -> Self::Eight;
+
+    /// Does work in a function of its own, compiled for the same instructions: once, for all that have it done. Nothing
+    /// of it is inlined, so it is for what takes long beside a call.
+    fn apart<W: Work<T>>(self, work: W) -> W::Output;
 
     /// The same number eight times.
     fn splat(self, number: T) -> Self::Eight;

@@ -18,14 +18,13 @@ pub mod wall;
 use crate::body::{Fill, Filling, Piece, faces};
 use crate::defect::{Defect, on};
 use crate::nodal::Nodal;
-use crate::shape::Shape;
 use crate::{
     Body, Condition, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
 };
 use period::Period;
 use prescribed::Prescribed;
 use surface::Surface;
-use traction::{Place, Traction};
+use traction::{Place, Point, Traction};
 use wall::Wall;
 
 /// The boundary conditions of a scene. What a scene does not have is empty, and costs nothing.
@@ -115,24 +114,23 @@ impl<T: Real, const D: usize> Boundary<T, D> {
     }
 
     /// Adds this `share` of the field's tractions at `time` to the nodes. `place` says where the piece of a face at
-    /// X, carried by a particle, is.
+    /// X, carried by a particle, is, and `point` which nodes a place has.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.
-    pub fn traction<F, S>(
+    pub fn traction<F>(
         &mut self,
         field: &F,
         time: T,
-        lattice: &Lattice<T, D>,
+        point: Point<'_, T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
         share: T,
         extensive: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
     {
-        self.traction.apply::<F, S>(field, time, lattice, place, share, extensive)
+        self.traction.apply(field, time, point, place, share, extensive)
     }
 
     /// Imposes the velocity at `time`.

@@ -14,15 +14,13 @@ use crate::defect::{Defect, on};
 use crate::lanes::{columns, components, stretches, vectors};
 use crate::shape::{Shape, lost};
 use crate::spline;
-use crate::stencil::{BUNCH, Tensor};
+use crate::stencil::{BUNCH, Known, MOST, Tensor};
 use crate::tensor::{determinant, is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
-/// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours.
+/// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Wider ones, of
+/// less than two cells, reach [`MOST`].
 const NEAREST: usize = 3;
-
-/// Nodes along an axis that wider ones reach, of less than two cells.
-const MOST: usize = 4;
 
 /// GIMP with half widths that stay, or that follow the stretch along the axes.
 pub struct Gimp<const FOLLOWS: bool>;
@@ -31,8 +29,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     const FOLLOWS: bool = FOLLOWS;
     const ORIGIN: f64 = -0.5;
     type Domain<T: Real, const D: usize> = Vectors<T, D>;
-    type Stencil<T: Real, const D: usize> = Tensor<T, D, NEAREST, MOST>;
-    type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
+    type Stencil<T: Real, const D: usize> = Tensor<T, D>;
 
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
         half_widths(half_edges)
@@ -41,7 +38,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     #[inline(always)]
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
-        stencil: &mut Tensor<T, D, NEAREST, MOST>,
+        stencil: &mut Tensor<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
         initial: &Vectors<T, D>,
@@ -70,13 +67,14 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             return place_wide(machine, stencil, lattice, position, &half_width);
         }
         // Without the last node, weights do not sum to 1.
-        stencil.begin::<NEAREST>(lattice, !on(Defect::ShortSupport));
+        let short = on(Defect::ShortSupport);
+        stencil.begin::<NEAREST>(lattice, if short { Known::Nothing } else { Known::Regular });
         let mut first = in_cells;
         for a in 0..D {
             let cells = lattice.cells_along(machine, a, position[a]);
             let mut weights;
             (first[a], weights) = around_nearest(machine, cells, in_cells[a]);
-            if on(Defect::ShortSupport) {
+            if short {
                 weights.iter_mut().for_each(|weights| weights[2] = machine.splat(T::zero()));
             }
             stencil.set(machine, lattice, a, first[a], weights);
@@ -90,7 +88,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Self::Point<T, D>, Cause> {
+    ) -> Result<Tensor<T, D>, Cause> {
         spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
@@ -99,12 +97,12 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
 #[cold]
 fn place_wide<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, NEAREST, MOST>,
+    stencil: &mut Tensor<T, D>,
     lattice: &Lattice<T, D>,
     position: &[M::Eight; D],
     half_width: &[Vector<T, D>; BUNCH],
 ) -> Result<(), Cause> {
-    stencil.begin::<MOST>(lattice, true);
+    stencil.begin::<MOST>(lattice, Known::Regular);
     let mut fits = true;
     for a in 0..D {
         let cells = machine.numbers(lattice.cells_along(machine, a, position[a]));

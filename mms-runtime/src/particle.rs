@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::iter::repeat_n;
+use std::ops::Range;
 
 use mms_math::machine::Machine;
 
@@ -200,10 +201,10 @@ impl<T: Real, const D: usize> Columns<'_, T, D> {
         machine.fetch(self.affine, bunch);
     }
 
-    /// The displacements and the displacement gradients of a bunch.
+    /// The displacements and the displacement gradients of some bunches.
     #[inline(always)]
-    pub fn moved(&self, k: usize) -> (&Vectors<T, D>, &Matrices<T, D>) {
-        (&self.displacement[k], &self.displacement_gradient[k])
+    pub fn moved(&self, bunches: Range<usize>) -> (&[Vectors<T, D>], &[Matrices<T, D>]) {
+        (&self.displacement[bunches.clone()], &self.displacement_gradient[bunches])
     }
 }
 

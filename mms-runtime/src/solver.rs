@@ -1,36 +1,34 @@
 //! The explicit MPM/GIMP solver.
 //!
-//! The solver owns particles and grid; `map` and `advance` compute the sums between them, each in one pass
+//! The solver owns particles and grid; `p2g` and `g2p` compute the sums between them, each in one pass
 //! over the particles, and the [`Integrator`] says in which order, through
 //! [`Operations`](crate::integrator::Operations). A step allocates nothing.
 
-mod advance;
 mod any;
 mod clock;
-mod map;
+mod g2p;
 mod misread;
 mod need;
 mod operations;
 mod order;
+mod p2g;
 mod present;
-mod scene;
 mod setup;
 mod slabs;
 mod state;
+mod weights;
 
 use crate::boundary::Boundary;
-use crate::column::Bunches;
 use crate::formulation::Configuration;
 use crate::integrator::Integrator;
 use crate::nodal::Nodal;
 use crate::particle::Particles;
-use crate::shape::Shape;
 use crate::tensor::{is_finite, jacobian, matrix_is_finite};
 use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
 use clock::Clock;
 use order::When;
-use scene::Kept;
 use slabs::Slabs;
+use weights::{Domains, Kept, Kind};
 
 pub use any::AnySolver;
 pub(crate) use any::of_method;
@@ -47,12 +45,13 @@ const STEPS_IN_ORDER: usize = 16;
 /// left the caches since the last pass.
 const AHEAD: usize = 3;
 
-/// A body of particles, its grid, and the field that drives it, with the shape function `S`.
-pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
+/// A body of particles, its grid, and the field that drives it, with any shape function.
+pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {
     field: &'f F,
     clock: Clock,
     particles: Particles<T, D>,
-    domains: Bunches<S::Domain<T, D>>,
+    kind: Kind<T, D>,
+    domains: Box<dyn Domains<T, D>>,
     grid: Grid<T, D>,
     boundary: Boundary<T, D>,
     transfer: Transfer,
@@ -71,10 +70,9 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized, S: Shape> {
     formulation: Configuration<T, D>,
 }
 
-impl<T: Real, const D: usize, F, S> Solver<'_, T, D, F, S>
+impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     /// Advances by one time step and checks the new state.
     ///

@@ -10,7 +10,7 @@ use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::lanes::components;
 use crate::shape::{Shape, lost};
-use crate::stencil::{BUNCH, Tensor};
+use crate::stencil::{BUNCH, Known, Tensor};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// How far beyond the ends a particle may come, in cells: it has no business there.
@@ -22,15 +22,14 @@ pub struct Spline<const P: usize, const N: usize>;
 impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     const DEGREE: usize = P;
     type Domain<T: Real, const D: usize> = ();
-    type Stencil<T: Real, const D: usize> = Tensor<T, D, N, N>;
-    type Point<T: Real, const D: usize> = Tensor<T, D, N, N>;
+    type Stencil<T: Real, const D: usize> = Tensor<T, D>;
 
     fn domain<T: Real, const D: usize>(_: &Matrix<T, D>) {}
 
     #[inline(always)]
     fn place<T: Real, M: Machine<T>, const D: usize>(
         machine: M,
-        stencil: &mut Tensor<T, D, N, N>,
+        stencil: &mut Tensor<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
         (): &(),
@@ -42,7 +41,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Tensor<T, D, N, N>, Cause> {
+    ) -> Result<Tensor<T, D>, Cause> {
         point::<T, D, P, N>(lattice, position)
     }
 }
@@ -54,7 +53,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
 #[inline(always)]
 pub fn place<T, M, const D: usize, const P: usize, const N: usize>(
     machine: M,
-    stencil: &mut Tensor<T, D, N, N>,
+    stencil: &mut Tensor<T, D>,
     lattice: &Lattice<T, D>,
     position: &[M::Eight; D],
 ) -> Result<(), Cause>
@@ -73,7 +72,7 @@ where
         let (position, cells) = (numbers(position), numbers(&cells));
         return place_near_ends::<T, D, P, N>(stencil, lattice, position, cells);
     }
-    stencil.begin::<N>(lattice, true);
+    stencil.begin::<N>(lattice, Known::Splines);
     for a in 0..D {
         let weights = regular::<T, M, P, N>(machine, machine.minus(cells[a], cell[a]));
         stencil.set(machine, lattice, a, cell[a], weights);
@@ -84,7 +83,7 @@ where
 /// As [`place`], where a point is `cells` from the first knot along an axis and may be near the ends or beyond them.
 #[cold]
 fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
-    stencil: &mut Tensor<T, D, N, N>,
+    stencil: &mut Tensor<T, D>,
     lattice: &Lattice<T, D>,
     position: [[T; BUNCH]; D],
     cells: [[T; BUNCH]; D],
@@ -98,7 +97,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
         return Err(lost(machine, &position));
     }
     let is_regular = P == 1 || on(Defect::SplineEnds);
-    stencil.begin::<N>(lattice, is_regular);
+    stencil.begin::<N>(lattice, if is_regular { Known::Splines } else { Known::Nothing });
     for a in 0..D {
         let [first, last] = lattice.ends[a];
         let floor = machine.greatest(machine.floor(cells[a]), machine.splat(first));
@@ -120,7 +119,7 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
 pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     lattice: &Lattice<T, D>,
     position: &Vector<T, D>,
-) -> Result<Tensor<T, D, N, N>, Cause> {
+) -> Result<Tensor<T, D>, Cause> {
     let mut stencil = Tensor::new();
     let machine = T::PlainMachine::from(Plain);
     let position = components(machine, &Vectors::alike(position));

@@ -1,8 +1,8 @@
 //! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between
 //! them and their nodes.
 //!
-//! There are two sums, each the transpose of the other: [`Stencil::spread`] adds w q, and more along each axis a: Q_a
-//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::collect`] returns sum_i w q_i,
+//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each axis a: Q_a
+//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns sum_i w q_i,
 //! sum_i (grad w)_a q_i, and slopes that come of the moments. Mass, momentum and forces, interpolated velocities and
 //! their gradients are all of that kind; moments are for the linear velocity of APIC.
 //!
@@ -11,8 +11,8 @@
 //! that particle k of the first half sees and those that particle k of the second one sees. In most bunches those of a
 //! half share their nodes, for particles stand in the order of their cells: then a node is looked up once for all four.
 
-mod collect;
-mod spread;
+mod gather;
+mod scatter;
 mod tensor;
 
 use std::ops::Range;
@@ -22,7 +22,7 @@ use mms_math::machine::Machine;
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
-pub use tensor::Tensor;
+pub use tensor::{Known, MOST, Tensor};
 
 /// How many particles are in a bunch.
 pub const BUNCH: usize = 8;
@@ -48,9 +48,72 @@ impl<F, const D: usize> Carried<F, D> {
     }
 }
 
+impl<T: Real, const D: usize> Carried<[T; BUNCH], D> {
+    /// The numbers of what a bunch carries.
+    #[inline(always)]
+    fn of<M: Machine<T>>(machine: M, carried: &Carried<M::Eight, D>) -> Self {
+        let mut all = Self { value: [[T::zero(); BUNCH]; HALF], slopes: None, moments: None };
+        for k in 0..HALF {
+            all.value[k] = machine.numbers(carried.value[k]);
+        }
+        if let Some(slopes) = &carried.slopes {
+            all.slopes = Some(numbers(machine, slopes));
+        }
+        if let Some(moments) = &carried.moments {
+            all.moments = Some(numbers(machine, moments));
+        }
+        all
+    }
+
+    /// Likewise, the other way.
+    #[inline(always)]
+    fn eights<M: Machine<T>>(&self, machine: M) -> Carried<M::Eight, D> {
+        let nothing = machine.splat(T::zero());
+        let mut all = Carried { value: [nothing; HALF], slopes: None, moments: None };
+        for k in 0..HALF {
+            all.value[k] = machine.eight(&self.value[k]);
+        }
+        if let Some(slopes) = &self.slopes {
+            all.slopes = Some(eights(machine, slopes));
+        }
+        if let Some(moments) = &self.moments {
+            all.moments = Some(eights(machine, moments));
+        }
+        all
+    }
+}
+
+#[inline(always)]
+fn numbers<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    columns: &[[M::Eight; D]; D],
+) -> [[[T; BUNCH]; D]; D] {
+    let mut all = [[[T::zero(); BUNCH]; D]; D];
+    for j in 0..D {
+        for i in 0..D {
+            all[j][i] = machine.numbers(columns[j][i]);
+        }
+    }
+    all
+}
+
+#[inline(always)]
+fn eights<T: Real, M: Machine<T>, const D: usize>(
+    machine: M,
+    columns: &[[[T; BUNCH]; D]; D],
+) -> [[M::Eight; D]; D] {
+    let mut all = [[machine.splat(T::zero()); D]; D];
+    for j in 0..D {
+        for i in 0..D {
+            all[j][i] = machine.eight(&columns[j][i]);
+        }
+    }
+    all
+}
+
 /// The vector q that nodes have, as a bunch sees it: a number for each particle.
 #[derive(Clone, Copy)]
-pub struct Collected<F, const D: usize> {
+pub struct Gathered<F, const D: usize> {
     /// sum_i w q_i.
     pub value: [F; D],
     /// sum_i (grad w)_a q_i for every axis a.
@@ -63,7 +126,7 @@ pub struct Collected<F, const D: usize> {
 /// What is wanted of the nodes beside the value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
-    /// [`Collected::value`] alone.
+    /// [`Gathered::value`] alone.
     Value,
     /// The gradient too.
     Gradient,
@@ -81,7 +144,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     fn beyond(&self, members: Members, nodes: &Range<usize>) -> Option<usize>;
 
     /// q_i += w q + sum_a ((grad w)_a Q_a + w (x_i - x_p)_a M_a) for every node i of the `members`.
-    fn spread<M: Machine<T>>(
+    fn scatter<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -92,13 +155,13 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
 
     /// What the particles see of the nodes; what is not `wanted` is 0. For hat functions, the nearest linear
     /// function is the one between the nodes.
-    fn collect<M: Machine<T>>(
+    fn gather<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Eight, D>;
+    ) -> Gathered<M::Eight, D>;
 }
 
 /// Which particles of a bunch are meant, from one on and before another.

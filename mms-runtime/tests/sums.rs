@@ -8,7 +8,7 @@ use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, BUNCH, Carried, Collected, HALF, Members, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, BUNCH, Carried, Gathered, HALF, Members, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 
@@ -38,8 +38,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
         let mut all = Vec::new();
         for wanted in [Wanted::Value, Wanted::Gradient] {
-            let Collected { value, gradient, .. } =
-                stencil.collect(machine, lattice, wanted, nodes);
+            let Gathered { value, gradient, .. } = stencil.gather(machine, lattice, wanted, nodes);
             let gradient = if wanted == Wanted::Value { &[] } else { &gradient[..] };
             for components in [value].iter().chain(gradient) {
                 all.extend(components.iter().flat_map(|&eight| machine.numbers(eight)));
@@ -58,7 +57,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
             let slopes = if which & 1 != 0 { vectors(1) } else { None };
             let moments = if which & 2 != 0 { vectors(1 + D) } else { None };
             let carried = Carried { value, slopes, moments };
-            stencil.spread(machine, lattice, &carried, members, Window { start: 0, nodes });
+            stencil.scatter(machine, lattice, &carried, members, Window { start: 0, nodes });
         }
         all.extend(sums.iter().flatten().flat_map(|node| node.0));
         all
@@ -67,14 +66,14 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
     /// The same by their definitions.
     fn by_definition(&self, positions: &[Vector<T, D>; BUNCH]) -> Vec<T> {
         let Self { stencil, lattice, nodes, carried, members } = *self;
-        let mut collected = vec![[[T::zero(); BUNCH]; D]; 1 + D];
+        let mut gathered = vec![[[T::zero(); BUNCH]; D]; 1 + D];
         let mut sums: [Vec<_>; 4] = std::array::from_fn(|_| nodes.to_vec());
         for p in 0..BUNCH {
             stencil.each(p, |i, w, gradient| {
                 for c in 0..D {
-                    collected[0][c][p] += nodes[i].0[c] * w;
+                    gathered[0][c][p] += nodes[i].0[c] * w;
                     for a in 0..D {
-                        collected[1 + a][c][p] += nodes[i].0[c] * gradient[a];
+                        gathered[1 + a][c][p] += nodes[i].0[c] * gradient[a];
                     }
                 }
                 if !(members[0]..members[1]).contains(&p) {
@@ -95,15 +94,15 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
                 }
             });
         }
-        let values = collected[0].iter().flatten();
-        let collected = values.chain(collected.iter().flatten().flatten());
-        collected.copied().chain(sums.iter().flatten().flat_map(|node| node.0)).collect()
+        let values = gathered[0].iter().flatten();
+        let gathered = values.chain(gathered.iter().flatten().flatten());
+        gathered.copied().chain(sums.iter().flatten().flat_map(|node| node.0)).collect()
     }
 
     /// The slopes of the linear functions that are nearest to the nodes.
     fn slopes<M: Machine<T>>(&self, machine: M) -> Vec<T> {
         let Self { stencil, lattice, nodes, .. } = *self;
-        let slopes = stencil.collect(machine, lattice, Wanted::Slopes, nodes).slopes;
+        let slopes = stencil.gather(machine, lattice, Wanted::Slopes, nodes).slopes;
         slopes.iter().flatten().flat_map(|&eight| machine.numbers(eight)).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! Eight numbers as an array, where there is no register for them that is known here.
 
 use super::{Machine, Plain};
+use crate::dispatch::Work;
 use crate::lane::Lane;
 
 macro_rules! arrays {
@@ -9,6 +10,11 @@ macro_rules! arrays {
             impl Machine<$float> for $machine {
                 type Eight = [$float; 8];
                 type Lane = Lane<$float, $fused>;
+
+                #[inline(never)]
+                fn apart<W: Work<$float>>(self, work: W) -> W::Output {
+                    work.on(self)
+                }
 
                 #[inline(always)]
                 fn eight(self, numbers: &[$float; 8]) -> [$float; 8] {

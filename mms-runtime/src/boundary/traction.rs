@@ -11,8 +11,7 @@ use mms_math::machine::Plain;
 use crate::body::Piece;
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window, halves};
-use crate::shape::Shape;
-use crate::stencil::{Carried, HALF, Stencil as _};
+use crate::stencil::{Carried, HALF, Stencil as _, Tensor};
 use crate::tensor::{cofactor, components, jacobian};
 use crate::{
     Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
@@ -24,6 +23,15 @@ pub struct Place<T, const D: usize> {
     pub position: Vector<T, D>,
     /// H of the particle that carries it, or the field's.
     pub carrier: Option<Matrix<T, D>>,
+}
+
+/// The grid's geometry, and the nodes and weights of a point on it ([`Shape::point`](crate::shape::Shape::point)).
+#[derive(Clone, Copy)]
+pub struct Point<'a, T: Real, const D: usize> {
+    /// The nodes.
+    pub lattice: &'a Lattice<T, D>,
+    /// Finds those of a point, and its weights.
+    pub stencil: fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>,
 }
 
 /// The pieces of the faces with tractions; entry `k` of every array belongs to piece `k`.
@@ -70,22 +78,21 @@ impl<T: Real, const D: usize> Traction<T, D> {
     }
 
     /// Adds this `share` of the forces at `time`. `place` says where the piece of a face at X, carried by a
-    /// particle, is.
+    /// particle, is, and `point` which nodes a place has.
     ///
     /// # Errors
     /// A piece is off the grid, or the field's F is singular there.
-    pub fn apply<F, S>(
+    pub fn apply<F>(
         &mut self,
         field: &F,
         time: T,
-        lattice: &Lattice<T, D>,
+        point: Point<'_, T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> Place<T, D>,
         share: T,
         extensive: &mut [Nodal<T>],
     ) -> Result<(), Failure>
     where
         F: ManufacturedField<T, D> + ?Sized,
-        S: Shape,
     {
         if self.particle.is_empty() {
             return Ok(());
@@ -109,11 +116,11 @@ impl<T: Real, const D: usize> Traction<T, D> {
                 .ok_or_else(|| fail(Cause::NotFinite { quantity: "traction" }))?;
             let ratio = if on(Defect::TractionOfKirchhoff) { T::one() } else { jacobian(exact) };
             let traction = kirchhoff_stress[k] * present_area * share / ratio;
-            let stencil = S::point(lattice, &position).map_err(fail)?;
+            let stencil = (point.stencil)(point.lattice, &position).map_err(fail)?;
             let traction = halves(machine, [&traction; 2], T::zero());
             let nodes = Window { start: 0, nodes: &mut *extensive };
             let carried = Carried::value([traction; HALF]);
-            stencil.spread(machine, lattice, &carried, [0, 1], nodes);
+            stencil.scatter(machine, point.lattice, &carried, [0, 1], nodes);
         }
         Ok(())
     }

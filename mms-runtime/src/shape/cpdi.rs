@@ -17,7 +17,7 @@ use crate::defect::{Defect, on};
 use crate::lanes::{columns, scaled};
 use crate::nodal::{Nodal, Window};
 use crate::spline;
-use crate::stencil::{BUNCH, Carried, Collected, HALF, Members, Stencil, Tensor, Wanted};
+use crate::stencil::{BUNCH, Carried, Gathered, HALF, Members, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
@@ -31,7 +31,7 @@ const MOST_CORNERS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Corners<T, const D: usize> {
     /// The first 2^D mean something.
-    hats: [Tensor<T, D, 2, 2>; MOST_CORNERS],
+    hats: [Tensor<T, D>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
     direction: [[[T; BUNCH]; D]; MOST_CORNERS],
     /// R s_c, from the particle to the corner.
@@ -43,7 +43,6 @@ impl Shape for Cpdi {
     const NEAR: bool = false;
     type Domain<T: Real, const D: usize> = Matrices<T, D>;
     type Stencil<T: Real, const D: usize> = Corners<T, D>;
-    type Point<T: Real, const D: usize> = Tensor<T, D, 2, 2>;
 
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Matrix<T, D> {
         *half_edges
@@ -93,7 +92,7 @@ impl Shape for Cpdi {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Self::Point<T, D>, Cause> {
+    ) -> Result<Tensor<T, D>, Cause> {
         spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
@@ -122,7 +121,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
     /// Corner by corner: hat functions have moments around the corner that they are taken at, and the corner
     /// has its own from the particle.
     #[inline(always)]
-    fn spread<M: Machine<T>>(
+    fn scatter<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -155,40 +154,41 @@ impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
                 value[k] = machine.times_plus(share, carried.value[k], value[k]);
             }
             let carried = Carried { value, slopes: None, moments };
-            self.hats[c].spread(machine, lattice, &carried, members, nodes.reborrow());
+            let nodes = nodes.reborrow();
+            self.hats[c].scatter_to::<M, 2>(machine, lattice, &carried, members, nodes);
         }
     }
 
     #[inline(always)]
-    fn collect<M: Machine<T>>(
+    fn gather<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Eight, D> {
+    ) -> Gathered<M::Eight, D> {
         let zero = machine.splat(T::zero());
         let nothing = [[zero; D]; D];
-        let mut collected = Collected { value: [zero; D], gradient: nothing, slopes: nothing };
+        let mut gathered = Gathered { value: [zero; D], gradient: nothing, slopes: nothing };
         let share = machine.splat(T::ratio(1, 1 << D));
         for (hats, direction) in self.hats.iter().zip(&self.direction).take(1 << D) {
-            let of_corner = hats.collect(machine, lattice, Wanted::Value, nodes).value;
+            let of_corner = hats.gather_from::<M, 2>(machine, lattice, Wanted::Value, nodes).value;
             for c in 0..D {
-                let value = &mut collected.value[c];
+                let value = &mut gathered.value[c];
                 *value = machine.times_plus(share, of_corner[c], *value);
                 if wanted == Wanted::Value {
                     continue;
                 }
                 for a in 0..D {
-                    let gradient = &mut collected.gradient[a][c];
+                    let gradient = &mut gathered.gradient[a][c];
                     let along = machine.eight(&direction[a]);
                     *gradient = machine.times_plus(along, of_corner[c], *gradient);
                 }
             }
         }
         if wanted == Wanted::Slopes {
-            collected.slopes = collected.gradient;
+            gathered.slopes = gathered.gradient;
         }
-        collected
+        gathered
     }
 }

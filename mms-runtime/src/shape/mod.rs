@@ -9,7 +9,7 @@ use mms_math::machine::{Machine, Plain};
 use crate::column::{Bunch, Matrices, Vectors};
 use crate::extension::extension_list;
 use crate::lanes::{components, vectors};
-use crate::stencil::Stencil;
+use crate::stencil::{Stencil, Tensor};
 use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 extension_list! {
@@ -47,9 +47,6 @@ pub trait Shape: 'static {
 
     /// The nodes of a bunch of particles.
     type Stencil<T: Real, const D: usize>: Stencil<T, D>;
-
-    /// The nodes of a bunch of points.
-    type Point<T: Real, const D: usize>: Stencil<T, D>;
 
     /// What is kept of the undeformed domain X_p + sum_a xi_a r_a, |xi_a| <= 1; r_a are the columns.
     fn domain<T: Real, const D: usize>(
@@ -96,7 +93,7 @@ pub trait Shape: 'static {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Self::Point<T, D>, Cause>;
+    ) -> Result<Tensor<T, D>, Cause>;
 }
 
 /// What becomes of a bunch at these positions that is off the grid; of its first particle.

@@ -75,17 +75,17 @@ impl<'f, T: Real, const D: usize> ShapeVisitor for WithShape<'_, 'f, T, D> {
 
     fn visit<S: Shape>(self) -> Self::Output {
         let Method { formulation, setup, integrator, .. } = self.method;
-        let solver = Solver::<_, D, _, S>::new(self.field, *formulation, setup, self.cells)?;
+        let solver = Solver::new::<S>(self.field, *formulation, setup, self.cells)?;
         Ok(Box::new(Chosen { solver, integrator: *integrator }))
     }
 }
 
-struct Chosen<'f, T: Real, const D: usize, S: Shape> {
-    solver: Solver<'f, T, D, dyn ManufacturedField<T, D> + 'f, S>,
+struct Chosen<'f, T: Real, const D: usize> {
+    solver: Solver<'f, T, D, dyn ManufacturedField<T, D> + 'f>,
     integrator: IntegratorName,
 }
 
-impl<'f, T: Real, const D: usize, S: Shape> AnySolver<'f, T, D> for Chosen<'f, T, D, S> {
+impl<'f, T: Real, const D: usize> AnySolver<'f, T, D> for Chosen<'f, T, D> {
     fn step(&mut self) -> Result<(), Failure> {
         self.integrator.visit(Step(&mut self.solver))
     }
@@ -129,10 +129,9 @@ impl<'f, T: Real, const D: usize, S: Shape> AnySolver<'f, T, D> for Chosen<'f, T
 
 struct Step<'s, S>(&'s mut S);
 
-impl<T: Real, const D: usize, F, S> IntegratorVisitor for Step<'_, Solver<'_, T, D, F, S>>
+impl<T: Real, const D: usize, F> IntegratorVisitor for Step<'_, Solver<'_, T, D, F>>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     type Output = Result<(), Failure>;
 

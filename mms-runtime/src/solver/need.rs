@@ -2,7 +2,6 @@
 
 use crate::column::{Matrices, Vectors};
 use crate::nodal::Nodal;
-use crate::shape::Shape;
 use crate::stencil::BUNCH;
 use crate::{Matrix, Real, Refusal, Vector};
 
@@ -14,14 +13,14 @@ pub(super) struct Need {
 }
 
 impl Need {
-    /// What is kept in this scene, if so many bytes are `available`.
-    pub fn new<T: Real, S: Shape, const D: usize>(available: Option<u64>) -> Self {
+    /// What is kept in this scene, with so many bytes of a bunch's domains, if so many are `available`.
+    pub fn new<T: Real, const D: usize>(domain: usize, available: Option<u64>) -> Self {
         let (number, vector) = (size_of::<T>(), size_of::<Vector<T, D>>());
         let matrix = size_of::<Matrix<T, D>>();
         // Id, X, d, v, H, C, m, V0 and the domain.
         // d and v, H and C: of a bunch, they are padded.
         let bunch = 2 * size_of::<Vectors<T, D>>() + 2 * size_of::<Matrices<T, D>>();
-        let bunch = (bunch + size_of::<S::Domain<T, D>>()) / BUNCH;
+        let bunch = (bunch + domain) / BUNCH;
         // Some integrators keep d and H of the beginning of a step. An order is found with three numbers more.
         let kept = (size_of::<Vectors<T, D>>() + size_of::<Matrices<T, D>>()) / BUNCH;
         let state = 4 * size_of::<u32>() + vector + bunch + kept + 2 * number;

@@ -2,20 +2,17 @@
 
 use std::time::Instant;
 
-use mms_math::dispatch::best;
-
 use super::Solver;
-use super::advance::{Advance, Residual, Sound, Source, Steps};
 use super::clock::{Seconds, timed};
-use super::map::{Added, Map, Stop};
+use super::g2p::{Advance, Residual, Sound, Source, Steps};
 use super::order::When;
-use super::scene::Scene;
+use super::p2g::{Added, Map, Stop};
+use super::weights::Scene;
 use crate::boundary::traction::Place;
 use crate::defect::{Defect, on};
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
-use crate::shape::Shape;
 use crate::stencil::BUNCH;
 use crate::tensor::deformation_gradient;
 use crate::threads::{each_node, each_part};
@@ -25,10 +22,9 @@ use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
 /// Bunches that are updated by one thread at a time.
 const PART: usize = 2048 / BUNCH;
 
-impl<T: Real, const D: usize, F, S> Operations<T> for Solver<'_, T, D, F, S>
+impl<T: Real, const D: usize, F> Operations<T> for Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     fn time(&self) -> T {
         T::of(self.clock.time_of(self.clock.step))
@@ -99,19 +95,16 @@ where
         let Self { grid, particles, domains, kept, transfer, seconds, .. } = self;
         let Grid { lattice, velocity, acceleration, .. } = &*grid;
         let (reference_position, columns) = particles.columns();
-        let scene = Scene::<T, D, S> {
-            lattice,
-            moves: self.formulation.moves,
-            transfer: *transfer,
-            reference_position,
-            domains: domains.bunches(),
-            kept,
-        };
+        let (moves, transfer) = (self.formulation.moves, *transfer);
+        let scene = Scene { lattice, moves, transfer, reference_position, kept };
+        let domains = &**domains;
         let sound = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
                 PART,
-                &|particles| best(Advance { scene, particles, steps, velocity, acceleration }),
+                &|particles| {
+                    domains.advance(Advance { scene, particles, steps, velocity, acceleration })
+                },
                 &both_sound,
             )
         });
@@ -127,10 +120,9 @@ fn both_sound(
     Ok(first? & second?)
 }
 
-impl<T: Real, const D: usize, F, S> Solver<'_, T, D, F, S>
+impl<T: Real, const D: usize, F> Solver<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     /// Keeps what the weights follow, if the integrator asks for them once more when that has changed.
     fn keep(&mut self) {
@@ -166,10 +158,10 @@ where
 
     /// Puts the particles in the order of the cells they are in now. What was kept of them is gone.
     pub(super) fn sort(&mut self, when: When) {
-        let Self { grid, particles, domains, kept, slabs, seconds, .. } = self;
+        let Self { grid, particles, kind, domains, kept, slabs, seconds, .. } = self;
         let moves = self.formulation.moves;
         timed(&mut seconds.transfer, || {
-            slabs.sort(&grid.lattice, S::ORIGIN, particles, domains, moves, when);
+            slabs.sort(&grid.lattice, kind.origin, particles, &mut **domains, moves, when);
         });
         kept.clear();
     }
@@ -192,15 +184,10 @@ where
             }
         });
         let reference_position = particles.reference_position.bunches();
-        let scene = Scene::<T, D, S> {
-            lattice,
-            moves: self.formulation.moves,
-            transfer: *transfer,
-            reference_position,
-            domains: domains.bunches(),
-            kept,
-        };
-        let map = Map { scene, particles, field, added, formulation, time };
+        let (moves, transfer) = (self.formulation.moves, *transfer);
+        let scene = Scene { lattice, moves, transfer, reference_position, kept };
+        let domains = &**domains;
+        let map = Map { scene, domains, particles, field, added, formulation, time };
         let start = Instant::now();
         let taken =
             slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;
@@ -267,23 +254,18 @@ where
         let Self { grid, particles, domains, kept, transfer, residual, seconds, .. } = self;
         let (reference_position, columns) = particles.columns();
         let lattice = &grid.lattice;
-        let scene = Scene::<T, D, S> {
-            lattice,
-            moves: self.formulation.moves,
-            transfer: *transfer,
-            reference_position,
-            domains: domains.bunches(),
-            kept,
-        };
+        let (moves, transfer) = (self.formulation.moves, *transfer);
+        let scene = Scene { lattice, moves, transfer, reference_position, kept };
         let nodal = match source {
             Source::Velocity => &grid.velocity,
             Source::Residual => &residual[1],
         };
+        let domains = &**domains;
         let found = timed(&mut seconds.transfer, || {
             each_part(
                 columns,
                 PART,
-                &|particles| best(Residual { scene, particles, nodal, source }),
+                &|particles| domains.residual(Residual { scene, particles, nodal, source }),
                 &both_sound,
             )
         });
@@ -317,7 +299,7 @@ where
 
     /// Adds the tractions at `time` to the forces, or times a kick to momentum.
     fn add_tractions(&mut self, time: T, kick: Option<T>) -> Result<(), Failure> {
-        let Self { grid, particles, slabs, field, boundary, seconds, .. } = self;
+        let Self { grid, particles, kind, slabs, field, boundary, seconds, .. } = self;
         let place = |id: usize, reference: &Vector<T, D>| {
             if !self.formulation.moves {
                 return Place { position: *reference, carrier: None };
@@ -334,7 +316,8 @@ where
             None => (T::one(), &mut grid.force),
         };
         timed(&mut seconds.forcing, || {
-            boundary.traction::<F, S>(field, time, &grid.lattice, place, share, nodes)
+            let point = kind.points(&grid.lattice);
+            boundary.traction(*field, time, point, place, share, nodes)
         })
     }
 

@@ -4,9 +4,9 @@
 use mms_math::machine::{Machine as _, Plain};
 
 use super::slabs::Slab;
-use crate::column::{Bunch, Bunches};
+use super::weights::Domains;
 use crate::lanes::positions;
-use crate::particle::{Particles, reorder_bunches};
+use crate::particle::Particles;
 use crate::stencil::{BUNCH, HALF};
 use crate::threads::each;
 use crate::{Lattice, Real};
@@ -143,11 +143,11 @@ impl Order {
     }
 
     /// Puts the particles, with their `domains`, in the order that was found, bunches of a slab's cells first.
-    pub fn apply<T: Real, B: Bunch, const D: usize>(
+    pub fn apply<T: Real, const D: usize>(
         &mut self,
         slabs: &[Slab],
         particles: &mut Particles<T, D>,
-        domains: &mut Bunches<B>,
+        domains: &mut dyn Domains<T, D>,
     ) {
         let Self { from, cell, place, .. } = self;
         let cell = cell.as_flattened();
@@ -155,8 +155,7 @@ impl Order {
             let own = particles.clone();
             bunch(&mut from[own.clone()], &cell[own.clone()], own.start, &mut place[own]);
         }
-        reorder_bunches(domains, from);
-        domains.fill_up();
+        domains.reorder(from);
         particles.reorder(from);
         self.stand(&particles.id);
     }

@@ -5,9 +5,9 @@ use super::clock::{Clock, Seconds};
 use super::need::Need;
 use super::order::When;
 use super::slabs::Slabs;
+use super::weights::Kind;
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
-use crate::column::Bunches;
 use crate::defect::{Defect, on};
 use crate::failure::positive;
 use crate::lattice::Axis;
@@ -30,17 +30,27 @@ const MOST_NODES: usize = 4;
 /// Cells around the body's motion, on top of what its particles' stencils reach.
 const MARGIN: f64 = 2.0;
 
-impl<'f, T: Real, const D: usize, F, S> Solver<'f, T, D, F, S>
+impl<'f, T: Real, const D: usize, F> Solver<'f, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
-    /// The field's body at the start of its time window, divided into `cells`: displacement, velocity and H
-    /// are the field's.
+    /// The field's body at the start of its time window, divided into `cells`, with the shape function `S`: displacement,
+    /// velocity and H are the field's.
     ///
     /// # Errors
     /// What cannot be started, and why.
-    pub fn new(
+    pub fn new<S: Shape>(
+        field: &'f F,
+        formulation: FormulationName,
+        setup: &Setup,
+        cells: &Division,
+    ) -> Result<Self, Refusal> {
+        Self::of_kind(Kind::of::<S>(), field, formulation, setup, cells)
+    }
+
+    /// Likewise, with a shape function of this kind.
+    fn of_kind(
+        kind: Kind<T, D>,
         field: &'f F,
         formulation: FormulationName,
         setup: &Setup,
@@ -52,7 +62,7 @@ where
         let domain = field.domain();
         let [lower, upper] = bounding_box(&domain.body)?;
         let cell_size = cell_size(&(upper - lower), cells)?;
-        let need = Need::new::<T, S, D>(setup.memory);
+        let need = Need::new::<T, D>(kind.domain, setup.memory);
         let spacing = spacing::<D>(setup, &cell_size)?;
         let expected = (upper - lower).component_div(&spacing).iter().product();
         need.check(expected, 0.0)?;
@@ -71,31 +81,31 @@ where
             motion = extent_of_motion(field, &particles, &clock)?;
         }
         let is_box = matches!(domain.body, Body::Box { .. });
-        let ends_at = |face: Face| S::DEGREE > 1 && is_box && (!moves || is_wall(&domain, face));
+        let ends_at = |face: Face| kind.degree > 1 && is_box && (!moves || is_wall(&domain, face));
         let axis = |a: usize| {
             let body = [lower[a], upper[a]];
             let reach = [motion[0][a], motion[1][a]];
             cells_along(setup, a, cell_size[a], body, reach, &ends_at)
         };
         let periodic = std::array::from_fn(|a| setup.periodic[a]);
-        let lattice = Lattice::new(std::array::from_fn(axis), S::DEGREE, periodic)?;
+        let lattice = Lattice::new(std::array::from_fn(axis), kind.degree, periodic)?;
         need.check(particles.len() as f64, lattice.len() as f64)?;
         // A period of the grid is a whole number of its cells.
         repeats(field, setup, &filling.pieces, &lattice, clock.window())?;
         let boundary = Boundary::new(&domain, &lattice, &filling.pieces, moves)?;
         let count = particles.len();
         let residual_nodes = if particles.residual.is_empty() { 0 } else { lattice.len() };
-        let mut slabs = Slabs::new(&lattice, count, S::NEAR);
+        let mut slabs = Slabs::new(&lattice, count, kind.near);
         initialise(field, &mut particles, T::of(clock.start))?;
         particles.fill_up();
         let mut grid = Grid::new(lattice);
         grid.mass_floor = mass_floor(&particles, &grid.lattice)?;
-        let domains = filling.half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
-        let mut domains: Bunches<_> = domains.collect();
-        slabs.sort(&grid.lattice, S::ORIGIN, &mut particles, &mut domains, moves, When::Now);
+        let mut domains = (kind.domains)(&filling.half_edges);
+        slabs.sort(&grid.lattice, kind.origin, &mut particles, &mut *domains, moves, When::Now);
         Ok(Self {
             field,
             clock,
+            kind,
             domains,
             particles,
             grid,

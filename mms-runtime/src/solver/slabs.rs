@@ -11,7 +11,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use super::order::{Order, When};
-use crate::column::{Bunch, Bunches};
+use super::weights::Domains;
 use crate::nodal::{Nodal, Window};
 use crate::particle::Particles;
 use crate::stencil::{ALL, BUNCH, Members};
@@ -145,12 +145,12 @@ impl Slabs {
 
     /// Sorts the particles, with their `domains`, by their cells, which begin at an origin, in cells: at present, or of X
     /// if nothing `moves`.
-    pub fn sort<T: Real, B: Bunch, const D: usize>(
+    pub fn sort<T: Real, const D: usize>(
         &mut self,
         lattice: &Lattice<T, D>,
         origin: f64,
         particles: &mut Particles<T, D>,
-        domains: &mut Bunches<B>,
+        domains: &mut dyn Domains<T, D>,
         moves: bool,
         when: When,
     ) {

@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 use super::Solver;
 use super::clock::Seconds;
 use super::slabs::Cut;
-use crate::shape::Shape;
 use crate::{Matrix, Real, Refusal, Vector};
 
 /// What changes in a run: what a solver of the same scene goes on from, to the bit.
@@ -33,7 +32,7 @@ pub struct State<'a, T: Real, const D: usize> {
     seconds: Seconds,
 }
 
-impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
+impl<T: Real, const D: usize, F: ?Sized> Solver<'_, T, D, F> {
     /// The state after the last step.
     pub fn state(&self) -> State<'_, T, D> {
         let particles = &self.particles;
@@ -69,8 +68,7 @@ impl<T: Real, const D: usize, F: ?Sized, S: Shape> Solver<'_, T, D, F, S> {
         fits(self.slabs.accept(&state.cuts, count), "slabs")?;
         let mut order: Vec<u32> =
             state.id.iter().map(|&id| self.slabs.order.place_of(id as usize) as u32).collect();
-        crate::particle::reorder_bunches(&mut self.domains, &mut order);
-        self.domains.fill_up();
+        self.domains.reorder(&mut order);
         self.particles.reorder(&mut order);
         self.slabs.order.stand(&self.particles.id);
         self.particles.displacement = state.displacement.into_iter().collect();

@@ -5,17 +5,21 @@
 
 use std::ops::Range;
 
+use mms_math::dispatch::Work;
 use mms_math::machine::Machine;
 
-use super::collect::{Summed, Sums};
-use super::spread::Spread;
-use super::{BUNCH, Carried, Collected, HALF, Members, Stencil, Wanted};
+use super::gather::{Summed, Sums};
+use super::scatter::Scatter;
+use super::{BUNCH, Carried, Gathered, HALF, Members, Stencil, Wanted};
 use crate::defect::{Defect, on};
 use crate::nodal::{Nodal, Window};
 use crate::{Lattice, Real, Vector};
 
 /// For every axis, and the first, second, .. node along it, a number for each particle of a bunch.
-pub(super) type Along<T, const D: usize, const N: usize> = [[[T; BUNCH]; N]; D];
+pub(super) type Along<T, const D: usize> = [[[T; BUNCH]; MOST]; D];
+
+/// The most nodes along an axis.
+pub const MOST: usize = 4;
 
 /// Which particles of a bunch have the same nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,14 +32,25 @@ pub(super) enum Sharing {
     Apart,
 }
 
-/// A stencil that is the product of the weights along the axes: of `N` nodes along each, or where that is enough
-/// for the whole bunch, of `LEAST`. Where that is no less, the weights are B-splines of degree N - 1.
+/// What is known of the weights along every axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// Nodes are one cell apart, and the weights are splines whose knots are too.
+    Splines,
+    /// Nodes are one cell apart, and weights sum to 1.
+    Regular,
+    /// Nothing.
+    Nothing,
+}
+
+/// A stencil that is the product of the weights along the axes. The number of nodes along each is alike for all
+/// particles of a bunch; it is all that the sums depend on, whatever the shape function is.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
-    pub(super) weight: Along<T, D, N>,
+pub struct Tensor<T, const D: usize> {
+    pub(super) weight: Along<T, D>,
     /// Their derivatives, per length.
-    pub(super) slope: Along<T, D, N>,
+    pub(super) slope: Along<T, D>,
     /// Number of the first node along each axis.
     start: [[i32; BUNCH]; D],
     /// Index of the first node in the grid's arrays.
@@ -46,38 +61,37 @@ pub struct Tensor<T, const D: usize, const LEAST: usize, const N: usize> {
     strides: u32,
     /// Whether all of each half have the same nodes.
     shared: bool,
-    /// How many nodes along each axis have a weight, at most: N or LEAST.
+    /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Beyond those nothing means anything.
     width: usize,
-    /// Whether all nodes are one cell apart, and along each axis weights sum to 1.
-    pub(super) regular: bool,
+    known: Known,
 }
 
-impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, LEAST, N> {
+impl<T: Real, const D: usize> Tensor<T, D> {
     /// A stencil that has no nodes yet.
     #[inline(always)]
     pub fn new() -> Self {
         Self {
-            weight: [[[T::zero(); BUNCH]; N]; D],
-            slope: [[[T::zero(); BUNCH]; N]; D],
+            weight: [[[T::zero(); BUNCH]; MOST]; D],
+            slope: [[[T::zero(); BUNCH]; MOST]; D],
             start: [[0; BUNCH]; D],
             first: [0; BUNCH],
             stride: [0; D],
             strides: 0,
             shared: true,
-            width: N,
-            regular: true,
+            width: MOST,
+            known: Known::Nothing,
         }
     }
 
-    /// Begins to take `W` weights along each axis; `regular` ones sum to 1, and their nodes are one cell apart.
+    /// Begins to take `W` weights along each axis.
     #[inline(always)]
-    pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, regular: bool) {
-        const { assert!(W == LEAST || W == N) };
+    pub fn begin<const W: usize>(&mut self, lattice: &Lattice<T, D>, known: Known) {
+        const { assert!(W >= 2 && W <= MOST) };
         self.first = [0; BUNCH];
         // There are fewer than 2^32 nodes.
         self.stride = std::array::from_fn(|a| lattice.stride[a] as u32);
         self.strides = self.stride.iter().sum();
-        (self.width, self.regular) = (W, regular);
+        (self.width, self.known) = (W, known);
     }
 
     /// Takes the weights along an axis, and their derivatives per cell, of the nodes from `first` on; if these are not
@@ -123,35 +137,41 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         }
     }
 
-    /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis.
+    /// Whether all nodes are one cell apart, and along each axis weights sum to 1.
     #[inline(always)]
-    fn moments<M: Machine<T>>(
+    pub(super) fn is_regular(&self) -> bool {
+        self.known != Known::Nothing
+    }
+
+    /// The moments w (x_i - x_p), and the inverse of sum_i w (x_i - x_p)^2 along each axis, of `W` nodes.
+    #[inline(always)]
+    fn moments<M: Machine<T>, const W: usize>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
-    ) -> (Along<T, D, N>, [M::Eight; D]) {
+    ) -> (Along<T, D>, [M::Eight; D]) {
         let zero = machine.splat(T::zero());
-        let mut moment = [[[T::zero(); BUNCH]; N]; D];
+        let mut moment = [[[T::zero(); BUNCH]; MOST]; D];
         let mut per_spread = [zero; D];
         for a in 0..D {
-            let (mut weight, mut apart) = ([zero; N], [zero; N]);
+            let (mut weight, mut apart) = ([zero; W], [zero; W]);
             let mut middle = zero;
-            for k in 0..self.width() {
+            for k in 0..W {
                 weight[k] = machine.eight(&self.weight[a][k]);
                 apart[k] = self.beyond_first(machine, lattice, a, k);
                 middle = machine.times_plus(weight[k], apart[k], middle);
             }
             let mut spread = zero;
-            for k in 0..N {
+            for k in 0..W {
                 apart[k] = machine.minus(apart[k], middle);
                 weight[k] = machine.times(weight[k], apart[k]);
                 spread = machine.times_plus(weight[k], apart[k], spread);
                 moment[a][k] = machine.numbers(weight[k]);
             }
-            per_spread[a] = if LEAST == N && N > 2 && self.regular {
-                // The variance of N lengths that are evenly distributed over a cell: their sum is a B-spline's.
+            per_spread[a] = if W > 2 && self.known == Known::Splines {
+                // The variance of W lengths that are evenly distributed over a cell: their sum is a B-spline's.
                 let h = lattice.cell_size[a];
-                machine.splat(T::ratio(12, N as i32) / (h * h))
+                machine.splat(T::ratio(12, W as i32) / (h * h))
             } else {
                 machine.over(machine.splat(T::one()), spread)
             };
@@ -168,7 +188,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         axis: usize,
         k: usize,
     ) -> M::Eight {
-        if self.regular {
+        if self.is_regular() {
             return machine.splat(lattice.cell_size[axis] * T::of(k as f64));
         }
         let coordinate = &lattice.coordinate[axis];
@@ -183,13 +203,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
     /// How far the last node is behind the first one, in the grid's arrays.
     #[inline(always)]
     fn extent(&self) -> usize {
-        (self.width() - 1) * self.strides as usize
-    }
-
-    /// How many nodes along each axis have a weight, at most.
-    #[inline(always)]
-    fn width(&self) -> usize {
-        if LEAST < N { self.width } else { N }
+        (self.width - 1) * self.strides as usize
     }
 
     /// The first of the `members` whose first node is not among the `room` ones from `start` on.
@@ -199,54 +213,115 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Tensor<T, D, L
         (from..to).find(|&p| self.first[p].wrapping_sub(start) >= room)
     }
 
-    /// Adds to nodes; where there is something of the kind, with `ASIDES`.
+    /// As [`Stencil::scatter`], for stencils of `W` nodes along each axis.
     #[inline(always)]
-    fn add<M: Machine<T>, const ASIDES: bool>(
+    pub(crate) fn scatter_to<M: Machine<T>, const W: usize>(
         &self,
         machine: M,
+        lattice: &Lattice<T, D>,
         carried: &Carried<M::Eight, D>,
-        moment: Option<&Along<T, D, N>>,
         members: Members,
         nodes: Window<'_, T>,
     ) {
         let stencil = self;
-        let spread =
-            Spread::<M, T, D, LEAST, N, ASIDES> { machine, stencil, carried, moment, members };
-        if LEAST < N && self.width == LEAST {
-            spread.add::<LEAST>(nodes);
+        if W == 2 {
+            return stencil.add::<M, W>(machine, lattice, carried, members, nodes);
+        }
+        let carried = Carried::of(machine, carried);
+        machine.apart(&mut Onto::<_, D, W> { stencil, lattice, carried, members, nodes });
+    }
+
+    /// Adds to `W` nodes along every axis; where there is something of the kind, with asides.
+    #[inline(always)]
+    fn add<M: Machine<T>, const W: usize>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        carried: &Carried<M::Eight, D>,
+        members: Members,
+        nodes: Window<'_, T>,
+    ) {
+        let (stencil, own);
+        stencil = self;
+        let moment = if carried.moments.is_some() {
+            (own, _) = self.moments::<M, W>(machine, lattice);
+            Some(&own)
         } else {
-            spread.add::<N>(nodes);
+            None
+        };
+        if carried.slopes.is_some() || carried.moments.is_some() {
+            let sums = Scatter::<M, T, D, true> { machine, stencil, carried, moment, members };
+            sums.add::<W>(nodes);
+        } else {
+            let sums = Scatter::<M, T, D, false> { machine, stencil, carried, moment, members };
+            sums.add::<W>(nodes);
         }
     }
 
-    /// The sums over nodes with weights, and those with each of these in place of the weights along an axis.
+    /// As [`Stencil::gather`], for stencils of `W` nodes along each axis.
     #[inline(always)]
-    fn sum<M: Machine<T>, const K: usize>(
+    pub(crate) fn gather_from<M: Machine<T>, const W: usize>(
         &self,
         machine: M,
-        asides: [&Along<T, D, N>; K],
+        lattice: &Lattice<T, D>,
+        wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Summed<M::Eight, D, K> {
-        let sums = Sums { stencil: self, asides, nodes };
-        if LEAST < N && self.width == LEAST {
-            sums.all::<M, LEAST>(machine)
-        } else {
-            sums.all::<M, N>(machine)
+    ) -> Gathered<M::Eight, D> {
+        let nothing = [[machine.splat(T::zero()); D]; D];
+        match wanted {
+            Wanted::Value => {
+                let sums = Sums { stencil: self, asides: [], nodes };
+                let Summed { value, asides: [] } = sums.over::<M, W>(machine);
+                Gathered { value, gradient: nothing, slopes: nothing }
+            }
+            Wanted::Slopes if W > 2 && lattice.degree > 1 => {
+                let (moment, per_spread) = self.moments::<M, W>(machine, lattice);
+                let sums = Sums { stencil: self, asides: [&self.slope, &moment], nodes };
+                let Summed { value, asides: [gradient, mut slopes] } = sums.over::<M, W>(machine);
+                for a in 0..D {
+                    for c in 0..D {
+                        slopes[a][c] = machine.times(slopes[a][c], per_spread[a]);
+                    }
+                }
+                Gathered { value, gradient, slopes }
+            }
+            Wanted::Gradient | Wanted::Slopes => {
+                let sums = Sums { stencil: self, asides: [&self.slope], nodes };
+                let Summed { value, asides: [gradient] } = sums.over::<M, W>(machine);
+                let slopes = if wanted == Wanted::Slopes { gradient } else { nothing };
+                Gathered { value, gradient, slopes }
+            }
         }
     }
 }
 
-impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Default
-    for Tensor<T, D, LEAST, N>
-{
+/// The sums onto `W` nodes along every axis, as a function of their own, so that they are compiled once.
+struct Onto<'a, T: Real, const D: usize, const W: usize> {
+    stencil: &'a Tensor<T, D>,
+    lattice: &'a Lattice<T, D>,
+    carried: Carried<[T; BUNCH], D>,
+    members: Members,
+    nodes: Window<'a, T>,
+}
+
+impl<T: Real, const D: usize, const W: usize> Work<T> for &mut Onto<'_, T, D, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, machine: M) {
+        let Onto { stencil, lattice, carried, members, nodes } = self;
+        let carried = &carried.eights(machine);
+        stencil.add::<M, W>(machine, lattice, carried, *members, nodes.reborrow());
+    }
+}
+
+impl<T: Real, const D: usize> Default for Tensor<T, D> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
-    for Tensor<T, D, LEAST, N>
-{
+impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let width = |a: usize| if a < D { self.width } else { 1 };
         for k2 in 0..width(2) {
@@ -278,7 +353,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
     }
 
     #[inline(always)]
-    fn spread<M: Machine<T>>(
+    fn scatter<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -286,51 +361,25 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize> Stencil<T, D>
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let own;
-        let moment = if carried.moments.is_some() {
-            (own, _) = self.moments(machine, lattice);
-            Some(&own)
-        } else {
-            None
-        };
-        if carried.slopes.is_some() || carried.moments.is_some() {
-            self.add::<M, true>(machine, carried, moment, members, nodes);
-        } else {
-            self.add::<M, false>(machine, carried, moment, members, nodes);
+        match self.width {
+            2 => self.scatter_to::<M, 2>(machine, lattice, carried, members, nodes),
+            3 => self.scatter_to::<M, 3>(machine, lattice, carried, members, nodes),
+            _ => self.scatter_to::<M, MOST>(machine, lattice, carried, members, nodes),
         }
     }
 
     #[inline(always)]
-    fn collect<M: Machine<T>>(
+    fn gather<M: Machine<T>>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
         wanted: Wanted,
         nodes: &[Nodal<T>],
-    ) -> Collected<M::Eight, D> {
-        let nothing = [[machine.splat(T::zero()); D]; D];
-        match wanted {
-            Wanted::Value => {
-                let Summed { value, asides: [] } = self.sum(machine, [], nodes);
-                Collected { value, gradient: nothing, slopes: nothing }
-            }
-            Wanted::Slopes if lattice.degree > 1 => {
-                let (moment, per_spread) = self.moments(machine, lattice);
-                let asides = [&self.slope, &moment];
-                let Summed { value, asides: [gradient, mut slopes] } =
-                    self.sum(machine, asides, nodes);
-                for a in 0..D {
-                    for c in 0..D {
-                        slopes[a][c] = machine.times(slopes[a][c], per_spread[a]);
-                    }
-                }
-                Collected { value, gradient, slopes }
-            }
-            Wanted::Gradient | Wanted::Slopes => {
-                let Summed { value, asides: [gradient] } = self.sum(machine, [&self.slope], nodes);
-                let slopes = if wanted == Wanted::Slopes { gradient } else { nothing };
-                Collected { value, gradient, slopes }
-            }
+    ) -> Gathered<M::Eight, D> {
+        match self.width {
+            2 => self.gather_from::<M, 2>(machine, lattice, wanted, nodes),
+            3 => self.gather_from::<M, 3>(machine, lattice, wanted, nodes),
+            _ => self.gather_from::<M, MOST>(machine, lattice, wanted, nodes),
         }
     }
 }

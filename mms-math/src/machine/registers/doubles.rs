@@ -4,6 +4,7 @@
 
 use core::arch::x86_64::*;
 
+use crate::dispatch::{Work, avx2};
 use crate::lane::Lane;
 use crate::machine::{Fused, Machine};
 
@@ -23,6 +24,11 @@ impl Machine<f64> for Fused {
         floor(a) _mm256_floor_pd;
     }
     common!(f64);
+
+    #[inline(always)]
+    fn apart<W: Work<f64>>(self, work: W) -> W::Output {
+        unsafe { avx2(work) }
+    }
 
     #[inline(always)]
     fn eight(self, numbers: &[f64; 8]) -> [__m256d; 2] {

@@ -5,6 +5,7 @@
 use core::arch::x86_64::*;
 
 use super::doubles::add;
+use crate::dispatch::{Work, avx512};
 use crate::lane::Lane;
 use crate::machine::{Machine, Wide};
 
@@ -23,6 +24,11 @@ impl Machine<f64> for Wide {
         root(a) _mm512_sqrt_pd;
     }
     common!(f64);
+
+    #[inline(always)]
+    fn apart<W: Work<f64>>(self, work: W) -> W::Output {
+        unsafe { avx512(work) }
+    }
 
     #[inline(always)]
     fn eight(self, numbers: &[f64; 8]) -> __m512d {

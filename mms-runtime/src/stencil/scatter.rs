@@ -15,20 +15,12 @@ use crate::Real;
 use crate::nodal::Window;
 
 /// What is added to the nodes, with asides or without.
-pub(super) struct Spread<
-    'a,
-    M: Machine<T>,
-    T: Real,
-    const D: usize,
-    const LEAST: usize,
-    const N: usize,
-    const ASIDES: bool,
-> {
+pub(super) struct Scatter<'a, M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> {
     pub machine: M,
-    pub stencil: &'a Tensor<T, D, LEAST, N>,
+    pub stencil: &'a Tensor<T, D>,
     pub carried: &'a Carried<M::Eight, D>,
     /// Moments of the weights, where such are carried.
-    pub moment: Option<&'a Along<T, D, N>>,
+    pub moment: Option<&'a Along<T, D>>,
     pub members: Members,
 }
 
@@ -44,14 +36,13 @@ enum Goal {
 /// For every axis, and `W` nodes along it, the asides of each particle of both halves.
 type Asides<F, const D: usize, const W: usize> = [[[F; HALF]; W]; D];
 
-impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize, const ASIDES: bool>
-    Spread<'_, M, T, D, LEAST, N, ASIDES>
-{
+impl<M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> Scatter<'_, M, T, D, ASIDES> {
     /// Adds to `W` nodes along every axis: for the particles of each half together where they share their nodes, else
     /// for one of each half after the other.
     #[inline(always)]
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
-        let Tensor { first, regular, .. } = *self.stencil;
+        let Tensor { first, .. } = self.stencil;
+        let regular = self.stencil.is_regular();
         let sharing = self.stencil.sharing();
         if sharing != Sharing::Apart && self.members == ALL && (W != 3 || regular) {
             let goal = match sharing {
@@ -144,7 +135,8 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
         asides: &Asides<M::Eight, D, W>,
         mut nodes: Window<'_, T>,
     ) {
-        let Self { machine, stencil: Tensor { stride, .. }, .. } = *self;
+        let Self { machine, stencil: Tensor { stride, .. }, .. } = self;
+        let machine = *machine;
         let mut along = [[machine.splat(T::zero()); P]; W];
         for k0 in 0..W {
             along[k0] = self.weights(from, 0, k0);
@@ -181,8 +173,8 @@ impl<M: Machine<T>, T: Real, const D: usize, const LEAST: usize, const N: usize,
     /// half.
     #[inline(always)]
     fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
-        let Self { machine, stencil: Tensor { weight, .. }, .. } = *self;
-        let weight = &weight[axis % D][k];
+        let Self { machine, stencil: Tensor { weight, .. }, .. } = self;
+        let (machine, weight) = (*machine, &weight[axis % D][k]);
         let mut weights = [machine.splat(T::zero()); P];
         if P == HALF {
             weights.copy_from_slice(&machine.spread(machine.eight(weight)));

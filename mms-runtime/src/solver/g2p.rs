@@ -1,16 +1,15 @@
-//! From nodes to particles: velocity, displacement, deformation.
+//! From nodes to particles (G2P): velocity, displacement, deformation.
 
-use mms_math::dispatch::Work;
+use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
-use super::scene::{Room, Scene};
+use super::weights::{Room, Scene, TOGETHER, Weigh};
 use super::{AHEAD, misread};
 use crate::defect::{Defect, on};
 use crate::lanes::{columns, components, determinants, set_columns, set_components};
 use crate::nodal::Nodal;
 use crate::particle::Columns;
-use crate::shape::Shape;
-use crate::stencil::{Stencil as _, Wanted};
+use crate::stencil::{Stencil, Wanted};
 use crate::threads::Parts as _;
 use crate::transfer::Reads;
 use crate::{Cause, Real, Transfer};
@@ -24,8 +23,8 @@ pub(super) struct Steps<T> {
 }
 
 /// The updates of some particles.
-pub(super) struct Advance<'a, 'p, T: Real, const D: usize, S: Shape> {
-    pub scene: Scene<'a, T, D, S>,
+pub(super) struct Advance<'a, 'p, T: Real, const D: usize> {
+    pub scene: Scene<'a, T, D>,
     pub particles: Columns<'p, T, D>,
     pub steps: Steps<T>,
     /// v_i.
@@ -37,47 +36,61 @@ pub(super) struct Advance<'a, 'p, T: Real, const D: usize, S: Shape> {
 /// Whether all numbers are finite and J > 0, or might not be.
 pub(super) type Sound = bool;
 
-impl<T: Real, const D: usize, S: Shape> Work<T> for Advance<'_, '_, T, D, S> {
+impl<T: Real, const D: usize> Advance<'_, '_, T, D> {
+    /// Makes them, with these weights.
+    pub fn with<St: Stencil<T, D>>(
+        self,
+        weights: &dyn Weigh<T, D, St>,
+    ) -> Result<Sound, (usize, Cause)> {
+        best(Weighted { pass: self, weights })
+    }
+}
+
+/// A pass with the weights of a kind of stencils.
+struct Weighted<'a, P, T: Real, const D: usize, St> {
+    pass: P,
+    weights: &'a dyn Weigh<T, D, St>,
+}
+
+impl<T, const D: usize, St> Work<T> for Weighted<'_, Advance<'_, '_, T, D>, T, D, St>
+where
+    T: Real,
+    St: Stencil<T, D>,
+{
     type Output = Result<Sound, (usize, Cause)>;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Columns { start, .. } = self.particles;
-        let mut particles = self.particles;
-        let nodes = Nodes {
-            scene: self.scene,
-            steps: self.steps,
-            velocity: self.velocity,
-            acceleration: self.acceleration,
-        };
-        let mut room = Room::<T, D, S>::default();
+        let Advance { scene, mut particles, steps, velocity, acceleration } = self.pass;
+        let nodes = Nodes { scene, steps, velocity, acceleration };
+        let mut room = Room::<St>::default();
         // Zero times all new numbers: zero, if these are finite.
         let mut rest = machine.splat(T::zero());
         let mut sound = true;
         let count = particles.len();
-        for next in 0..=count {
-            if next < count {
-                let moved = particles.moved(next);
-                self.scene.weigh(machine, start + next, moved, &mut room[next % 2])?;
+        for first in (0..count).step_by(TOGETHER) {
+            let many = TOGETHER.min(count - first);
+            let (some, room) = (first..first + many, &mut room[..many]);
+            let moved = particles.moved(some.clone());
+            self.weights.weigh(&scene, particles.start + first, moved, room)?;
+            for (k, stencil) in some.zip(room) {
+                particles.fetch(machine, k + AHEAD);
+                sound &= nodes.update(machine, &mut particles, k, &*stencil, &mut rest);
             }
-            let Some(k) = next.checked_sub(1) else { continue };
-            self.scene.fetch(machine, start + k + AHEAD);
-            particles.fetch(machine, k + AHEAD);
-            sound &= nodes.update(machine, &mut particles, k, &room[k % 2], &mut rest);
         }
         Ok(sound & machine.all_at_most(rest, rest))
     }
 }
 
 /// What particles are updated by.
-struct Nodes<'a, T: Real, const D: usize, S: Shape> {
-    scene: Scene<'a, T, D, S>,
+struct Nodes<'a, T: Real, const D: usize> {
+    scene: Scene<'a, T, D>,
     steps: Steps<T>,
     velocity: &'a [Nodal<T>],
     acceleration: &'a [Nodal<T>],
 }
 
-impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
+impl<T: Real, const D: usize> Nodes<'_, T, D> {
     /// Whether all J > 0. To `rest` is added zero times all new numbers.
     #[inline(always)]
     fn update<M: Machine<T>>(
@@ -85,19 +98,20 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         machine: M,
         particles: &mut Columns<'_, T, D>,
         k: usize,
-        stencil: &S::Stencil<T, D>,
+        stencil: &impl Stencil<T, D>,
         rest: &mut M::Eight,
     ) -> Sound {
         let Self { scene, steps, velocity, .. } = self;
+        let degree = scene.lattice.degree;
         let zero = machine.splat(T::zero());
         let wanted = match (steps.velocity, steps.deformation) {
             // For hat functions the nearest linear velocity is the one between the nodes.
-            (Some(_), _) if scene.transfer == Transfer::Apic && S::DEGREE == 1 => Wanted::Gradient,
+            (Some(_), _) if scene.transfer == Transfer::Apic && degree == 1 => Wanted::Gradient,
             (Some(_), _) if scene.transfer == Transfer::Apic => Wanted::Slopes,
             (_, Some(_)) => Wanted::Gradient,
             _ => Wanted::Value,
         };
-        let mapped = stencil.collect(machine, scene.lattice, wanted, velocity);
+        let mapped = stencil.gather(machine, scene.lattice, wanted, velocity);
         if let Some(kick) = steps.velocity {
             let next = self.kicked(machine, kick, mapped.value, particles, k, stencil);
             set_components(machine, &mut particles.velocity[k], next);
@@ -105,8 +119,8 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
                 *rest = machine.times_plus(next[a], zero, *rest);
             }
             if scene.transfer == Transfer::Apic {
-                let affine = if S::DEGREE == 1 { mapped.gradient } else { mapped.slopes };
-                let affine = misread::affine(machine, affine, S::DEGREE);
+                let affine = if degree == 1 { mapped.gradient } else { mapped.slopes };
+                let affine = misread::affine(machine, affine, degree);
                 set_columns(machine, &mut particles.affine[k], affine);
             }
         }
@@ -145,13 +159,13 @@ impl<T: Real, const D: usize, S: Shape> Nodes<'_, T, D, S> {
         mapped: [M::Eight; D],
         particles: &mut Columns<'_, T, D>,
         k: usize,
-        stencil: &S::Stencil<T, D>,
+        stencil: &impl Stencil<T, D>,
     ) -> [M::Eight; D] {
         let Self { scene, acceleration, .. } = self;
         if scene.transfer.reads() == Reads::Nothing {
             return mapped;
         }
-        let acceleration = stencil.collect(machine, scene.lattice, Wanted::Value, acceleration);
+        let acceleration = stencil.gather(machine, scene.lattice, Wanted::Value, acceleration);
         let mut next = components(machine, &particles.velocity[k]);
         for a in 0..D {
             next[a] = machine.times_plus(machine.splat(kick), acceleration.value[a], next[a]);
@@ -215,32 +229,52 @@ pub(super) enum Source {
 }
 
 /// What the grid does not represent of the velocities of some particles.
-pub(super) struct Residual<'a, 'p, T: Real, const D: usize, S: Shape> {
-    pub scene: Scene<'a, T, D, S>,
+pub(super) struct Residual<'a, 'p, T: Real, const D: usize> {
+    pub scene: Scene<'a, T, D>,
     pub particles: Columns<'p, T, D>,
     pub nodal: &'a [Nodal<T>],
     pub source: Source,
 }
 
-impl<T: Real, const D: usize, S: Shape> Work<T> for Residual<'_, '_, T, D, S> {
+impl<T: Real, const D: usize> Residual<'_, '_, T, D> {
+    /// Finds it, with these weights.
+    pub fn with<St: Stencil<T, D>>(
+        self,
+        weights: &dyn Weigh<T, D, St>,
+    ) -> Result<Sound, (usize, Cause)> {
+        best(Weighted { pass: self, weights })
+    }
+}
+
+impl<T, const D: usize, St> Work<T> for Weighted<'_, Residual<'_, '_, T, D>, T, D, St>
+where
+    T: Real,
+    St: Stencil<T, D>,
+{
     type Output = Result<Sound, (usize, Cause)>;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Self { scene, particles, nodal, source, .. } = self;
-        let mut stencil = S::Stencil::default();
-        for k in 0..particles.len() {
-            scene.weigh(machine, particles.start + k, particles.moved(k), &mut stencil)?;
-            let from = match source {
-                Source::Velocity => &particles.velocity[k],
-                Source::Residual => &particles.residual[k],
-            };
-            let represented = stencil.collect(machine, scene.lattice, Wanted::Value, nodal).value;
-            let mut left = components(machine, from);
-            for a in 0..D {
-                left[a] = machine.minus(left[a], represented[a]);
+        let Residual { scene, particles, nodal, source } = self.pass;
+        let mut room = Room::<St>::default();
+        let count = particles.len();
+        for first in (0..count).step_by(TOGETHER) {
+            let many = TOGETHER.min(count - first);
+            let (some, room) = (first..first + many, &mut room[..many]);
+            let moved = particles.moved(some.clone());
+            self.weights.weigh(&scene, particles.start + first, moved, room)?;
+            for (k, stencil) in some.zip(room) {
+                let from = match source {
+                    Source::Velocity => &particles.velocity[k],
+                    Source::Residual => &particles.residual[k],
+                };
+                let represented = stencil.gather(machine, scene.lattice, Wanted::Value, nodal);
+                let mut left = components(machine, from);
+                for a in 0..D {
+                    left[a] = machine.minus(left[a], represented.value[a]);
+                }
+                set_components(machine, &mut particles.residual[k], left);
             }
-            set_components(machine, &mut particles.residual[k], left);
         }
         Ok(true)
     }

@@ -1,4 +1,4 @@
-//! From particles to nodes: mass and momentum, and forces.
+//! From particles to nodes (P2G): mass and momentum, and forces.
 
 use std::ops::Range;
 
@@ -6,8 +6,8 @@ use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
 use super::clock::{Laps, Seconds};
-use super::scene::{Room, Scene};
 use super::slabs::Slab;
+use super::weights::{Domains, Room, Scene, TOGETHER, Weigh};
 use super::{AHEAD, misread};
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
@@ -15,7 +15,6 @@ use crate::formulation::Configuration;
 use crate::lanes::{columns, scaled, turned};
 use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
-use crate::shape::Shape;
 use crate::stencil::{BUNCH, Carried, HALF, Members, Stencil};
 use crate::tensor::matrix_is_finite;
 use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
@@ -66,8 +65,9 @@ impl From<(usize, Cause)> for Stop {
 }
 
 /// The sums of the particles of one slab.
-pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape> {
-    pub scene: Scene<'a, T, D, S>,
+pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized> {
+    pub scene: Scene<'a, T, D>,
+    pub domains: &'a dyn Domains<T, D>,
     pub particles: &'a Particles<T, D>,
     pub field: &'a F,
     pub added: Added<T>,
@@ -76,10 +76,9 @@ pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized, S: Shape> {
     pub time: T,
 }
 
-impl<T: Real, const D: usize, F, S> Map<'_, T, D, F, S>
+impl<T: Real, const D: usize, F> Map<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
-    S: Shape,
 {
     /// Adds to momentum and force of the nodes in the slab's window. Returns what the parts of it took of a sample.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
@@ -113,7 +112,7 @@ where
                     nodes: [momentum.reborrow(), force.reborrow()],
                     slab,
                 };
-                best(sums)?;
+                self.domains.scatter(sums)?;
                 laps.end(&mut seconds.transfer);
             }
         }
@@ -149,8 +148,8 @@ fn parts(range: Range<usize>, count: usize) -> impl Iterator<Item = Range<usize>
 }
 
 /// The sums of some particles, whose stress and body force are known.
-struct Sums<'a, T: Real, const D: usize, S: Shape> {
-    scene: Scene<'a, T, D, S>,
+pub(super) struct Sums<'a, T: Real, const D: usize> {
+    scene: Scene<'a, T, D>,
     particles: &'a Particles<T, D>,
     added: Added<T>,
     bunches: Range<usize>,
@@ -162,37 +161,50 @@ struct Sums<'a, T: Real, const D: usize, S: Shape> {
     slab: &'a Slab,
 }
 
-impl<T: Real, const D: usize, S: Shape> Work<T> for Sums<'_, T, D, S> {
+impl<T: Real, const D: usize> Sums<'_, T, D> {
+    /// Adds them, with these weights.
+    pub fn with<St: Stencil<T, D>>(self, weights: &dyn Weigh<T, D, St>) -> Result<(), Stop> {
+        best(Scatter { sums: self, weights })
+    }
+}
+
+/// Sums with the weights of a kind of stencils.
+struct Scatter<'a, T: Real, const D: usize, St> {
+    sums: Sums<'a, T, D>,
+    weights: &'a dyn Weigh<T, D, St>,
+}
+
+impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, St> {
     type Output = Result<(), Stop>;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        let Self { scene, particles, added, bunches: range, mut nodes, slab, .. } = self;
-        let (stress, body_force) = (self.stress, self.body_force);
+        let Sums { scene, particles, added, bunches: range, mut nodes, slab, .. } = self.sums;
+        let (stress, body_force) = (self.sums.stress, self.sums.body_force);
         let bunches = Arrays::new(particles, range.clone(), stress, body_force);
-        let mut room = Room::<T, D, S>::default();
+        let mut room = Room::<St>::default();
         let mut rest = machine.splat(T::zero());
         let count = range.len();
-        for next in 0..=count {
-            if next < count {
-                let moved = (&bunches.displacement[next], &bunches.displacement_gradient[next]);
-                scene.weigh(machine, range.start + next, moved, &mut room[next % 2])?;
+        for first in (0..count).step_by(TOGETHER) {
+            let many = TOGETHER.min(count - first);
+            let (some, room) = (first..first + many, &mut room[..many]);
+            let moved =
+                (&bunches.displacement[some.clone()], &bunches.displacement_gradient[some.clone()]);
+            self.weights.weigh(&scene, range.start + first, moved, room)?;
+            for (k, stencil) in some.zip(room) {
+                let bunch = range.start + k;
+                particles.fetch(machine, bunch + AHEAD);
+                // For the stress of the next part.
+                machine.fetch(particles.displacement_gradient.bunches(), bunch + count);
+                let members = slab.members(BUNCH * bunch);
+                if let Some(p) = stencil.beyond(members, &slab.window) {
+                    return Err(Stop::Strayed(BUNCH * bunch + p));
+                }
+                let [momentum, force] = &mut nodes;
+                let nodes = [momentum.reborrow(), force.reborrow()];
+                let carrier = Carrier { bunches: &bunches, k, members, stencil };
+                carrier.add(machine, added, scene.lattice, nodes, &mut rest);
             }
-            let Some(k) = next.checked_sub(1) else { continue };
-            let (bunch, stencil) = (range.start + k, &room[k % 2]);
-            scene.fetch(machine, bunch + AHEAD);
-            particles.fetch(machine, bunch + AHEAD);
-            // For the stress of the next part.
-            machine.fetch(particles.displacement_gradient.bunches(), bunch + count);
-            let first = BUNCH * bunch;
-            let members = slab.members(first);
-            if let Some(p) = stencil.beyond(members, &slab.window) {
-                return Err(Stop::Strayed(first + p));
-            }
-            let [momentum, force] = &mut nodes;
-            let nodes = [momentum.reborrow(), force.reborrow()];
-            let carrier = Carrier { bunches: &bunches, k, members, stencil };
-            carrier.add(machine, added, scene.lattice, nodes, &mut rest);
         }
         if machine.all_at_most(rest, rest) {
             return Ok(());
@@ -270,7 +282,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         };
         if let Some(velocity) = alone {
             let carried = Carried::value(machine.transposed(self.momentum(machine, velocity)));
-            stencil.spread(machine, lattice, &carried, members, momentum.reborrow());
+            stencil.scatter(machine, lattice, &carried, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
             Added::Force | Added::Both => (T::one(), false),
@@ -292,7 +304,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         let slopes = Some(self.stress(machine, machine.splat(share), rest));
         let carried = Carried { value: machine.transposed(numbers), slopes, moments };
         let nodes = if with_momentum { momentum } else { force };
-        stencil.spread(machine, lattice, &carried, members, nodes);
+        stencil.scatter(machine, lattice, &carried, members, nodes);
     }
 
     /// m v, and m.

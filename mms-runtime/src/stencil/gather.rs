@@ -1,17 +1,18 @@
 //! The sums over the nodes of a bunch: of all its particles together, all components of a node after each other.
 
+use mms_math::dispatch::Work;
 use mms_math::machine::Machine;
 
 use super::tensor::{Along, Sharing, Tensor};
-use super::{BUNCH, HALF};
+use super::{BUNCH, HALF, eights, numbers};
 use crate::Real;
 use crate::nodal::Nodal;
 
 /// What is summed, over which nodes.
-pub(super) struct Sums<'a, T, const D: usize, const LEAST: usize, const N: usize, const K: usize> {
-    pub stencil: &'a Tensor<T, D, LEAST, N>,
+pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
+    pub stencil: &'a Tensor<T, D>,
     /// What comes, in `K` sums for every axis, in place of the weights along that axis: slopes, moments.
-    pub asides: [&'a Along<T, D, N>; K],
+    pub asides: [&'a Along<T, D>; K],
     pub nodes: &'a [Nodal<T>],
 }
 
@@ -32,12 +33,50 @@ struct Axis<F, const W: usize, const K: usize> {
 /// A row of nodes along the first axis, for each half.
 type Row<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
 
-impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize>
-    Sums<'_, T, D, LEAST, N, K>
-{
+/// Those over `W` nodes along every axis.
+struct Over<'a, T, const D: usize, const K: usize, const W: usize>(Sums<'a, T, D, K>);
+
+impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for &Over<'_, T, D, K, W> {
+    type Output = Summed<[T; BUNCH], D, K>;
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
+        let summed = self.0.all::<M, W>(machine);
+        let nothing = [T::zero(); BUNCH];
+        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+        for c in 0..D {
+            all.value[c] = machine.numbers(summed.value[c]);
+        }
+        for s in 0..K {
+            all.asides[s] = numbers(machine, &summed.asides[s]);
+        }
+        all
+    }
+}
+
+impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
+    /// The sums over `W` nodes along every axis: by a function of their own, so that they are compiled once, whatever
+    /// the shape function is and whoever asks for them. Those of hat functions are done before a call is.
+    #[inline(always)]
+    pub fn over<M: Machine<T>, const W: usize>(self, machine: M) -> Summed<M::Eight, D, K> {
+        if W == 2 {
+            return self.all::<M, W>(machine);
+        }
+        let summed = machine.apart(&Over::<T, D, K, W>(self));
+        let nothing = machine.splat(T::zero());
+        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
+        for c in 0..D {
+            all.value[c] = machine.eight(&summed.value[c]);
+        }
+        for s in 0..K {
+            all.asides[s] = eights(machine, &summed.asides[s]);
+        }
+        all
+    }
+
     /// All sums over `W` nodes along every axis: those of particles that share their nodes together.
     #[inline(always)]
-    pub fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
+    fn all<M: Machine<T>, const W: usize>(&self, machine: M) -> Summed<M::Eight, D, K> {
         let along = self.axis::<M, W>(machine, 0);
         let firsts = self.stencil.first;
         let sharing = self.stencil.sharing();
@@ -131,7 +170,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
         let mut space = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
         for k2 in 0..W {
             let plane = self.plane::<M, W, SAME>(machine, along, first, k2);
-            self.gather(machine, 2, k2, &plane, &mut space);
+            self.accumulate(machine, 2, k2, &plane, &mut space);
         }
         space
     }
@@ -152,7 +191,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
         let mut plane = Summed { value: [zero; D], asides: [[[zero; D]; D]; K] };
         for k1 in 0..W {
             let row = self.row::<M, W, SAME>(machine, along, self.nodes(first, [k1, k2]));
-            self.gather(machine, 1, k1, &row, &mut plane);
+            self.accumulate(machine, 1, k1, &row, &mut plane);
         }
         plane
     }
@@ -183,7 +222,7 @@ impl<T: Real, const D: usize, const LEAST: usize, const N: usize, const K: usize
 
     /// Adds to sums what comes of those along the axes before axis `a`, at node `k` along that one.
     #[inline(always)]
-    fn gather<M: Machine<T>>(
+    fn accumulate<M: Machine<T>>(
         &self,
         machine: M,
         a: usize,

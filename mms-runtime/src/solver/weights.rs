@@ -1,0 +1,210 @@
+//! The weights of the particles, whatever their shape function is: it is known here, and nowhere else in a solver.
+//!
+//! A pass over the particles is compiled once for stencils that are products, and once for those of corners. It asks a
+//! shape function for the weights of some bunches at a time.
+
+use mms_math::dispatch::{Work, best};
+use mms_math::machine::Machine;
+
+use super::AHEAD;
+use super::g2p::{Advance, Residual, Sound};
+use super::p2g::{Stop, Sums};
+use crate::boundary::traction::Point;
+use crate::column::{Bunch as _, Bunches, Matrices, Vectors};
+use crate::lanes::{positions, vectors};
+use crate::particle::reorder_bunches;
+use crate::shape::Shape;
+use crate::stencil::{BUNCH, Tensor};
+use crate::{Cause, Lattice, Matrix, Real, Transfer, Vector};
+
+/// Bunches whose weights are found together, and then their sums: so that a call is little beside them, and there is
+/// something to do while numbers are awaited.
+pub(super) const TOGETHER: usize = 4;
+
+/// Room for their weights.
+pub(super) type Room<St> = [St; TOGETHER];
+
+/// The grid's geometry, and what the particles' weights follow.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a, T: Real, const D: usize> {
+    pub lattice: &'a Lattice<T, D>,
+    /// Whether weights follow the present positions ([`Formulation::MOVES`](crate::formulation::Formulation)).
+    pub moves: bool,
+    pub transfer: Transfer,
+    pub reference_position: &'a [[Vector<T, D>; BUNCH]],
+    /// What weights follow of every bunch, if that is not its present state.
+    pub kept: &'a [Kept<T, D>],
+}
+
+/// The displacements and the displacement gradients of some bunches.
+pub(super) type Moved<'a, T, const D: usize> = (&'a [Vectors<T, D>], &'a [Matrices<T, D>]);
+
+/// Those of a bunch at another time.
+pub(super) type Kept<T, const D: usize> = (Vectors<T, D>, Matrices<T, D>);
+
+/// What a solver knows of its shape function.
+#[derive(Clone, Copy)]
+pub(super) struct Kind<T: Real, const D: usize> {
+    /// [`Shape::DEGREE`].
+    pub degree: usize,
+    /// [`Shape::NEAR`].
+    pub near: bool,
+    /// [`Shape::ORIGIN`].
+    pub origin: f64,
+    /// Bytes of the domains of a bunch.
+    pub domain: usize,
+    /// [`Shape::point`].
+    pub point: PointOf<T, D>,
+    /// The undeformed domains of particles, by their half edges.
+    pub domains: fn(&[Matrix<f64, D>]) -> Box<dyn Domains<T, D>>,
+}
+
+type PointOf<T, const D: usize> = fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
+
+impl<T: Real, const D: usize> Kind<T, D> {
+    pub fn of<S: Shape>() -> Self {
+        Self {
+            degree: S::DEGREE,
+            near: S::NEAR,
+            origin: S::ORIGIN,
+            domain: size_of::<S::Domain<T, D>>(),
+            point: S::point,
+            domains: |half_edges| {
+                let domains = half_edges.iter().map(|edges| S::domain(&edges.map(T::of)));
+                Box::new(Shaped::<T, D, S>(domains.collect()))
+            },
+        }
+    }
+
+    /// The points of a grid.
+    pub fn points<'a>(&self, lattice: &'a Lattice<T, D>) -> Point<'a, T, D> {
+        Point { lattice, stencil: self.point }
+    }
+}
+
+/// The particles' undeformed domains, and the passes that find weights of them.
+pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
+    /// Puts that of particle `order[p]` in place `p`.
+    fn reorder(&mut self, order: &mut [u32]);
+
+    /// P2G of some particles.
+    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), Stop>;
+
+    /// G2P of some particles.
+    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
+
+    /// What the grid does not represent of the velocities of some particles.
+    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
+}
+
+/// Finds weights.
+pub(super) trait Weigh<T: Real, const D: usize, St> {
+    /// Finds the weights of the bunches from `first` on, in this state if none was kept.
+    ///
+    /// # Errors
+    /// A particle has none.
+    fn weigh(
+        &self,
+        scene: &Scene<'_, T, D>,
+        first: usize,
+        present: Moved<'_, T, D>,
+        stencils: &mut [St],
+    ) -> Result<(), (usize, Cause)>;
+}
+
+/// The domains of a shape function.
+struct Shaped<T: Real, const D: usize, S: Shape>(Bunches<S::Domain<T, D>>);
+
+impl<T: Real, const D: usize, S: Shape> Domains<T, D> for Shaped<T, D, S> {
+    fn reorder(&mut self, order: &mut [u32]) {
+        reorder_bunches(&mut self.0, order);
+        self.0.fill_up();
+    }
+
+    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), Stop> {
+        sums.with::<S::Stencil<T, D>>(self)
+    }
+
+    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<Sound, (usize, Cause)> {
+        advance.with::<S::Stencil<T, D>>(self)
+    }
+
+    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<Sound, (usize, Cause)> {
+        residual.with::<S::Stencil<T, D>>(self)
+    }
+}
+
+impl<T: Real, const D: usize, S: Shape> Weigh<T, D, S::Stencil<T, D>> for Shaped<T, D, S> {
+    fn weigh(
+        &self,
+        scene: &Scene<'_, T, D>,
+        first: usize,
+        present: Moved<'_, T, D>,
+        stencils: &mut [S::Stencil<T, D>],
+    ) -> Result<(), (usize, Cause)> {
+        let domains = self.0.bunches();
+        best(&mut Weights::<T, D, S> { scene, domains, first, present, stencils })
+    }
+}
+
+/// The weights of some bunches.
+struct Weights<'a, T: Real, const D: usize, S: Shape> {
+    scene: &'a Scene<'a, T, D>,
+    /// Of all bunches.
+    domains: &'a [S::Domain<T, D>],
+    first: usize,
+    present: Moved<'a, T, D>,
+    stencils: &'a mut [S::Stencil<T, D>],
+}
+
+impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
+    type Output = Result<(), (usize, Cause)>;
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
+        let Weights { scene, domains, first, present: (displacements, gradients), stencils } = self;
+        for (k, stencil) in stencils.iter_mut().enumerate() {
+            let bunch = *first + k;
+            machine.fetch(scene.reference_position, bunch + AHEAD);
+            machine.fetch(domains, bunch + AHEAD);
+            let (displacement, gradient) = match scene.kept.get(bunch) {
+                Some((displacement, gradient)) => (displacement, gradient),
+                None => (&displacements[k], &gradients[k]),
+            };
+            let reference = &scene.reference_position[bunch];
+            let position = positions(machine, reference, displacement, scene.moves);
+            let unmoved;
+            let h = if scene.moves {
+                gradient
+            } else {
+                unmoved = Matrices::zeros();
+                &unmoved
+            };
+            let domain = &domains[bunch];
+            if let Err(cause) = S::place(machine, stencil, scene.lattice, &position, domain, h) {
+                let positions = vectors(machine, position);
+                let (p, cause) = blamed::<T, D, S>(scene.lattice, &positions, domain, h, cause);
+                return Err((BUNCH * bunch + p, cause));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which of a bunch could not be placed alone, and why; the first one, if each could.
+#[cold]
+fn blamed<T: Real, const D: usize, S: Shape>(
+    lattice: &Lattice<T, D>,
+    positions: &[Vector<T, D>; BUNCH],
+    domains: &S::Domain<T, D>,
+    displacement_gradients: &Matrices<T, D>,
+    cause: Cause,
+) -> (usize, Cause) {
+    for p in 0..BUNCH {
+        let h = &displacement_gradients.get(p);
+        if let Err(cause) = S::stencil(lattice, &positions[p], &domains.get(p), h) {
+            return (p, cause);
+        }
+    }
+    (0, cause)
+}
