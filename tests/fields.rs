@@ -11,7 +11,8 @@ use mms::gallery::Entry;
 use mms::interpreted;
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Number, Point};
+use mms_codegen::program::block::Blockwise;
+use mms_codegen::program::interpret::{Interpreter, Point};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Form;
 use mms_codegen::spec::StudySpec;
@@ -464,7 +465,7 @@ fn studies<K: Kernel>() {
 }
 
 /// The field in the form that a study names; what is compiled is the usual one.
-fn scene<T: Solvable + Number>(
+fn scene<T: Solvable + Blockwise>(
     entry: &Entry,
     build: fn(&[T]) -> Option<Scene<T>>,
     study: &StudySpec,

@@ -232,7 +232,8 @@ impl Eval {
         if outside_time {
             say(format_args!(
                 "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
-                self.time, input.name.shown()
+                self.time,
+                input.name.shown()
             ));
         }
         Outside { outside_body, outside_time }
