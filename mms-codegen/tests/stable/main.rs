@@ -193,7 +193,7 @@ fn with_material(stem: &str, text: &str, spec: &MaterialSpec, bulk: usize) -> (S
     };
     let arguments: String = spec.parameters.iter().enumerate().map(line).collect();
     let fibre = if spec.has_fibres() { "fibre = [\"3/5\", \"4/5\", 0]\n" } else { "" };
-    let material = &spec.name;
+    let material = spec.name.raw();
     let text =
         format!("{text}\n[material]\nmodel = \"{material}\"\n{arguments}{fibre}density = 2\n");
     (format!("{stem} of {material}"), text)
