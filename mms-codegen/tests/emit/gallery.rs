@@ -58,7 +58,7 @@ fn every_field_proves_itself_in_every_language() {
         let mut worst = worst.lock().expect("no panic while it is held");
         let most = worst.entry(target.name).or_insert((0.0, String::new()));
         if error > most.0 {
-            *most = (error, name.clone());
+            *most = (error, name.to_string());
         }
     });
     for (target, (error, name)) in worst.into_inner().expect("no panic") {
