@@ -109,7 +109,7 @@ impl<'a> Steps<'a> {
     fn new(graph: &mut Graph, chart: &Chart, part: &'a Part) -> Self {
         let formulas: Vec<Expr> = part.formulas.iter().map(|(formula, _)| *formula).collect();
         let formulas = chart.fix(graph, &formulas);
-        let values: Vec<Expr> = part.steps.iter().map(|step| step.value).collect();
+        let values: Vec<Expr> = part.steps.iter().map(|step| step.made(graph)).collect();
         let values = chart.fix(graph, &values);
         let limits = values.iter().map(|value| limits_of(graph, *value)).collect();
         Steps { part, formulas, values, limits }

@@ -20,8 +20,18 @@ const NON_SMOOTH: &[&str] =
 pub struct Step {
     /// Where it stands.
     pub span: Span,
-    /// What it makes, by itself: a power or a call. Canonical form may cancel that in what uses it.
+    /// What it makes, by itself: a power or a call; of a quotient what it divides by, for to record a step is to make no
+    /// node. Canonical form may cancel it in what uses it.
     pub value: Expr,
+    /// Whether that is a divisor.
+    pub is_divisor: bool,
+}
+
+impl Step {
+    /// What the step makes.
+    pub fn made(&self, graph: &mut Graph) -> Expr {
+        if self.is_divisor { graph.power(self.value, -1) } else { self.value }
+    }
 }
 
 /// The names that a formula may use.
@@ -189,7 +199,7 @@ impl Resolver<'_> {
                     .map(|index| values[*index].take().map(|value| value.finish(self.graph)))
                     .collect();
                 let value = self.call(name, &values, &spans);
-                self.steps.extend(value.map(|value| Step { span, value }));
+                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
                 value
             }
         };
@@ -269,8 +279,7 @@ impl Resolver<'_> {
                     _ => Rational::NEG_ONE,
                 };
                 if operator == Operator::Divide && self.graph.as_number(b).is_none() {
-                    let value = self.graph.power(b, -1);
-                    self.steps.push(Step { span, value });
+                    self.steps.push(Step { span, value: b, is_divisor: true });
                 }
                 factors.push((b, exponent));
                 Some(Partial::Product(factors))
@@ -278,7 +287,7 @@ impl Resolver<'_> {
             Operator::Power => {
                 let base = a.finish(self.graph);
                 let value = self.power(base, b, left, right);
-                self.steps.extend(value.map(|value| Step { span, value }));
+                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
                 value.map(Partial::Done)
             }
         }
