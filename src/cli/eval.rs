@@ -20,7 +20,7 @@ use super::{Outcome, print, print_json, say};
 /// Evaluate quantities of a field at points.
 ///
 /// Points outside the body and times outside the time window are evaluated all the same, with a warning on stderr; in
-/// --json, outside_body has their positions, from 0 on, and outside_time says whether the time is.
+/// --json, outside_body has their positions, from 0 on, and outside_time is true, where there are such.
 #[derive(Args)]
 pub struct Eval {
     /// A gallery name, or a path to a TOML file.
@@ -144,10 +144,13 @@ struct Document<'a> {
     outside: Outside,
 }
 
-/// What is outside the domain that a field's claims and proofs are about: points of the body, by position, and the time.
+/// What is outside the domain that a field's claims and proofs are about: points of the body, by position, and the time. What is
+/// inside has no key.
 #[derive(Serialize)]
 struct Outside {
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     outside_body: Vec<usize>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     outside_time: bool,
 }
 

@@ -340,8 +340,7 @@ fn points_outside_body_and_window_are_evaluated_with_a_warning() {
     let inside = folder.mms("eval bar_1d --at 0 --at 1 --time 0 --quantity u --json").exits(0);
     assert_eq!(inside.stderr, "");
     let document = inside.json();
-    assert_eq!(document["outside_body"], serde_json::json!([]));
-    assert_eq!(document["outside_time"], false);
+    assert!(document.get("outside_body").is_none() && document.get("outside_time").is_none());
     let command = "eval bar_1d --at 0.5 --at 1.5 --at -0.1 --time 1e3 --quantity u";
     let run = folder.mms(command).exits(0);
     run.complains("`--at 1.5` is outside the body").complains("`--at -0.1` is outside the body");

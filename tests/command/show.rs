@@ -52,6 +52,7 @@ fn show_as_a_document_has_its_keys() {
         "material",
         "strain_energy",
         "material_parameters",
+        "rest_stress",
         "density",
         "definitions",
         "boundary",

@@ -264,7 +264,8 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     }
     let (exits, _) =
         branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
-    let certain = exits.iter().filter(|exit| exit.is_certain);
+    // Where a function ends, its values or its derivatives do, and whoever evaluates them sees that.
+    let certain = exits.iter().filter(|exit| exit.is_certain && exit.must.is_blind());
     found.extend(certain.map(|exit| message::leaves_branch(compiled, exit)));
     let failure = computed::failure(compiled, &chart, Precision::F64);
     found.extend(failure.and_then(|it| message::not_computed(compiled, "f64", &it)));

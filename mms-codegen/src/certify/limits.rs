@@ -35,6 +35,13 @@ pub enum Must {
     KeepOffOrigin,
 }
 
+impl Must {
+    /// Whether a value jumps where it does not hold, so that no derivative sees it.
+    pub fn is_blind(self) -> bool {
+        matches!(self, Must::KeepOffCut | Must::KeepOffOrigin)
+    }
+}
+
 /// Where an operation ends.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Limit {
