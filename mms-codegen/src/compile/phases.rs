@@ -25,9 +25,12 @@ use crate::suggest::advice;
 use crate::syntax::{self, Kind};
 use crate::units;
 
-/// How many steps a phase may take for each node that a graph may have: reading and deriving are refused beyond them;
-/// simplifying and scheduling leave untried what is beyond.
+/// How many steps reading and deriving may take, each, for each node that a graph may have: beyond them a text is
+/// refused.
 const STEPS_PER_NODE: u64 = 700;
+
+/// The same of simplifying and of scheduling, which leave untried what is beyond.
+const STEPS_OF_SIMPLIFYING: u64 = 4200;
 
 /// A compilation on its way: what is asked for, the texts that were read, and every mistake that was found.
 pub(super) struct Phases<'a> {
@@ -52,14 +55,14 @@ impl<'a> Phases<'a> {
     /// All of them; a mistake ends them, or is found beside others.
     pub fn run(&mut self, name: &str, path: &str, text: &str) -> Option<Compiled> {
         let mut graph = Graph::with_limit(self.options.max_nodes).stopped_by(&self.options.stop);
-        self.allow(&graph);
+        self.allow(&graph, STEPS_PER_NODE);
         let mut read = self.read(&mut graph, name, path, text)?;
         self.options.variation.transform(&mut graph, &mut read.model);
         about_its_place(&mut graph, &mut read.model);
         let (derived, simplest) = self.derive(&mut graph, &mut read)?;
         let simplified = simplest.is_some() && !graph.work().is_over();
         let derivation = simplest.unwrap_or_else(|| derived.clone());
-        self.allow(&graph);
+        self.allow(&graph, STEPS_OF_SIMPLIFYING);
         let program = self.schedule(&mut graph, &read, &derivation)?;
         // What others do with it has budgets of its own.
         graph.work().allow(u64::MAX);
@@ -87,10 +90,10 @@ impl<'a> Phases<'a> {
         self.diagnostics = vec![start.help("whoever asked for the field asked for that, too")];
     }
 
-    /// What a phase may take.
-    fn allow(&self, graph: &Graph) {
+    /// What a phase may take for each node that a graph may have.
+    fn allow(&self, graph: &Graph, steps: u64) {
         let nodes = self.options.max_nodes.max(DEFAULT_MAX_NODES) as u64;
-        graph.work().allow(STEPS_PER_NODE.saturating_mul(nodes));
+        graph.work().allow(steps.saturating_mul(nodes));
     }
 
     /// The field and its material; everything that is wrong with them is reported.
@@ -135,7 +138,7 @@ impl<'a> Phases<'a> {
         let Options { selection, form, .. } = self.options;
         // The force of a twin needs the motion of the field.
         let needed = |quantity| read.model.rigid.is_some() || selection.wants(quantity);
-        self.allow(graph);
+        self.allow(graph, STEPS_OF_SIMPLIFYING);
         let simplified =
             graph.attempt(|graph| simplify(graph, &read.model, &derived, *form, needed));
         Some(match &read.model.rigid {

@@ -31,8 +31,12 @@ pub struct Point<'a, T: Real, const D: usize> {
     /// The nodes.
     pub lattice: &'a Lattice<T, D>,
     /// Finds those of a point, and its weights.
-    pub stencil: fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>,
+    pub stencil: StencilOf<T, D>,
 }
+
+/// What finds the nodes and weights of a point of a grid.
+pub type StencilOf<T, const D: usize> =
+    fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
 
 /// The pieces of the faces with tractions; entry `k` of every array belongs to piece `k`.
 pub struct Traction<T, const D: usize> {

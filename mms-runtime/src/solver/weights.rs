@@ -56,8 +56,10 @@ pub(super) struct Kind<T: Real, const D: usize> {
     /// [`Shape::point`].
     pub point: PointOf<T, D>,
     /// The undeformed domains of particles, by their half edges.
-    pub domains: fn(&[Matrix<f64, D>]) -> Box<dyn Domains<T, D>>,
+    pub domains: DomainsOf<T, D>,
 }
+
+type DomainsOf<T, const D: usize> = fn(&[Matrix<f64, D>]) -> Box<dyn Domains<T, D>>;
 
 type PointOf<T, const D: usize> = fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
 

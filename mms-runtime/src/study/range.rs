@@ -31,7 +31,7 @@ type Size = (&'static str, f64, bool);
 /// The first that has no number of that range.
 fn beyond(sizes: &[Size], [least, most]: [f64; 2]) -> Option<Cause> {
     let is_beyond = |&&(_, value, is_positive): &&Size| {
-        !(value <= most) || (value < least && (value > 0.0 || is_positive))
+        value.is_nan() || value > most || (value < least && (value > 0.0 || is_positive))
     };
     let &(quantity, value, _) = sizes.iter().find(is_beyond)?;
     Some(Cause::OutOfRange { quantity, value, least, most })

@@ -383,5 +383,5 @@ pub(super) fn are_numbers<T: Float, const C: usize, const K: usize>(
     for (k, sum) in sums.iter().enumerate() {
         eight[k % 8] = eight[k % 8] + *sum;
     }
-    eight.iter().all(|sum| sum <= sum)
+    eight.iter().all(|sum| sum.partial_cmp(sum).is_some())
 }

@@ -184,7 +184,7 @@ impl Table {
         let concerned = |item: Item| item == a || item == b || item == whole;
         for place in places {
             // With each of the pair, and with what takes its place.
-            steps += 3 * STEPS_OF_PAIR * flat.form(place).operands().into_iter().count() as u64;
+            steps += 3 * STEPS_OF_PAIR * flat.form(place).operands().len() as u64;
             self.withdraw(flat, place, concerned);
             if place != whole {
                 flat.forms[place.index()] = pair.replace(flat.form(place), whole);
