@@ -26,6 +26,8 @@ fn same<V: Debug>(what: &str, compiled: &[V], interpreted: &[V]) {
 }
 
 type Field<T, const D: usize> = dyn ManufacturedField<T, D>;
+type Evaluate<'a, T, const D: usize> = dyn Fn(&Field<T, D>, &mut [Matrix<T, D>]) + 'a;
+type Build<T> = fn(&[T]) -> Option<Scene<T>>;
 
 /// A displacement gradient of some strain at a point.
 fn gradient<T: Real, const D: usize>(point: &Vector<T, D>) -> Matrix<T, D> {
@@ -51,7 +53,7 @@ fn agree<T: Real, const D: usize>(
         evaluate(interpreted, time, points, &mut second);
         same(&what(quantity), &first, &second);
     }
-    let both = |evaluate: &dyn Fn(&Field<T, D>, &mut [Matrix<T, D>])| {
+    let both = |evaluate: &Evaluate<'_, T, D>| {
         [compiled, interpreted].map(|field| {
             let mut found = vec![Matrix::zeros(); points.len()];
             evaluate(field, &mut found);
@@ -100,7 +102,7 @@ fn stress_of_bunches<T: Real, const D: usize>(
     same(what, &first, &second);
 }
 
-fn hold<T: Real + Blockwise>(entry: &Entry, of: fn(&Code) -> fn(&[T]) -> Option<Scene<T>>) {
+fn hold<T: Real + Blockwise>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     let code = entry.code().expect("the field is compiled");
     let compiled = Arc::new(entry.compile().expect("a field of the gallery"));
     let parameters = compiled.parameters::<T>(&BTreeMap::new());

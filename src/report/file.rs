@@ -67,7 +67,7 @@ pub(crate) fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
 pub(crate) fn write_new(path: &Path, content: &str) -> io::Result<()> {
     let mut new = Unfinished::of(path)?;
     new.file.write_all(content.as_bytes())?;
-    Ok(new.path.persist_noclobber(path).map_err(|error| error.error)?)
+    new.path.persist_noclobber(path).map_err(|error| error.error)
 }
 
 /// Whether two paths lead to the same file, there or not, by whatever folders and links.
@@ -177,7 +177,8 @@ fn remove_stale(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => return Ok(false),
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
-        found => drop(found?),
+        Err(error) => return Err(error),
+        Ok(_) => {}
     }
     let file = match OpenOptions::new().append(true).open(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),

@@ -141,7 +141,12 @@ fn a_field_that_cannot_be_put_somewhere_says_why() {
     let folder = Folder::new();
     let ring =
         "extremes expanding_ring --shape cpdi --quick --row origin --row incompressible/0.49";
-    folder.mms(ring).exits(1).prints("nothing was measured").prints("left out").prints("an annulus lies about the origin");
+    folder
+        .mms(ring)
+        .exits(1)
+        .prints("nothing was measured")
+        .prints("left out")
+        .prints("an annulus lies about the origin");
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn leaves() -> Vec<Op> {
 fn program(recipe: &[(u8, u16, u16)]) -> Program {
     let mut ops = leaves();
     for (what, a, b) in recipe {
-        let value = |fraction: u16| Value((usize::from(fraction) * ops.len() >> 16) as u32);
+        let value = |fraction: u16| Value(((usize::from(fraction) * ops.len()) >> 16) as u32);
         let (a, b) = (value(*a), value(*b));
         // Sums and products are most of what programs do, and what is fused.
         ops.push(match what % 32 {

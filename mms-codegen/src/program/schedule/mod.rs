@@ -148,8 +148,7 @@ fn cheapest(
     scopes: &[Scope],
 ) -> (Flat, Vec<Item>) {
     let mut plain = vec![Flat::new(graph, components, Grouping::Staged, scaling)];
-    let operands =
-        plain[0].0.forms.iter().map(|form| 1 + form.operands().len() as u64);
+    let operands = plain[0].0.forms.iter().map(|form| 1 + form.operands().len() as u64);
     let ways = 2 + 2 * scopes.len() as u64;
     graph.work().spend(STEPS_OF_OPERAND * ways * operands.sum::<u64>());
     if graph.work().is_over() {
