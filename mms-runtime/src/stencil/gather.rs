@@ -36,7 +36,7 @@ type Row<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
 /// Those over `W` nodes along every axis.
 struct Over<'a, T, const D: usize, const K: usize, const W: usize>(Sums<'a, T, D, K>);
 
-impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for &Over<'_, T, D, K, W> {
+impl<T: Real, const D: usize, const K: usize, const W: usize> Work<T> for Over<'_, T, D, K, W> {
     type Output = Summed<[T; BUNCH], D, K>;
 
     #[inline(always)]
@@ -62,7 +62,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         if W == 2 {
             return self.all::<M, W>(machine);
         }
-        let summed = machine.apart(&Over::<T, D, K, W>(self));
+        let summed = machine.apart(Over::<T, D, K, W>(self));
         let nothing = machine.splat(T::zero());
         let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
         for c in 0..D {

@@ -223,17 +223,34 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         members: Members,
         nodes: Window<'_, T>,
     ) {
-        let stencil = self;
-        if W == 2 {
-            return stencil.add::<M, W>(machine, lattice, carried, members, nodes);
+        if carried.slopes.is_some() || carried.moments.is_some() {
+            self.onto::<M, W, true>(machine, lattice, carried, members, nodes);
+        } else {
+            self.onto::<M, W, false>(machine, lattice, carried, members, nodes);
         }
-        let carried = Carried::of(machine, carried);
-        machine.apart(&mut Onto::<_, D, W> { stencil, lattice, carried, members, nodes });
     }
 
-    /// Adds to `W` nodes along every axis; where there is something of the kind, with asides.
+    /// Likewise, where there is something of the kind with `ASIDES`. Sums of hat functions are done before a call is.
     #[inline(always)]
-    fn add<M: Machine<T>, const W: usize>(
+    fn onto<M: Machine<T>, const W: usize, const ASIDES: bool>(
+        &self,
+        machine: M,
+        lattice: &Lattice<T, D>,
+        carried: &Carried<M::Eight, D>,
+        members: Members,
+        nodes: Window<'_, T>,
+    ) {
+        let stencil = self;
+        if W == 2 {
+            return stencil.add::<M, W, ASIDES>(machine, lattice, carried, members, nodes);
+        }
+        let carried = Carried::of(machine, carried);
+        machine.apart(Onto::<_, D, W, ASIDES> { stencil, lattice, carried, members, nodes });
+    }
+
+    /// Adds to `W` nodes along every axis.
+    #[inline(always)]
+    fn add<M: Machine<T>, const W: usize, const ASIDES: bool>(
         &self,
         machine: M,
         lattice: &Lattice<T, D>,
@@ -243,19 +260,14 @@ impl<T: Real, const D: usize> Tensor<T, D> {
     ) {
         let (stencil, own);
         stencil = self;
-        let moment = if carried.moments.is_some() {
+        let moment = if ASIDES && carried.moments.is_some() {
             (own, _) = self.moments::<M, W>(machine, lattice);
             Some(&own)
         } else {
             None
         };
-        if carried.slopes.is_some() || carried.moments.is_some() {
-            let sums = Scatter::<M, T, D, true> { machine, stencil, carried, moment, members };
-            sums.add::<W>(nodes);
-        } else {
-            let sums = Scatter::<M, T, D, false> { machine, stencil, carried, moment, members };
-            sums.add::<W>(nodes);
-        }
+        let sums = Scatter::<M, T, D, ASIDES> { machine, stencil, carried, moment, members };
+        sums.add::<W>(nodes);
     }
 
     /// As [`Stencil::gather`], for stencils of `W` nodes along each axis.
@@ -296,7 +308,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 }
 
 /// The sums onto `W` nodes along every axis, as a function of their own, so that they are compiled once.
-struct Onto<'a, T: Real, const D: usize, const W: usize> {
+struct Onto<'a, T: Real, const D: usize, const W: usize, const ASIDES: bool> {
     stencil: &'a Tensor<T, D>,
     lattice: &'a Lattice<T, D>,
     carried: Carried<[T; BUNCH], D>,
@@ -304,14 +316,16 @@ struct Onto<'a, T: Real, const D: usize, const W: usize> {
     nodes: Window<'a, T>,
 }
 
-impl<T: Real, const D: usize, const W: usize> Work<T> for &mut Onto<'_, T, D, W> {
+impl<T: Real, const D: usize, const W: usize, const ASIDES: bool> Work<T>
+    for Onto<'_, T, D, W, ASIDES>
+{
     type Output = ();
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) {
-        let Onto { stencil, lattice, carried, members, nodes } = self;
-        let carried = &carried.eights(machine);
-        stencil.add::<M, W>(machine, lattice, carried, *members, nodes.reborrow());
+        let Self { stencil, lattice, members, nodes, .. } = self;
+        let carried = &self.carried.eights(machine);
+        stencil.add::<M, W, ASIDES>(machine, lattice, carried, members, nodes);
     }
 }
 
