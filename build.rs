@@ -1,13 +1,13 @@
 //! Finds the field files, and lists them for the command, for the tests and for the crate of the compiled
 //! gallery, which has a link to this script; and the sources of `mms-math` for the workbench. Discovers only: the
-//! files are compiled and reported by others.
+//! files are compiled and reported by others, but for the name of a material that one brings along.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 use mms_codegen::spec::field_name::validate;
-use toml::de::DeTable;
+use mms_codegen::spec::own_material;
 
 /// Modules beside those of the fields, and crates that these files use by name.
 const TAKEN: &[&str] = &[
@@ -44,13 +44,15 @@ fn main() -> io::Result<()> {
             std::process::exit(1);
         }
     }
+    if env::var("CARGO_PKG_NAME").as_deref() == Ok("mms-gallery") {
+        return fs::write(out.join("gallery.rs"), gallery(&stems));
+    }
     fs::write(out.join("fields.rs"), fields(&root.join("fields"), &stems)?)?;
-    fs::write(out.join("gallery.rs"), gallery(&stems))?;
     fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"))?)?;
     fs::write(out.join("field_tests.rs"), field_tests(&stems))
 }
 
-/// Refuses what cannot be the name of a module in `src/gallery.rs` and `tests/fields.rs`.
+/// Refuses what cannot be the name of a module in `mms-gallery/src/lib.rs` and `tests/fields.rs`.
 fn name(stem: &str) -> Result<(), String> {
     if TAKEN.contains(&stem) {
         return Err(format!(
@@ -65,7 +67,8 @@ fn fields(folder: &Path, stems: &[String]) -> io::Result<String> {
     let mut text = String::from("&[\n");
     for stem in stems {
         let file = folder.join(format!("{stem}.toml"));
-        let material = own_material(&file)?.map(|path| {
+        let material = own_material(&fs::read_to_string(&file)?).map(|path| {
+            let path = file.with_file_name(path);
             println!("cargo::rerun-if-changed={}", path.display());
             format!("include_str!({path:?})")
         });
@@ -79,19 +82,6 @@ fn fields(folder: &Path, stems: &[String]) -> io::Result<String> {
     }
     text.push(']');
     Ok(text)
-}
-
-/// The file of a material that a field brings along, as in `model = "./mine.toml"`. What is wrong with a text is
-/// said by others, with its line and column.
-fn own_material(field: &Path) -> io::Result<Option<PathBuf>> {
-    let text = fs::read_to_string(field)?;
-    let model = || {
-        let table = DeTable::parse(&text).ok()?;
-        let material = table.get_ref().get("material")?.get_ref().as_table()?;
-        Some(material.get("model")?.get_ref().as_str()?.to_string())
-    };
-    let model = model().filter(|model| model.ends_with(".toml"));
-    Ok(model.map(|model| field.with_file_name(model)))
 }
 
 /// One module per field, and the list of them.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-use toml::de::DeTable;
+use mms_codegen::spec::own_material;
 
 fn main() -> io::Result<()> {
     let folder =
@@ -19,8 +19,11 @@ fn main() -> io::Result<()> {
     for path in &files {
         println!("cargo::rerun-if-changed={}", path.display());
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let material = own_material(path)?;
-        let material = material.map(|path| format!("include_str!({path:?})"));
+        let material = own_material(&fs::read_to_string(path)?).map(|material| {
+            let path = path.with_file_name(material);
+            println!("cargo::rerun-if-changed={}", path.display());
+            format!("include_str!({path:?})")
+        });
         let material = material.map_or("None".into(), |text| format!("Some({text})"));
         writeln!(list, "    (c{stem:?}, include_str!({path:?}), {material}),")
             .expect("writing to a string");
@@ -30,24 +33,6 @@ fn main() -> io::Result<()> {
     fs::write(Path::new(&out).join("gallery.rs"), list)?;
     name_the_library();
     Ok(())
-}
-
-/// The file of a material that a field brings along, as in `model = "./mine.toml"`.
-fn own_material(field: &Path) -> io::Result<Option<PathBuf>> {
-    let text = fs::read_to_string(field)?;
-    let model = model(&text).filter(|model| model.ends_with(".toml"));
-    let path = model.map(|model| field.with_file_name(model));
-    if let Some(path) = &path {
-        println!("cargo::rerun-if-changed={}", path.display());
-    }
-    Ok(path)
-}
-
-/// The material that a text names. What is wrong with a text is said by others, with its line and column.
-fn model(text: &str) -> Option<String> {
-    let table = DeTable::parse(text).ok()?;
-    let material = table.get_ref().get("material")?.get_ref().as_table()?;
-    material.get("model")?.get_ref().as_str().map(String::from)
 }
 
 /// What a program that is linked with the library asks for when it starts: its name, wherever it was

@@ -17,12 +17,11 @@ use mms_codegen::quantity::Quantity;
 use mms_codegen::spec::{self, Claim};
 use mms_runtime::column::Matrices;
 use mms_runtime::material::by_bunches;
+use mms_runtime::scene::Scene;
 use mms_runtime::stencil::BUNCH;
 use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
-
-use mms_runtime::scene::Scene;
 
 /// How many outputs a solver asks for.
 const ASKED: usize = 9;

@@ -27,8 +27,6 @@ pub enum Kind {
     State,
     /// What a compiler made of emitted code.
     Object,
-    /// What the system says of itself.
-    System,
 }
 
 impl Kind {
@@ -42,14 +40,13 @@ impl Kind {
             Kind::States => "a list of states",
             Kind::State => "a state",
             Kind::Object => "compiled code",
-            Kind::System => "a description of the system",
         }
     }
 
     /// How many bytes it may have.
     pub fn most(self) -> u64 {
         match self {
-            Kind::Field | Kind::Study | Kind::System => MAX_FILE as u64,
+            Kind::Field | Kind::Study => MAX_FILE as u64,
             Kind::Result | Kind::Stored | Kind::States => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
         }
@@ -67,7 +64,6 @@ impl Kind {
             Kind::States => "write fewer states, with `--frames`",
             Kind::State => "draw it with ParaView, or run with fewer particles",
             Kind::Object => "compile fewer quantities, with `--quantity`",
-            Kind::System => "nothing depends on it",
         }
     }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use anyhow::Context as _;
 use clap::Parser as _;
+use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, Method};
 use peak_alloc::PeakAlloc;
@@ -19,7 +20,6 @@ use crate::store::{Entry, Store};
 use crate::verify::matrix::{Quantity, Study};
 use crate::verify::plan::Key;
 use crate::verify::work::{Outcome, outcome};
-use mms_runtime::scene::{Scene, Solvable};
 
 /// What came of a run, and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

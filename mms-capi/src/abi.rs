@@ -366,10 +366,8 @@ pub unsafe extern "C" fn mms_field_evaluate_stoppable(
             let [size, room] = [field.dimension(), field.components(name)?]
                 .map(|numbers| count.saturating_mul(numbers));
             let points = array("points", points, size)?;
-            let normals = match normals.is_null() {
-                true => None,
-                false => Some(array("normals", normals, size)?),
-            };
+            let normals =
+                if normals.is_null() { None } else { Some(array("normals", normals, size)?) };
             let others = [
                 Extent::of("quantity", name.as_bytes()),
                 Extent::of("points", points),
@@ -454,8 +452,8 @@ pub unsafe extern "C" fn mms_field_get_bound(
     // SAFETY: the caller vouches for every pointer, as the header says.
     unsafe {
         guarded(Message::new(message, capacity), |message| {
-            let name = word("name", name)?;
-            let bound = this(field)?.bound(name)?;
+            let (field, name) = (this(field)?, word("name", name)?);
+            let bound = field.bound(name)?;
             if room < bound.len() {
                 let needed = bound.len();
                 let message = format!("`room` is {room}: `{name}` has {needed} components");
@@ -480,13 +478,7 @@ pub unsafe extern "C" fn mms_field_bound(
     capacity: usize,
 ) -> MmsCode {
     // SAFETY: the caller vouches for every pointer, as the header says.
-    unsafe {
-        guarded(Message::new(message, capacity), |message| {
-            let bound = this(field)?.bound(word("name", name)?)?;
-            Room::new("values", values, bound.len(), &[message.extent()])?.put(&bound);
-            Ok(())
-        })
-    }
+    unsafe { mms_field_get_bound(field, name, usize::MAX, values, message, capacity) }
 }
 
 /// Puts a new field where the caller wants it, and NULL if there is none.

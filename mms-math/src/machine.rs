@@ -28,7 +28,8 @@ pub trait Machine<T>: Copy {
     fn halves(self, first: &[T; 4], second: &[T; 4]) -> Self::Eight;
 
     /// Does work in a function of its own, compiled for the same instructions: once, for all that have it done. Nothing
-    /// of it is inlined, so it is for what takes long beside a call.
+    /// of it is inlined, so it is for what takes long beside a call. Of [`Plain`] these are the instructions of every
+    /// processor.
     fn apart<W: Work<T>>(self, work: W) -> W::Output;
 
     /// The same number eight times.

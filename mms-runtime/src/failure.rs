@@ -260,7 +260,7 @@ pub enum Cause {
     OutOfRange {
         /// What it is, the largest of all particles.
         quantity: &'static str,
-        /// Its size; infinite or not a number, if no size is known.
+        /// Its size; infinite where the precision has no number for it.
         value: f64,
         /// The least positive number with all digits.
         least: f64,

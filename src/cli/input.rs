@@ -20,11 +20,11 @@ use mms_codegen::twin::Twin;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
 use mms_runtime::Real;
+use mms_runtime::scene::{Code, Scene};
 
 use crate::gallery::{self, Entry};
 use crate::read::{self, Kind};
 use crate::report::provenance;
-use mms_runtime::scene::{Code, Scene};
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";

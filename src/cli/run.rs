@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::foreign;
+use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
 
@@ -22,7 +23,6 @@ use crate::report::{Refused, pretty, write_files};
 use crate::shell::words;
 use crate::store::{digest, program};
 use crate::vtk::Writer;
-use mms_runtime::scene::usual_cells;
 
 /// Run one simulation: errors in u, v, F and P, and what it took.
 #[derive(Args)]

@@ -1,4 +1,4 @@
-//! How files are read and written: whole or not at all, without a change to what else is at their place.
+//! How files are written: whole or not at all, without a change to what else is at their place.
 
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata, OpenOptions};

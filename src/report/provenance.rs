@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use mms_codegen::Compiled;
+use mms_codegen::spec::MAX_FILE;
 use mms_codegen::twin::Twin;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::read::{self, Kind};
+use crate::read;
 use crate::shell::command;
 
 /// The key `provenance` of a document.
@@ -71,7 +72,7 @@ pub struct Machine {
 impl Machine {
     /// This one.
     pub fn this() -> Self {
-        let described = read::first(Path::new("/proc/cpuinfo"), Kind::System.most());
+        let described = read::first(Path::new("/proc/cpuinfo"), MAX_FILE as u64);
         let described = described.unwrap_or_default();
         let described = String::from_utf8_lossy(&described);
         let name = described.lines().find_map(|line| {

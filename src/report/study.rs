@@ -407,7 +407,7 @@ impl Study {
         match order {
             None => Some(format!("{norm} has no order from {from} to {to}")),
             Some(_) if norm == "l2" && self.judgement.verdict == Verdict::Fail => None,
-            Some(order) if order == self.judgement.observed_order.unwrap_or(f64::NAN) => {
+            order @ Some(_) if order == self.judgement.observed_order => {
                 Some(format!("it is too high from {from} to {to}"))
             }
             Some(order) if norm == "l2" => {

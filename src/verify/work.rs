@@ -5,6 +5,7 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
+use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Details, Watch};
 use mms_runtime::{Errors, Level};
 use serde::de::DeserializeOwned;
@@ -15,7 +16,6 @@ use super::plan::Job;
 use crate::cli::input::{Input, Variant};
 use crate::cli::method::Precision;
 use crate::store::{Entry, Store};
-use mms_runtime::scene::{Scene, Solvable};
 
 /// l1, l2 and linf, the largest over all steps.
 pub type Norms = [f64; 3];

@@ -67,14 +67,14 @@ pub fn exits(
     [cells, operations]: [usize; 2],
 ) -> (Vec<Exit>, usize) {
     let Written { field, energy } = &compiled.model.written;
-    let mut parts = vec![(field, BTreeMap::new())];
+    let mut parts = vec![(Steps::new(graph, chart, field, &compiled.model.displacement), None)];
     if let Some(motion) = motion {
-        parts.push((energy, invariants(graph, chart, compiled, motion)));
+        let invariants = invariants(graph, chart, compiled, motion);
+        parts.push((Steps::new(graph, chart, energy, &[compiled.model.energy]), Some(invariants)));
     }
     let (mut found, mut taken, mut left) = (Vec::new(), 0, operations);
-    for (part, invariants) in parts {
-        let steps = Steps::new(graph, chart, part);
-        for condition in steps.conditions(graph, chart, &invariants) {
+    for (steps, invariants) in parts {
+        for condition in steps.conditions(graph, chart, invariants.as_ref()) {
             let formulas = Formulas::new(graph, chart, &condition.operands);
             let cost = OF_A_CELL * formulas.size().max(1);
             let limit = (left / cost).clamp(1, cells);
@@ -87,6 +87,13 @@ pub fn exits(
             taken += count;
             left = left.saturating_sub(count * cost);
         }
+    }
+    if graph.is_exhausted() {
+        // Nothing in it means anything: limits that were found may be none, and others are missing.
+        let witness = Witness::at(chart, &Cell::whole(chart.variables().len()).centre()).0;
+        let formula = field.formulas.iter().map(|(_, span)| *span).next();
+        let unknown = |span| Exit { span, must: Must::NotVanish, witness, is_certain: false };
+        found = formula.map(unknown).into_iter().collect();
     }
     (found, taken)
 }
@@ -101,39 +108,50 @@ fn volume(graph: &mut Graph) -> Expr {
 struct Steps<'a> {
     part: &'a Part,
     formulas: Vec<Expr>,
+    /// Those that are quantities of the field themselves, and so are known to be finite or not.
+    quantities: Vec<Expr>,
     values: Vec<Expr>,
     limits: Vec<Vec<Limit>>,
 }
 
 impl<'a> Steps<'a> {
-    fn new(graph: &mut Graph, chart: &Chart, part: &'a Part) -> Self {
+    fn new(graph: &mut Graph, chart: &Chart, part: &'a Part, quantities: &[Expr]) -> Self {
         let formulas: Vec<Expr> = part.formulas.iter().map(|(formula, _)| *formula).collect();
         let formulas = chart.fix(graph, &formulas);
+        let quantities = chart.fix(graph, quantities);
         let values: Vec<Expr> = part.steps.iter().map(|step| step.made(graph)).collect();
         let values = chart.fix(graph, &values);
         let limits = values.iter().map(|value| limits_of(graph, *value)).collect();
-        Steps { part, formulas, values, limits }
+        Steps { part, formulas, quantities, values, limits }
     }
 
-    /// What must hold of all of it, each once. Of W it is J > 0 that is known already.
+    /// What must hold of all of it, each once. `invariants` are those of W, of which it is known already that J > 0.
     fn conditions(
         &self,
         graph: &mut Graph,
         chart: &Chart,
-        invariants: &BTreeMap<Symbol, Expr>,
+        invariants: Option<&BTreeMap<Symbol, Expr>>,
     ) -> Vec<Condition> {
         let left = limits(graph, &self.formulas);
         let key = |limit: &Limit| (limit.analytic, limit.operands.clone());
         let known: BTreeSet<_> = left.iter().map(key).collect();
-        let strict = left.into_iter().filter(|limit| !limit.is_pole);
+        // At a pole a quantity is not finite; what it is made of may have one that drops out of all of them.
+        let finite: BTreeSet<_> = limits(graph, &self.quantities).iter().map(key).collect();
+        let strict = left.into_iter().filter(|it| !(it.is_pole && finite.contains(&key(it))));
         let strict = strict.map(|limit| (Some(limit.analytic), limit));
         // What canonical form has cancelled needs no more than a value.
         let cancelled = self.limits.iter().flatten().filter(|limit| !known.contains(&key(limit)));
         let cancelled = cancelled.map(|limit| (limit.defined, limit.clone()));
-        let volume = volume(graph);
+        let volume = invariants.map(|_| volume(graph));
         let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
-        for (must, limit) in strict.chain(cancelled).filter(|(_, it)| it.operands != [volume]) {
-            let operands = substitute(graph, &limit.operands, invariants);
+        for (must, limit) in strict.chain(cancelled) {
+            if volume.is_some_and(|volume| limit.operands == [volume]) {
+                continue;
+            }
+            let operands = match invariants {
+                Some(invariants) => substitute(graph, &limit.operands, invariants),
+                None => limit.operands.clone(),
+            };
             let operands = chart.pull_back(graph, &operands);
             let varies = operands.iter().any(|operand| {
                 graph.symbols(*operand).iter().any(|symbol| chart.variables().contains(symbol))

@@ -85,47 +85,46 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     let motion = Motion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     budget.end(&graph, "the formulas of J and the strain");
-    budget.begin(&graph, VOLUME);
     // What a compilation finds is found first, so that both say the same.
-    let (jacobian, mut boxes) = match inversion(&mut graph, &chart, compiled) {
-        Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
-        None => jacobian::bound(&chart, &formulas, CELLS),
-    };
-    budget.end(&graph, "J > 0");
+    let (jacobian, mut boxes) = budget.part(&mut graph, VOLUME, "J > 0", |graph| {
+        match inversion(graph, &chart, compiled) {
+            Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
+            None => jacobian::bound(&chart, &formulas, CELLS),
+        }
+    });
     let mut rates = None;
     let mut least = 0.0;
     if let Jacobian::Positive(bounds) = jacobian {
-        budget.begin(&graph, RATES);
-        let (bound, cells) = rates::bound(&mut graph, &chart, &motion, bounds, CELLS_OF_RATES);
-        budget.end(&graph, "stretch, rate and wave speed");
+        let part = "stretch, rate and wave speed";
+        let (bound, cells) = budget.part(&mut graph, RATES, part, |graph| {
+            rates::bound(graph, &chart, &motion, bounds, CELLS_OF_RATES)
+        });
         (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
     }
-    budget.begin(&graph, BRANCHES);
     let positive = rates.is_some().then_some(&motion);
-    let (exits, cells) =
-        branches::exits(&mut graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES]);
-    budget.end(&graph, "branches of functions");
+    let (exits, cells) = budget.part(&mut graph, BRANCHES, "branches of functions", |graph| {
+        branches::exits(graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES])
+    });
     boxes += cells;
     let limit = if rates.is_some() { CELLS } else { 0 };
-    budget.begin(&graph, FINITE);
-    let (finite, cells) = finite::bound(&mut graph, &chart, compiled, &motion, least, limit);
-    budget.end(&graph, "finite values");
+    let (finite, cells) = budget.part(&mut graph, FINITE, "finite values", |graph| {
+        finite::bound(graph, &chart, compiled, &motion, least, limit)
+    });
     boxes += cells;
-    budget.begin(&graph, COMPUTED);
-    let computed = match jacobian {
+    let computed = budget.part(&mut graph, COMPUTED, "what is computed", |graph| match jacobian {
         Jacobian::Positive(bounds) if finite == Finite::Proved => {
             let known = (motion.jacobian, bounds);
-            computed::bound(&mut graph, &chart, compiled, known, OPERATIONS_AS_COMPUTED)
+            computed::bound(graph, &chart, compiled, known, OPERATIONS_AS_COMPUTED)
         }
         _ => [AsComputed::NOT_ASKED; 2],
-    };
-    budget.end(&graph, "what is computed");
+    });
     boxes += computed[0].cells;
     let mut claims = Vec::new();
     for claim in &compiled.field.boundary {
-        budget.begin(&graph, CLAIMS / compiled.field.boundary.len() as u64);
-        let (finding, cells) = claims::judge(&mut graph, compiled, claim, CELLS);
-        budget.end(&graph, &format!("the claim on {}", claim.face.value.name()));
+        let steps = CLAIMS / compiled.field.boundary.len() as u64;
+        let part = format!("the claim on {}", claim.face.value.name());
+        let (finding, cells) = budget
+            .part(&mut graph, steps, &part, |graph| claims::judge(graph, compiled, claim, CELLS));
         claims.push((claim.clone(), finding));
         boxes += cells;
     }
@@ -147,6 +146,20 @@ impl Budget {
         if graph.work().is_over() {
             self.spent.push(part.into());
         }
+    }
+
+    /// What a part comes to within so many steps. A graph that it fills is as it was for the next.
+    fn part<R>(
+        &mut self,
+        graph: &mut Graph,
+        steps: u64,
+        part: &str,
+        prove: impl FnOnce(&mut Graph) -> R,
+    ) -> R {
+        self.begin(graph, steps);
+        let found = graph.unless_full(prove);
+        self.end(graph, part);
+        found
     }
 }
 
@@ -180,13 +193,18 @@ pub fn not_computed(
     precision: Precision,
 ) -> Option<Diagnostic> {
     let mut graph = room(compiled);
+    graph.work().allow(QUICK);
     let chart = chart_of(&mut graph, compiled, set);
     let finding = computed::failure(compiled, &chart, precision)?;
     message::not_computed(compiled, precision.name(), &finding)
 }
 
 /// The body and the time window for one set of parameters.
-fn chart_of(graph: &mut Graph, compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Chart {
+pub(super) fn chart_of(
+    graph: &mut Graph,
+    compiled: &Compiled,
+    set: &BTreeMap<usize, Rational>,
+) -> Chart {
     let mut model = compiled.model.clone();
     for (index, parameter) in model.parameters.iter_mut().enumerate() {
         parameter.range = None;

@@ -16,6 +16,7 @@ use crate::pass::relations::Relations;
 use crate::pass::substitute::{rebuild, substitute};
 use crate::program::interpret::{Interpreter, Number, Point};
 use crate::program::interval::Interval;
+use crate::program::precise::Precise;
 use crate::program::schedule::schedule_plainly;
 use crate::program::{Output, Program};
 use crate::spec::{Face, FieldSpec};
@@ -271,6 +272,14 @@ pub struct Spot<T> {
     pub time: T,
     /// X.
     pub coordinates: Vec<T>,
+}
+
+impl Spot<Precise> {
+    /// Whether all of it was computed.
+    pub fn is_known(&self) -> bool {
+        let all = self.parameters.iter().chain(&self.coordinates).chain([&self.time]);
+        all.into_iter().all(Precise::is_defined)
+    }
 }
 
 impl<T: Number> Run<'_, T> {

@@ -23,8 +23,9 @@ use crate::quantity::Quantity;
 /// Angles of which so many digits are right after the point are told from their neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
 
-/// What an operation of bounds and errors takes, in steps of a budget.
+/// What an operation of bounds and errors takes, in steps of a budget; and one in 77 digits, a function or not.
 const STEPS: u64 = 20;
+const STEPS_OF_DIGITS: u64 = 2_000;
 
 /// What is known of a program in one precision.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,13 +81,19 @@ pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Opti
     let subject = Subject::new(compiled);
     let whole = Cell::whole(chart.variables().len());
     let mut at = chart.points::<f64>();
+    let operations = compiled.program.instrs.len() as u64;
     let mut fails = |fractions: &Vec<f64>| {
+        chart.work().spend(STEPS * operations);
+        if chart.work().is_over() {
+            return None;
+        }
         let spot = at.point(&chart.place(fractions));
         let (quantity, cause) = match precision {
             Precision::F32 => subject.failure::<f32>(&spot)?,
             Precision::F64 => subject.failure::<f64>(&spot)?,
             Precision::Wide => return None,
         };
+        chart.work().spend(STEPS_OF_DIGITS * operations);
         let (witness, exact) = Witness::at(chart, fractions);
         subject.has_value(&exact, quantity).then_some(Finding::Fails(quantity, witness, cause))
     };
@@ -101,9 +108,6 @@ fn computed<F: Format>(spot: &Spot<Interval>) -> Spot<Computed<F>> {
         coordinates: spot.coordinates.iter().copied().map(Computed::input).collect(),
     }
 }
-
-/// The components of a unit vector.
-const ANY_NORMAL: Interval = Interval::UNIT;
 
 /// The part of a program that makes the quantities.
 struct Subject<'a> {
@@ -207,7 +211,8 @@ impl<'a> Subject<'a> {
         spot: &Spot<Computed<F>>,
         known: impl Fn(usize) -> Option<Interval>,
     ) -> Values<Computed<F>> {
-        let normal = Computed::input(ANY_NORMAL);
+        // The components of any unit vector.
+        let normal = Computed::input(Interval::new(-1.0, 1.0));
         let meet = |index: usize, value: Computed<F>| {
             known(index).map_or(value, |bounds| value.meet(bounds))
         };

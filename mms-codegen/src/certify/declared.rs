@@ -72,7 +72,7 @@ pub fn extremes(
 ) -> Vec<Diagnostic> {
     let work = Work::new(graph.work().stop().clone());
     work.allow(STEPS_OF_EXTREMES);
-    let mut found = Vec::new();
+    let (mut found, mut seen) = (Vec::new(), 0);
     for (extreme, set) in field.extremes.iter().zip(&model.extremes) {
         if work.is_over() || found.len() >= MAX_RENDERED {
             break;
@@ -85,9 +85,14 @@ pub fn extremes(
         let left = graph.work().share();
         let wrong = judge(graph, model, (field, material), set).into_iter().next();
         work.spend(before - left.left());
+        if work.is_over() {
+            // What is wrong with this one may be that nothing was left for it.
+            break;
+        }
+        seen += 1;
         found.extend(wrong.map(|wrong| at_extreme(extreme, wrong)));
     }
-    let unseen = field.extremes.get(found.len()).filter(|_| work.is_over());
+    let unseen = field.extremes.get(seen).filter(|_| work.is_over());
     found.extend(unseen.map(|extreme| too_long(extreme.span, "the extremes of this field")));
     found
 }

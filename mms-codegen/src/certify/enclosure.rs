@@ -31,9 +31,9 @@ impl Formulas {
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
         let mut outputs = BTreeMap::from([(VALUES, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
-            // Without a budget nothing is known of the others, which is what 0 stands for then.
+            // Without a budget what is scheduled has no value, whatever it is.
             let slopes = match graph.work().is_over() {
-                true => vec![graph.number(0); formulas.len()],
+                true => formulas.to_vec(),
                 false => differentiate(graph, formulas, *symbol),
             };
             outputs.insert(slopes_by(index), compact(graph, &slopes));

@@ -81,11 +81,13 @@ pub fn bound(
     candidates.extend(corners(&found.worst));
     for fractions in candidates {
         let (witness, spot) = Witness::at(chart, &fractions);
-        if let Some(quantity) = quantities.without_value(&spot, None, Precise::is_defined) {
-            // What there was no budget left to compute is no value that does not exist.
-            if !chart.work().is_over() {
-                return (Finite::Undefined(quantity, witness), found.cells);
-            }
+        let quantity = quantities.without_value(&spot, None, Precise::is_defined);
+        // What there was no budget left to compute is no value that does not exist.
+        if chart.work().is_over() {
+            break;
+        }
+        if let Some(quantity) = quantity.filter(|_| spot.is_known()) {
+            return (Finite::Undefined(quantity, witness), found.cells);
         }
     }
     let quantity = gap(&found.worst);

@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 
 use mms_math::Scalar as _;
 
+use super::certificate::chart_of;
 use super::chart::Chart;
 use super::message;
 use super::witness::Witness;
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::{Model, Response};
+use crate::mechanics::Response;
 use crate::pass::substitute::substitute;
 use crate::program::Output;
 use crate::program::precise::Precise;
@@ -74,10 +75,11 @@ pub fn stress(compiled: &Compiled) -> Rest {
     }
     let [speed, density] = [Response::WaveSpeed, Response::Density].map(|it| responses[&it][0]);
     let modulus = graph.product([(speed, 2.into()), (density, 1.into())]);
-    let of_defaults = without_ranges(&compiled.model);
-    let found = [&of_defaults, &compiled.model].into_iter().find_map(|model| {
-        greatest(&mut graph, compiled, model, [&stress[..], &[modulus]].concat())
-    });
+    let of_defaults = chart_of(&mut graph, compiled, &BTreeMap::new());
+    let of_ranges = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let formulas = [&stress[..], &[modulus]].concat();
+    let found =
+        [of_defaults, of_ranges].iter().find_map(|chart| greatest(&mut graph, chart, &formulas));
     match found {
         Some((stress, witness)) => Rest::Stressed(stress, witness),
         None if graph.work().is_over() => Rest::Unknown,
@@ -85,23 +87,11 @@ pub fn stress(compiled: &Compiled) -> Rest {
     }
 }
 
-fn without_ranges(model: &Model) -> Model {
-    let mut model = model.clone();
-    model.parameters.iter_mut().for_each(|parameter| parameter.range = None);
-    model
-}
-
-/// Of points spread over a domain, that where a component of a stress is greatest beside the modulus, which comes last;
+/// Of points spread over a chart, that where a component of a stress is greatest beside the modulus, which comes last;
 /// if any is beyond doubt.
-fn greatest(
-    graph: &mut Graph,
-    compiled: &Compiled,
-    model: &Model,
-    formulas: Vec<Expr>,
-) -> Option<(Vec<f64>, Witness)> {
-    let chart = Chart::new(graph, &compiled.field, model, None);
+fn greatest(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Option<(Vec<f64>, Witness)> {
     let output = Output::Expected(0);
-    let formulas = chart.pull_back(graph, &formulas);
+    let formulas = chart.pull_back(graph, formulas);
     let program = schedule_plainly(graph, &BTreeMap::from([(output, formulas)]));
     let mut run = chart.run::<Precise>(&program);
     let mut found: Option<(f64, Vec<f64>, Witness)> = None;
@@ -119,7 +109,7 @@ fn greatest(
         let largest =
             stress.iter().fold(0.0, |largest, component| f64::max(largest, component.abs()));
         if found.as_ref().is_none_or(|(known, ..)| largest > *known) {
-            found = Some((largest, stress, Witness::at_precise(&chart, &fractions).0));
+            found = Some((largest, stress, Witness::at_precise(chart, &fractions).0));
         }
     }
     found.map(|(_, stress, witness)| (stress, witness))

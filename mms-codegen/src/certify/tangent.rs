@@ -51,7 +51,7 @@ impl<'a> Tangent<'a> {
             let mut volume = volume(&gradient);
             volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
             let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|component| component.slope).collect()
+            stress.into_iter().map(|it| slope_of(it.value, it.slope)).collect()
         })
     }
 
@@ -102,9 +102,14 @@ impl<'a> Tangent<'a> {
             let gradient: Vec<_> = gradient.collect();
             let stress =
                 self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|component| component.slope.slope).collect()
+            stress.into_iter().map(|it| slope_of(it.value.value, it.slope.slope)).collect()
         })
     }
+}
+
+/// The slope of a value: of what has none, for instance since a budget is spent, nothing is known.
+fn slope_of(value: Interval, slope: Interval) -> Interval {
+    if value.is_defined() { slope } else { Interval::UNDEFINED }
 }
 
 /// J - 1 of a gradient that is diagonal but for what derivatives are taken by.

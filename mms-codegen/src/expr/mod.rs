@@ -249,6 +249,16 @@ impl Graph {
         None
     }
 
+    /// What `work` finds, and the graph as it was where it reaches the bound: what was found then has to say so.
+    pub(crate) fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+        let before = self.mark();
+        let found = work(self);
+        if self.exhausted && !before.exhausted {
+            self.back_to(before);
+        }
+        found
+    }
+
     /// What `work` finds out with a few more nodes, none of which stays.
     pub(crate) fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let (before, limit) = (self.mark(), self.limit);

@@ -159,9 +159,9 @@ impl<F: Format> Computed<F> {
         Self::of(exact, if by.is_nan() { f64::INFINITY } else { by }).after(OF_FUNCTIONS)
     }
 
-    /// A function of angles whose values are within 1.
-    fn wave(self, exact: Interval, slope: f64) -> Self {
-        if self.reach().farthest() > F::LARGEST_ANGLE {
+    /// A function of angles up to the largest, whose values are within 1.
+    fn wave(self, exact: Interval, slope: f64, largest: f64) -> Self {
+        if self.reach().farthest() > largest {
             return Self::of(exact, f64::INFINITY);
         }
         let by = (slope * self.error).min(2.0);
@@ -175,7 +175,7 @@ impl<F: Format> Computed<F> {
 
 /// The least magnitude within bounds.
 fn nearest_to_zero(bounds: Interval) -> f64 {
-    if bounds.contains(0.0) { 0.0 } else { bounds.lower().abs().min(bounds.upper().abs()) }
+    bounds.magnitude().lower()
 }
 
 impl<F: Format> Neg for Computed<F> {
@@ -318,23 +318,20 @@ impl<F: Format> Scalar for Computed<F> {
     }
 
     fn sin(self) -> Self {
-        self.wave(self.exact.sin(), 1.0)
+        self.wave(self.exact.sin(), 1.0, F::LARGEST_ANGLE)
     }
 
     fn cos(self) -> Self {
-        self.wave(self.exact.cos(), 1.0)
+        self.wave(self.exact.cos(), 1.0, F::LARGEST_ANGLE)
     }
 
     fn sin_pi(self) -> Self {
-        let exact = (self.exact * Interval::pi()).sin();
-        let by = (4.0 * self.error).min(2.0);
-        self.moved(exact, if self.is_finite() { by } else { f64::INFINITY })
+        // Half turns are reduced exactly, however many there are.
+        self.wave((self.exact * Interval::pi()).sin(), 4.0, f64::INFINITY)
     }
 
     fn cos_pi(self) -> Self {
-        let exact = (self.exact * Interval::pi()).cos();
-        let by = (4.0 * self.error).min(2.0);
-        self.moved(exact, if self.is_finite() { by } else { f64::INFINITY })
+        self.wave((self.exact * Interval::pi()).cos(), 4.0, f64::INFINITY)
     }
 
     fn tan(self) -> Self {

@@ -37,9 +37,6 @@ impl Interval {
     pub const UNDEFINED: Interval =
         Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY, defined: false };
 
-    /// From -1 to 1.
-    pub const UNIT: Interval = Interval { lower: -1.0, upper: 1.0, defined: true };
-
     /// The numbers from `lower` to `upper`, both included; undefined unless `lower <= upper`.
     pub fn new(lower: f64, upper: f64) -> Self {
         if lower <= upper { Interval { lower, upper, defined: true } } else { Interval::UNDEFINED }

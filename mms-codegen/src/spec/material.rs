@@ -1,5 +1,7 @@
 //! Materials: the `[material]` table of a field, and material files.
 
+use toml::de::DeTable;
+
 use super::document::Document;
 use super::format::{self, MATERIAL, MATERIAL_FILE, MATERIAL_HEADER};
 use super::formula::Formula;
@@ -101,6 +103,15 @@ impl MaterialUse {
             span,
         }
     }
+}
+
+/// The path of the material file that the text of a field names, as in `model = "./mine.toml"`, for whoever gathers files
+/// before any is read. What is wrong with the text is left to [`super::read_field`].
+pub fn own_material(text: &str) -> Option<String> {
+    let table = DeTable::parse(text).ok()?;
+    let material = table.get_ref().get("material")?.get_ref().as_table()?;
+    let model = material.get("model")?.get_ref().as_str()?;
+    model.ends_with(".toml").then(|| model.to_string())
 }
 
 /// Reads `[material]` of a field.

@@ -31,7 +31,7 @@ pub use document::MAX_FILE;
 pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
 pub use field::{FieldSpec, read_field};
 pub use formula::Formula;
-pub use material::{MaterialSpec, MaterialUse, read_material};
+pub use material::{MaterialSpec, MaterialUse, own_material, read_material};
 pub use rigid::{RigidSpec, Rotation, read_rigid};
 pub use study::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS,

@@ -15,6 +15,7 @@ use crate::method::{Division, Setup};
 use crate::nodal::Nodal;
 use crate::particle::Particles;
 use crate::shape::Shape;
+use crate::stencil::MOST;
 use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
 use crate::{
     Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Matrix, Real,
@@ -23,9 +24,6 @@ use crate::{
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;
-
-/// No particle touches more nodes than this along an axis.
-const MOST_NODES: usize = 4;
 
 /// Cells around the body's motion, on top of what its particles' stencils reach.
 const MARGIN: f64 = 2.0;
@@ -208,7 +206,7 @@ fn cells_along(
     ends_at: &dyn Fn(Face) -> bool,
 ) -> Axis {
     let whole = |distance: f64| (distance / cell_size).ceil().max(0.0);
-    let padding = MOST_NODES as f64 + MARGIN;
+    let padding = MOST as f64 + MARGIN;
     let [mut before, mut after] = [body[0] - motion[0], motion[1] - body[1]].map(whole);
     if setup.periodic[a] {
         (before, after) = (0.0, 0.0);

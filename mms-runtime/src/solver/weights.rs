@@ -9,12 +9,12 @@ use mms_math::machine::Machine;
 use super::AHEAD;
 use super::g2p::{Advance, Residual, Sound};
 use super::p2g::{Stop, Sums};
-use crate::boundary::traction::Point;
+use crate::boundary::traction::{Point, StencilOf};
 use crate::column::{Bunch as _, Bunches, Matrices, Vectors};
 use crate::lanes::{positions, vectors};
 use crate::particle::reorder_bunches;
 use crate::shape::Shape;
-use crate::stencil::{BUNCH, Tensor};
+use crate::stencil::BUNCH;
 use crate::{Cause, Lattice, Matrix, Real, Transfer, Vector};
 
 /// Bunches whose weights are found together, and then their sums: so that a call is little beside them, and there is
@@ -54,14 +54,12 @@ pub(super) struct Kind<T: Real, const D: usize> {
     /// Bytes of the domains of a bunch.
     pub domain: usize,
     /// [`Shape::point`].
-    pub point: PointOf<T, D>,
+    pub point: StencilOf<T, D>,
     /// The undeformed domains of particles, by their half edges.
     pub domains: DomainsOf<T, D>,
 }
 
 type DomainsOf<T, const D: usize> = fn(&[Matrix<f64, D>]) -> Box<dyn Domains<T, D>>;
-
-type PointOf<T, const D: usize> = fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
 
 impl<T: Real, const D: usize> Kind<T, D> {
     pub fn of<S: Shape>() -> Self {

@@ -1,12 +1,12 @@
 //! Runs that are looked at.
 
+use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Frame, Observer, Watch};
 use serde::{Deserialize, Serialize};
 
 use crate::verify::plan::Job;
 use crate::verify::pseudo::Seen;
 use crate::verify::work::{Bench, Fields, Outcome, Step, outcome, watch_of};
-use mms_runtime::scene::{Scene, Solvable};
 
 /// What the key of a run ends with whose energy is measured. Where fields are interpreted it takes as long as all the
 /// rest; so it is the coarsest run of each row.

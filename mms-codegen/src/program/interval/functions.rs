@@ -136,7 +136,7 @@ impl Interval {
     }
 
     /// |x|.
-    fn magnitude(self) -> Self {
+    pub(crate) fn magnitude(self) -> Self {
         let upper = self.lower.abs().max(self.upper.abs());
         let lower = if self.contains(0.0) { 0.0 } else { self.lower.abs().min(self.upper.abs()) };
         Interval { lower, upper, defined: self.defined }

@@ -27,6 +27,7 @@ impl Machine<f64> for Wide {
 
     #[inline(always)]
     fn apart<W: Work<f64>>(self, work: W) -> W::Output {
+        // Safety: there is a `Wide` only where AVX-512 is.
         unsafe { avx512(work) }
     }
 
