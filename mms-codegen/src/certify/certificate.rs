@@ -228,6 +228,9 @@ impl Certificate {
             Finite::Undefined(quantity, _)
                 if *quantity > Quantity::Jacobian
                     && matches!(self.jacobian, Jacobian::Inverted(..)) => {}
+            // What a function that ends there leaves without a value is no mistake of its own.
+            Finite::Undefined(_, witness)
+                if self.exits.iter().any(|it| it.is_certain && it.witness == *witness) => {}
             Finite::Undefined(quantity, witness) => {
                 objections.push(message::undefined(compiled, *quantity, witness));
             }
@@ -283,8 +286,10 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     let (exits, _) =
         branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
     // Where a function ends, its values or its derivatives do, and whoever evaluates them sees that.
-    let certain = exits.iter().filter(|exit| exit.is_certain && exit.must.is_blind());
-    found.extend(certain.map(|exit| message::leaves_branch(compiled, exit)));
+    let certain: Vec<_> = exits.iter().filter(|exit| exit.is_certain).collect();
+    if certain.iter().any(|exit| exit.must.is_blind()) {
+        found.extend(certain.iter().map(|exit| message::leaves_branch(compiled, exit)));
+    }
     let failure = computed::failure(compiled, &chart, Precision::F64);
     found.extend(failure.and_then(|it| message::not_computed(compiled, "f64", &it)));
     for claim in &compiled.field.boundary {
