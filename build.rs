@@ -1,13 +1,17 @@
-//! Finds the field files, and lists them for the command, for the tests and for the crate of the compiled
-//! gallery, which has a link to this script; and the sources of `mms-math` for the workbench. Discovers only: the
-//! files are compiled and reported by others, but for the name of a material that one brings along.
+//! Finds the field files, and lists them for the command and for the tests; and the sources of `mms-math` for the
+//! workbench. A mistake in one of them breaks the build at its place; what derivatives say of it, `mms-gallery` finds.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::{env, fs, io};
+use std::{env, fs, io, process};
 
+use mms_codegen::Options;
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::quantity::Quantity;
+use mms_codegen::selection::Selection;
 use mms_codegen::spec::field_name::validate;
-use mms_codegen::spec::own_material;
+use mms_codegen::spec::{FieldFile, field_files};
 
 /// Modules beside those of the fields, and crates that these files use by name.
 const TAKEN: &[&str] = &[
@@ -28,75 +32,51 @@ fn main() -> io::Result<()> {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=fields");
-    let mut stems = Vec::new();
-    for entry in fs::read_dir(root.join("fields"))? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "toml") {
-            println!("cargo::rerun-if-changed={}", path.display());
-            stems.push(path.file_stem().unwrap_or_default().to_string_lossy().into_owned());
-        }
-    }
-    stems.sort();
-    for stem in &stems {
-        if let Err(mistake) = name(stem) {
+    let files = field_files(&root.join("fields"))?;
+    for file in &files {
+        file.files().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
+        if let Err(mistake) = name(&file.name).and_then(|()| read(file)) {
             // An error that `main` returned would be shown as Rust writes values down.
-            eprintln!("error: fields/{stem}.toml: {mistake}");
-            std::process::exit(1);
+            eprintln!("{mistake}");
+            process::exit(1);
         }
     }
-    if env::var("CARGO_PKG_NAME").as_deref() == Ok("mms-gallery") {
-        return fs::write(out.join("gallery.rs"), gallery(&stems));
-    }
-    fs::write(out.join("fields.rs"), fields(&root.join("fields"), &stems)?)?;
+    fs::write(out.join("fields.rs"), fields(&files))?;
     fs::write(out.join("math.rs"), sources(&root.join("mms-math").join("src"))?)?;
-    fs::write(out.join("field_tests.rs"), field_tests(&stems))
+    fs::write(out.join("field_tests.rs"), field_tests(&files))
 }
 
 /// Refuses what cannot be the name of a module in `mms-gallery/src/lib.rs` and `tests/fields.rs`.
 fn name(stem: &str) -> Result<(), String> {
-    if TAKEN.contains(&stem) {
-        return Err(format!(
-            "`{stem}` is the name of a module that others use: try `{stem}_field`"
-        ));
-    }
-    validate(stem)
+    let taken = format!("`{stem}` is the name of a module that others use: try `{stem}_field`");
+    let name = if TAKEN.contains(&stem) { Err(taken) } else { validate(stem) };
+    name.map_err(|mistake| format!("error: fields/{stem}.toml: {mistake}"))
+}
+
+/// Refuses what is no field. Only the displacement is compiled.
+fn read(file: &FieldFile) -> Result<(), String> {
+    let quantities = Some(BTreeSet::from([Quantity::Displacement]));
+    let options = Options::from(Selection { quantities, ..Selection::default() });
+    let path = format!("fields/{}.toml", file.name);
+    compile_unproved(&file.name, &path, &file.text, &|_| file.load_material(), &options)
+        .map(drop)
+        .map_err(|failure| failure.to_string())
 }
 
 /// Name, path and text of each field, and the text of a material that it brings along.
-fn fields(folder: &Path, stems: &[String]) -> io::Result<String> {
+fn fields(files: &[FieldFile]) -> String {
     let mut text = String::from("&[\n");
-    for stem in stems {
-        let file = folder.join(format!("{stem}.toml"));
-        let material = own_material(&fs::read_to_string(&file)?).map(|path| {
-            let path = file.with_file_name(path);
-            println!("cargo::rerun-if-changed={}", path.display());
-            format!("include_str!({path:?})")
-        });
-        let material = material.map_or("None".into(), |text| format!("Some({text})"));
+    for FieldFile { name, path, material, .. } in files {
+        let material = material.as_ref().map(|path| format!("include_str!({path:?})"));
         writeln!(
             text,
-            "    Entry {{ name: {stem:?}, path: \"fields/{stem}.toml\", text: include_str!({file:?}), \
-             material: {material} }},"
+            "    Entry {{ name: {name:?}, path: \"fields/{name}.toml\", text: include_str!({path:?}), \
+             material: {} }},",
+            material.map_or("None".into(), |text| format!("Some({text})"))
         )
         .expect("writing to a string");
     }
     text.push(']');
-    Ok(text)
-}
-
-/// One module per field, and the list of them.
-fn gallery(stems: &[String]) -> String {
-    let mut text = String::new();
-    for stem in stems {
-        writeln!(text, "mms_macros::field!(\"fields/{stem}.toml\");").expect("writing to a string");
-    }
-    text.push_str(
-        "\n/// The compiled fields, in the order of their names.\npub const FIELDS: &[Code] = &[\n",
-    );
-    for stem in stems {
-        writeln!(text, "    mms_runtime::code!({stem}),").expect("writing to a string");
-    }
-    text.push_str("];\n");
     text
 }
 
@@ -128,6 +108,6 @@ fn sources(folder: &Path) -> io::Result<String> {
 }
 
 /// The properties that hold for every field, once per field.
-fn field_tests(stems: &[String]) -> String {
-    stems.iter().map(|stem| format!("field_tests!({stem});\n")).collect()
+fn field_tests(files: &[FieldFile]) -> String {
+    files.iter().map(|file| format!("field_tests!({});\n", file.name)).collect()
 }

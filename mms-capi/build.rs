@@ -2,35 +2,27 @@
 //! library its name.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::{env, fs, io};
 
-use mms_codegen::spec::own_material;
+use mms_codegen::spec::{FieldFile, field_files};
 
 fn main() -> io::Result<()> {
     let folder =
         PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by Cargo")).join("fields");
     println!("cargo::rerun-if-changed={}", folder.display());
-    let mut files =
-        fs::read_dir(&folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
-    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
-    files.sort();
     let mut list = String::from("&[\n");
-    for path in &files {
-        println!("cargo::rerun-if-changed={}", path.display());
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let material = own_material(&fs::read_to_string(path)?).map(|material| {
-            let path = path.with_file_name(material);
-            println!("cargo::rerun-if-changed={}", path.display());
-            format!("include_str!({path:?})")
-        });
+    for file in field_files(&folder)? {
+        file.files().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
+        let FieldFile { name, path, material, .. } = file;
+        let material = material.map(|path| format!("include_str!({path:?})"));
         let material = material.map_or("None".into(), |text| format!("Some({text})"));
-        writeln!(list, "    (c{stem:?}, include_str!({path:?}), {material}),")
+        writeln!(list, "    (c{name:?}, include_str!({path:?}), {material}),")
             .expect("writing to a string");
     }
     list.push(']');
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
-    fs::write(Path::new(&out).join("gallery.rs"), list)?;
+    fs::write(out.join("gallery.rs"), list)?;
     name_the_library();
     Ok(())
 }

@@ -1,1 +1,81 @@
-../build.rs
+//! Compiles the field files into Rust modules: with the feature `all` every one, otherwise the bar alone. A module is
+//! written again only where its file or the compiler is another one, and those are compiled side by side.
+
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::{env, fs, io, process, thread};
+
+use mms_codegen::compile;
+use mms_codegen::emit::rust_mms_math::module;
+use mms_codegen::spec::{FieldFile, field_files};
+
+/// The field of the main job.
+const MAIN: &str = "bar_1d";
+
+fn main() -> io::Result<()> {
+    let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by Cargo"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=fields");
+    let mut files = field_files(&root.join("fields"))?;
+    files.retain(|file| env::var_os("CARGO_FEATURE_ALL").is_some() || file.name == MAIN);
+    for path in files.iter().flat_map(FieldFile::files) {
+        println!("cargo::rerun-if-changed={}", path.display());
+    }
+    let compiler = fs::read(env::current_exe()?)?;
+    let mistakes = side_by_side(&files, |file| write_module(file, &compiler, &out));
+    if !mistakes.is_empty() {
+        // An error that `main` returned would be shown as Rust writes values down.
+        eprintln!("{}", mistakes.join("\n"));
+        process::exit(1);
+    }
+    fs::write(out.join("gallery.rs"), gallery(&files))
+}
+
+/// What goes wrong with files that the processors share.
+fn side_by_side(
+    files: &[FieldFile],
+    work: impl Fn(&FieldFile) -> Result<(), String> + Sync,
+) -> Vec<String> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let mine = std::iter::from_fn(|| files.get(next.fetch_add(1, Relaxed)));
+        mine.filter_map(|file| work(file).err()).collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        workers.into_iter().flat_map(|it| it.join().expect("a compiler that ends")).collect()
+    })
+}
+
+/// Writes the module of a field, unless it is there.
+fn write_module(file: &FieldFile, compiler: &[u8], out: &Path) -> Result<(), String> {
+    let material = file.material.as_ref().map(|_| file.load_material());
+    let mut hasher = DefaultHasher::new();
+    (&file.text, &material, compiler).hash(&mut hasher);
+    let head = format!("// Made of {:016x}.\n", hasher.finish());
+    let path = out.join(format!("{}.rs", file.name));
+    if fs::read_to_string(&path).is_ok_and(|text| text.starts_with(&head)) {
+        return Ok(());
+    }
+    let shown = format!("fields/{}.toml", file.name);
+    let compiled = compile(&file.name, &shown, &file.text, &|_| file.load_material())
+        .map_err(|failure| failure.to_string())?;
+    let text = format!("{head}{}", module(&compiled));
+    fs::write(&path, text).map_err(|error| format!("error: {}: {error}", path.display()))
+}
+
+/// One module per field, and the list of them.
+fn gallery(files: &[FieldFile]) -> String {
+    let modules = files
+        .iter()
+        .map(|file| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{}.rs\"));\n", file.name));
+    let codes = files.iter().map(|file| format!("    mms_runtime::code!({}),\n", file.name));
+    format!(
+        "{}\n/// The compiled fields, in the order of their names.\npub const FIELDS: &[Code] = &[\n{}];\n",
+        modules.collect::<String>(),
+        codes.collect::<String>()
+    )
+}

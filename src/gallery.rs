@@ -22,20 +22,10 @@ pub struct Entry {
 /// The shipped fields, in the order of their names.
 pub const FIELDS: &[Entry] = include!(concat!(env!("OUT_DIR"), "/fields.rs"));
 
-#[cfg(feature = "gallery")]
-use mms_gallery::FIELDS as COMPILED;
-
-#[cfg(not(feature = "gallery"))]
-mms_macros::field!("fields/bar_1d.toml");
-
-/// What the main job runs. All others are interpreted.
-#[cfg(not(feature = "gallery"))]
-const COMPILED: &[Code] = &[mms_runtime::code!(bar_1d)];
-
 impl Entry {
     /// Its compiled code, where that is part of this program.
     pub fn code(&self) -> Option<&'static Code> {
-        COMPILED.iter().find(|code| code.name == self.name)
+        mms_gallery::find(self.name)
     }
 
     /// Compiles the text again, for what the generated module does not hold.

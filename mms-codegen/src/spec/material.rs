@@ -106,8 +106,8 @@ impl MaterialUse {
 }
 
 /// The path of the material file that the text of a field names, as in `model = "./mine.toml"`, for whoever gathers files
-/// before any is read. What is wrong with the text is left to [`super::read_field`].
-pub fn own_material(text: &str) -> Option<String> {
+/// before any is read. What is wrong with the text is left to [`read_field`](super::read_field).
+pub(super) fn own_material(text: &str) -> Option<String> {
     let table = DeTable::parse(text).ok()?;
     let material = table.get_ref().get("material")?.get_ref().as_table()?;
     let model = material.get("model")?.get_ref().as_str()?;

@@ -15,6 +15,7 @@ mod document;
 mod domain;
 mod field;
 pub mod field_name;
+mod folder;
 pub mod format;
 mod formula;
 mod material;
@@ -30,8 +31,9 @@ pub use check::{CheckSpec, ExtremeSpec};
 pub use document::MAX_FILE;
 pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
 pub use field::{FieldSpec, read_field};
+pub use folder::{FieldFile, field_files};
 pub use formula::Formula;
-pub use material::{MaterialSpec, MaterialUse, own_material, read_material};
+pub use material::{MaterialSpec, MaterialUse, read_material};
 pub use rigid::{RigidSpec, Rotation, read_rigid};
 pub use study::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS,
