@@ -262,21 +262,26 @@ impl Prey<'_> {
         let half = Precise::from_f64(0.5);
         let middle = |a: &Precise, b: &Precise| (a.clone() + b.clone()) * half.clone();
         let [first, last] = [first.collect::<Vec<_>>(), last.collect()];
-        let exact = |at: &[Precise]| self.exact(at);
+        // Beside the first end, since a large u would lose its changes in doubles.
+        let start = self.exact(&first);
+        let exact = |at: &[Precise]| {
+            let changes = self.exact(at).into_iter().zip(&start);
+            changes.map(|(u, start)| (u - start.clone()).to_f64()).collect()
+        };
         let (_, _, [_, left]) = closing_in(&first, &last, EXACT_HALVINGS, middle, exact);
         let place = Witness::at(self.chart, &from).0;
         assert!(left < step / 2.0, "u jumps by {left} at {place:?} of\n{}", self.text);
     }
 
     /// u in 77 digits.
-    fn exact(&self, fractions: &[Precise]) -> Vec<f64> {
+    fn exact(&self, fractions: &[Precise]) -> Vec<Precise> {
         let spot = self.chart.points().point(&self.chart.place(fractions));
         let mut interpreter = Interpreter::new(&self.compiled.program, &spot.parameters);
         let output = Output::Quantity(Quantity::Displacement);
         interpreter.set_time(&spot.time);
         let plan = interpreter.plan(&[output]);
         interpreter.set_point(&plan, Point::at(&spot.coordinates));
-        interpreter.output(output).iter().map(Precise::to_f64).collect()
+        interpreter.output(output)
     }
 }
 
