@@ -36,6 +36,18 @@ fn each_regime_has_rows_or_a_reason() {
 }
 
 #[test]
+fn a_wave_keeps_its_digits_after_a_million_windows() {
+    let request = Request { regimes: Some(vec!["time_1e6".into()]), ..few(64) };
+    let accuracy = measured("travelling_wave_2d", &gallery("travelling_wave_2d"), &request);
+    let is_rounded_once = |precision| matches!(precision, Precision::F32 | Precision::F64);
+    let rows: Vec<_> = accuracy.rows.iter().filter(|row| is_rounded_once(row.precision)).collect();
+    assert_eq!(rows.len(), 2 * Form::ALL.len() * Quantity::ALL.len());
+    for row in rows {
+        assert!(row.errors.max_scaled_eps <= 64.0, "{row:?}");
+    }
+}
+
+#[test]
 fn what_cannot_be_made_is_left_out_with_the_reason() {
     let regimes = ["jacobian_1e-3", "jacobian_1e3", "lambda_mu_0", "subnormal_inputs"];
     let request = Request {

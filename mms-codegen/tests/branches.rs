@@ -229,17 +229,23 @@ fn what_overflows_on_the_way_is_told() {
 
 #[test]
 fn digits_that_sums_lose_are_counted() {
-    let digits = |time: &str| {
-        let case = Case { time, ..Case::of(&["0.01*sin(X + 30*t)"], BOX) };
+    let digits = |u: &str, time: &str| {
+        let u = [u];
+        let case = Case { time, ..Case::of(&u, BOX) };
         let (_, certificate) = certified(&case.text());
         let (digits, witness) = certificate.computed[0].angles.clone().expect("an angle");
         (digits, witness.time)
     };
-    let (near, _) = digits("0, 1");
-    assert!((13.0..16.0).contains(&near), "{near}");
-    // 3e14 has a last digit of 1/32, and its half is what may be missing.
-    let (far, at) = digits("0, 1e13");
-    assert!((0.0..2.0).contains(&far) && at == 1e13, "{far} {at}");
+    for window in ["0, 1", "0, 1e13"] {
+        let (digits, _) = digits("0.01*sin(X + 30*t)", window);
+        assert!((13.0..16.0).contains(&digits), "{window}: {digits}");
+    }
+    // Turns are taken off with 106 bits, of angles up to 2^50.
+    let (digits_of_large, at) = digits("0.01*sin(X + 30*t)", "0, 1e15");
+    assert!(digits_of_large < 0.0 && at == 1e15, "{digits_of_large} {at}");
+    // No part of it is known before X is. 3e13 has a last digit of 1/256, and its half is what may be missing.
+    let (far, at) = digits("1e-15*sin((X + 2)*t)", "0, 1e13");
+    assert!((1.0..3.0).contains(&far) && at == 1e13, "{far} {at}");
 }
 
 #[test]

@@ -59,6 +59,12 @@ macro_rules! scalar {
             fn cos_pi(self) -> Self {
                 known(Lane::<_, false>(self).cos_pi(), || Lane::<_, false>(self % 2.0).cos_pi().0)
             }
+            fn within_turns(self) -> Self {
+                $narrow(Scalar::within_turns($wide::from(self)))
+            }
+            fn within_turns_pi(self) -> Self {
+                $narrow(Scalar::within_turns_pi($wide::from(self)))
+            }
             #[inline]
             fn atan2(self, x: Self) -> Self {
                 known(Lane::<_, false>(self).atan2(Lane(x)), || $float::atan2(self, x))

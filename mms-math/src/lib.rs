@@ -45,6 +45,15 @@ pub use lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// Up to so many half turns [`Scalar::within_turns_pi`] leaves an angle as it is: sums with it lose no digits that count.
+pub const FEW_HALF_TURNS: f64 = 8.0;
+
+/// Up to so many radians [`Scalar::within_turns`] leaves an angle as it is.
+pub const FEW_RADIANS: f64 = 25.0;
+
+/// Larger angles in radians, 2^50, are not reduced with twice the digits of an `f64`.
+pub const LARGEST_ANGLE: f64 = 1125899906842624.0;
+
 /// A real number in some precision: the arithmetic and the elementary functions of a field.
 ///
 /// `Clone` rather than `Copy`, so that arbitrary-precision numbers qualify. Outside a function's
@@ -134,6 +143,15 @@ pub trait Scalar:
     /// The cosine of an angle in half turns.
     fn cos_pi(self) -> Self {
         (Self::pi() * self).cos()
+    }
+    /// An angle in radians that differs from this one by whole turns: of [`FEW_RADIANS`] at most, where a type takes
+    /// turns off with all its digits; else the same.
+    fn within_turns(self) -> Self {
+        self
+    }
+    /// The same of an angle in half turns, of [`FEW_HALF_TURNS`] at most: whole turns are taken off without error.
+    fn within_turns_pi(self) -> Self {
+        self
     }
     /// The tangent of an angle in radians.
     fn tan(self) -> Self;

@@ -258,7 +258,10 @@ fn digits_that_a_sum_loses_are_told() {
     );
     folder.write("near.toml", &text);
     folder.mms("check near.toml").exits(0).prints("angles are right to 14 digits after the point");
-    folder.write("far.toml", &text.replace("[0, 1]\n", "[0, 1e13]\n"));
+    let far = text.replace("[0, 1]\n", "[0, 1e13]\n");
+    folder.write("late.toml", &far);
+    folder.mms("check late.toml").exits(0).prints("angles are right to 14 digits after the point");
+    folder.write("far.toml", &far.replace("0.01*sin(X + 30*t)", "1e-15*sin((X + 2)*t)"));
     let far = folder.mms("check far.toml").exits(0);
     far.prints("FEWER THAN SIX digits after the point: 1 near X = 1, t = 1e13");
     let json = folder.mms("check far.toml --json").exits(0).json();

@@ -466,6 +466,8 @@ fn circular(graph: &mut Graph, function: Function, x: Expr) -> Expr {
     let plain = match function {
         Function::SinPi => Function::Sin,
         Function::CosPi => Function::Cos,
+        // Only sines and cosines of it are taken, to which turns are nothing.
+        other if other.takes_turns_off() => return x,
         other => return graph.call(other.of_any_argument(), &[x]),
     };
     let pi = graph.pi();

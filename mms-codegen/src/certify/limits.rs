@@ -127,6 +127,8 @@ fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<L
         | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
+        | Function::WithinTurns
+        | Function::WithinTurnsPi
         | Function::Sinh
         | Function::Cosh
         | Function::Tanh

@@ -16,6 +16,7 @@ use crate::mechanics::offset::about_its_place;
 use crate::mechanics::{Derivation, Model, TooLarge, derive};
 use crate::pass::half_turns::half_turns;
 use crate::pass::relations::Relations;
+use crate::pass::whole_turns::whole_turns;
 use crate::program::schedule::schedule;
 use crate::program::{Bound, Op, Output, Program};
 use crate::simplify::{simplify, twins};
@@ -165,6 +166,9 @@ impl<'a> Phases<'a> {
             *components = half_turns(graph, components);
         }
         near_zero(graph, field, model, &mut outputs);
+        for components in outputs.values_mut() {
+            *components = whole_turns(graph, components);
+        }
         if graph.is_exhausted() {
             self.diagnostics.push(too_large(field, graph, "simplified form"));
             return None;

@@ -209,7 +209,8 @@ impl Graph {
         u8::try_from(turns).ok()
     }
 
-    fn leads_with_minus(&self, expr: Expr) -> bool {
+    /// Whether the first term of a sum is subtracted.
+    pub(crate) fn leads_with_minus(&self, expr: Expr) -> bool {
         let Node::Sum(constant, terms) = self.node(expr) else { return false };
         let leading = terms.first().map_or(constant, |(_, coefficient)| coefficient);
         is_negative(leading)
@@ -374,6 +375,8 @@ fn value_at_zero(function: Function) -> Option<i32> {
         | Function::Ln1p
         | Function::Ln1pRest
         | Function::SinPi
+        | Function::WithinTurns
+        | Function::WithinTurnsPi
         | Function::Sin
         | Function::SinNearZero
         | Function::SinWithinOne

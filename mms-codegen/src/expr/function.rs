@@ -41,6 +41,8 @@ functions! {
     CosWithinOne "cos_within_one" 1 "The cosine of such an angle.",
     SinPi "sin_pi" 1 "sin(pi x).",
     CosPi "cos_pi" 1 "cos(pi x).",
+    WithinTurns "within_turns" 1 "An angle less whole turns, where it is more than a few.",
+    WithinTurnsPi "within_turns_pi" 1 "The same of an angle in half turns.",
     Tan "tan" 1 "The tangent.",
     Sinh "sinh" 1 "The hyperbolic sine.",
     Cosh "cosh" 1 "The hyperbolic cosine.",
@@ -54,6 +56,11 @@ functions! {
 }
 
 impl Function {
+    /// Whether it is its argument but for whole turns.
+    pub fn takes_turns_off(self) -> bool {
+        matches!(self, Function::WithinTurns | Function::WithinTurnsPi)
+    }
+
     /// The same function for whoever expects nothing of its argument.
     pub fn of_any_argument(self) -> Self {
         match self {

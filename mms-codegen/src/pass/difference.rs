@@ -291,6 +291,8 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
         | Function::Sqrt
         | Function::SinPi
         | Function::CosPi
+        | Function::WithinTurns
+        | Function::WithinTurnsPi
         | Function::SinNearZero
         | Function::CosNearZero
         | Function::SinWithinOne

@@ -170,6 +170,7 @@ fn partial(
             let sin = graph.call(Function::Sin, &[x]);
             graph.scale(sin, -1)
         }
+        Function::WithinTurns | Function::WithinTurnsPi => graph.number(1),
         // 1 + tan^2 and 1 - tanh^2 reuse the value itself.
         Function::Tan => one_plus_square(graph, value, 1),
         Function::Sinh => graph.call(Function::Cosh, &[x]),

@@ -18,6 +18,7 @@ pub mod separate;
 pub mod settle;
 pub mod shift;
 pub mod substitute;
+pub mod whole_turns;
 
 use crate::expr::{Expr, Rational};
 

@@ -9,7 +9,7 @@
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use mms_math::Scalar;
+use mms_math::{FEW_HALF_TURNS, FEW_RADIANS, LARGEST_ANGLE, Scalar};
 
 use super::interpret::Number;
 use super::interval::Interval;
@@ -157,6 +157,20 @@ impl<F: Format> Computed<F> {
         // 0 times an infinite slope is 0: an argument without an error gives a value without one.
         let by = if self.error == 0.0 { 0.0 } else { by * SLACK };
         Self::of(exact, if by.is_nan() { f64::INFINITY } else { by }).after(OF_FUNCTIONS)
+    }
+
+    /// An angle less whole turns, if it is more than a few: exact is what is left when as many are taken off as are taken
+    /// off what is computed, which may be one more or less where that is between two.
+    fn within(self, few: f64, largest: f64) -> Self {
+        let farthest = self.reach().farthest();
+        if !self.is_finite() || farthest <= few {
+            return self;
+        }
+        let few = (few + self.error) * SLACK;
+        // What is too large stays as it is.
+        let all = if farthest > largest { self.exact } else { Interval::from_f64(0.0) };
+        let exact = Interval::new(all.lower().min(-few), all.upper().max(few));
+        Self::of(exact, self.error).after(OF_FUNCTIONS)
     }
 
     /// A function of angles up to the largest, whose values are within 1.
@@ -332,6 +346,14 @@ impl<F: Format> Scalar for Computed<F> {
 
     fn cos_pi(self) -> Self {
         self.wave((self.exact * Interval::pi()).cos(), 4.0, f64::INFINITY)
+    }
+
+    fn within_turns(self) -> Self {
+        self.within(FEW_RADIANS, LARGEST_ANGLE)
+    }
+
+    fn within_turns_pi(self) -> Self {
+        self.within(FEW_HALF_TURNS, f64::INFINITY)
     }
 
     fn tan(self) -> Self {

@@ -26,7 +26,7 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
     let Some(function) = function else { return OF_INTERVALS };
     let farthest = lower.abs().max(upper.abs());
     match function {
-        Function::Offset => OF_INTERVALS,
+        Function::Offset | Function::WithinTurns | Function::WithinTurnsPi => OF_INTERVALS,
         Function::Sin
         | Function::SinNearZero
         | Function::SinWithinOne
@@ -72,7 +72,7 @@ pub fn of_digits(function: Option<Function>, bits: usize, exponent: isize) -> u6
     let words = (bits / 256) as u64;
     let Some(function) = function else { return OF_DIGITS * words };
     let of_few = match function {
-        Function::Offset => OF_DIGITS,
+        Function::Offset | Function::WithinTurns | Function::WithinTurnsPi => OF_DIGITS,
         Function::Sqrt | Function::Cbrt => 4 * OF_DIGITS,
         // A large angle is reduced in as many more digits.
         Function::Sin

@@ -236,6 +236,8 @@ pub(crate) fn unary<T: Scalar>(function: Function, x: T) -> T {
         Function::CosWithinOne => x.cos_within_one(),
         Function::SinPi => x.sin_pi(),
         Function::CosPi => x.cos_pi(),
+        Function::WithinTurns => x.within_turns(),
+        Function::WithinTurnsPi => x.within_turns_pi(),
         Function::Tan => x.tan(),
         Function::Sinh => x.sinh(),
         Function::Cosh => x.cosh(),

@@ -235,6 +235,8 @@ fn command(function: Function) -> String {
         | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
+        | Function::WithinTurns
+        | Function::WithinTurnsPi
         | Function::Atan2
         | Function::Powf
         | Function::Offset => {

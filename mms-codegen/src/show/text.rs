@@ -241,6 +241,8 @@ pub(super) fn word(function: Function) -> &'static str {
         Function::CosWithinOne => "cos_within_one",
         Function::SinPi => "sin_pi",
         Function::CosPi => "cos_pi",
+        Function::WithinTurns => "within_turns",
+        Function::WithinTurnsPi => "within_turns_pi",
         Function::Tan => "tan",
         Function::Sinh => "sinh",
         Function::Cosh => "cosh",

@@ -278,6 +278,8 @@ impl Writer<'_> {
             | Function::CosWithinOne
             | Function::SinPi
             | Function::CosPi
+            | Function::WithinTurns
+            | Function::WithinTurnsPi
             | Function::Tan
             | Function::Sinh
             | Function::Cosh

@@ -7,7 +7,7 @@ use mms_math::{Double, Scalar};
 
 use super::sample::Random;
 use super::sample::Range::Magnitudes;
-use super::{COUNT, magnitude, of, rounded};
+use super::{COUNT, exact, magnitude, of, rounded};
 
 #[test]
 fn rationals_are_rounded_once() {
@@ -83,4 +83,39 @@ fn functions_have_their_symmetries_and_exact_values() {
     same(one.acos(), zero);
     same(one.asin(), Double::pi() * of(0.5));
     same(one.atan(), Double::pi() * of(0.25));
+}
+
+/// How often `turn` goes into what was taken off an angle, and what that differs from a whole number by.
+fn turns_between(angle: Double, rest: Double, turn: Precise) -> (f64, f64) {
+    let turns = (exact(angle) - exact(rest)) / turn;
+    let whole = turns.to_f64().round();
+    (whole, (turns - Precise::from_f64(whole)).to_f64())
+}
+
+#[test]
+fn whole_turns_are_taken_off_large_angles_and_no_others() {
+    let two_pi = || Precise::pi() + Precise::pi();
+    let mut random = Random(9);
+    for _ in 0..COUNT {
+        let angle = random.of(Magnitudes(4.7, 49.9));
+        let rest = angle.within_turns();
+        let (turns, error) = turns_between(angle, rest, two_pi());
+        assert!(turns != 0.0 && rest.to_f64().abs() <= 3.3, "{angle:?} {rest:?}");
+        // Which turns are nearest is asked in 53 bits.
+        assert!(error.abs() <= 2_f64.powi(-106), "{angle:?} {error:e}");
+        assert_eq!(angle.to_f64().within_turns(), of(angle.to_f64()).within_turns().to_f64());
+
+        let rest = angle.within_turns_pi();
+        let (turns, error) = turns_between(angle, rest, Precise::from_f64(2.0));
+        assert!(turns != 0.0 && rest.to_f64().abs() <= 1.0 && error == 0.0, "{angle:?} {rest:?}");
+        let larger = random.of(Magnitudes(50.0, 900.0));
+        assert!(larger.within_turns_pi().to_f64().abs() <= 1.0, "{larger:?}");
+        same(larger.within_turns_pi().sin_pi(), larger.sin_pi());
+
+        let small = random.of(Magnitudes(-300.0, 3.0));
+        same(small.within_turns(), small);
+        same(small.within_turns_pi(), small);
+        let beyond = random.of(Magnitudes(50.0, 900.0));
+        same(beyond.within_turns(), beyond);
+    }
 }

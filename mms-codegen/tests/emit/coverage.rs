@@ -37,7 +37,8 @@ time = [0.25, 0.75]
 
 /// Each function of an argument between 0.1 and 0.8, and what else it takes.
 fn functions(graph: &mut Graph, x: Expr, y: Expr) -> Vec<Expr> {
-    let mut calls: Vec<Expr> = (Function::ALL.iter())
+    let alone = |function: &&Function| !function.takes_turns_off();
+    let mut calls: Vec<Expr> = (Function::ALL.iter().filter(alone))
         .map(|function| match function.arity() {
             1 => graph.call(*function, &[x]),
             _ => graph.call(*function, &[x, y]),
@@ -69,6 +70,24 @@ fn functions(graph: &mut Graph, x: Expr, y: Expr) -> Vec<Expr> {
     for (height, width) in [(1, -1), (-1, -1), (-1, 1)] {
         let (height, width) = (graph.scale(x, height), graph.scale(y, width));
         calls.push(graph.call(Function::Atan2, &[height, width]));
+    }
+    calls
+}
+
+/// Sines and cosines of angles that whole turns are taken off, which is done before a point is known, and of others.
+fn within_turns(graph: &mut Graph, x: Expr) -> Vec<Expr> {
+    let mut calls = Vec::new();
+    for (within, functions) in [
+        (Function::WithinTurns, [Function::Sin, Function::Cos]),
+        (Function::WithinTurnsPi, [Function::SinPi, Function::CosPi]),
+    ] {
+        for (function, factor) in
+            functions.into_iter().flat_map(|it| [(it, 7), (it, -4001), (it, 40_000_000)])
+        {
+            let angle = graph.scale(x, factor);
+            let angle = graph.call(within, &[angle]);
+            calls.push(graph.call(function, &[angle]));
+        }
     }
     calls
 }
@@ -162,10 +181,12 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
     let xt = graph.mul(x, t);
     let xt = graph.add(xt, x);
-    let of_parameters = functions(&mut graph, a, b);
+    let mut of_parameters = functions(&mut graph, a, b);
+    of_parameters.extend(within_turns(&mut graph, a));
     let rests = of_parameters.iter().map(|it| rest(&mut graph, *it, &parameters)).collect();
     let mut programs: Vec<Vec<Expr>> = vec![rests, of_parameters, Vec::new(), Vec::new()];
     programs[1].extend(functions(&mut graph, t, b));
+    programs[1].extend(within_turns(&mut graph, t));
     for (index, [x, y, z]) in [(0, [t, b, a]), (2, [x, y, z]), (3, [xt, y, t])] {
         programs[index].extend(pairs(&mut graph, x, y, z));
         programs[index].push(nest(&mut graph, x, y, 60));
@@ -199,6 +220,6 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
             println!("{} {index}: {error} eps", target.name);
         }
     }
-    // A program has a difference in place of an offset.
-    assert_eq!(seen.len(), 4 * (Function::ALL.len() - 1), "{seen:?}");
+    // A program has a difference in place of an offset, and takes turns off before a point is known.
+    assert_eq!(seen.len(), 4 * (Function::ALL.len() - 3) + 2 * 2, "{seen:?}");
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
 
-use mms_codegen::emit::Subject;
+use mms_codegen::emit::{Subject, Target};
 use mms_codegen::{Compiled, Options, compile_with};
 
 use super::build::{all_are_required, can_prove, in_pairs, ports, prove, quick};
@@ -34,6 +34,23 @@ fn compiled(path: &Path) -> Compiled {
     };
     compile_with(&stem, &path.to_string_lossy(), &text, &load, &Options::default())
         .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// Languages that compute in one precision lose the digits of such angles.
+const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
+
+#[test]
+fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/late");
+    for name in ["wave_in_radians", "wave_in_half_turns"] {
+        let field = compiled(&folder.join(format!("{name}.toml")));
+        let subject = Subject::new(&field);
+        let is_meant = |target: &&'static Target| !ONE_PRECISION.contains(&target.name);
+        for target in ports().filter(|target| can_prove(target)).filter(is_meant) {
+            let error = prove(target, &subject, &format!("late/{name}"), quick);
+            println!("{} {name}: {error} eps", target.name);
+        }
+    }
 }
 
 /// All pairs of a field and a language where compilers are required; elsewhere, to take no more than

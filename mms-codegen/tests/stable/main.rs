@@ -150,6 +150,11 @@ fn a_field_far_away_has_the_values_of_the_same_field_at_the_origin() {
 
 /// What is kept apart for the sake of small strains may lose digits at large ones.
 #[test]
+fn waves_hold_after_many_periods() {
+    hold(measured_in("tests/data/late"));
+}
+
+#[test]
 fn graded_moduli_hold_at_large_shear() {
     hold(measured_in("tests/data/graded"));
 }

@@ -33,7 +33,9 @@ const EVERYWHERE: &[Function] = &[
 ];
 
 fn functions(arity: usize) -> Vec<Function> {
-    Function::ALL.iter().copied().filter(|function| function.arity() == arity).collect()
+    // Turns are taken off for sines and cosines alone.
+    let is_one = |function: &Function| function.arity() == arity && !function.takes_turns_off();
+    Function::ALL.iter().copied().filter(is_one).collect()
 }
 
 /// Recipes that have a value nearly everywhere.
@@ -188,6 +190,8 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::CosWithinOne => a.cos_within_one(),
                 Function::SinPi => a.sin_pi(),
                 Function::CosPi => a.cos_pi(),
+                Function::WithinTurns => a.within_turns(),
+                Function::WithinTurnsPi => a.within_turns_pi(),
                 Function::Tan => a.tan(),
                 Function::Sinh => a.sinh(),
                 Function::Cosh => a.cosh(),

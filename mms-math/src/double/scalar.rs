@@ -63,6 +63,14 @@ impl Scalar for Double {
         self.cosine_of_half_turns()
     }
 
+    fn within_turns(self) -> Self {
+        self.less_turns()
+    }
+
+    fn within_turns_pi(self) -> Self {
+        self.less_pairs_of_half_turns()
+    }
+
     fn sin(self) -> Self {
         self.circular_sine()
     }

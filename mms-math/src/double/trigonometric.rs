@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 use super::Double;
 use super::exact::{exact_sum, exponent, nearest_integer, two_product};
 use super::series::{COSINE, INVERSE_TANGENT, SINE, polynomial};
+use crate::{FEW_HALF_TURNS, FEW_RADIANS, LARGEST_ANGLE};
 
 /// pi and the inverse tangents of 1/2 and 1, both parts rounded to nearest.
 pub(super) const DOUBLE_PI: Double = Double { high: PI, low: 1.2246467991473532e-16 };
@@ -22,9 +23,6 @@ const HALF_PI_PARTS: [f64; 6] = [
     2.836115989820158e-66,
     8.724931080676243e-84,
 ];
-
-/// Larger angles, 2^50, are not reduced.
-const LARGEST_ANGLE: f64 = 1125899906842624.0;
 
 /// The sine, for |x| <= 0.8.
 fn sine(x: Double) -> Double {
@@ -59,19 +57,26 @@ fn quarter_turns(angle: Double) -> (i64, Double) {
         return (0, Double::NAN);
     }
     let count = nearest_integer(angle.high * FRAC_2_PI);
-    if count == 0.0 {
-        return (0, angle);
-    }
+    (count as i64, if count == 0.0 { angle } else { less_quarters(angle, count) })
+}
+
+/// What a whole number of quarter turns, below 2^51, leaves of an angle.
+fn less_quarters(angle: Double, count: f64) -> Double {
     let [a, b, c, d, e, f] = HALF_PI_PARTS.map(|part| two_product(-count, part));
     let rest = exact_sum([
         f.1, f.0, e.1, e.0, d.1, d.0, c.1, c.0, b.1, b.0, a.1, a.0, angle.low, angle.high,
     ]);
-    (count as i64, Double::new(rest[0], rest[1]))
+    Double::new(rest[0], rest[1])
+}
+
+/// An angle in half turns less whole turns, of less than two.
+fn less_whole_turns(angle: Double) -> Double {
+    Double::new(angle.high % 2.0, angle.low % 2.0)
 }
 
 /// The same of an angle in units of pi: exact, but for the factor pi of what is left.
 fn quarter_turns_of_half(angle: Double) -> (i64, Double) {
-    let within_a_turn = Double::new(angle.high % 2.0, angle.low % 2.0);
+    let within_a_turn = less_whole_turns(angle);
     let count = nearest_integer(2.0 * within_a_turn.high);
     // Infinite angles, which `%` has made not a number, pass through.
     (count as i64, (within_a_turn - Double::of(0.5 * count)) * DOUBLE_PI)
@@ -123,6 +128,24 @@ impl Double {
     pub(super) fn cosine_of_half_turns(self) -> Self {
         let (quarters, rest) = quarter_turns_of_half(self);
         sine_of_turn(quarters + 1, rest)
+    }
+
+    /// An angle of more than a few radians less the nearest whole turns, as long as it can be reduced.
+    pub(super) fn less_turns(self) -> Self {
+        let magnitude = self.high.abs();
+        if !(magnitude > FEW_RADIANS && magnitude <= LARGEST_ANGLE) {
+            return self;
+        }
+        less_quarters(self, 4.0 * nearest_integer(self.high * (0.25 * FRAC_2_PI)))
+    }
+
+    /// The same of an angle in half turns, of any size.
+    pub(super) fn less_pairs_of_half_turns(self) -> Self {
+        if self.high.abs() <= FEW_HALF_TURNS {
+            return self;
+        }
+        let within = less_whole_turns(self);
+        within - Double::of(2.0 * nearest_integer(0.5 * within.high))
     }
 
     /// The angle of (`x`, `self`), from the first octant by reflections.

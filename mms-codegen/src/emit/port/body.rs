@@ -67,6 +67,8 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
         | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
+        | Function::WithinTurns
+        | Function::WithinTurnsPi
         | Function::Offset => None,
         Function::Sqrt
         | Function::Cbrt

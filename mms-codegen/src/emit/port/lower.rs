@@ -95,7 +95,7 @@ impl Lowering<'_> {
     }
 
     fn call(&mut self, function: Function, x: Value) -> Value {
-        if self.has.contains(&function) {
+        if self.has.contains(&function) && !function.takes_turns_off() {
             return self.push(Op::Unary(function, x));
         }
         match function {
@@ -161,6 +161,8 @@ impl Lowering<'_> {
             | Function::Sin
             | Function::Cos
             | Function::Tan => unreachable!("every language has {}", function.name()),
+            // What is computed in one precision has lost its digits before.
+            Function::WithinTurns | Function::WithinTurnsPi => x,
             Function::SinNearZero
             | Function::CosNearZero
             | Function::SinWithinOne

@@ -305,7 +305,7 @@ functions! {
     Atan atan;
     Atan2 atan2
     Powf powf;
-    not: Sqrt Offset
+    not: Sqrt Offset WithinTurns WithinTurnsPi
 }
 
 /// Runs a plan with the quick functions, over the first pieces of a block.

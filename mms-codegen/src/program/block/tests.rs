@@ -47,7 +47,8 @@ fn program(recipe: &[(u8, u16, u16)]) -> Program {
             22 | 23 => Op::Divide(a, b),
             24 => Op::Negate(a),
             _ => {
-                let function = Function::ALL[usize::from(*what) * 7 % Function::ALL.len()];
+                let functions = at_points();
+                let function = functions[usize::from(*what) * 7 % functions.len()];
                 match function.arity() {
                     1 => Op::Unary(function, a),
                     _ => Op::Binary(function, a, b),
@@ -253,9 +254,14 @@ proptest! {
     }
 }
 
+/// The functions that programs have at points.
+fn at_points() -> Vec<Function> {
+    Function::ALL.iter().copied().filter(|function| !function.takes_turns_off()).collect()
+}
+
 /// A program in which each function is called, sums have products, and results are read later.
 fn everything() -> Program {
-    let functions = Function::ALL.len() as u8;
+    let functions = at_points().len() as u8;
     let recipe: Vec<_> = (0..2 * u16::from(functions))
         .map(|k| ((25 + k * 32 / 7) as u8 | 24, k.wrapping_mul(7919) | 0x8000, 0xD000 ^ k))
         .chain(
@@ -282,18 +288,41 @@ fn every_number_of_points_has_the_bits_of_one_point() {
 
 #[test]
 fn every_function_of_wild_numbers_has_the_bits_of_one_point() {
-    for function in Function::ALL {
+    for function in at_points() {
         let x = Op::Input(Symbol::Coordinate(0));
         let y = Op::Input(Symbol::Coordinate(1));
         let call = match function.arity() {
-            1 => Op::Unary(*function, Value(0)),
-            _ => Op::Binary(*function, Value(0), Value(1)),
+            1 => Op::Unary(function, Value(0)),
+            _ => Op::Binary(function, Value(0), Value(1)),
         };
         let outputs = BTreeMap::from([(quantity(), vec![Value(2)])]);
         let program = in_stage_order(vec![x, y, call], outputs);
         hold::<f64>(&program, &WILD, 300);
         hold::<f32>(&program, &WILD, 300);
         hold::<f64>(&program, &[-0.0, 1e-320, 0.25, -3.0], 9);
+    }
+}
+
+/// The time times 1e13 is an angle of many turns, in either unit.
+#[test]
+fn whole_turns_are_taken_off_as_at_one_point() {
+    for (within, wave) in
+        [(Function::WithinTurns, Function::Sin), (Function::WithinTurnsPi, Function::CosPi)]
+    {
+        let ops = vec![
+            Op::Constant(Rational::from(10_000_000_000_000_i64)),
+            Op::Input(Symbol::Time),
+            Op::Multiply(Value(0), Value(1)),
+            Op::Unary(within, Value(2)),
+            Op::Input(Symbol::Coordinate(0)),
+            Op::Subtract(Value(4), Value(3)),
+            Op::Unary(wave, Value(5)),
+        ];
+        let outputs = BTreeMap::from([(quantity(), vec![Value(6)])]);
+        let program = in_stage_order(ops, outputs);
+        hold::<f64>(&program, &MILD, 130);
+        hold::<f32>(&program, &MILD, 260);
+        hold::<Double>(&program, &MILD, 65);
     }
 }
 

@@ -211,19 +211,25 @@ FIELD_FUNCTION wide sine_of_turn(double quarters, wide rest)
     return turn < 2 ? result : -result;
 }
 
-/// The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
-FIELD_FUNCTION wide sine_of_angle(wide angle, double quarters)
+/// What whole quarter turns leave of an angle, up to 2^50.
+FIELD_FUNCTION wide less_quarters(wide angle, double count)
 {
     const double half_pi_parts[4] = {1.5707963267948966, 6.123233995736766e-17,
                                      -1.4973849048591698e-33, 5.562271104316826e-50};
-    if (!(std::fabs(angle.high) < 1125899906842624.0)) {
-        return wide_of(angle.high - angle.high);
-    }
-    const double count = nearest_integer(angle.high / half_pi_parts[0]);
     for (const double part : half_pi_parts) {
         angle = angle - two_product(count, part);
     }
-    return sine_of_turn(count + quarters, angle);
+    return angle;
+}
+
+/// The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
+FIELD_FUNCTION wide sine_of_angle(wide angle, double quarters)
+{
+    if (!(std::fabs(angle.high) < 1125899906842624.0)) {
+        return wide_of(angle.high - angle.high);
+    }
+    const double count = nearest_integer(angle.high / 1.5707963267948966);
+    return sine_of_turn(count + quarters, less_quarters(angle, count));
 }
 
 FIELD_FUNCTION wide wide_sin(wide a)
@@ -260,6 +266,26 @@ FIELD_FUNCTION wide wide_sin_pi(wide a)
 FIELD_FUNCTION wide wide_cos_pi(wide a)
 {
     return sine_of_half_turns(a, 1.0);
+}
+
+/// An angle of more than a few radians, up to 2^50, less whole turns.
+FIELD_FUNCTION wide wide_within_turns(wide a)
+{
+    const double size = std::fabs(a.high);
+    if (!(size > 25.0 && size < 1125899906842624.0)) {
+        return a;
+    }
+    return less_quarters(a, 4.0 * nearest_integer(a.high / 6.283185307179586));
+}
+
+/// The same of an angle in half turns, of any size.
+FIELD_FUNCTION wide wide_within_turns_pi(wide a)
+{
+    if (!(std::fabs(a.high) > 8.0 && std::isfinite(a.high))) {
+        return a;
+    }
+    const wide turn = two_sum(std::fmod(a.high, 2.0), std::fmod(a.low, 2.0));
+    return turn - wide_of(2.0 * nearest_integer(0.5 * turn.high));
 }
 
 /// (e^a - e^-a)/2: from e = exp_m1(a) as (e + e/(1 + e))/2 where the difference would cancel.

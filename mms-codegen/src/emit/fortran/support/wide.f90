@@ -277,25 +277,32 @@ contains
     if (turn > 1) y = -y
   end function sine_of_turn
 
+  ! What whole quarter turns leave of an angle, up to 2^50.
+  pure function less_quarters(angle, count_) result(y)
+    type(wide), intent(in) :: angle
+    real(dp), intent(in) :: count_
+    type(wide) :: y
+    real(dp), parameter :: half_pi_parts(4) = [1.5707963267948966_dp, 6.123233995736766e-17_dp, &
+                                               -1.4973849048591698e-33_dp, 5.562271104316826e-50_dp]
+    integer :: part
+    y = angle
+    do part = 1, 4
+      y = y - two_product(count_, half_pi_parts(part))
+    end do
+  end function less_quarters
+
   ! The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
   pure function sine_of_angle(angle, quarters) result(y)
     type(wide), intent(in) :: angle
     real(dp), intent(in) :: quarters
     type(wide) :: y
-    real(dp), parameter :: half_pi_parts(4) = [1.5707963267948966_dp, 6.123233995736766e-17_dp, &
-                                               -1.4973849048591698e-33_dp, 5.562271104316826e-50_dp]
     real(dp) :: count_
-    integer :: part
     if (.not. abs(angle%high) < 1125899906842624.0_dp) then
       y = wide_of(sqrt(-abs(angle%high)))
       return
     end if
-    count_ = nearest_integer(angle%high / half_pi_parts(1))
-    y = angle
-    do part = 1, 4
-      y = y - two_product(count_, half_pi_parts(part))
-    end do
-    y = sine_of_turn(count_ + quarters, y)
+    count_ = nearest_integer(angle%high / 1.5707963267948966_dp)
+    y = sine_of_turn(count_ + quarters, less_quarters(angle, count_))
   end function sine_of_angle
 
   pure function wide_sin(a) result(y)
@@ -343,6 +350,27 @@ contains
     type(wide) :: y
     y = sine_of_half_turns(a, 1.0_dp)
   end function wide_cos_pi
+
+  ! An angle of more than a few radians, up to 2^50, less whole turns.
+  pure function wide_within_turns(a) result(y)
+    type(wide), intent(in) :: a
+    type(wide) :: y
+    y = a
+    if (abs(a%high) > 25.0_dp .and. abs(a%high) < 1125899906842624.0_dp) then
+      y = less_quarters(a, 4.0_dp * nearest_integer(a%high / 6.283185307179586_dp))
+    end if
+  end function wide_within_turns
+
+  ! The same of an angle in half turns, of any size.
+  pure function wide_within_turns_pi(a) result(y)
+    type(wide), intent(in) :: a
+    type(wide) :: y
+    y = a
+    if (abs(a%high) > 8.0_dp .and. abs(a%high) <= huge(a%high)) then
+      y = two_sum(mod(a%high, 2.0_dp), mod(a%low, 2.0_dp))
+      y = y - wide_of(2.0_dp * nearest_integer(0.5_dp * y%high))
+    end if
+  end function wide_within_turns_pi
 
   ! (e^a - e^-a)/2: from e = exp_m1(a) as (e + e/(1 + e))/2 where the difference would cancel.
   pure function wide_sinh(a) result(y)

@@ -18,6 +18,10 @@ end
 
 ln_1p_rest(x::BigFloat) = x - log1p(x)
 
+# An angle of more than a few radians less whole turns, and one in half turns.
+within_turns(x) = abs(x) <= 25 ? x : x - 2 * BigFloat(pi) * round(x / (2 * BigFloat(pi)))
+within_turns_pi(x) = abs(x) <= 8 ? x : x - 2 * round(x / 2)
+
 # A prepared field is one thing wherever functions are broadcast.
 Base.broadcastable(field::Field) = Ref(field)
 Base.broadcastable(now::Instant) = Ref(now)

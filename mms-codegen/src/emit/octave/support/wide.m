@@ -183,18 +183,22 @@ function r = sine_of_turn(quarters, rest)
   end
 end
 
+function angle = less_quarters(angle, count)
+  % What whole quarter turns leave of an angle, up to 2^50.
+  parts = [1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33, 5.562271104316826e-50];
+  for part = parts
+    angle = wide_sub(angle, two_product(count, part));
+  end
+end
+
 function r = sine_of_angle(angle, quarters)
   % The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
-  parts = [1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33, 5.562271104316826e-50];
   if ~(abs(angle(1)) < 1125899906842624)
     r = [NaN, 0];
     return
   end
-  count = round(angle(1) / parts(1));
-  for part = parts
-    angle = wide_sub(angle, two_product(count, part));
-  end
-  r = sine_of_turn(count + quarters, angle);
+  count = round(angle(1) / 1.5707963267948966);
+  r = sine_of_turn(count + quarters, less_quarters(angle, count));
 end
 
 function r = wide_sin(a)
@@ -227,6 +231,23 @@ end
 
 function r = wide_cos_pi(a)
   r = sine_of_half_turns(a, 1);
+end
+
+function r = wide_within_turns(a)
+  % An angle of more than a few radians, up to 2^50, less whole turns.
+  r = a;
+  if abs(a(1)) > 25 && abs(a(1)) < 1125899906842624
+    r = less_quarters(a, 4 * round(a(1) / 6.283185307179586));
+  end
+end
+
+function r = wide_within_turns_pi(a)
+  % The same of an angle in half turns, of any size.
+  r = a;
+  if abs(a(1)) > 8 && isfinite(a(1))
+    turn = two_sum(rem(a(1), 2), rem(a(2), 2));
+    r = wide_sub(turn, [2 * round(0.5 * turn(1)), 0]);
+  end
 end
 
 function r = wide_sinh(a)

@@ -185,14 +185,19 @@ def _sine_of_turn(quarters, rest):
     return result if quarters % 4 < 2 else -result
 
 
+def _less_quarters(angle, count):
+    """What whole quarter turns leave of an angle, up to 2^50."""
+    for part in _HALF_PI_PARTS:
+        angle = angle - _two_product(float(count), part)
+    return angle
+
+
 def _sine_of_angle(angle, quarters):
     """The sine of an angle and of as many quarter turns more; not a number beyond 2^50."""
     if not abs(angle.high) < 1125899906842624.0:
         return _Wide(math.nan)
     count = round(angle.high / _HALF_PI_PARTS[0])
-    for part in _HALF_PI_PARTS:
-        angle = angle - _two_product(float(count), part)
-    return _sine_of_turn(count + quarters, angle)
+    return _sine_of_turn(count + quarters, _less_quarters(angle, count))
 
 
 def _wide_sin(a):
@@ -222,6 +227,21 @@ def _wide_sin_pi(a):
 
 def _wide_cos_pi(a):
     return _sine_of_half_turns(a, 1)
+
+
+def _wide_within_turns(a):
+    """An angle of more than a few radians, up to 2^50, less whole turns."""
+    if not 25.0 < abs(a.high) < 1125899906842624.0:
+        return a
+    return _less_quarters(a, 4 * round(a.high / math.tau))
+
+
+def _wide_within_turns_pi(a):
+    """The same of an angle in half turns, of any size."""
+    if not 8.0 < abs(a.high) < math.inf:
+        return a
+    turn = _two_sum(math.fmod(a.high, 2.0), math.fmod(a.low, 2.0))
+    return turn - _Wide(2.0 * round(0.5 * turn.high))
 
 
 def _wide_sinh(a):

@@ -216,20 +216,24 @@ fn sine_of_turn(quarters: f64, rest: Wide) -> Wide {
     if turn < 2 { result } else { -result }
 }
 
-/// The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
-fn sine_of_angle(angle: Wide, quarters: f64) -> Wide {
+/// What whole quarter turns leave of an angle, up to 2^50.
+fn less_quarters(angle: Wide, count: f64) -> Wide {
     const HALF_PI_PARTS: [f64; 4] = [
         core::f64::consts::FRAC_PI_2,
         6.123233995736766e-17,
         -1.4973849048591698e-33,
         5.562271104316826e-50,
     ];
+    HALF_PI_PARTS.iter().fold(angle, |rest, part| rest - two_product(count, *part))
+}
+
+/// The sine of an angle and of as many quarter turns more; not a number beyond 2^50.
+fn sine_of_angle(angle: Wide, quarters: f64) -> Wide {
     if !(Real::magnitude(angle.high) < 1125899906842624.0) {
         return wide_of(f64::NAN);
     }
-    let count = nearest_integer(angle.high / HALF_PI_PARTS[0]);
-    let rest = HALF_PI_PARTS.iter().fold(angle, |rest, part| rest - two_product(count, *part));
-    sine_of_turn(count + quarters, rest)
+    let count = nearest_integer(angle.high / core::f64::consts::FRAC_PI_2);
+    sine_of_turn(count + quarters, less_quarters(angle, count))
 }
 
 fn wide_sin(a: Wide) -> Wide {
@@ -260,6 +264,24 @@ fn wide_sin_pi(a: Wide) -> Wide {
 
 fn wide_cos_pi(a: Wide) -> Wide {
     sine_of_half_turns(a, 1.0)
+}
+
+/// An angle of more than a few radians, up to 2^50, less whole turns.
+fn wide_within_turns(a: Wide) -> Wide {
+    let size = Real::magnitude(a.high);
+    if !(size > 25.0 && size < 1125899906842624.0) {
+        return a;
+    }
+    less_quarters(a, 4.0 * nearest_integer(a.high / core::f64::consts::TAU))
+}
+
+/// The same of an angle in half turns, of any size.
+fn wide_within_turns_pi(a: Wide) -> Wide {
+    if !(Real::magnitude(a.high) > 8.0 && a.high.is_finite()) {
+        return a;
+    }
+    let turn = two_sum(a.high % 2.0, a.low % 2.0);
+    turn - wide_of(2.0 * nearest_integer(0.5 * turn.high))
 }
 
 /// (e^a - e^-a)/2: from e = exp_m1(a) as (e + e/(1 + e))/2 where the difference would cancel.
