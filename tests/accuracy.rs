@@ -3,7 +3,7 @@
 #[path = "../examples/accuracy/sample.rs"]
 mod sample;
 
-use mms_codegen::accuracy::Request;
+use mms_codegen::accuracy::{Precision, Request};
 use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Form;
 
@@ -57,18 +57,20 @@ fn the_page_shows_what_the_stable_form_promises() {
     for field in sample::files().iter().map(|file| sample::stem(file)) {
         for (regime, numbers) in committed(&page, &field) {
             let is_small = regime.starts_with("displacement") && regime != "displacement_1e-15";
-            if regime != "declared" && (!is_small || field == UNMENDED) {
+            let is_late = regime == "time_1e6";
+            if regime != "declared" && !is_late && (!is_small || field == UNMENDED) {
                 continue;
             }
             rows += 1;
             for (column, number) in sample::columns().zip(numbers) {
-                let is_promised = column.1 == Form::Stable;
+                let is_promised =
+                    column.1 == Form::Stable && !(is_late && column.0 == Precision::Wide);
                 let holds = number.is_some_and(|number| number <= PROMISED);
                 assert!(holds || !is_promised, "{field} {regime} {column:?}: {number:?}");
             }
         }
     }
-    assert_eq!(rows, 4 * sample::files().len() - 3);
+    assert_eq!(rows, 5 * sample::files().len() - 3);
 }
 
 /// The fields of which that is so hold what the page says.

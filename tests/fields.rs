@@ -423,9 +423,8 @@ fn agree_in_single<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Qu
 /// Whether numbers are equal; what is none has no bits.
 #[expect(clippy::eq_op, reason = "what is no number differs from itself")]
 fn are_same<T: PartialEq>(found: &[T], expected: &[T]) -> bool {
-    let same = |(found, expected): (&T, &T)| {
-        found == expected || found != found && expected != expected
-    };
+    let same =
+        |(found, expected): (&T, &T)| found == expected || found != found && expected != expected;
     found.len() == expected.len() && found.iter().zip(expected).all(same)
 }
 

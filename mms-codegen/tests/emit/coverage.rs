@@ -82,7 +82,7 @@ fn within_turns(graph: &mut Graph, x: Expr) -> Vec<Expr> {
         (Function::WithinTurnsPi, [Function::SinPi, Function::CosPi]),
     ] {
         for (function, factor) in
-            functions.into_iter().flat_map(|it| [(it, 7), (it, -4001), (it, 40_000_000)])
+            functions.into_iter().flat_map(|it| [(it, -4001), (it, 40_000_000)])
         {
             let angle = graph.scale(x, factor);
             let angle = graph.call(within, &[angle]);

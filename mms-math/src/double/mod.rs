@@ -13,6 +13,8 @@
 //! | ln_1p_rest | 3 |
 //! | powf | 7, reached where the power is near 2^900 or 2^-900 |
 //!
+//! Of angles that whole turns are taken off, what is left has an error of less than 2^-106 turns.
+//!
 //! They hold for any argument whose low part, and that of the result and of products on the way, is
 //! a normal number: for magnitudes from 2^-960 to 2^1020, say 1e-289 to 1e307. Below, digits fade
 //! until those of `f64` are left; above, up to the overflow, the low part of a product may be
