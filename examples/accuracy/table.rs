@@ -39,10 +39,10 @@ error of eps in X already changes what is divided by J by eps/J: no evaluation i
 better. `lost` counts components that are not finite although the true value is within range; those
 whose true value is beyond it are no loss. Magnitudes below the least normal number count as that one.
 
-The stable form promises 64 eps as declared, at displacements down to 1e-12 of the size, and in single
-and double precision 1e6 time windows later: a test holds the page to that, with the one exception
-below. But for J near 0 and far from 1, and for inputs and amplitudes at the ends of the range, beyond
-64 eps is, in the stable form,
+The stable form promises 64 eps as declared, and at displacements down to 1e-12 of the size: a test
+holds the page to that, with the one exception below, and in single and double precision to the same
+1e6 time windows later. But for J near 0 and far from 1, and for inputs and amplitudes at the ends of
+the range, beyond 64 eps is, in the stable form,
 
 | regime | what is lost | why |
 |---|---|---|
