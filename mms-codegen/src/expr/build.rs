@@ -70,21 +70,21 @@ impl Graph {
             return self.exhaust();
         }
         let mut constant = Rational::ZERO;
-        let mut collected = BTreeMap::<Expr, Rational>::new();
+        let mut open = Vec::<(Expr, Rational)>::new();
         for (expr, coefficient) in terms {
             match self.node(expr) {
-                Node::Number(number) => constant += number * &coefficient,
+                Node::Number(number) => constant += times(number, &coefficient),
                 Node::Sum(inner_constant, inner) => {
-                    constant += inner_constant * &coefficient;
-                    for (term, inner_coefficient) in inner {
-                        *collected.entry(*term).or_default() += inner_coefficient * &coefficient;
+                    if !inner_constant.is_zero() {
+                        constant += times(inner_constant, &coefficient);
                     }
+                    let scaled = |(term, own): &(Expr, Rational)| (*term, times(own, &coefficient));
+                    open.extend(inner.iter().map(scaled));
                 }
-                _ => *collected.entry(expr).or_default() += coefficient,
+                _ => open.push((expr, coefficient)),
             }
         }
-        collected.retain(|_, coefficient| !coefficient.is_zero());
-        let terms: Vec<_> = collected.into_iter().collect();
+        let terms = collected(open);
         let steps = |number: &Rational| STEPS_OF_TERM + steps_of_length(number);
         self.work.spend(steps(&constant) + terms.iter().map(|(_, it)| steps(it)).sum::<u64>());
         if is_long(&constant) || terms.iter().any(|(_, coefficient)| is_long(coefficient)) {
@@ -252,12 +252,39 @@ impl Graph {
     }
 }
 
+/// a b.
+fn times(a: &Rational, b: &Rational) -> Rational {
+    if b.is_one() {
+        a.clone()
+    } else if a.is_one() {
+        b.clone()
+    } else {
+        a * b
+    }
+}
+
+/// Terms or factors in order, each once with all its numbers added up, but for what comes to 0.
+fn collected(mut open: Vec<(Expr, Rational)>) -> Vec<(Expr, Rational)> {
+    if !open.is_sorted_by(|(a, _), (b, _)| a < b) {
+        open.sort_by_key(|(expr, _)| *expr);
+        open.dedup_by(|(expr, number), (last, total)| {
+            let is_same = expr == last;
+            if is_same {
+                *total += std::mem::take(number);
+            }
+            is_same
+        });
+    }
+    open.retain(|(_, number)| !number.is_zero());
+    open
+}
+
 /// Collects the factors of a product until none of them can be opened further.
 #[derive(Default)]
 struct Collector {
     open: Vec<(Expr, Rational)>,
     coefficient: Option<Rational>,
-    factors: BTreeMap<Expr, Rational>,
+    factors: Vec<(Expr, Rational)>,
 }
 
 impl Collector {
@@ -266,38 +293,30 @@ impl Collector {
             while let Some((base, exponent)) = self.open.pop() {
                 self.take(graph, base, exponent);
             }
-            self.factors.retain(|_, exponent| !exponent.is_zero());
+            self.factors = collected(self.factors);
             // Exponents that met may have become integers: x^(1/2) x^(1/2) opens x.
-            let openable: Vec<_> = self
-                .factors
-                .iter()
-                .filter(|(base, exponent)| opens(graph, **base, exponent))
-                .map(|(base, _)| *base)
-                .collect();
-            if openable.is_empty() {
+            let is_openable =
+                |(base, exponent): &mut (Expr, Rational)| opens(graph, *base, exponent);
+            self.open.extend(self.factors.extract_if(.., is_openable));
+            if self.open.is_empty() {
                 break;
             }
-            for base in openable {
-                if let Some(exponent) = self.factors.remove(&base) {
-                    self.open.push((base, exponent));
-                }
-            }
         }
-        (self.coefficient.unwrap_or(Rational::ONE), self.factors.into_iter().collect())
+        (self.coefficient.unwrap_or(Rational::ONE), self.factors)
     }
 
     fn take(&mut self, graph: &mut Graph, base: Expr, exponent: Rational) {
         if exponent.is_zero() {
             return;
         }
-        match graph.node(base).clone() {
-            Node::Number(number) => match number_power(&number, &exponent) {
+        match graph.node(base) {
+            Node::Number(number) => match number_power(number, &exponent) {
                 Some(power) => self.multiply(power),
                 None => self.keep(base, exponent),
             },
             Node::Product(factors) if exponent.is_int() => {
-                self.open
-                    .extend(factors.into_iter().map(|(base, inner)| (base, inner * &exponent)));
+                let powers = factors.iter().map(|(base, inner)| (*base, times(inner, &exponent)));
+                self.open.extend(powers);
             }
             Node::Sum(..) if exponent.is_int() => self.take_sum(graph, base, exponent),
             Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
@@ -331,12 +350,14 @@ impl Collector {
     }
 
     fn keep(&mut self, base: Expr, exponent: Rational) {
-        *self.factors.entry(base).or_default() += exponent;
+        self.factors.push((base, exponent));
     }
 
     fn multiply(&mut self, number: Rational) {
-        let coefficient = self.coefficient.take().unwrap_or(Rational::ONE);
-        self.coefficient = Some(coefficient * number);
+        self.coefficient = Some(match self.coefficient.take() {
+            Some(coefficient) => times(&coefficient, &number),
+            None => number,
+        });
     }
 }
 

@@ -74,6 +74,11 @@ pub(crate) fn magnitude(number: &Rational) -> Rational {
     if is_negative(number) { -number.clone() } else { number.clone() }
 }
 
+/// Whether a number is 1 or -1.
+pub(crate) fn is_unit(number: &Rational) -> bool {
+    number.is_one() || *number == Rational::NEG_ONE
+}
+
 /// Whether a number is below 0; a comparison would multiply.
 pub(crate) fn is_negative(number: &Rational) -> bool {
     number.sign() == Sign::Negative
@@ -112,7 +117,7 @@ impl Node {
 pub const DEFAULT_MAX_NODES: usize = 200_000;
 
 /// What it takes to make a node or to find it, and so much more for each operand.
-const STEPS_OF_NODE: u64 = 20;
+pub(crate) const STEPS_OF_NODE: u64 = 20;
 const STEPS_OF_OPERAND: u64 = 10;
 
 /// An arena of hash-consed nodes, of bounded size.
@@ -288,7 +293,11 @@ impl Graph {
 
     /// The handle of a canonical node that was made already.
     pub(crate) fn find(&self, node: &Node) -> Option<Expr> {
-        self.index.find(hash(node), |expr| self.node(*expr) == node).copied()
+        self.find_hashed(node, hash(node))
+    }
+
+    fn find_hashed(&self, node: &Node, hash: u64) -> Option<Expr> {
+        self.index.find(hash, |expr| self.node(*expr) == node).copied()
     }
 
     /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
@@ -327,7 +336,8 @@ impl Graph {
         if self.work.is_over() {
             return self.exhaust();
         }
-        if let Some(expr) = self.find(&node) {
+        let own_hash = hash(&node);
+        if let Some(expr) = self.find_hashed(&node, own_hash) {
             return expr;
         }
         self.size += 1 + node.children().count();
@@ -336,24 +346,26 @@ impl Graph {
         if is_full && !self.nodes.is_empty() {
             return self.exhaust();
         }
-        self.enter(node)
+        self.enter_new(node, own_hash)
     }
 
     /// The handle of a node, which is made if there is none, whatever the bound.
     fn enter(&mut self, node: Node) -> Expr {
-        if let Some(expr) = self.find(&node) {
-            return expr;
-        }
+        let own_hash = hash(&node);
+        self.find_hashed(&node, own_hash).unwrap_or_else(|| self.enter_new(node, own_hash))
+    }
+
+    /// The handle of a node that was not there.
+    fn enter_new(&mut self, node: Node, own_hash: u64) -> Expr {
         let expr = Expr(self.nodes.len() as u32);
         let own = match node {
             Node::Symbol(symbol) => Stage::of(symbol),
             _ => Stage::Parameter,
         };
         self.stages.push(node.children().fold(own, |stage, child| stage.join(self.stage(child))));
-        let hash_of_node = hash(&node);
         self.nodes.push(node);
         let nodes = &self.nodes;
-        self.index.insert_unique(hash_of_node, expr, |expr| hash(&nodes[expr.index()]));
+        self.index.insert_unique(own_hash, expr, |expr| hash(&nodes[expr.index()]));
         expr
     }
 
@@ -371,8 +383,8 @@ impl Graph {
     }
 
     /// Everything that `roots` depend on, themselves included, operands before users.
-    pub fn reachable(&self, roots: &[Expr]) -> BTreeSet<Expr> {
-        let reached = reachable(roots, |expr| self.node(expr).children());
+    pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
+        let reached = reachable(roots, Expr::index, |expr| self.node(expr).children());
         self.work.spend(STEPS_OF_NODE * reached.len() as u64);
         reached
     }
@@ -403,18 +415,62 @@ impl Graph {
     }
 }
 
-/// Everything that `roots` are made of, themselves included, where these are the `operands` of each.
-pub(crate) fn reachable<N, O>(roots: &[N], operands: impl Fn(N) -> O) -> BTreeSet<N>
+/// Everything that `roots` are made of, themselves included, in order, where these are the `operands` of each and `place`
+/// is its position, which none of its operands is behind.
+pub(crate) fn reachable<N, O>(
+    roots: &[N],
+    place: impl Fn(N) -> usize,
+    operands: impl Fn(N) -> O,
+) -> Vec<N>
 where
     N: Copy + Ord,
     O: IntoIterator<Item = N>,
 {
-    let mut seen = BTreeSet::new();
-    let mut open = roots.to_vec();
+    let size = roots.iter().map(|root| place(*root) + 1).max().unwrap_or(0);
+    let mut seen = vec![false; size];
+    let (mut open, mut reached) = (roots.to_vec(), Vec::new());
     while let Some(next) = open.pop() {
-        if seen.insert(next) {
+        if !std::mem::replace(&mut seen[place(next)], true) {
+            reached.push(next);
             open.extend(operands(next));
         }
     }
-    seen
+    reached.sort_unstable();
+    reached
+}
+
+/// Something for each of some expressions.
+#[derive(Clone, Debug)]
+pub(crate) struct ByExpr<T> {
+    /// One more than the place of what there is; 0 for nothing.
+    places: Vec<u32>,
+    values: Vec<T>,
+}
+
+impl<T> ByExpr<T> {
+    /// Room for what `roots` are made of.
+    pub fn of(roots: &[Expr]) -> Self {
+        let size = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
+        ByExpr { places: vec![0; size], values: Vec::new() }
+    }
+
+    /// Puts something there, once.
+    pub fn set(&mut self, expr: Expr, value: T) {
+        self.values.push(value);
+        self.places[expr.index()] = self.values.len() as u32;
+    }
+
+    /// What is there, if there is something.
+    pub fn get(&self, expr: Expr) -> Option<&T> {
+        let place = *self.places.get(expr.index())?;
+        self.values.get((place as usize).wrapping_sub(1))
+    }
+}
+
+impl<T> std::ops::Index<Expr> for ByExpr<T> {
+    type Output = T;
+
+    fn index(&self, expr: Expr) -> &T {
+        self.get(expr).expect("operands come before their users")
+    }
 }

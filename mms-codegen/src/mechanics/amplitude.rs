@@ -11,7 +11,7 @@ use super::model::Model;
 use super::place::{
     Place, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
 };
-use crate::expr::{Expr, Graph, Node, Rational, Symbol};
+use crate::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 use crate::pass::curvature::{self, curvature};
 use crate::pass::difference::{Parts, difference};
 use crate::pass::factor::factor;
@@ -57,7 +57,7 @@ impl Amplitude {
         let edges = edges(graph, model, &defaults);
         let moves = |places: &[Place]| {
             let values = evaluate(graph, &model.displacement, places);
-            model.displacement.iter().any(|u| !vanishes(&values[u]))
+            model.displacement.iter().any(|u| !vanishes(&values[*u]))
         };
         let of_defaults = places(graph, model, &defaults, PLACES);
         if !moves(&of_defaults) {
@@ -82,7 +82,7 @@ impl Amplitude {
     /// less what it is without an amplitude, where that is 0.
     pub fn mend(&self, graph: &mut Graph, plain: &[Expr], settled: &[Expr]) -> Vec<Expr> {
         let keeps = self.kept(graph, settled).keeps;
-        let lost = |index: &usize| keeps[&settled[*index]] != Keeps::All;
+        let lost = |index: &usize| keeps[settled[*index]] != Keeps::All;
         let lost: Vec<usize> = (0..settled.len()).filter(lost).collect();
         let mut mended = settled.to_vec();
         if lost.is_empty() {
@@ -112,7 +112,7 @@ impl Amplitude {
     /// Whether `after` have values wherever `before` have.
     fn has_values(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
         let values = evaluate(graph, &[before, after].concat(), &self.edges);
-        let finite = |expr: &Expr| values[expr].iter().map(|value| value.to_f64().is_finite());
+        let finite = |expr: &Expr| values[*expr].iter().map(|value| value.to_f64().is_finite());
         let pairs = || before.iter().zip(after);
         pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
     }
@@ -122,7 +122,7 @@ impl Amplitude {
         let parts = difference(graph, exprs, self.symbol);
         let limits: Vec<Expr> = parts.iter().flatten().map(|parts| parts.limit).collect();
         let nothing = evaluate(graph, &limits, &self.anywhere);
-        let mut apart = |Parts { limit, rest }: Parts| match is_identity(&nothing[&limit]) {
+        let mut apart = |Parts { limit, rest }: Parts| match is_identity(&nothing[limit]) {
             true => rest,
             false => graph.add(limit, rest),
         };
@@ -142,14 +142,14 @@ impl Amplitude {
         let early = factor(graph, &early);
         let [here, anywhere] =
             [&self.body, &self.anywhere].map(|places| evaluate(graph, &early, places));
-        if !early.iter().all(|part| vanishes(&here[part])) {
+        if !early.iter().all(|part| vanishes(&here[*part])) {
             return None;
         }
         let symbol = graph.symbol(self.symbol);
         let mut with_early = |(early, parts): (&[Expr], &curvature::Parts)| {
             let linear = graph.mul(symbol, early[1]);
             let kept = [(early[0], early[0]), (early[1], linear)].into_iter();
-            let kept = kept.filter(|(part, _)| !is_identity(&anywhere[part]));
+            let kept = kept.filter(|(part, _)| !is_identity(&anywhere[*part]));
             let terms = kept.map(|(_, term)| term).chain([parts.rest]);
             graph.sum(terms.map(|term| (term, Rational::ONE)).collect::<Vec<_>>())
         };
@@ -164,7 +164,7 @@ impl Amplitude {
                 place.parameters[self.index] = Double::from_f64(amplitude) * self.usual;
             }
             let values = evaluate(graph, roots, &places);
-            let sizes = roots.iter().flat_map(|root| &values[root]).map(|it| it.to_f64().abs());
+            let sizes = roots.iter().flat_map(|root| &values[*root]).map(|it| it.to_f64().abs());
             sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
         };
         let (whole, half) = (largest(SMALL), largest(SMALL / 2.0));
@@ -176,15 +176,16 @@ impl Amplitude {
     /// keeps them. Of a product it is enough that one small factor does.
     pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
         let keeps = self.kept(graph, roots).keeps;
-        roots.iter().all(|root| keeps[root] != Keeps::None)
+        roots.iter().all(|root| keeps[*root] != Keeps::None)
     }
 
     fn kept(&self, graph: &Graph, roots: &[Expr]) -> Kept {
         let values = evaluate(graph, roots, &self.body);
-        let mut kept = Kept { keeps: BTreeMap::new(), lossy: Vec::new() };
-        for (expr, at) in &values {
-            let of = |child: &Expr| vanishes(&values[child]).then(|| kept.keeps[child]);
-            let node = graph.node(*expr);
+        let mut kept = Kept { keeps: ByExpr::of(roots), lossy: Vec::new() };
+        for expr in values.reached.iter().copied() {
+            let at = &values[expr];
+            let of = |child: &Expr| vanishes(&values[*child]).then(|| kept.keeps[*child]);
+            let node = graph.node(expr);
             let keeps = match node {
                 _ if !vanishes(at) => Keeps::All,
                 Node::Number(_) | Node::Pi | Node::Symbol(_) => Keeps::All,
@@ -206,9 +207,9 @@ impl Amplitude {
                 }
             };
             if keeps == Keeps::None && matches!(node, Node::Sum(..)) {
-                kept.lossy.push(*expr);
+                kept.lossy.push(expr);
             }
-            kept.keeps.insert(*expr, keeps);
+            kept.keeps.set(expr, keeps);
         }
         kept
     }
@@ -237,6 +238,6 @@ enum Keeps {
 
 /// Of all that expressions are made of, how well it keeps its digits, and which sums do not.
 struct Kept {
-    keeps: BTreeMap<Expr, Keeps>,
+    keeps: ByExpr<Keeps>,
     lossy: Vec<Expr>,
 }

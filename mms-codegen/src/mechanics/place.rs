@@ -1,11 +1,9 @@
 //! Values of expressions at a few places, in double-double: what is 0, and what is so whatever the parameters are.
 
-use std::collections::BTreeMap;
-
 use mms_math::{Double, Scalar as _};
 
 use super::model::{Body, Model};
-use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::expr::{ByExpr, Expr, Function, Graph, Node, Rational, Symbol};
 use crate::program::interpret::{Number as _, binary, unary};
 use crate::sample::{Extent, halton, spread};
 
@@ -33,8 +31,8 @@ pub(super) fn cancel(graph: &mut Graph, model: &Model, terms: &[Expr]) -> bool {
     let places = anywhere(graph, model, &defaults(graph, model), None);
     let values = evaluate(graph, &[&[sum], terms].concat(), &places);
     let is_something = |value: &Double| value.to_f64().is_finite() && value.to_f64() != 0.0;
-    let counts = |index: &usize| terms.iter().any(|term| is_something(&values[term][*index]));
-    let sums = (0..places.len()).filter(counts).map(|index| values[&sum][index]);
+    let counts = |index: &usize| terms.iter().any(|term| is_something(&values[*term][*index]));
+    let sums = (0..places.len()).filter(counts).map(|index| values[sum][index]);
     is_identity(&sums.collect::<Vec<_>>())
 }
 
@@ -181,24 +179,36 @@ fn nowhere(parameters: &[Double]) -> Place {
 }
 
 fn value(graph: &Graph, expr: Expr, place: &Place) -> Double {
-    evaluate(graph, &[expr], std::slice::from_ref(place))[&expr][0]
+    evaluate(graph, &[expr], std::slice::from_ref(place))[expr][0]
+}
+
+/// Values at some places of everything that some expressions are made of.
+pub(super) struct Values {
+    /// What they are made of, operands before users.
+    pub reached: Vec<Expr>,
+    /// Of each, the values at all places.
+    values: ByExpr<Vec<Double>>,
+}
+
+impl std::ops::Index<Expr> for Values {
+    type Output = [Double];
+
+    fn index(&self, expr: Expr) -> &[Double] {
+        &self.values[expr]
+    }
 }
 
 /// The values of everything that `roots` are made of; what cancels is 0.
-pub(super) fn evaluate(
-    graph: &Graph,
-    roots: &[Expr],
-    places: &[Place],
-) -> BTreeMap<Expr, Vec<Double>> {
-    let mut values = BTreeMap::<Expr, Vec<Double>>::new();
+pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Place]) -> Values {
+    let mut values = ByExpr::<Vec<Double>>::of(roots);
     let reached = graph.reachable(roots);
     graph.work().spend(STEPS_OF_VALUE * (reached.len() * places.len()) as u64);
-    for expr in reached {
-        let at = |(index, place)| at(graph.node(expr), |child| values[&child][index], place);
+    for expr in reached.iter().copied() {
+        let at = |(index, place)| at(graph.node(expr), |child| values[child][index], place);
         let of_places = places.iter().enumerate().map(at).collect();
-        values.insert(expr, of_places);
+        values.set(expr, of_places);
     }
-    values
+    Values { reached, values }
 }
 
 /// The value of a node, where `of` has those of its operands.

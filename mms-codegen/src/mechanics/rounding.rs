@@ -1,13 +1,11 @@
 //! What rounding makes of expressions as they are written, at places of the body: a bound of first order, after Wilkinson
 //! (Rounding Errors in Algebraic Processes, 1963).
 
-use std::collections::BTreeMap;
-
 use mms_math::{Double, Scalar as _};
 
 use super::model::Model;
-use super::place::{Place, STEPS_OF_VALUE, at, defaults, evaluate, places};
-use crate::expr::{Expr, Graph, Node};
+use super::place::{Place, STEPS_OF_VALUE, Values, at, defaults, evaluate, places};
+use crate::expr::{ByExpr, Expr, Graph, Node};
 use crate::program::interpret::Number as _;
 
 /// The part of an operand's error by which an operation is tried with another value of it.
@@ -71,9 +69,9 @@ impl Rounding {
             if graph.work().is_over() {
                 break;
             }
-            let errors = self.errors(graph, &values, index, place);
+            let errors = self.errors(graph, roots, &values, (index, place));
             for root in roots {
-                let (own, size) = (errors[root], values[root][index].to_f64().abs());
+                let (own, size) = (errors[*root], values[*root][index].to_f64().abs());
                 if own.is_finite() && size.is_finite() {
                     (error, value) = (f64::max(error, own), f64::max(value, size));
                 }
@@ -86,22 +84,23 @@ impl Rounding {
     fn errors(
         &self,
         graph: &Graph,
-        values: &BTreeMap<Expr, Vec<Double>>,
-        index: usize,
-        place: &Place,
-    ) -> BTreeMap<Expr, f64> {
-        let mut errors = BTreeMap::<Expr, f64>::new();
-        for (expr, found) in values {
+        roots: &[Expr],
+        values: &Values,
+        (index, place): (usize, &Place),
+    ) -> ByExpr<f64> {
+        let mut errors = ByExpr::of(roots);
+        for expr in values.reached.iter().copied() {
             // Every operand is changed, and the node evaluated with it.
-            let operands = graph.node(*expr).children().count() as u64;
+            let operands = graph.node(expr).children().count() as u64;
             graph.work().spend(STEPS_OF_VALUE * operands * operands);
-            let of = |child: Expr| values[&child][index];
-            let error = match graph.stage(*expr).needs_point() {
-                true => error(graph.node(*expr), found[index], of, &errors, place),
+            let of = |child: Expr| values[child][index];
+            let value = values[expr][index];
+            let error = match graph.stage(expr).needs_point() {
+                true => error(graph.node(expr), value, of, &errors, place),
                 // That has more digits until it is done.
-                false => found[index].to_f64().abs(),
+                false => value.to_f64().abs(),
             };
-            errors.insert(*expr, error);
+            errors.set(expr, error);
         }
         errors
     }
@@ -112,11 +111,11 @@ fn error(
     node: &Node,
     value: Double,
     of: impl Fn(Expr) -> Double,
-    errors: &BTreeMap<Expr, f64>,
+    errors: &ByExpr<f64>,
     place: &Place,
 ) -> f64 {
     let passed_on = node.children().map(|child| {
-        let change = Double::from_f64(PART * errors[&child]);
+        let change = Double::from_f64(PART * errors[child]);
         let changed = |other| if other == child { of(child) + change } else { of(other) };
         (at(node, changed, place) - value).to_f64().abs() / PART
     });

@@ -8,7 +8,7 @@ use crate::expr::{Expr, Graph, Rational};
 pub(super) type Monomial = Vec<(Expr, i32)>;
 
 /// The greatest exponent; beyond it a power is not multiplied out.
-const MAX_EXPONENT: i64 = 1 << 20;
+const MAX_EXPONENT: u32 = 1 << 20;
 
 /// How many terms a polynomial may have.
 const MAX_TERMS: usize = 200;
@@ -141,17 +141,16 @@ pub(super) fn product(graph: &mut Graph, monomial: &Monomial) -> Expr {
 
 /// The product of two monomials.
 fn join(a: &Monomial, b: &Monomial) -> Option<Monomial> {
-    let mut joined: BTreeMap<Expr, i64> =
-        a.iter().map(|(atom, exponent)| (*atom, i64::from(*exponent))).collect();
-    for (atom, exponent) in b {
-        *joined.entry(*atom).or_default() += i64::from(*exponent);
-    }
-    joined
-        .into_iter()
-        .filter(|(_, exponent)| *exponent != 0)
-        .map(|(atom, exponent)| {
-            let exponent = Some(exponent).filter(|exponent| exponent.abs() <= MAX_EXPONENT)?;
-            Some((atom, exponent as i32))
-        })
-        .collect()
+    let mut joined = [&a[..], b].concat();
+    joined.sort_by_key(|(atom, _)| *atom);
+    joined.dedup_by(|(atom, exponent), (last, total)| {
+        let is_same = atom == last;
+        if is_same {
+            *total = total.saturating_add(*exponent);
+        }
+        is_same
+    });
+    joined.retain(|(_, exponent)| *exponent != 0);
+    let is_short = |(_, exponent): &(Expr, i32)| exponent.unsigned_abs() <= MAX_EXPONENT;
+    joined.iter().all(is_short).then_some(joined)
 }

@@ -53,7 +53,8 @@ impl Relations {
         let mut relations = Relations::default();
         let reachable = graph.reachable(expressions);
         for expr in reachable.iter().copied() {
-            let known = |node: Node| graph.find(&node).filter(|expr| reachable.contains(expr));
+            let known =
+                |node: Node| graph.find(&node).filter(|expr| reachable.binary_search(expr).is_ok());
             match graph.node(expr).clone() {
                 Node::Call(Function::Sin, angle) => {
                     let cosine = known(Node::Call(Function::Cos, angle));
@@ -97,14 +98,14 @@ impl Relations {
                 _ => continue,
             };
             let cosine = graph.find(&Node::Call(partner, angle.clone()));
-            if !cosine.is_some_and(|cosine| reachable.contains(&cosine)) {
+            if !cosine.is_some_and(|cosine| reachable.binary_search(&cosine).is_ok()) {
                 continue;
             }
             let half = half_of(graph, angle[0]);
             let [sine, cosine] = [function, partner].map(|function| graph.call(function, &[half]));
             let square = Polynomial::power_of(sine, 2);
             let equal = Polynomial::constant(Rational::ONE).plus(&square, &Rational::from(sign));
-            if !used.contains(&sine) {
+            if used.binary_search(&sine).is_err() {
                 continue;
             }
             relations.squares.extend(equal.map(|equal| (cosine, equal)));
@@ -298,7 +299,7 @@ impl Relations {
         relations
     }
 
-    fn is_steep(&self, graph: &Graph, reachable: &BTreeSet<Expr>) -> bool {
+    fn is_steep(&self, graph: &Graph, reachable: &[Expr]) -> bool {
         // How often powers of sums stand in one another, up to each expression.
         let mut depths = BTreeMap::<Expr, usize>::new();
         for expr in reachable {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Graph, Node, Symbol};
+use crate::expr::{ByExpr, Expr, Graph, Node, Symbol};
 
 /// `roots` with every symbol that `values` names replaced by its value.
 pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, Expr>) -> Vec<Expr> {
@@ -31,19 +31,19 @@ pub fn coordinates(
 
 /// `roots` with whole sub-expressions replaced, wherever they stand as operands.
 pub fn replace(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Expr, Expr>) -> Vec<Expr> {
-    let mut replaced = BTreeMap::<Expr, Expr>::new();
+    let mut replaced = ByExpr::of(roots);
     for expr in graph.reachable(roots) {
         let made = match values.get(&expr) {
             Some(value) => *value,
             None => {
                 let mut node = graph.node(expr).clone();
-                node.map_children(|child| replaced[&child]);
+                node.map_children(|child| replaced[child]);
                 graph.remake(node)
             }
         };
-        replaced.insert(expr, made);
+        replaced.set(expr, made);
     }
-    roots.iter().map(|root| replaced[root]).collect()
+    roots.iter().map(|root| replaced[*root]).collect()
 }
 
 /// Rebuilds `roots` from their leaves up; `make` receives each node with rebuilt operands.
@@ -52,14 +52,14 @@ pub(crate) fn rebuild(
     roots: &[Expr],
     mut make: impl FnMut(&mut Graph, Node) -> Expr,
 ) -> Vec<Expr> {
-    let mut rebuilt = BTreeMap::<Expr, Expr>::new();
+    let mut rebuilt = ByExpr::of(roots);
     for expr in graph.reachable(roots) {
         let mut node = graph.node(expr).clone();
-        node.map_children(|child| rebuilt[&child]);
+        node.map_children(|child| rebuilt[child]);
         let made = make(graph, node);
-        rebuilt.insert(expr, made);
+        rebuilt.set(expr, made);
     }
-    roots.iter().map(|root| rebuilt[root]).collect()
+    roots.iter().map(|root| rebuilt[*root]).collect()
 }
 
 impl Graph {

@@ -3,12 +3,16 @@
 //! Unlike the graph, a sum may contain a sum here and a product a product. So the terms of one
 //! stage can stand apart, and what several operations share can be an operation of its own.
 
-use std::collections::BTreeMap;
+use std::hash::BuildHasher as _;
+use std::ops::AddAssign;
 
 use dashu_int::IBig;
-use rustc_hash::FxHashMap;
+use hashbrown::HashTable;
+use rustc_hash::FxBuildHasher;
 
-use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol, is_negative};
+use crate::expr::{
+    ByExpr, Expr, Function, Graph, Node, Rational, Symbol, is_negative, is_unit, magnitude,
+};
 use crate::program::Stage;
 
 /// Longer sums and products are parted, so that the work on pairs of their operands grows with
@@ -51,12 +55,25 @@ pub(super) enum Form {
 
 impl Form {
     /// The operands.
-    pub(super) fn operands(&self) -> Vec<Item> {
+    pub(super) fn operands(&self) -> impl DoubleEndedIterator<Item = Item> {
+        let (terms, factors, arguments): (&[(Item, Rational)], &[(Item, i32)], &[Item]) = match self
+        {
+            Form::Constant(_) | Form::Pi | Form::Input(_) => (&[], &[], &[]),
+            Form::Sum(terms) => (terms, &[], &[]),
+            Form::Product(factors) => (&[], factors, &[]),
+            Form::Call(_, arguments) => (&[], &[], arguments),
+        };
+        let summed = terms.iter().map(|(item, _)| *item);
+        summed.chain(factors.iter().map(|(item, _)| *item)).chain(arguments.iter().copied())
+    }
+
+    /// How many operands there are.
+    pub(super) fn size(&self) -> usize {
         match self {
-            Form::Constant(_) | Form::Pi | Form::Input(_) => Vec::new(),
-            Form::Sum(terms) => terms.iter().map(|(item, _)| *item).collect(),
-            Form::Product(factors) => factors.iter().map(|(item, _)| *item).collect(),
-            Form::Call(_, arguments) => arguments.clone(),
+            Form::Constant(_) | Form::Pi | Form::Input(_) => 0,
+            Form::Sum(terms) => terms.len(),
+            Form::Product(factors) => factors.len(),
+            Form::Call(_, arguments) => arguments.len(),
         }
     }
 }
@@ -79,42 +96,39 @@ pub(super) enum Scaling {
     Sums,
 }
 
-/// Hash-consed n-ary operations.
-#[derive(Clone, Debug)]
+/// N-ary operations.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Flat {
     pub(super) forms: Vec<Form>,
     pub(super) stages: Vec<Stage>,
-    /// Only ever looked up, never iterated.
-    index: FxHashMap<Form, Item>,
-    grouping: Grouping,
-    scaling: Scaling,
+    /// Whether another grouping makes other operations.
+    pub(super) is_grouped: bool,
+    /// Whether numbers that go into sums make other operations.
+    pub(super) is_scalable: bool,
 }
 
 impl Flat {
-    /// The operations of `roots`, and the item of each root.
+    /// The operations of `roots`, which are made of what is `reached`, and the item of each root.
     pub(super) fn new(
         graph: &Graph,
-        roots: &[Expr],
+        (reached, roots): (&[Expr], &[Expr]),
         grouping: Grouping,
         scaling: Scaling,
     ) -> (Self, Vec<Item>) {
-        let (forms, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
-        let mut flat = Flat { forms, stages, index, grouping, scaling };
-        let mut items = BTreeMap::<Expr, Item>::new();
-        for expr in graph.reachable(roots) {
-            let item = flat.flatten(graph.node(expr), &items);
-            items.insert(expr, item);
+        let mut maker = Maker::new(grouping, scaling);
+        let mut items = ByExpr::of(roots);
+        for expr in reached.iter().copied() {
+            let item = maker.flatten(graph.node(expr), &items);
+            items.set(expr, item);
         }
-        (flat, roots.iter().map(|root| items[root]).collect())
+        (maker.flat, roots.iter().map(|root| items[*root]).collect())
     }
 
     /// So many times ln(-1), which has no value in any arithmetic.
     pub(super) fn void(count: usize) -> (Self, Vec<Item>) {
-        let (forms, stages, index) = (Vec::new(), Vec::new(), FxHashMap::default());
-        let (grouping, scaling) = (Grouping::Staged, Scaling::Factors);
-        let mut flat = Flat { forms, stages, index, grouping, scaling };
-        let number = flat.constant(-1);
-        let void = flat.intern(Form::Call(Function::Ln, vec![number]));
+        let mut flat = Flat::default();
+        let number = flat.push(Form::Constant(Rational::NEG_ONE));
+        let void = flat.push(Form::Call(Function::Ln, vec![number]));
         (flat, vec![void; count])
     }
 
@@ -126,27 +140,51 @@ impl Flat {
         self.stages[item.index()]
     }
 
-    /// The one item of a form.
-    pub(super) fn intern(&mut self, form: Form) -> Item {
-        if let Some(item) = self.index.get(&form) {
-            return *item;
-        }
-        let item = self.push(form.clone());
-        self.index.insert(form, item);
-        item
-    }
-
     /// A new item, which no other form is compared with.
     pub(super) fn push(&mut self, form: Form) -> Item {
         let own = match form {
             Form::Input(symbol) => Stage::of(symbol),
             _ => Stage::Parameter,
         };
-        let operands = form.operands().into_iter();
-        let stage = operands.fold(own, |stage, item| stage.join(self.stage(item)));
+        let stage = form.operands().fold(own, |stage, item| stage.join(self.stage(item)));
         let item = Item(u32::try_from(self.forms.len()).expect("the node limit bounds programs"));
         self.forms.push(form);
         self.stages.push(stage);
+        item
+    }
+}
+
+/// Operations that are being made, hash-consed.
+struct Maker {
+    flat: Flat,
+    /// The items by the hashes of their forms. Only ever looked up, never iterated.
+    index: HashTable<Item>,
+    grouping: Grouping,
+    scaling: Scaling,
+}
+
+/// Operands of the stages, each with a number.
+type Groups<N> = [Vec<(Item, N)>; Stage::ALL.len()];
+
+fn hash(form: &Form) -> u64 {
+    FxBuildHasher.hash_one(form)
+}
+
+impl Maker {
+    fn new(grouping: Grouping, scaling: Scaling) -> Self {
+        Maker { flat: Flat::default(), index: HashTable::new(), grouping, scaling }
+    }
+
+    /// The one item of a form.
+    fn intern(&mut self, form: Form) -> Item {
+        let forms = &self.flat.forms;
+        let own = hash(&form);
+        if let Some(item) = self.index.find(own, |item| forms[item.index()] == form) {
+            return *item;
+        }
+        let item = self.flat.push(form);
+        let forms = &self.flat.forms;
+        self.index.insert_unique(own, item, |item| hash(&forms[item.index()]));
         item
     }
 
@@ -154,7 +192,7 @@ impl Flat {
         self.intern(Form::Constant(number.into()))
     }
 
-    fn flatten(&mut self, node: &Node, items: &BTreeMap<Expr, Item>) -> Item {
+    fn flatten(&mut self, node: &Node, items: &ByExpr<Item>) -> Item {
         match node {
             Node::Number(number) => self.constant(number.clone()),
             Node::Pi => self.intern(Form::Pi),
@@ -165,29 +203,32 @@ impl Flat {
                     flat.push((self.constant(1), constant.clone()));
                 }
                 for (term, coefficient) in terms {
-                    flat.push(self.scaled(items[term], coefficient));
+                    flat.push(self.scaled(items[*term], coefficient));
                 }
                 self.sum(flat)
             }
             Node::Product(factors) => {
                 let mut flat = Vec::new();
                 for (base, exponent) in factors {
-                    self.power(items[base], exponent, &mut flat);
+                    self.power(items[*base], exponent, &mut flat);
                 }
                 self.product(flat)
             }
             Node::Call(Function::Offset, arguments) => {
                 // The number 1 stands for a constant, which is its coefficient.
                 let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
-                let [from, place] = [0, 1].map(|index| items[&arguments[index]]);
-                let place = match self.form(place).clone() {
-                    Form::Constant(number) => (self.constant(1), -number),
+                let [from, place] = [0, 1].map(|index| items[arguments[index]]);
+                let place = match self.flat.form(place) {
+                    Form::Constant(number) => {
+                        let number = -number.clone();
+                        (self.constant(1), number)
+                    }
                     _ => (place, minus_one),
                 };
                 self.collected_sum(vec![(from, one), place])
             }
             Node::Call(function, arguments) => {
-                let arguments = arguments.iter().map(|argument| items[argument]).collect();
+                let arguments = arguments.iter().map(|argument| items[*argument]).collect();
                 self.intern(Form::Call(*function, arguments))
             }
         }
@@ -195,47 +236,53 @@ impl Flat {
 
     /// A term and its coefficient, which joins the factors that are known earlier, if there are.
     fn scaled(&mut self, term: Item, coefficient: &Rational) -> (Item, Rational) {
-        let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
-        let plain = (term, coefficient.clone());
-        if *coefficient == one || *coefficient == minus_one {
-            return plain;
+        if is_unit(coefficient) {
+            return (term, coefficient.clone());
         }
-        let sign = if is_negative(coefficient) { minus_one } else { one };
-        match self.times(term, &(coefficient * &sign), SCALED_SUMS) {
+        let sign = if is_negative(coefficient) { Rational::NEG_ONE } else { Rational::ONE };
+        match self.times(term, &magnitude(coefficient), SCALED_SUMS) {
             Some(scaled) => (scaled, sign),
-            None => plain,
+            None => (term, coefficient.clone()),
         }
     }
 
     /// A product or a sum times a number, where that takes no operation that depends on X. `sums` is how many
     /// sums within each other the number may go into.
     fn times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
-        let Form::Product(mut factors) = self.form(item).clone() else {
+        let Form::Product(factors) = self.flat.form(item) else {
             return self.sum_times(item, number, sums);
         };
-        let late = self.stage(item).min(Stage::Point);
-        let mut bases: Vec<&mut Item> =
-            factors.iter_mut().filter_map(|(base, power)| (*power == 1).then_some(base)).collect();
-        let early = bases.iter().position(|base| self.stage(**base) < late);
+        let late = self.flat.stage(item).min(Stage::Point);
+        let mut bases = factors.iter().enumerate().filter(|(_, (_, power))| *power == 1);
+        let early = bases.clone().find(|(_, (base, _))| self.flat.stage(*base) < late);
         let (place, scaled) = match early {
-            Some(place) => (place, self.multiple(*bases[place], number)),
-            None => bases
-                .iter()
-                .enumerate()
-                .find_map(|(place, base)| Some((place, self.sum_times(**base, number, sums)?)))?,
+            Some((place, (base, _))) => (place, self.multiple(*base, number)),
+            None => {
+                let sums_of = |(place, (base, _)): (usize, &(Item, i32))| (place, *base);
+                let bases: Vec<_> = bases.by_ref().map(sums_of).collect();
+                let mut bases = bases.into_iter();
+                bases
+                    .find_map(|(place, base)| Some((place, self.sum_times(base, number, sums)?)))?
+            }
         };
-        *bases[place] = scaled;
+        let Form::Product(mut factors) = self.flat.form(item).clone() else { return None };
+        factors[place].0 = scaled;
         Some(self.product(factors))
     }
 
     /// A sum times a number, every term of which takes it.
     fn sum_times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
-        if self.scaling == Scaling::Factors || sums == 0 || self.stage(item) < Stage::Point {
+        if sums == 0 || self.flat.stage(item) < Stage::Point {
             return None;
         }
-        let Form::Sum(mut terms) = self.form(item).clone() else { return None };
+        let Form::Sum(terms) = self.flat.form(item) else { return None };
+        if self.scaling == Scaling::Factors {
+            self.flat.is_scalable = true;
+            return None;
+        }
+        let mut terms = terms.clone();
         for (term, _) in &mut terms {
-            *term = match self.stage(*term) < Stage::Point {
+            *term = match self.flat.stage(*term) < Stage::Point {
                 true => self.multiple(*term, number),
                 false => self.times(*term, number, sums - 1)?,
             };
@@ -250,8 +297,15 @@ impl Flat {
 
     /// Adds the factors of a power: halves are square roots, other fractions power functions.
     fn power(&mut self, base: Item, exponent: &Rational, factors: &mut Vec<(Item, i32)>) {
+        if exponent.is_int()
+            && let Ok(count) = i32::try_from(exponent.numerator())
+            && count.unsigned_abs() <= MAX_EXPONENT as u32
+        {
+            factors.extend((count != 0).then_some((base, count)));
+            return;
+        }
         let sign = if is_negative(exponent) { -1 } else { 1 };
-        let magnitude = exponent * Rational::from(sign);
+        let magnitude = magnitude(exponent);
         let whole = magnitude.numerator() / IBig::from(magnitude.denominator().clone());
         let fraction = &magnitude - Rational::from(whole.clone());
         let count = i32::try_from(whole).ok().filter(|count| *count <= MAX_EXPONENT);
@@ -276,18 +330,26 @@ impl Flat {
 
     /// The group of a stage: groups are computed on their own, in this order.
     fn group(&self, item: Item) -> Stage {
-        match (self.stage(item), self.grouping) {
+        match (self.flat.stage(item), self.grouping) {
             (Stage::PointTime, Grouping::Joint) => Stage::Point,
             (stage, _) => stage,
         }
     }
 
+    /// Operands by their groups.
+    fn grouped<N>(&mut self, operands: Vec<(Item, N)>) -> Groups<N> {
+        let mut groups = Groups::default();
+        for operand in operands {
+            groups[self.group(operand.0) as usize].push(operand);
+        }
+        let is_there = |stage: Stage| !groups[stage as usize].is_empty();
+        self.flat.is_grouped |= is_there(Stage::Point) && is_there(Stage::PointTime);
+        groups
+    }
+
     /// A sum whose terms are grouped by stage.
     fn sum(&mut self, terms: Vec<(Item, Rational)>) -> Item {
-        let mut groups = BTreeMap::<Stage, Vec<(Item, Rational)>>::new();
-        for (item, coefficient) in terms {
-            groups.entry(self.group(item)).or_default().push((item, coefficient));
-        }
+        let groups = self.grouped(terms);
         let carried = self.carry(groups, |flat, _, group| match group.as_slice() {
             [_] => group,
             _ => vec![(flat.collected_sum(group), Rational::ONE)],
@@ -297,10 +359,7 @@ impl Flat {
 
     /// A product whose factors are grouped by stage.
     fn product(&mut self, factors: Vec<(Item, i32)>) -> Item {
-        let mut groups = BTreeMap::<Stage, Vec<(Item, i32)>>::new();
-        for (item, exponent) in factors {
-            groups.entry(self.group(item)).or_default().push((item, exponent));
-        }
+        let groups = self.grouped(factors);
         let carried = self.carry(groups, |flat, stage, mut group| {
             // One division at a point serves numerator and denominator; what is known before
             // is inverted before.
@@ -318,16 +377,17 @@ impl Flat {
     /// waits for what needs both.
     fn carry<N>(
         &mut self,
-        groups: BTreeMap<Stage, Vec<(Item, N)>>,
+        groups: Groups<N>,
         mut close: impl FnMut(&mut Self, Stage, Vec<(Item, N)>) -> Vec<(Item, N)>,
     ) -> Vec<(Item, N)> {
         let mut early = Vec::new();
         let mut late = Vec::new();
-        let last = groups.keys().last().copied();
-        for (stage, group) in groups {
+        let last = groups.iter().rposition(|group| !group.is_empty());
+        let groups = Stage::ALL.into_iter().zip(groups).enumerate();
+        for (place, (stage, group)) in groups.filter(|(_, (_, group))| !group.is_empty()) {
             let to = if stage <= Stage::Time { &mut early } else { &mut late };
-            if Some(stage) == last && to.is_empty() {
-                to.extend(group);
+            if Some(place) == last && to.is_empty() {
+                *to = group;
             } else {
                 to.extend(close(self, stage, group));
             }
@@ -341,12 +401,7 @@ impl Flat {
 
     /// A sum of terms that are grouped already; a lone term with coefficient 1 is itself.
     fn collected_sum(&mut self, terms: Vec<(Item, Rational)>) -> Item {
-        let mut collected = BTreeMap::<Item, Rational>::new();
-        for (item, coefficient) in terms {
-            *collected.entry(item).or_default() += coefficient;
-        }
-        collected.retain(|_, coefficient| !coefficient.is_zero());
-        let mut terms: Vec<_> = collected.into_iter().collect();
+        let mut terms = collected(terms, Rational::is_zero);
         while terms.len() > MAX_OPERANDS {
             let parts = terms.chunks(MAX_OPERANDS);
             terms =
@@ -363,12 +418,7 @@ impl Flat {
 
     /// A product of factors that are grouped already; a lone factor is itself.
     fn collected_product(&mut self, factors: Vec<(Item, i32)>) -> Item {
-        let mut collected = BTreeMap::<Item, i32>::new();
-        for (item, exponent) in factors {
-            *collected.entry(item).or_default() += exponent;
-        }
-        collected.retain(|_, exponent| *exponent != 0);
-        let mut factors: Vec<_> = collected.into_iter().collect();
+        let mut factors = collected(factors, |exponent| *exponent == 0);
         while factors.len() > MAX_OPERANDS {
             let parts = factors.chunks(MAX_OPERANDS);
             factors = parts.map(|part| (self.intern(Form::Product(part.to_vec())), 1)).collect();
@@ -380,6 +430,23 @@ impl Flat {
             _ => self.intern(Form::Product(factors)),
         }
     }
+}
+
+/// Operands in order, each once with all its numbers added up, but for what comes to 0.
+pub(super) fn collected<N: AddAssign>(
+    mut operands: Vec<(Item, N)>,
+    is_zero: impl Fn(&N) -> bool,
+) -> Vec<(Item, N)> {
+    operands.sort_by_key(|(item, _)| *item);
+    let mut collected = Vec::<(Item, N)>::with_capacity(operands.len());
+    for (item, number) in operands {
+        match collected.last_mut() {
+            Some((last, total)) if *last == item => *total += number,
+            _ => collected.push((item, number)),
+        }
+    }
+    collected.retain(|(_, number)| !is_zero(number));
+    collected
 }
 
 #[cfg(test)]
@@ -396,8 +463,10 @@ mod tests {
             graph.product(factors.iter().map(|factor| (*factor, Rational::ONE)).collect::<Vec<_>>())
         };
         let roots = [product(&names[MAX_OPERANDS..]), product(&names)];
-        let (flat, items) = Flat::new(&graph, &roots, Grouping::Staged, Scaling::Factors);
-        let operands = flat.form(items[1]).operands();
+        let reached = graph.reachable(&roots);
+        let all = (&reached[..], &roots[..]);
+        let (flat, items) = Flat::new(&graph, all, Grouping::Staged, Scaling::Factors);
+        let operands: Vec<Item> = flat.form(items[1]).operands().collect();
         assert_eq!(operands.len(), 2);
         assert!(operands.is_sorted() && operands.contains(&items[0]), "{operands:?}");
     }

@@ -1,20 +1,45 @@
 //! Binary operations in order: values are numbered, so that an operation on the same operands is
 //! one value.
 
-use std::collections::BTreeMap;
+use std::hash::BuildHasher as _;
 
-use rustc_hash::FxHashMap;
+use hashbrown::HashTable;
+use rustc_hash::FxBuildHasher;
 
 use super::flat::{Flat, Form, Item};
-use crate::expr::{Rational, is_negative, magnitude};
+use crate::expr::{Rational, is_negative, is_unit, magnitude};
 use crate::program::{Instr, Op, Stage, Value};
 
 /// Value numbering: an operation on the same operands is one value.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) instrs: Vec<Instr>,
-    /// Only ever looked up, never iterated.
-    index: FxHashMap<Op, Value>,
+    /// The values by the hashes of their operations. Only ever looked up, never iterated.
+    index: HashTable<Value>,
+}
+
+fn hash(op: &Op) -> u64 {
+    FxBuildHasher.hash_one(op)
+}
+
+/// What is there for each stage.
+type ByStage<T> = [T; Stage::ALL.len()];
+
+/// The value of each item that has one.
+struct Lowered(Vec<Option<Value>>);
+
+impl Lowered {
+    fn is_known(&self, item: Item) -> bool {
+        self.0[item.index()].is_some()
+    }
+}
+
+impl std::ops::Index<Item> for Lowered {
+    type Output = Value;
+
+    fn index(&self, item: Item) -> &Value {
+        self.0[item.index()].as_ref().expect("operands are lowered first")
+    }
 }
 
 impl Builder {
@@ -24,7 +49,8 @@ impl Builder {
             Op::Multiply(a, b) if b < a => Op::Multiply(b, a),
             other => other,
         };
-        if let Some(value) = self.index.get(&op) {
+        let (own_hash, instrs) = (hash(&op), &self.instrs);
+        if let Some(value) = self.index.find(own_hash, |value| instrs[value.index()].op == op) {
             return *value;
         }
         let own = match op {
@@ -34,8 +60,9 @@ impl Builder {
         let stage = op.operands().fold(own, |stage, operand| stage.join(self.stage(operand)));
         let value =
             Value(u32::try_from(self.instrs.len()).expect("the node limit bounds programs"));
-        self.instrs.push(Instr { op: op.clone(), stage });
-        self.index.insert(op, value);
+        self.instrs.push(Instr { op, stage });
+        let instrs = &self.instrs;
+        self.index.insert_unique(own_hash, value, |value| hash(&instrs[value.index()].op));
         value
     }
 
@@ -49,39 +76,39 @@ impl Builder {
 
     /// The values of `roots`, after everything that they need.
     pub(super) fn lower(&mut self, flat: &Flat, roots: &[Item]) -> Vec<Value> {
-        let mut values = BTreeMap::<Item, Value>::new();
+        let mut values = Lowered(vec![None; flat.forms.len()]);
         let mut open: Vec<Item> = roots.iter().rev().copied().collect();
         while let Some(item) = open.last().copied() {
             let operands = flat.form(item).operands();
             let before = open.len();
-            open.extend(operands.into_iter().rev().filter(|operand| !values.contains_key(operand)));
+            open.extend(operands.rev().filter(|operand| !values.is_known(*operand)));
             if open.len() > before {
                 continue;
             }
             open.pop();
-            if !values.contains_key(&item) {
-                let value = self.form(flat.form(item), &values);
-                values.insert(item, value);
+            if !values.is_known(item) {
+                values.0[item.index()] = Some(self.form(flat.form(item), &values));
             }
         }
-        roots.iter().map(|root| values[root]).collect()
+        roots.iter().map(|root| values[*root]).collect()
     }
 
-    fn form(&mut self, form: &Form, values: &BTreeMap<Item, Value>) -> Value {
+    fn form(&mut self, form: &Form, values: &Lowered) -> Value {
         match form {
             Form::Constant(number) => self.constant(number.clone()),
             Form::Pi => self.push(Op::Pi),
             Form::Input(symbol) => self.push(Op::Input(*symbol)),
             Form::Sum(terms) => {
-                let terms = terms.iter().map(|(item, factor)| (values[item], factor.clone()));
-                self.sum(terms.collect())
+                let terms: Vec<_> =
+                    terms.iter().map(|(item, factor)| (values[*item], factor)).collect();
+                self.sum(&terms)
             }
             Form::Product(factors) => {
-                self.product(factors.iter().map(|(item, exponent)| (values[item], *exponent)))
+                self.product(factors.iter().map(|(item, exponent)| (values[*item], *exponent)))
             }
             Form::Call(function, arguments) => match arguments[..] {
-                [a] => self.push(Op::Unary(*function, values[&a])),
-                [a, b] => self.push(Op::Binary(*function, values[&a], values[&b])),
+                [a] => self.push(Op::Unary(*function, values[a])),
+                [a, b] => self.push(Op::Binary(*function, values[a], values[b])),
                 _ => unreachable!("functions take one or two arguments"),
             },
         }
@@ -90,18 +117,19 @@ impl Builder {
     /// Terms of one stage are added up first, then the stages, earliest first: what cancels at each time, or in differences
     /// of coordinates, does so before anything else is rounded. But where all that X determines are products, these are
     /// added to what parameters do one by one, so that none takes a step of its own: they are rounded anyway.
-    fn sum(&mut self, mut terms: Vec<(Value, Rational)>) -> Value {
-        let content = common_magnitude(&terms);
-        if let Some(content) = &content {
-            terms.iter_mut().for_each(|(_, coefficient)| *coefficient /= content);
-        }
-        let mut groups = BTreeMap::<Stage, Vec<(bool, Value)>>::new();
+    fn sum(&mut self, terms: &[(Value, &Rational)]) -> Value {
+        let content = common_magnitude(terms);
+        let mut groups = ByStage::<Vec<(bool, Value)>>::default();
         for (term, coefficient) in terms {
-            let value = self.scaled(magnitude(&coefficient), term);
-            groups.entry(self.stage(value)).or_default().push((is_negative(&coefficient), value));
+            let value = match content {
+                Some(_) => *term,
+                None => self.scaled(coefficient, *term),
+            };
+            groups[self.stage(value) as usize].push((is_negative(coefficient), value));
         }
         let mut total = Signed::default();
-        for (stage, group) in groups {
+        let groups = Stage::ALL.into_iter().zip(groups);
+        for (stage, group) in groups.filter(|(_, group)| !group.is_empty()) {
             let is_product = |(_, value): &(bool, Value)| {
                 matches!(self.instrs[value.index()].op, Op::Multiply(..))
             };
@@ -115,43 +143,43 @@ impl Builder {
         }
         let total = total.finish(self);
         match content {
-            Some(content) => self.scaled(content, total),
+            Some(content) => self.scaled(&content, total),
             None => total,
         }
     }
 
-    /// A value times a positive number.
-    fn scaled(&mut self, factor: Rational, value: Value) -> Value {
-        if factor.is_one() {
+    /// A value times the magnitude of a number.
+    fn scaled(&mut self, factor: &Rational, value: Value) -> Value {
+        if is_unit(factor) {
             return value;
         }
         let one = matches!(&self.instrs[value.index()].op, Op::Constant(one) if one.is_one());
-        let factor = self.constant(factor);
+        let factor = self.constant(magnitude(factor));
         if one { factor } else { self.push(Op::Multiply(factor, value)) }
     }
 
     /// Factors of one stage are multiplied first, then the stages, earliest first; one division serves all that divide.
     fn product(&mut self, factors: impl Iterator<Item = (Value, i32)>) -> Value {
-        let [mut above, mut below] = [(); 2].map(|()| BTreeMap::<Stage, Value>::new());
+        let [mut above, mut below] = [ByStage::<Option<Value>>::default(); 2];
         for (base, exponent) in factors {
             let power = self.integer_power(base, exponent.unsigned_abs());
             let groups = if exponent > 0 { &mut above } else { &mut below };
-            let stage = self.stage(power);
-            let product = match groups.get(&stage) {
-                Some(product) => self.push(Op::Multiply(*product, power)),
+            let group = &mut groups[self.stage(power) as usize];
+            *group = Some(match *group {
+                Some(product) => self.push(Op::Multiply(product, power)),
                 None => power,
-            };
-            groups.insert(stage, product);
+            });
         }
-        let Some(denominator) = self.multiplied(&below) else {
-            return self.multiplied(&above).unwrap_or_else(|| self.constant(1));
+        let Some(denominator) = self.multiplied(below) else {
+            return self.multiplied(above).unwrap_or_else(|| self.constant(1));
         };
         // What X determines is divided first: a product with what parameters do can then be added in one step.
-        let early = match above.len() > 1 && self.stage(denominator) != Stage::Parameter {
-            true => above.remove(&Stage::Parameter),
+        let is_parted = above.iter().flatten().count() > 1;
+        let early = match is_parted && self.stage(denominator) != Stage::Parameter {
+            true => above[Stage::Parameter as usize].take(),
             false => None,
         };
-        let numerator = self.multiplied(&above).unwrap_or_else(|| self.constant(1));
+        let numerator = self.multiplied(above).unwrap_or_else(|| self.constant(1));
         let quotient = self.push(Op::Divide(numerator, denominator));
         match early {
             Some(early) => self.push(Op::Multiply(early, quotient)),
@@ -160,8 +188,8 @@ impl Builder {
     }
 
     /// The product of one value for each stage, earliest first; nothing of none.
-    fn multiplied(&mut self, groups: &BTreeMap<Stage, Value>) -> Option<Value> {
-        let values = groups.values().copied();
+    fn multiplied(&mut self, groups: ByStage<Option<Value>>) -> Option<Value> {
+        let values = groups.into_iter().flatten();
         values.reduce(|product, value| self.push(Op::Multiply(product, value)))
     }
 
@@ -208,9 +236,12 @@ impl Signed {
 }
 
 /// The magnitude other than one that all coefficients share.
-fn common_magnitude(terms: &[(Value, Rational)]) -> Option<Rational> {
+fn common_magnitude(terms: &[(Value, &Rational)]) -> Option<Rational> {
     let [(_, first), _, ..] = terms else { return None };
+    if is_unit(first) {
+        return None;
+    }
     let common = magnitude(first);
-    let shared = |number: &Rational| magnitude(number) == common;
-    (!common.is_one() && terms.iter().all(|(_, factor)| shared(factor))).then_some(common)
+    let is_common = terms.iter().all(|(_, factor)| magnitude(factor) == common);
+    is_common.then_some(common)
 }

@@ -18,7 +18,7 @@ use share::Scope;
 
 use super::fusion::Fusion;
 use super::{Instr, Output, Program, Stage, Value};
-use crate::expr::{Expr, Graph};
+use crate::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
 
 /// What operations cost: those that depend on X first, since they are done at every point, then
 /// all; of two that are alike in both, the one that leaves less to t.
@@ -102,7 +102,10 @@ pub fn schedule_plainly(graph: &Graph, outputs: &BTreeMap<Output, Vec<Expr>>) ->
         .map(|(output, components)| {
             let (flat, roots) = match graph.work().is_over() {
                 true => Flat::void(components.len()),
-                false => Flat::new(graph, components, Grouping::Staged, Scaling::Factors),
+                false => {
+                    let all = (&graph.reachable(components)[..], &components[..]);
+                    Flat::new(graph, all, Grouping::Staged, Scaling::Factors)
+                }
             };
             graph.work().spend(STEPS_OF_OPERAND * flat.forms.len() as u64);
             (*output, builder.lower(&flat, &roots))
@@ -116,7 +119,9 @@ const ONCE_FOR_EVERY_POINT: usize = 8;
 
 /// What the components of one output cost, at most: more ways are tried of what is emitted.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
-    let (flat, roots) = cheapest(graph, components, Scaling::Factors, &[Scope::Made]);
+    let scopes = [Scope::Made];
+    let ways = written(graph, components, Scaling::Factors, &scopes);
+    let (flat, roots) = cheapest(graph, &ways, &scopes);
     cost_of(&flat, &roots)
 }
 
@@ -140,43 +145,80 @@ pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
 /// What it takes to write an operand down and to make an operation with it.
 const STEPS_OF_OPERAND: u64 = 50;
 
-/// The cheapest way to compute `components` with numbers moved as far as that; of equals, the first.
-fn cheapest(
-    graph: &Graph,
-    components: &[Expr],
-    scaling: Scaling,
-    scopes: &[Scope],
-) -> (Flat, Vec<Item>) {
-    let mut plain = vec![Flat::new(graph, components, Grouping::Staged, scaling)];
-    let operands = plain[0].0.forms.iter().map(|form| 1 + form.operands().len() as u64);
-    let ways = 2 + 2 * scopes.len() as u64;
-    graph.work().spend(STEPS_OF_OPERAND * ways * operands.sum::<u64>());
+/// A way to write components down, with the items of these.
+type Way = (Flat, Vec<Item>);
+
+/// Components as n-ary operations, with what needs X apart from what needs t too and, where that differs, together.
+fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope]) -> Vec<Way> {
+    let reached = graph.reachable(components);
+    let new = |grouping| Flat::new(graph, (&reached, components), grouping, scaling);
+    let mut ways = vec![new(Grouping::Staged)];
+    let flat = &ways[0].0;
+    let operands = flat.forms.iter().map(|form| 1 + form.size() as u64).sum::<u64>();
+    graph.work().spend(STEPS_OF_OPERAND * (2 + 2 * scopes.len() as u64) * operands);
     if graph.work().is_over() {
-        return plain.swap_remove(0);
+        return ways;
     }
-    let joint = Flat::new(graph, components, Grouping::Joint, scaling);
-    plain.extend(Some(joint).filter(|joint| joint.0.forms != plain[0].0.forms));
-    let mut ways = Vec::new();
+    graph.work().spend(STEPS_OF_NODE * reached.len() as u64);
+    let joint = flat.is_grouped.then(|| new(Grouping::Joint));
+    let joint = joint.filter(|joint| joint.0.forms != flat.forms);
+    ways.extend(joint);
+    ways
+}
+
+/// The cheapest way to compute what was written down; of equals, the first.
+fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> Way {
+    let (plain, work) = (&written[0], graph.work());
+    if work.is_over() {
+        return plain.clone();
+    }
+    let mut best: Option<(Cost, Way)> = None;
+    let mut spent = vec![0; written.len()];
     for scope in scopes {
-        let shared = plain.iter().cloned().map(|(mut flat, roots)| {
-            share::share(&mut flat, &roots, *scope, graph.work());
-            (flat, roots)
-        });
-        ways.extend(shared);
+        for (way, spent) in written.iter().zip(&mut spent) {
+            // Where all that was made is needed, both scopes come to the same.
+            if *scope == Scope::Needed && *spent > 0 && is_needed(way) {
+                work.spend(*spent);
+                continue;
+            }
+            let before = work.left();
+            let (mut flat, roots) = way.clone();
+            share::share(&mut flat, &roots, *scope, work);
+            *spent = before - work.left();
+            let cost = cost_of(&flat, &roots);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, (flat, roots)));
+            }
+        }
     }
-    ways.extend(plain.into_iter().next());
-    ways.into_iter().min_by_key(|(flat, roots)| cost_of(flat, roots)).expect("there are ways")
+    match best {
+        Some((cost, best)) if cost <= cost_of(&plain.0, &plain.1) => best,
+        _ => plain.clone(),
+    }
+}
+
+/// Whether the roots need all operations.
+fn is_needed((flat, roots): &Way) -> bool {
+    let needed = reachable(roots, Item::index, |item| flat.form(item).operands());
+    needed.len() == flat.forms.len()
 }
 
 /// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
 /// what is emitted and of what comes close to it, and not of all that is compared.
-fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> (Flat, Vec<Item>) {
-    let cheapest = |scaling| cheapest(graph, components, scaling, &[Scope::Made, Scope::Needed]);
-    let plain = cheapest(Scaling::Factors);
+fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
+    let scopes = [Scope::Made, Scope::Needed];
+    let before = graph.work().left();
+    let unscaled = written(graph, components, Scaling::Factors, &scopes);
+    let plain = cheapest(graph, &unscaled, &scopes);
     if graph.work().is_over() {
         return plain;
     }
-    let scaled = cheapest(Scaling::Sums);
+    if unscaled.iter().all(|(flat, _)| !flat.is_scalable) {
+        graph.work().spend(before - graph.work().left());
+        return plain;
+    }
+    let scaled = written(graph, components, Scaling::Sums, &scopes);
+    let scaled = cheapest(graph, &scaled, &scopes);
     let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =

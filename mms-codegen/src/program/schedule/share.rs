@@ -8,14 +8,17 @@
 //! occurrence but the first saves an operation.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
+use std::collections::hash_map::Entry;
 
-use super::flat::{Flat, Form, Item};
-use crate::expr::{Rational, reachable};
+use rustc_hash::FxHashMap;
+
+use super::flat::{Flat, Form, Item, collected};
+use crate::expr::{Rational, is_unit, reachable};
 use crate::work::Work;
 
 /// What can be shared.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Pair {
     /// a + ratio b, a before b.
     Sum(Item, Item, Rational),
@@ -45,25 +48,28 @@ impl Pair {
     fn replace(&self, form: &Form, whole: Item) -> Form {
         match (self, form) {
             (Pair::Sum(a, b, _), Form::Sum(terms)) => {
-                let mut terms: BTreeMap<Item, Rational> = terms.iter().cloned().collect();
-                let coefficient = terms.remove(a).unwrap_or_default();
-                terms.remove(b);
-                *terms.entry(whole).or_default() += coefficient;
-                terms.retain(|_, coefficient| !coefficient.is_zero());
-                Form::Sum(terms.into_iter().collect())
+                let mut rest = terms.clone();
+                let first = rest.iter_mut().find(|(item, _)| item == a);
+                let coefficient = first.map(|(_, own)| std::mem::take(own)).unwrap_or_default();
+                rest.retain(|(item, _)| item != a && item != b);
+                rest.push((whole, coefficient));
+                Form::Sum(collected(rest, Rational::is_zero))
             }
             (Pair::Product(a, b) | Pair::Quotient(a, b), Form::Product(factors)) => {
-                let mut factors: BTreeMap<Item, i32> = factors.iter().copied().collect();
-                let (first, second) = (factors[a], factors[b]);
+                let power = |item: &Item| {
+                    let found = factors.iter().find(|(base, _)| base == item);
+                    found.map_or(0, |(_, exponent)| *exponent)
+                };
+                let (first, second) = (power(a), power(b));
                 // A quotient whose numerator is below is a pair the other way round.
                 let sign = first.signum();
                 let opposite = if matches!(self, Pair::Quotient(..)) { -1 } else { 1 };
                 let count = if a == b { first.abs() / 2 } else { first.abs().min(second.abs()) };
-                *factors.entry(*a).or_default() -= sign * count;
-                *factors.entry(*b).or_default() -= sign * opposite * count;
-                *factors.entry(whole).or_default() += sign * count;
-                factors.retain(|_, exponent| *exponent != 0);
-                Form::Product(factors.into_iter().collect())
+                let mut rest = factors.clone();
+                rest.push((*a, -sign * count));
+                rest.push((*b, -sign * opposite * count));
+                rest.push((whole, sign * count));
+                Form::Product(collected(rest, |exponent| *exponent == 0))
             }
             _ => form.clone(),
         }
@@ -84,9 +90,9 @@ const STEPS_OF_PAIR: u64 = 50;
 
 /// Extracts shared pairs until no pair occurs twice, or the budget is spent.
 pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) {
-    let counted = match scope {
+    let counted: Vec<Item> = match scope {
         Scope::Made => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
-        Scope::Needed => reachable(roots, |item| flat.form(item).operands()),
+        Scope::Needed => reachable(roots, Item::index, |item| flat.form(item).operands()),
     };
     let mut table = Table { common: common(flat, &counted), ..Table::default() };
     for item in counted {
@@ -103,7 +109,7 @@ pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) 
 
 /// Operands of more than one of the sums and products that are counted, or of one more than once: only they can be
 /// shared.
-fn common(flat: &Flat, counted: &BTreeSet<Item>) -> Vec<bool> {
+fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
     let mut uses = vec![0_u64; flat.forms.len()];
     for item in counted {
         match flat.form(*item) {
@@ -122,43 +128,66 @@ fn common(flat: &Flat, counted: &BTreeSet<Item>) -> Vec<bool> {
 struct Table {
     /// Of the operations before sharing.
     common: Vec<bool>,
-    /// How often a pair occurs, and how often in which operation.
-    places: BTreeMap<Pair, (u64, BTreeMap<Item, u64>)>,
+    /// How often a pair occurs, and how often in which operation. Only ever looked up, never iterated.
+    places: FxHashMap<Pair, Places>,
     /// Pairs that occur more than once. The most frequent is last; of equals, the first in order.
     ranked: BTreeSet<(u64, Reverse<Pair>)>,
+}
+
+/// How often a pair occurs, and how often in which operation, which are in order.
+#[derive(Default)]
+struct Places {
+    total: u64,
+    each: Vec<(Item, u64)>,
+}
+
+impl Places {
+    /// Sets how often the pair occurs in an operation.
+    fn set(&mut self, item: Item, count: u64) {
+        match self.each.binary_search_by_key(&item, |(item, _)| *item) {
+            Ok(at) => self.total -= std::mem::replace(&mut self.each[at].1, count),
+            Err(at) => self.each.insert(at, (item, count)),
+        }
+        self.total += count;
+    }
+
+    fn remove(&mut self, item: Item) {
+        if let Ok(at) = self.each.binary_search_by_key(&item, |(item, _)| *item) {
+            self.total -= self.each.remove(at).1;
+        }
+    }
 }
 
 impl Table {
     fn enter(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
         for (pair, count) in self.pairs(flat.form(item), concerned) {
-            self.change(pair, |places| places.insert(item, count));
+            self.change(pair, |places| places.set(item, count));
         }
     }
 
     fn withdraw(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
         for (pair, _) in self.pairs(flat.form(item), concerned) {
-            self.change(pair, |places| places.remove(&item));
+            self.change(pair, |places| places.remove(item));
         }
     }
 
     /// Changes the places of a pair, and its rank with them.
-    fn change<R>(&mut self, pair: Pair, change: impl FnOnce(&mut BTreeMap<Item, u64>) -> R) {
-        let entry = self.places.entry(pair.clone()).or_default();
-        let before = entry.0;
-        change(&mut entry.1);
-        entry.0 = entry.1.values().sum();
-        let after = entry.0;
+    fn change(&mut self, pair: Pair, change: impl FnOnce(&mut Places)) {
+        let mut entry = match self.places.entry(pair) {
+            Entry::Occupied(entry) => entry,
+            Entry::Vacant(entry) => entry.insert_entry(Places::default()),
+        };
+        let before = entry.get().total;
+        change(entry.get_mut());
+        let after = entry.get().total;
+        if before != after && before > 1 {
+            self.ranked.remove(&(before, Reverse(entry.key().clone())));
+        }
+        if before != after && after > 1 {
+            self.ranked.insert((after, Reverse(entry.key().clone())));
+        }
         if after == 0 {
-            self.places.remove(&pair);
-        }
-        if before == after {
-            return;
-        }
-        if before > 1 {
-            self.ranked.remove(&(before, Reverse(pair.clone())));
-        }
-        if after > 1 {
-            self.ranked.insert((after, Reverse(pair)));
+            entry.remove();
         }
     }
 
@@ -168,8 +197,7 @@ impl Table {
 
     /// What it takes to count the pairs of an operation.
     fn steps(&self, form: &Form) -> u64 {
-        let operands =
-            form.operands().into_iter().filter(|item| self.is_common(*item)).count() as u64;
+        let operands = form.operands().filter(|item| self.is_common(*item)).count() as u64;
         STEPS_OF_PAIR * (1 + operands * operands / 2)
     }
 
@@ -177,14 +205,14 @@ impl Table {
     fn extract(&mut self, flat: &mut Flat, pair: &Pair) -> u64 {
         let mut steps = 0;
         let form = pair.form();
-        let places: Vec<Item> = self.places[pair].1.keys().copied().collect();
+        let places: Vec<Item> = self.places[pair].each.iter().map(|(item, _)| *item).collect();
         let existing = places.iter().copied().find(|place| *flat.form(*place) == form);
         let whole = existing.unwrap_or_else(|| flat.push(form));
         let (a, b) = pair.operands();
         let concerned = |item: Item| item == a || item == b || item == whole;
         for place in places {
             // With each of the pair, and with what takes its place.
-            steps += 3 * STEPS_OF_PAIR * flat.form(place).operands().len() as u64;
+            steps += 3 * STEPS_OF_PAIR * flat.form(place).size() as u64;
             self.withdraw(flat, place, concerned);
             if place != whole {
                 flat.forms[place.index()] = pair.replace(flat.form(place), whole);
@@ -209,7 +237,7 @@ impl Table {
                 for (index, (a, first)) in terms.iter().enumerate() {
                     for (b, second) in &terms[index + 1..] {
                         if concerned(*a) || concerned(*b) {
-                            pairs.push((Pair::Sum(*a, *b, second / first), 1));
+                            pairs.push((Pair::Sum(*a, *b, ratio(second, first)), 1));
                         }
                     }
                 }
@@ -231,6 +259,15 @@ impl Table {
             Form::Constant(_) | Form::Pi | Form::Input(_) | Form::Call(..) => {}
         }
         pairs
+    }
+}
+
+/// a/b.
+fn ratio(a: &Rational, b: &Rational) -> Rational {
+    match is_unit(b) {
+        true if b.is_one() => a.clone(),
+        true => -a.clone(),
+        false => a / b,
     }
 }
 
@@ -257,10 +294,12 @@ mod tests {
         let t = graph.symbol(Symbol::Time);
         let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
         let product = graph.product(vec![(t, 1.into()), (x, 1.into()), (y, 1.into())]);
-        let (mut flat, roots) = Flat::new(&graph, &[product], Grouping::Joint, Scaling::Factors);
+        let reached = graph.reachable(&[product]);
+        let all = (&reached[..], &[product][..]);
+        let (mut flat, roots) = Flat::new(&graph, all, Grouping::Joint, Scaling::Factors);
         let whole = flat.form(roots[0]).clone();
         let Form::Product(factors) = &whole else { panic!("{whole:?}") };
-        flat.intern(Form::Product(factors[1..].to_vec()));
+        flat.push(Form::Product(factors[1..].to_vec()));
         share(&mut flat, &roots, Scope::Needed, graph.work());
         assert_eq!(*flat.form(roots[0]), whole);
         share(&mut flat, &roots, Scope::Made, graph.work());
