@@ -94,25 +94,6 @@ impl Interval {
         self.defined &= condition;
         self
     }
-
-    /// The bounds of a function of two operands that is monotone in each of them, from its values
-    /// at the corners.
-    fn corners(
-        self,
-        other: Interval,
-        below: impl Fn(f64, f64) -> f64,
-        above: impl Fn(f64, f64) -> f64,
-    ) -> Self {
-        let corners = [
-            (self.lower, other.lower),
-            (self.lower, other.upper),
-            (self.upper, other.lower),
-            (self.upper, other.upper),
-        ];
-        let lower = corners.map(|(a, b)| below(a, b)).into_iter().fold(f64::INFINITY, f64::min);
-        let upper = corners.map(|(a, b)| above(a, b)).into_iter().fold(f64::NEG_INFINITY, f64::max);
-        Interval::new(lower, upper).only_if(self.defined && other.defined)
-    }
 }
 
 impl Neg for Interval {
@@ -141,12 +122,41 @@ impl Sub for Interval {
 impl Mul for Interval {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        if self.lower >= 0.0 && other.lower >= 0.0 {
-            let lower = product_below(self.lower, other.lower);
-            let upper = -product_below(-self.upper, other.upper);
-            return Interval::new(lower, upper).only_if(self.defined && other.defined);
-        }
-        self.corners(other, product_below, |a, b| -product_below(-a, b))
+        let (a, b) = (self, other);
+        // Which bounds make the least and the greatest product.
+        let ([least, least_by], [greatest, greatest_by]) = if a.lower >= 0.0 {
+            let least = if b.lower >= 0.0 { a.lower } else { a.upper };
+            let greatest = if b.upper >= 0.0 { a.upper } else { a.lower };
+            ([least, b.lower], [greatest, b.upper])
+        } else if a.upper <= 0.0 {
+            let least = if b.upper >= 0.0 { a.lower } else { a.upper };
+            let greatest = if b.lower >= 0.0 { a.upper } else { a.lower };
+            ([least, b.upper], [greatest, b.lower])
+        } else if b.lower >= 0.0 {
+            ([a.lower, b.upper], [a.upper, b.upper])
+        } else if b.upper <= 0.0 {
+            ([a.upper, b.lower], [a.lower, b.lower])
+        } else {
+            return a.mixed_product(b);
+        };
+        let (lower, upper) =
+            (product_below(least, least_by), -product_below(-greatest, greatest_by));
+        Interval::new(lower, upper).only_if(a.defined && b.defined)
+    }
+}
+
+impl Interval {
+    /// The product of two that both have 0 inside.
+    fn mixed_product(self, other: Self) -> Self {
+        let lower = f64::min(
+            product_below(self.lower, other.upper),
+            product_below(self.upper, other.lower),
+        );
+        let upper = f64::max(
+            -product_below(-self.lower, other.lower),
+            -product_below(-self.upper, other.upper),
+        );
+        Interval::new(lower, upper).only_if(self.defined && other.defined)
     }
 }
 
@@ -156,7 +166,17 @@ impl Div for Interval {
         if other.contains(0.0) {
             return Interval::UNDEFINED;
         }
-        self.corners(other, quotient_below, |a, b| -quotient_below(-a, b))
+        // Of which bounds quotients are the least and the greatest: what is divided by has one sign.
+        let is_positive = other.lower > 0.0;
+        let (least, greatest) =
+            if is_positive { (self.lower, self.upper) } else { (self.upper, self.lower) };
+        let (near, far) =
+            if is_positive { (other.lower, other.upper) } else { (other.upper, other.lower) };
+        let least_by = if (least >= 0.0) == is_positive { far } else { near };
+        let greatest_by = if (greatest >= 0.0) == is_positive { near } else { far };
+        let lower = quotient_below(least, least_by);
+        let upper = -quotient_below(-greatest, greatest_by);
+        Interval::new(lower, upper).only_if(self.defined && other.defined)
     }
 }
 
@@ -305,6 +325,31 @@ mod tests {
         assert_eq!((beyond.lower, beyond.upper), (f64::MAX, f64::INFINITY));
         let small = Interval::from_rational(&(Rational::ONE / power));
         assert_eq!((small.lower, small.upper), (0.0, f64::from_bits(1)));
+    }
+
+    /// The bounds of a function of two operands that is monotone in each of them, from its values at all corners.
+    fn corners(a: Interval, b: Interval, below: impl Fn(f64, f64) -> f64) -> Interval {
+        let corners = [a.lower, a.upper].map(|x| [b.lower, b.upper].map(|y| (x, y)));
+        let corners = corners.as_flattened();
+        let lower = corners.iter().map(|(x, y)| below(*x, *y)).fold(f64::INFINITY, f64::min);
+        let upper = corners.iter().map(|(x, y)| -below(-x, *y)).fold(f64::NEG_INFINITY, f64::max);
+        Interval::new(lower, upper).only_if(a.defined && b.defined)
+    }
+
+    #[test]
+    fn signs_tell_which_corners_a_product_and_a_quotient_are_bounded_by() {
+        let ends = [0.0, f64::from_bits(1), 1e-300, 1e-150, 0.1, 1.0, 3.0, 1e200, f64::INFINITY];
+        let ends: Vec<f64> = ends.into_iter().flat_map(|end| [end, -end]).collect();
+        let pairs = ends.iter().flat_map(|a| ends.iter().map(move |b| (*a, *b)));
+        let is_box = |(a, b): &(f64, f64)| a < b || a == b && a.is_finite();
+        let boxes: Vec<_> =
+            pairs.filter(is_box).map(|(lower, upper)| Interval::new(lower, upper)).collect();
+        for (a, b) in boxes.iter().flat_map(|a| boxes.iter().map(move |b| (*a, *b))) {
+            assert_eq!(a * b, corners(a, b, product_below), "{a:?} times {b:?}");
+            if !b.contains(0.0) {
+                assert_eq!(a / b, corners(a, b, quotient_below), "{a:?} over {b:?}");
+            }
+        }
     }
 
     #[test]

@@ -21,6 +21,82 @@ const LN_2: [f64; 2] = [core::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
 const QUARTER: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
+/// 1/n!: those of which all digits count, and of the rest those of one double.
+const EXPONENTIAL: [Double; 14] = [
+    Double(1.0, 0.0),
+    Double(1.0, 0.0),
+    Double(0.5, 0.0),
+    Double(0.166_666_666_666_666_66, 9.251_858_538_542_97e-18),
+    Double(0.041_666_666_666_666_664, 2.312_964_634_635_742_7e-18),
+    Double(0.008_333_333_333_333_333, 1.156_482_317_317_871_4e-19),
+    Double(0.001_388_888_888_888_889, -5.300_543_954_373_577e-20),
+    Double(0.000_198_412_698_412_698_4, 1.720_955_829_342_070_5e-22),
+    Double(2.480_158_730_158_73e-5, 2.151_194_786_677_588_2e-23),
+    Double(2.755_731_922_398_589_3e-6, -1.858_393_274_046_472e-22),
+    Double(2.755_731_922_398_589e-7, 2.376_771_462_225_029_7e-23),
+    Double(2.505_210_838_544_172e-8, -1.448_814_070_935_912e-24),
+    Double(2.087_675_698_786_81e-9, -1.207_345_059_113_26e-25),
+    Double(1.605_904_383_682_161_3e-10, 1.258_529_458_875_209_8e-26),
+];
+const EXPONENTIAL_REST: [f64; 13] = [
+    1.147_074_559_772_972_5e-11,
+    7.647_163_731_819_816e-13,
+    4.779_477_332_387_385e-14,
+    2.811_457_254_345_520_6e-15,
+    1.561_920_696_858_622_5e-16,
+    8.220_635_246_624_33e-18,
+    4.110_317_623_312_165e-19,
+    1.957_294_106_339_126_3e-20,
+    8.896_791_392_450_574e-22,
+    3.868_170_170_630_684e-23,
+    1.611_737_571_096_118_4e-24,
+    6.446_950_284_384_474e-26,
+    2.479_596_263_224_797_6e-27,
+];
+
+/// (-1)^n/(2n + 1)! and (-1)^n/(2n)!, likewise.
+const SINE: [Double; 9] = [
+    Double(1.0, 0.0),
+    Double(-0.166_666_666_666_666_66, -9.251_858_538_542_97e-18),
+    Double(0.008_333_333_333_333_333, 1.156_482_317_317_871_4e-19),
+    Double(-0.000_198_412_698_412_698_4, -1.720_955_829_342_070_5e-22),
+    Double(2.755_731_922_398_589_3e-6, -1.858_393_274_046_472e-22),
+    Double(-2.505_210_838_544_172e-8, 1.448_814_070_935_912e-24),
+    Double(1.605_904_383_682_161_3e-10, 1.258_529_458_875_209_8e-26),
+    Double(-7.647_163_731_819_816e-13, -7.038_728_777_334_53e-30),
+    Double(2.811_457_254_345_520_6e-15, 1.650_884_273_086_143_3e-31),
+];
+const SINE_REST: [f64; 7] = [
+    -8.220_635_246_624_33e-18,
+    1.957_294_106_339_126_3e-20,
+    -3.868_170_170_630_684e-23,
+    6.446_950_284_384_474e-26,
+    -9.183_689_863_795_546e-29,
+    1.130_996_288_644_771_6e-31,
+    -1.216_125_041_553_518e-34,
+];
+
+const COSINE: [Double; 9] = [
+    Double(1.0, 0.0),
+    Double(-0.5, 0.0),
+    Double(0.041_666_666_666_666_664, 2.312_964_634_635_742_7e-18),
+    Double(-0.001_388_888_888_888_889, 5.300_543_954_373_577e-20),
+    Double(2.480_158_730_158_73e-5, 2.151_194_786_677_588_2e-23),
+    Double(-2.755_731_922_398_589e-7, -2.376_771_462_225_029_7e-23),
+    Double(2.087_675_698_786_81e-9, -1.207_345_059_113_26e-25),
+    Double(-1.147_074_559_772_972_5e-11, -2.065_551_275_283_074_5e-28),
+    Double(4.779_477_332_387_385e-14, 4.399_205_485_834_081e-31),
+];
+const COSINE_REST: [f64; 7] = [
+    -1.561_920_696_858_622_5e-16,
+    4.110_317_623_312_165e-19,
+    -8.896_791_392_450_574e-22,
+    1.611_737_571_096_118_4e-24,
+    -2.479_596_263_224_797_6e-27,
+    3.279_889_237_069_838e-30,
+    -3.769_987_628_815_905_4e-33,
+];
+
 /// A number as the sum of two doubles, of which the second is less than the last digit of the first.
 #[derive(Clone, Copy)]
 struct Double(f64, f64);
@@ -55,13 +131,6 @@ impl Double {
         sum(high, low + (self.0 * other.1 + self.1 * other.0))
     }
 
-    /// Divided by a small integer.
-    fn over(self, divisor: f64) -> Double {
-        let quotient = self.0 / divisor;
-        let rest = (-quotient).mul_add(divisor, self.0) + self.1;
-        sum(quotient, rest / divisor)
-    }
-
     /// The neighbouring numbers that the value lies between, given the error; `None` where that is
     /// not certain.
     fn around(self, error: f64) -> Option<(f64, f64)> {
@@ -74,16 +143,27 @@ impl Double {
     }
 }
 
+/// The sum of c_n x^n for |x| < 0.7. What is made of the rest is less than 2^-55 of the whole: one double holds enough of
+/// its digits.
+fn polynomial(x: Double, first: &[Double], rest: &[f64]) -> Double {
+    let mut value = 0.0;
+    for coefficient in rest.iter().rev() {
+        value = value * x.0 + coefficient;
+    }
+    let mut value = Double(value, 0.0);
+    for coefficient in first.iter().rev() {
+        value = coefficient.plus(x.times(value));
+    }
+    value
+}
+
 /// e^x for |x| <= 600.
 fn exponential(x: Double) -> Double {
     let turns = (x.0 / LN_2[0]).round();
     let [coarse, fine] = LN_2.map(|part| product(turns, part));
     let rest = x.minus(coarse).minus(fine);
-    // |rest| < 0.35, and 0.35^26/26! < 2^-127.
-    let mut series = Double(1.0, 0.0);
-    for n in (1..=26).rev() {
-        series = Double(1.0, 0.0).plus(rest.times(series).over(f64::from(n)));
-    }
+    // |rest| < 0.35, and 0.35^27/27! < 2^-130.
+    let series = polynomial(rest, &EXPONENTIAL, &EXPONENTIAL_REST);
     // Two powers of two, since that of 1010 and that of -1010 are no numbers by themselves.
     let half = (turns / 2.0).trunc();
     let scale = |value: f64| value * 2f64.powi(half as i32) * 2f64.powi((turns - half) as i32);
@@ -193,25 +273,23 @@ pub fn quarters(x: f64) -> Option<[i64; 2]> {
     }
 }
 
-/// The series of x^n/n! with alternating signs, from n = 0 or 1 in steps of 2.
-fn alternating(x: Double, first: u32) -> Double {
-    let square = x.times(x);
-    // |x| < 0.8, and 0.8^30/30! < 2^-116.
-    let mut series = Double(1.0, 0.0);
-    for n in (first + 2..=30 + first).rev().step_by(2).map(f64::from) {
-        series = Double(1.0, 0.0).minus(square.times(series).over(n * (n - 1.0)));
-    }
-    if first == 1 { x.times(series) } else { series }
+/// sin(x) and cos(x) for |x| < 0.8, of which the first term that is cut off is 0.8^32/32! < 2^-127.
+fn sine(x: Double) -> Double {
+    x.times(polynomial(x.times(x), &SINE, &SINE_REST))
+}
+
+fn cosine(x: Double) -> Double {
+    polynomial(x.times(x), &COSINE, &COSINE_REST)
 }
 
 /// sin(x + shift pi/2).
 fn circular(x: f64, shift: i64) -> Option<(f64, f64)> {
     let (rest, turns) = reduced(x)?;
     let value = match (turns + shift).rem_euclid(4) {
-        0 => alternating(rest, 1),
-        1 => alternating(rest, 0),
-        2 => Double(0.0, 0.0).minus(alternating(rest, 1)),
-        _ => Double(0.0, 0.0).minus(alternating(rest, 0)),
+        0 => sine(rest),
+        1 => cosine(rest),
+        2 => Double(0.0, 0.0).minus(sine(rest)),
+        _ => Double(0.0, 0.0).minus(cosine(rest)),
     };
     value.around(ERROR)
 }
