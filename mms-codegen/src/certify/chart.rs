@@ -246,7 +246,7 @@ impl Chart {
             let parameters = self.raw_parameters::<T>(&[]);
             Interpreter::within(&self.work, program, &parameters)
         });
-        Run { chart: self, program, ready }
+        Run { chart: self, program, ready, plans: Vec::new(), times: 1 }
     }
 
     /// Prepares what a place is without the chart: see [`Run::point`].
@@ -261,6 +261,10 @@ pub struct Run<'a, T: Number> {
     program: &'a Program,
     /// After the stage of parameters, where none of them varies.
     ready: Option<Interpreter<'a, T>>,
+    /// What outputs need that were asked for.
+    plans: Vec<(Vec<Output>, Vec<bool>)>,
+    /// How many times what an operation takes is charged.
+    times: u64,
 }
 
 /// All parameters, t and X.
@@ -283,6 +287,12 @@ impl Spot<Precise> {
 }
 
 impl<T: Number> Run<'_, T> {
+    /// Of a scalar that does the work of so many.
+    pub fn charge(&mut self, times: u64) {
+        self.times = times;
+        self.ready.iter_mut().for_each(|ready| ready.charge(times));
+    }
+
     /// All parameters, t and X at values of the variables; for [`Chart::points`].
     pub fn point(&mut self, values: &[T]) -> Spot<T> {
         let [parameters, coordinates] = self
@@ -299,19 +309,25 @@ impl<T: Number> Run<'_, T> {
         [normal, gradient]: [&[T]; 2],
         outputs: &[Output],
     ) -> Vec<Vec<T>> {
+        let known = self.plans.iter().position(|(planned, _)| planned == outputs);
+        let plan = known.unwrap_or_else(|| {
+            self.plans.push((outputs.to_vec(), self.program.needed(outputs)));
+            self.plans.len() - 1
+        });
         let mut own;
         let interpreter = match &mut self.ready {
             Some(ready) => ready,
             None => {
                 let parameters = self.chart.raw_parameters(values);
-                own = Interpreter::within(&self.chart.work, self.program, &parameters);
+                let work = &self.chart.work;
+                own = Interpreter::as_many(work, self.program, &parameters, self.times);
                 &mut own
             }
         };
         let (time, coordinates) = self.chart.split(values);
         interpreter.set_time(&time);
-        let plan = interpreter.plan(outputs);
-        interpreter.set_point(&plan, Point { coordinates: &coordinates, normal, gradient });
+        let point = Point { coordinates: &coordinates, normal, gradient };
+        interpreter.set_point(&self.plans[plan].1, point);
         outputs.iter().map(|output| interpreter.output(*output)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! dP/dF over a box of states, by dual numbers over intervals.
+//! dP/dF over a box of states, by dual numbers over intervals, all columns at once.
 
 use std::collections::BTreeMap;
 
@@ -8,6 +8,7 @@ use super::chart::{Chart, Run};
 use crate::expr::{Expr, Graph};
 use crate::mechanics::Response;
 use crate::program::dual::Dual;
+use crate::program::fan::Fan;
 use crate::program::interpret::Number;
 use crate::program::interval::Interval;
 use crate::program::schedule::schedule_plainly;
@@ -17,8 +18,8 @@ const STRESS: Output = Output::Response(Response::FirstPiolaKirchhoff);
 
 /// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
 pub struct Tangent<'a> {
-    first: Run<'a, Dual<Interval>>,
-    second: Run<'a, Dual<Dual<Interval>>>,
+    first: Run<'a, Fan<Interval>>,
+    second: Run<'a, Fan<Dual<Interval>>>,
 }
 
 /// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
@@ -42,17 +43,14 @@ impl<'a> Tangent<'a> {
         jacobian: Interval,
         place: &[Interval],
     ) -> Vec<Interval> {
-        let place: Vec<_> = place.iter().copied().map(Dual::constant).collect();
-        columns(gradient.len(), |column| {
-            let unit = |entry: usize| Interval::from_f64(f64::from(u8::from(entry == column)));
-            let gradient = gradient.iter().enumerate();
-            let gradient: Vec<_> =
-                gradient.map(|(entry, value)| Dual { value: *value, slope: unit(entry) }).collect();
-            let mut volume = volume(&gradient);
-            volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
-            let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|it| slope_of(it.value, it.slope)).collect()
-        })
+        let place: Vec<_> = place.iter().copied().map(Fan::constant).collect();
+        let variable = |(entry, value): (usize, &Interval)| Fan::variable(*value, entry);
+        let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
+        let mut volume = volume(&gradient);
+        volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
+        self.first.charge(gradient.len() as u64);
+        let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+        matrix(&stress, |it, column| slope_of(it.value, it.slope(column)))
     }
 
     /// The same by the mean-value form, within bounds that are known.
@@ -90,20 +88,16 @@ impl<'a> Tangent<'a> {
         place: &[Interval],
         direction: usize,
     ) -> Vec<Interval> {
-        let place: Vec<_> =
-            place.iter().map(|side| Dual::constant(Dual::constant(*side))).collect();
-        columns(gradient.len(), |column| {
-            let unit =
-                |entry: usize, at: usize| Interval::from_f64(f64::from(u8::from(entry == at)));
-            let gradient = gradient.iter().enumerate().map(|(entry, value)| Dual {
-                value: Dual { value: *value, slope: unit(entry, direction) },
-                slope: Dual::constant(unit(entry, column)),
-            });
-            let gradient: Vec<_> = gradient.collect();
-            let stress =
-                self.second.at(&place, [&[volume(&gradient)], &gradient], &[STRESS]).swap_remove(0);
-            stress.into_iter().map(|it| slope_of(it.value.value, it.slope.slope)).collect()
-        })
+        let place: Vec<_> = place.iter().map(|side| Fan::constant(Dual::constant(*side))).collect();
+        let variable = |(entry, value): (usize, &Interval)| {
+            let unit = Interval::from_f64(f64::from(u8::from(entry == direction)));
+            Fan::variable(Dual { value: *value, slope: unit }, entry)
+        };
+        let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
+        let volume = volume(&gradient);
+        self.second.charge(gradient.len() as u64);
+        let stress = self.second.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+        matrix(&stress, |it, column| slope_of(it.value.value, it.slope(column).slope))
     }
 }
 
@@ -120,13 +114,8 @@ fn volume<T: Number>(gradient: &[T]) -> T {
     stretches.fold(one.clone(), |product, stretch| product * stretch) - one.clone()
 }
 
-/// A square matrix from its columns.
-fn columns(order: usize, mut column: impl FnMut(usize) -> Vec<Interval>) -> Vec<Interval> {
-    let mut matrix = vec![Interval::UNDEFINED; order * order];
-    for at in 0..order {
-        for (row, entry) in column(at).into_iter().enumerate() {
-            matrix[row * order + at] = entry;
-        }
-    }
-    matrix
+/// A square matrix, row-major, from what there is for each row.
+fn matrix<T>(rows: &[T], entry: impl Fn(&T, usize) -> Interval) -> Vec<Interval> {
+    let entry = &entry;
+    rows.iter().flat_map(|row| (0..rows.len()).map(move |column| entry(row, column))).collect()
 }

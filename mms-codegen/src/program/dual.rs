@@ -35,6 +35,18 @@ impl<T: Scalar> Dual<T> {
     }
 }
 
+/// Functions of one argument by the chain rule.
+macro_rules! functions {
+    ($($function:ident)+) => {
+        $(fn $function(self) -> Self {
+            let [value, derivative] = $crate::program::dual::rules::$function(self.value.clone());
+            self.chain(value, derivative)
+        })+
+    };
+}
+
+pub(super) use functions;
+
 fn one<T: Scalar>() -> T {
     T::from_f64(1.0)
 }
@@ -131,96 +143,7 @@ impl<T: Scalar> Scalar for Dual<T> {
         Dual::constant(T::pi())
     }
 
-    fn sqrt(self) -> Self {
-        let root = self.value.clone().sqrt();
-        self.chain(root.clone(), T::ratio(1, 2) / root)
-    }
-
-    fn cbrt(self) -> Self {
-        let root = self.value.clone().cbrt();
-        self.chain(root.clone(), T::ratio(1, 3) / (root.clone() * root))
-    }
-
-    fn exp(self) -> Self {
-        let exponential = self.value.clone().exp();
-        self.chain(exponential.clone(), exponential)
-    }
-
-    fn exp_m1(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().exp_m1(), x.exp())
-    }
-
-    fn ln(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().ln(), one::<T>() / x)
-    }
-
-    fn ln_1p(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().ln_1p(), one::<T>() / (one::<T>() + x))
-    }
-
-    fn ln_1p_rest(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().ln_1p_rest(), x.clone() / (one::<T>() + x))
-    }
-
-    fn sin_pi(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().sin_pi(), T::pi() * x.cos_pi())
-    }
-
-    fn cos_pi(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().cos_pi(), -(T::pi() * x.sin_pi()))
-    }
-
-    fn sin(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().sin(), x.cos())
-    }
-
-    fn cos(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().cos(), -x.sin())
-    }
-
-    fn tan(self) -> Self {
-        let tangent = self.value.clone().tan();
-        self.chain(tangent.clone(), one::<T>() + tangent.clone() * tangent)
-    }
-
-    fn sinh(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().sinh(), x.cosh())
-    }
-
-    fn cosh(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().cosh(), x.sinh())
-    }
-
-    fn tanh(self) -> Self {
-        let x = self.value.clone();
-        let secant = one::<T>() / x.clone().cosh();
-        self.chain(x.tanh(), secant.clone() * secant)
-    }
-
-    fn asin(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().asin(), one::<T>() / distance_to_one(x))
-    }
-
-    fn acos(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().acos(), -(one::<T>() / distance_to_one(x)))
-    }
-
-    fn atan(self) -> Self {
-        let x = self.value.clone();
-        self.chain(x.clone().atan(), one::<T>() / (one::<T>() + x.clone() * x))
-    }
+    functions!(sqrt cbrt exp exp_m1 ln ln_1p ln_1p_rest sin_pi cos_pi sin cos tan sinh cosh tanh asin acos atan);
 
     fn atan2(self, x: Self) -> Self {
         let squares = x.value.clone() * x.value.clone() + self.value.clone() * self.value.clone();
@@ -238,9 +161,93 @@ impl<T: Scalar> Scalar for Dual<T> {
     }
 }
 
-/// sqrt(1 - x^2), as sqrt((1 - x)(1 + x)) so that nothing cancels near 1.
-fn distance_to_one<T: Scalar>(x: T) -> T {
-    ((one::<T>() - x.clone()) * (one::<T>() + x)).sqrt()
+/// Functions of one argument, each with its derivative.
+pub(super) mod rules {
+    use mms_math::Scalar;
+
+    use super::one;
+
+    pub fn sqrt<T: Scalar>(x: T) -> [T; 2] {
+        let root = x.sqrt();
+        [root.clone(), T::ratio(1, 2) / root]
+    }
+
+    pub fn cbrt<T: Scalar>(x: T) -> [T; 2] {
+        let root = x.cbrt();
+        [root.clone(), T::ratio(1, 3) / (root.clone() * root)]
+    }
+
+    pub fn exp<T: Scalar>(x: T) -> [T; 2] {
+        let exponential = x.exp();
+        [exponential.clone(), exponential]
+    }
+
+    pub fn exp_m1<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().exp_m1(), x.exp()]
+    }
+
+    pub fn ln<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().ln(), one::<T>() / x]
+    }
+
+    pub fn ln_1p<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().ln_1p(), one::<T>() / (one::<T>() + x)]
+    }
+
+    pub fn ln_1p_rest<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().ln_1p_rest(), x.clone() / (one::<T>() + x)]
+    }
+
+    pub fn sin_pi<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().sin_pi(), T::pi() * x.cos_pi()]
+    }
+
+    pub fn cos_pi<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().cos_pi(), -(T::pi() * x.sin_pi())]
+    }
+
+    pub fn sin<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().sin(), x.cos()]
+    }
+
+    pub fn cos<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().cos(), -x.sin()]
+    }
+
+    pub fn tan<T: Scalar>(x: T) -> [T; 2] {
+        let tangent = x.tan();
+        [tangent.clone(), one::<T>() + tangent.clone() * tangent]
+    }
+
+    pub fn sinh<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().sinh(), x.cosh()]
+    }
+
+    pub fn cosh<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().cosh(), x.sinh()]
+    }
+
+    pub fn tanh<T: Scalar>(x: T) -> [T; 2] {
+        let secant = one::<T>() / x.clone().cosh();
+        [x.tanh(), secant.clone() * secant]
+    }
+
+    pub fn asin<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().asin(), one::<T>() / distance_to_one(x)]
+    }
+
+    pub fn acos<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().acos(), -(one::<T>() / distance_to_one(x))]
+    }
+
+    pub fn atan<T: Scalar>(x: T) -> [T; 2] {
+        [x.clone().atan(), one::<T>() / (one::<T>() + x.clone() * x)]
+    }
+
+    /// sqrt(1 - x^2), as sqrt((1 - x)(1 + x)) so that nothing cancels near 1.
+    fn distance_to_one<T: Scalar>(x: T) -> T {
+        ((one::<T>() - x.clone()) * (one::<T>() + x)).sqrt()
+    }
 }
 
 #[cfg(test)]

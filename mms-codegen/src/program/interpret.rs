@@ -95,28 +95,45 @@ pub struct Interpreter<'a, T: Number> {
     once: Vec<T::Wide>,
     /// What it may take, if that is bounded: beyond, values are not numbers.
     work: Option<&'a Work>,
+    /// How many times what an operation takes is charged.
+    times: u64,
 }
 
 impl<'a, T: Number> Interpreter<'a, T> {
     /// Runs the Parameter stage. `parameters` are in the order of the field file.
     pub fn new(program: &'a Program, parameters: &[T]) -> Self {
-        Self::prepared(program, parameters, None)
+        Self::prepared(program, parameters, None, 1)
     }
 
     /// The same within a budget. When that is over, what is computed is not a number.
     pub fn within(work: &'a Work, program: &'a Program, parameters: &[T]) -> Self {
-        Self::prepared(program, parameters, Some(work))
+        Self::prepared(program, parameters, Some(work), 1)
     }
 
-    fn prepared(program: &'a Program, parameters: &[T], work: Option<&'a Work>) -> Self {
+    /// The same of a scalar that does the work of so many.
+    pub fn as_many(work: &'a Work, program: &'a Program, parameters: &[T], times: u64) -> Self {
+        Self::prepared(program, parameters, Some(work), times)
+    }
+
+    fn prepared(
+        program: &'a Program,
+        parameters: &[T],
+        work: Option<&'a Work>,
+        times: u64,
+    ) -> Self {
         let values = vec![T::from_f64(0.0); program.instrs.len()];
         let once = vec![T::Wide::from_f64(0.0); program.start(Stage::Point)];
-        let mut interpreter = Interpreter { program, values, once, work };
+        let mut interpreter = Interpreter { program, values, once, work, times };
         interpreter.run_once(Stage::Parameter, |symbol| match symbol {
             Symbol::Parameter(index) => parameters[index].clone(),
             _ => unreachable!("the Parameter stage reads parameters only"),
         });
         interpreter
+    }
+
+    /// From now on it does the work of so many.
+    pub fn charge(&mut self, times: u64) {
+        self.times = times;
     }
 
     /// Runs the Time stage.
@@ -172,13 +189,14 @@ impl<'a, T: Number> Interpreter<'a, T> {
         if work.is_over() {
             return true;
         }
-        work.spend(match &self.program.instrs[index].op {
+        let steps = match &self.program.instrs[index].op {
             Op::Unary(function, a) | Op::Binary(function, a, _) => {
                 self.values[a.index()].steps(Some(*function))
             }
             Op::Constant(number) => self.values[index].steps(None) + effort::of_constant(number),
             _ => self.values[index].steps(None),
-        });
+        };
+        work.spend(self.times * steps);
         false
     }
 

@@ -8,6 +8,7 @@ pub mod block;
 pub mod computed;
 pub mod dual;
 mod effort;
+pub mod fan;
 pub(crate) mod fusion;
 pub mod interpret;
 pub mod interval;
