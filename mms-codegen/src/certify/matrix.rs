@@ -30,17 +30,52 @@ pub fn split(entries: &[Interval]) -> (Vec<f64>, f64) {
 
 /// No eigenvalue of a symmetric row-major matrix of numbers is greater in magnitude.
 pub fn spectral_radius(matrix: &[f64]) -> f64 {
-    let order = matrix.len().isqrt();
-    let scale = matrix.iter().fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
+    match matrix.len() {
+        1 => radius_of::<1>(matrix),
+        4 => radius_of::<2>(matrix),
+        9 => radius_of::<3>(matrix),
+        16 => radius_of::<4>(matrix),
+        _ => radius_of::<9>(matrix),
+    }
+}
+
+/// The same of a matrix of that order.
+fn radius_of<const N: usize>(matrix: &[f64]) -> f64 {
+    let mut scale = 0.0_f64;
+    for entry in matrix {
+        scale = scale.max(entry.abs());
+    }
     if scale == 0.0 || !scale.is_finite() {
         return scale;
     }
-    let mut power: Vec<f64> = matrix.iter().map(|entry| entry / scale).collect();
-    for _ in 0..SQUARINGS {
-        power = product(&power, &power, order);
+    let mut power = [[0.0; N]; N];
+    for row in 0..N {
+        for column in 0..N {
+            power[row][column] = matrix[row * N + column] / scale;
+        }
     }
-    let trace: f64 = (0..order).map(|k| power[k * order + k]).sum();
+    for _ in 0..SQUARINGS {
+        power = squared(&power);
+    }
+    let mut trace = power[0][0];
+    for k in 1..N {
+        trace += power[k][k];
+    }
     scale * trace.powf(1.0 / f64::from(1 << SQUARINGS)) * (1.0 + ROUNDING)
+}
+
+fn squared<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+    let mut square = [[0.0; N]; N];
+    for row in 0..N {
+        for column in 0..N {
+            let mut sum = a[row][0] * a[0][column];
+            for k in 1..N {
+                sum += a[row][k] * a[k][column];
+            }
+            square[row][column] = sum;
+        }
+    }
+    square
 }
 
 fn product(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
@@ -241,25 +276,37 @@ fn inverse_times(a: &[f64], b: &[f64], order: usize) -> Vec<f64> {
 /// its extrema M and m over all directions, so that for the extrema q and p on the grid
 /// q >= M cos^2 d + m sin^2 d and p <= m cos^2 d + M sin^2 d, and with both
 /// M <= (q cos^2 d - p sin^2 d)/(cos^2 d - sin^2 d).
-pub fn largest_acoustic(entries: &[Interval]) -> f64 {
+pub fn largest_acoustic(grid: &Grid, entries: &[Interval]) -> f64 {
     let (tensor, radius) = split(entries);
     if !radius.is_finite() {
         return f64::INFINITY;
     }
-    let dimension = entries.len().isqrt().isqrt();
-    let (mut greatest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
-    let grid = directions(dimension);
-    for direction in &grid.directions {
-        let acoustic = acoustic(&tensor, direction);
-        let upper = spectral_radius(&acoustic);
-        let mut rest: Vec<f64> = acoustic.iter().map(|entry| -entry).collect();
-        (0..dimension).for_each(|k| rest[k * dimension + k] += upper);
-        greatest = greatest.max(upper);
-        least = least.min(upper - spectral_radius(&rest));
-    }
+    let [greatest, least] = match grid.dimension {
+        1 => extrema::<1>(grid, &tensor),
+        2 => extrema::<2>(grid, &tensor),
+        _ => extrema::<3>(grid, &tensor),
+    };
     let (near, far) = (1.0 - grid.sine_squared, grid.sine_squared);
     let bound = (greatest * near - least * far) / (near - far);
     bound * (1.0 + ROUNDING) + radius.min(largest_change(entries))
+}
+
+/// The greatest and the least eigenvalue of the acoustic tensors on the grid.
+fn extrema<const D: usize>(grid: &Grid, tensor: &[f64]) -> [f64; 2] {
+    let (mut greatest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+    for direction in &grid.directions {
+        let mut acoustic = acoustic::<D>(tensor, direction);
+        let upper = radius_of::<D>(acoustic.as_flattened());
+        for row in 0..D {
+            for column in 0..D {
+                acoustic[row][column] = -acoustic[row][column];
+            }
+            acoustic[row][row] += upper;
+        }
+        greatest = greatest.max(upper);
+        least = least.min(upper - radius_of::<D>(acoustic.as_flattened()));
+    }
+    [greatest, least]
 }
 
 /// No v A v with a unit vector v changes by more while A stays within these bounds.
@@ -270,59 +317,67 @@ fn largest_change(entries: &[Interval]) -> f64 {
 }
 
 /// The symmetric part of A_iJkL N_J N_L.
-fn acoustic(tensor: &[f64], normal: &[f64]) -> Vec<f64> {
-    let dimension = normal.len();
-    let order = dimension * dimension;
-    let entry = |i: usize, k: usize| -> f64 {
-        let mut sum = 0.0;
-        for (j, a) in normal.iter().enumerate() {
-            for (l, b) in normal.iter().enumerate() {
-                sum += tensor[(i * dimension + j) * order + k * dimension + l] * a * b;
+fn acoustic<const D: usize>(tensor: &[f64], normal: &[f64; 3]) -> [[f64; D]; D] {
+    let order = D * D;
+    let mut whole = [[0.0; D]; D];
+    for i in 0..D {
+        for k in 0..D {
+            for j in 0..D {
+                for l in 0..D {
+                    let entry = tensor[(i * D + j) * order + k * D + l];
+                    whole[i][k] += entry * normal[j] * normal[l];
+                }
             }
         }
-        sum
-    };
-    (0..order)
-        .map(|at| {
-            (entry(at / dimension, at % dimension) + entry(at % dimension, at / dimension)) / 2.0
-        })
-        .collect()
+    }
+    let mut symmetric = whole;
+    for i in 0..D {
+        for k in 0..D {
+            symmetric[i][k] = (whole[i][k] + whole[k][i]) / 2.0;
+        }
+    }
+    symmetric
 }
 
 /// Unit vectors, and the square of the sine of the angle within which one of them or its opposite
 /// is near to every direction.
-struct Grid {
-    directions: Vec<Vec<f64>>,
+pub struct Grid {
+    dimension: usize,
+    directions: Vec<[f64; 3]>,
     sine_squared: f64,
 }
 
-fn directions(dimension: usize) -> Grid {
-    match dimension {
-        1 => Grid { directions: vec![vec![1.0]], sine_squared: 0.0 },
-        2 => {
-            const COUNT: u32 = 8;
-            let step = std::f64::consts::PI / f64::from(COUNT);
-            let at = |k| vec![(step * f64::from(k)).cos(), (step * f64::from(k)).sin()];
-            let sine_squared = (step / 2.0).sin().powi(2) * (1.0 + ROUNDING);
-            Grid { directions: (0..COUNT).map(at).collect(), sine_squared }
-        }
-        _ => {
-            // Points on three faces of a cube, 1/2 apart. None of a face is farther from one of
-            // them than the middle of the four about its centre: tan^2 = 1/8, sin^2 = 1/9.
-            let steps = [-1.0, -0.5, 0.0, 0.5, 1.0];
-            let mut directions = Vec::new();
-            for axis in 0..3 {
-                for (a, b) in steps.iter().flat_map(|a| steps.map(|b| (*a, b))) {
-                    let length = f64::sqrt(1.0 + a * a + b * b);
-                    let mut direction = vec![0.0; 3];
-                    direction[axis] = 1.0 / length;
-                    direction[(axis + 1) % 3] = a / length;
-                    direction[(axis + 2) % 3] = b / length;
-                    directions.push(direction);
-                }
+impl Grid {
+    /// Of the directions in a line, a plane or space.
+    pub fn new(dimension: usize) -> Self {
+        let (directions, sine_squared) = match dimension {
+            1 => (vec![[1.0, 0.0, 0.0]], 0.0),
+            2 => {
+                const COUNT: u32 = 8;
+                let step = std::f64::consts::PI / f64::from(COUNT);
+                let at = |k| [(step * f64::from(k)).cos(), (step * f64::from(k)).sin(), 0.0];
+                let sine_squared = (step / 2.0).sin().powi(2) * (1.0 + ROUNDING);
+                ((0..COUNT).map(at).collect(), sine_squared)
             }
-            Grid { directions, sine_squared: (1.0 + ROUNDING) / 9.0 }
-        }
+            _ => {
+                // Points on three faces of a cube, 1/2 apart. None of a face is farther from one of
+                // them than the middle of the four about its centre: tan^2 = 1/8, sin^2 = 1/9.
+                let steps = [-1.0, -0.5, 0.0, 0.5, 1.0];
+                let mut directions = Vec::new();
+                for axis in 0..3 {
+                    for (a, b) in steps.iter().flat_map(|a| steps.map(|b| (*a, b))) {
+                        let length = f64::sqrt(1.0 + a * a + b * b);
+                        let mut direction = [0.0; 3];
+                        direction[axis] = 1.0 / length;
+                        direction[(axis + 1) % 3] = a / length;
+                        direction[(axis + 2) % 3] = b / length;
+                        directions.push(direction);
+                    }
+                }
+                (directions, (1.0 + ROUNDING) / 9.0)
+            }
+        };
+        Grid { dimension, directions, sine_squared }
     }
 }
 

@@ -8,7 +8,7 @@ use mms_math::Scalar as _;
 use super::chart::Chart;
 use super::enclosure::Formulas;
 use super::matrix::{
-    eigenvalues, largest_acoustic, largest_rate, largest_relative_rate, singular_values,
+    Grid, eigenvalues, largest_acoustic, largest_rate, largest_relative_rate, singular_values,
 };
 use super::motion::Motion;
 use super::search::{Found, Measure, largest};
@@ -187,6 +187,7 @@ impl<'a> Searches<'a> {
         let formulas = Formulas::new(graph, self.chart, &seen);
         let stress = Tangent::program(graph, &motion.stress);
         let mut tangent = Tangent::new(self.chart, &stress);
+        let grid = Grid::new(motion.dimension());
         let steering = 0..seen.len();
         let measure = |values: &[Interval], place: &[Interval], enough: f64| {
             let (state, density) = (self.state(values), values[known]);
@@ -195,9 +196,9 @@ impl<'a> Searches<'a> {
                 oriented => oriented.to_vec(),
             };
             let speed = |tangent: &[Interval]| match frame {
-                Frame::Reference => wave_speed_of(tangent, density),
+                Frame::Reference => wave_speed_of(&grid, tangent, density),
                 Frame::Deformed => {
-                    wave_speed_of(&pushed(tangent, &with_identity(&gradient)), density)
+                    wave_speed_of(&grid, &pushed(tangent, &with_identity(&gradient)), density)
                 }
             };
             let coarse = tangent.enclose(&gradient, state.volume, place);
@@ -355,10 +356,10 @@ fn pushed(tangent: &[Interval], deformation: &[Interval]) -> Vec<Interval> {
 }
 
 /// The fastest wave: the largest eigenvalue of all acoustic tensors, over rho0.
-fn wave_speed_of(tangent: &[Interval], density: Interval) -> f64 {
+fn wave_speed_of(grid: &Grid, tangent: &[Interval], density: Interval) -> f64 {
     if !density.is_defined() || density.lower() <= 0.0 {
         return f64::INFINITY;
     }
-    let modulus = largest_acoustic(tangent).max(0.0);
+    let modulus = largest_acoustic(grid, tangent).max(0.0);
     (modulus / density.lower()).sqrt() * (1.0 + f64::EPSILON)
 }
