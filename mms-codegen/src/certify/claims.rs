@@ -66,7 +66,29 @@ struct Subject {
     /// What must be 0; for `prescribed` and `traction`, what must exist.
     components: Vec<Expr>,
     /// What is 0 if the claim holds, component by component: the scale of each.
-    scales: Vec<f64>,
+    scales: Vec<Scale>,
+}
+
+/// What a component is compared with.
+#[derive(Clone, Copy, PartialEq)]
+enum Scale {
+    /// The size of the body.
+    Length,
+    /// The modulus of the material.
+    Modulus,
+}
+
+impl Subject {
+    /// The scales of the components as numbers, each found once.
+    fn scales(&self, compiled: &Compiled) -> Vec<f64> {
+        let found = |scale: Scale, find: fn(&Compiled) -> f64| match self.scales.contains(&scale) {
+            true => find(compiled),
+            false => 0.0,
+        };
+        let (length, modulus) = (found(Scale::Length, size), found(Scale::Modulus, modulus));
+        let number = |scale: &Scale| if *scale == Scale::Length { length } else { modulus };
+        self.scales.iter().map(number).collect()
+    }
 }
 
 /// A field on one of its faces.
@@ -90,10 +112,11 @@ pub fn judge(
         return (Finding::Proved, 0);
     }
     let formulas = on_face.formulas(graph, &subject.components);
-    if must_vanish && let Some(found) = on_face.refute(&formulas, &subject.scales, POINTS) {
+    let scales = subject.scales(compiled);
+    if must_vanish && let Some(found) = on_face.refute(&formulas, &scales, POINTS) {
         return (found, 0);
     }
-    on_face.enclose(&formulas, &subject.scales, must_vanish, limit)
+    on_face.enclose(&formulas, &scales, must_vanish, limit)
 }
 
 /// A point where a claim does not hold, if one of `points` points shows it.
@@ -112,7 +135,7 @@ pub fn refute(
         return None;
     }
     let formulas = on_face.formulas(graph, &subject.components);
-    on_face.refute(&formulas, &subject.scales, points)
+    on_face.refute(&formulas, &subject.scales(compiled), points)
 }
 
 impl<'a> OnFace<'a> {
@@ -166,13 +189,13 @@ impl<'a> OnFace<'a> {
 
     /// What a claim is about, for any parameters.
     fn subject(&self, graph: &mut Graph, claim: Claim) -> Subject {
-        let with = |components: Vec<Expr>, scale: f64| Subject {
+        let with = |components: Vec<Expr>, scale: Scale| Subject {
             scales: vec![scale; components.len()],
             components,
         };
         match claim {
-            Claim::Fixed | Claim::Prescribed => with(self.displacement(graph), size(self.compiled)),
-            Claim::Free | Claim::Traction => with(self.traction(graph), modulus(self.compiled)),
+            Claim::Fixed | Claim::Prescribed => with(self.displacement(graph), Scale::Length),
+            Claim::Free | Claim::Traction => with(self.traction(graph), Scale::Modulus),
             Claim::Roller => {
                 let normal = self.normal(graph);
                 let pairs = |vector: Vec<Expr>| -> Vec<(Expr, Expr)> {
@@ -180,13 +203,13 @@ impl<'a> OnFace<'a> {
                 };
                 let displacement = self.displacement(graph);
                 let across = dot(graph, pairs(displacement));
-                let mut subject = with(vec![across], size(self.compiled));
+                let mut subject = with(vec![across], Scale::Length);
                 let traction = self.traction(graph);
                 let pull = dot(graph, pairs(traction.clone()));
                 for (component, normal) in pairs(traction) {
                     let along = graph.mul(pull, normal);
                     subject.components.push(graph.sub(component, along));
-                    subject.scales.push(modulus(self.compiled));
+                    subject.scales.push(Scale::Modulus);
                 }
                 subject
             }
