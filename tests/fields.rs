@@ -421,10 +421,9 @@ fn agree_in_single<K: Kernel>(compiled: &Compiled, points: &Points, quantity: Qu
 }
 
 /// Whether numbers are equal; what is none has no bits.
-#[expect(clippy::eq_op, reason = "what is no number differs from itself")]
-fn are_same<T: PartialEq>(found: &[T], expected: &[T]) -> bool {
-    let same =
-        |(found, expected): (&T, &T)| found == expected || found != found && expected != expected;
+fn are_same<T: PartialOrd>(found: &[T], expected: &[T]) -> bool {
+    let is_none = |number: &T| number.partial_cmp(number).is_none();
+    let same = |(a, b): (&T, &T)| a == b || is_none(a) && is_none(b);
     found.len() == expected.len() && found.iter().zip(expected).all(same)
 }
 
