@@ -98,7 +98,7 @@ impl Relations {
                 _ => continue,
             };
             let cosine = graph.find(&Node::Call(partner, angle.clone()));
-            if !cosine.is_some_and(|cosine| reachable.binary_search(&cosine).is_ok()) {
+            if cosine.is_none_or(|cosine| reachable.binary_search(&cosine).is_err()) {
                 continue;
             }
             let half = half_of(graph, angle[0]);

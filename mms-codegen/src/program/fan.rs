@@ -122,6 +122,7 @@ impl<T: Bounds> Sub for Fan<T> {
 
 impl<T: Bounds> Mul for Fan<T> {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of products")]
     fn mul(self, other: Self) -> Self {
         self.join(other, self.value * other.value, |a, b| match (a, b) {
             (Some(a), Some(b)) => a * other.value + self.value * b,
@@ -133,6 +134,7 @@ impl<T: Bounds> Mul for Fan<T> {
 
 impl<T: Bounds> Div for Fan<T> {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of quotients")]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         self.join(other, value, |a, b| match (a, b) {

@@ -56,12 +56,11 @@ pub(super) enum Form {
 impl Form {
     /// The operands.
     pub(super) fn operands(&self) -> impl DoubleEndedIterator<Item = Item> {
-        let (terms, factors, arguments): (&[(Item, Rational)], &[(Item, i32)], &[Item]) = match self
-        {
-            Form::Constant(_) | Form::Pi | Form::Input(_) => (&[], &[], &[]),
-            Form::Sum(terms) => (terms, &[], &[]),
-            Form::Product(factors) => (&[], factors, &[]),
-            Form::Call(_, arguments) => (&[], &[], arguments),
+        let (terms, factors, arguments) = match self {
+            Form::Constant(_) | Form::Pi | Form::Input(_) => (&[][..], &[][..], &[][..]),
+            Form::Sum(terms) => (&terms[..], &[][..], &[][..]),
+            Form::Product(factors) => (&[][..], &factors[..], &[][..]),
+            Form::Call(_, arguments) => (&[][..], &[][..], &arguments[..]),
         };
         let summed = terms.iter().map(|(item, _)| *item);
         summed.chain(factors.iter().map(|(item, _)| *item)).chain(arguments.iter().copied())
