@@ -66,15 +66,11 @@ fn read(file: &FieldFile) -> Result<(), String> {
 /// Name, path and text of each field, and the text of a material that it brings along.
 fn fields(files: &[FieldFile]) -> String {
     let mut text = String::from("&[\n");
-    for FieldFile { name, path, material, .. } in files {
-        let material = material.as_ref().map(|path| format!("include_str!({path:?})"));
-        writeln!(
-            text,
-            "    Entry {{ name: {name:?}, path: \"fields/{name}.toml\", text: include_str!({path:?}), \
-             material: {} }},",
-            material.map_or("None".into(), |text| format!("Some({text})"))
-        )
-        .expect("writing to a string");
+    for file in files {
+        let (name, [field, material]) = (&file.name, file.included());
+        let path = format!("fields/{name}.toml");
+        let entry = format!("name: {name:?}, path: {path:?}, text: {field}, material: {material}");
+        writeln!(text, "    Entry {{ {entry} }},").expect("writing to a string");
     }
     text.push(']');
     text

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::{env, fs, io};
 
-use mms_codegen::spec::{FieldFile, field_files};
+use mms_codegen::spec::field_files;
 
 fn main() -> io::Result<()> {
     let folder =
@@ -14,10 +14,8 @@ fn main() -> io::Result<()> {
     let mut list = String::from("&[\n");
     for file in field_files(&folder)? {
         file.files().for_each(|path| println!("cargo::rerun-if-changed={}", path.display()));
-        let FieldFile { name, path, material, .. } = file;
-        let material = material.map(|path| format!("include_str!({path:?})"));
-        let material = material.map_or("None".into(), |text| format!("Some({text})"));
-        writeln!(list, "    (c{name:?}, include_str!({path:?}), {material}),")
+        let [field, material] = file.included();
+        writeln!(list, "    (c{:?}, {field}, {material}),", file.name)
             .expect("writing to a string");
     }
     list.push(']');

@@ -42,8 +42,7 @@ pub struct Arithmetic {
     #[arg(long, value_enum, default_value_t)]
     pub precision: Precision,
     /// How the field's quantities are computed: stable, or fast, which takes the fewest operations and loses digits
-    /// at small strains. The gallery is compiled in the stable form; the fast one is interpreted, as any field of a
-    /// file is, and so shows errors, not times.
+    /// at small strains.
     #[arg(long, value_name = "stable|fast", default_value = Form::default().name(), value_parser = Form::from_name)]
     pub form: Form,
 }

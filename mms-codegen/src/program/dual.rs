@@ -35,8 +35,30 @@ impl<T: Scalar> Dual<T> {
     }
 }
 
-/// Functions of one argument by the chain rule.
-macro_rules! functions {
+/// What numbers with derivatives have of [`Scalar`] by `constant` and `chain` alone: constants, which do not change, and
+/// functions of one argument.
+macro_rules! lifted {
+    () => {
+        fn from_parts(high: f64, low: f64) -> Self {
+            Self::constant(T::from_parts(high, low))
+        }
+
+        fn from_f64(value: f64) -> Self {
+            Self::constant(T::from_f64(value))
+        }
+
+        fn ratio(numerator: i32, denominator: i32) -> Self {
+            Self::constant(T::ratio(numerator, denominator))
+        }
+
+        fn pi() -> Self {
+            Self::constant(T::pi())
+        }
+
+        $crate::program::dual::lifted!(
+            sqrt cbrt exp exp_m1 ln ln_1p ln_1p_rest sin_pi cos_pi sin cos tan sinh cosh tanh asin acos atan
+        );
+    };
     ($($function:ident)+) => {
         $(fn $function(self) -> Self {
             let [value, derivative] = $crate::program::dual::rules::$function(self.value.clone());
@@ -45,7 +67,7 @@ macro_rules! functions {
     };
 }
 
-pub(super) use functions;
+pub(super) use lifted;
 
 fn one<T: Scalar>() -> T {
     T::from_f64(1.0)
@@ -127,23 +149,7 @@ impl<T: Scalar> Scalar for Dual<T> {
         Dual { value: T::narrow(wide.value), slope: T::narrow(wide.slope) }
     }
 
-    fn from_parts(high: f64, low: f64) -> Self {
-        Dual::constant(T::from_parts(high, low))
-    }
-
-    fn from_f64(value: f64) -> Self {
-        Dual::constant(T::from_f64(value))
-    }
-
-    fn ratio(numerator: i32, denominator: i32) -> Self {
-        Dual::constant(T::ratio(numerator, denominator))
-    }
-
-    fn pi() -> Self {
-        Dual::constant(T::pi())
-    }
-
-    functions!(sqrt cbrt exp exp_m1 ln ln_1p ln_1p_rest sin_pi cos_pi sin cos tan sinh cosh tanh asin acos atan);
+    lifted!();
 
     fn atan2(self, x: Self) -> Self {
         let squares = x.value.clone() * x.value.clone() + self.value.clone() * self.value.clone();

@@ -5,7 +5,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use mms_math::Scalar;
 
-use super::dual::{Dual, functions};
+use super::dual::{Dual, lifted};
 use super::interpret::Number;
 use super::interval::Interval;
 use crate::expr::{Function, Rational};
@@ -196,23 +196,7 @@ impl<T: Bounds> Scalar for Fan<T> {
         wide
     }
 
-    fn from_parts(high: f64, low: f64) -> Self {
-        Fan::constant(T::from_parts(high, low))
-    }
-
-    fn from_f64(value: f64) -> Self {
-        Fan::constant(T::from_f64(value))
-    }
-
-    fn ratio(numerator: i32, denominator: i32) -> Self {
-        Fan::constant(T::ratio(numerator, denominator))
-    }
-
-    fn pi() -> Self {
-        Fan::constant(T::pi())
-    }
-
-    functions!(sqrt cbrt exp exp_m1 ln ln_1p ln_1p_rest sin_pi cos_pi sin cos tan sinh cosh tanh asin acos atan);
+    lifted!();
 
     fn atan2(self, x: Self) -> Self {
         let squares = x.value * x.value + self.value * self.value;
@@ -238,27 +222,6 @@ mod tests {
     use super::*;
     use crate::program::interpret::{binary, unary};
 
-    /// Functions of one argument.
-    const FUNCTIONS: [Function; 17] = [
-        Function::Sqrt,
-        Function::Cbrt,
-        Function::Exp,
-        Function::ExpM1,
-        Function::Ln,
-        Function::Ln1p,
-        Function::Ln1pRest,
-        Function::SinPi,
-        Function::CosPi,
-        Function::Sin,
-        Function::Cos,
-        Function::Tan,
-        Function::Sinh,
-        Function::Cosh,
-        Function::Tanh,
-        Function::Asin,
-        Function::Atan,
-    ];
-
     /// What is made of two numbers by all operations.
     fn made<T: Number>(x: T, y: T) -> Vec<T> {
         let mut made = vec![
@@ -274,7 +237,8 @@ mod tests {
             binary(Function::Powf, x.clone(), y.clone()),
             binary(Function::Powf, y.clone(), x.clone()),
         ];
-        made.extend(FUNCTIONS.map(|function| unary(function, x.clone() * y.clone())));
+        let functions = Function::ALL.iter().filter(|function| function.arity() == 1);
+        made.extend(functions.map(|function| unary(*function, x.clone() * y.clone())));
         let whole = made.iter().cloned().reduce(|sum, term| sum + term);
         made.extend(whole);
         made

@@ -24,6 +24,12 @@ impl FieldFile {
         [Some(&self.path), self.material.as_ref()].into_iter().flatten().map(PathBuf::as_path)
     }
 
+    /// The text of the field and that of its material, if it has one, as Rust expressions for a build script to write.
+    pub fn included(&self) -> [String; 2] {
+        let material = self.material.as_ref().map(|path| format!("Some(include_str!({path:?}))"));
+        [format!("include_str!({:?})", self.path), material.unwrap_or("None".into())]
+    }
+
     /// The text of the material's file, for [`crate::compile::Loader`].
     pub fn load_material(&self) -> Result<String, String> {
         let path = self.material.as_ref().ok_or("the field has no material of its own")?;
