@@ -90,13 +90,14 @@ impl Rounding {
     ) -> ByExpr<f64> {
         let mut errors = ByExpr::of(roots);
         for expr in values.reached.iter().copied() {
-            // Every operand is changed, and the node evaluated with it.
-            let operands = graph.node(expr).children().count() as u64;
-            graph.work().spend(STEPS_OF_VALUE * operands * operands);
+            let node = graph.node(expr);
+            let operands = node.children().count() as u64;
+            let evaluations = if matches!(node, Node::Sum(..)) { 1 } else { operands };
+            graph.work().spend(STEPS_OF_VALUE * operands * evaluations);
             let of = |child: Expr| values[child][index];
             let value = values[expr][index];
             let error = match graph.stage(expr).needs_point() {
-                true => error(graph.node(expr), value, of, &errors, place),
+                true => error(node, value, of, &errors, place),
                 // That has more digits until it is done.
                 false => value.to_f64().abs(),
             };
@@ -114,11 +115,18 @@ fn error(
     errors: &ByExpr<f64>,
     place: &Place,
 ) -> f64 {
-    let passed_on = node.children().map(|child| {
+    // Of anything but a sum every operand is changed, and the node evaluated with it.
+    let changed = |child: Expr| {
         let change = Double::from_f64(PART * errors[child]);
         let changed = |other| if other == child { of(child) + change } else { of(other) };
         (at(node, changed, place) - value).to_f64().abs() / PART
-    });
+    };
+    let passed_on: f64 = match node {
+        Node::Sum(_, terms) => {
+            terms.iter().map(|(term, by)| by.to_f64().value().abs() * errors[*term]).sum()
+        }
+        _ => node.children().map(changed).sum(),
+    };
     let rounded = match node {
         Node::Sum(constant, terms) => {
             let mut total = Double::from_rational(constant);
@@ -130,7 +138,7 @@ fn error(
         }
         _ => node.children().count() as f64 * value.to_f64().abs(),
     };
-    passed_on.sum::<f64>() + rounded
+    passed_on + rounded
 }
 
 #[cfg(test)]
