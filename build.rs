@@ -8,10 +8,10 @@ use std::{env, fs, io, process};
 
 use mms_codegen::Options;
 use mms_codegen::compile::compile_unproved;
-use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Selection;
-use mms_codegen::spec::field_name::validate;
-use mms_codegen::spec::{FieldFile, field_files};
+use mms_spec::field_name::validate;
+use mms_spec::quantity::Quantity;
+use mms_spec::{FieldFile, field_files};
 
 /// Modules beside those of the fields, and crates that these files use by name.
 const TAKEN: &[&str] = &[

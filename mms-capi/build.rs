@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::{env, fs, io};
 
-use mms_codegen::spec::field_files;
+use mms_spec::field_files;
 
 fn main() -> io::Result<()> {
     let folder =

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::{env, fs, io, process, thread};
 
 use mms_codegen::compile;
-use mms_codegen::emit::rust_mms_math::module;
-use mms_codegen::spec::{FieldFile, field_files};
+use mms_codegen::rust::module;
+use mms_spec::{FieldFile, field_files};
 
 /// The field of the main job.
 const MAIN: &str = "bar_1d";

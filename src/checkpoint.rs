@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use crc32fast::Hasher;
-use mms_codegen::foreign::{self, Foreign};
 use mms_runtime::study::Checkpoint;
+use mms_spec::foreign;
+use mms_spec::foreign::Foreign;
 use serde::{Deserialize, Serialize};
 
 use crate::history::Mark;

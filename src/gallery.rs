@@ -1,10 +1,11 @@
 //! The shipped fields: the folder `fields/` is the list.
 
-use mms_codegen::compile::{Failure, MATERIALS};
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{FieldSpec, MaterialSpec, read_field, read_material};
+use mms_codegen::compile::Failure;
+use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
 use mms_runtime::scene::Code;
+use mms_spec::source::Sources;
+use mms_spec::{FieldSpec, MaterialSpec, read_field, read_material};
 
 /// A shipped field.
 #[derive(Clone, Copy, Debug)]

@@ -6,8 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use mms_codegen::foreign;
 use mms_runtime::study::{Balance, Record};
+use mms_spec::foreign;
 use serde::{Deserialize, Serialize};
 
 use crate::read;

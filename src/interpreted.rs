@@ -6,15 +6,10 @@ use std::sync::{Arc, OnceLock};
 
 use dashu_ratio::RBig;
 use mms_codegen::Compiled;
-use mms_codegen::expr::Symbol;
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::block::{
-    Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way,
-};
-use mms_codegen::program::interpret::Interpreter;
-use mms_codegen::program::{Bound, Output};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::{self, Claim};
+use mms_mechanics::Response;
+use mms_mechanics::{Bound, Output};
+use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
+use mms_program::interpret::Interpreter;
 use mms_runtime::column::Matrices;
 use mms_runtime::material::by_bunches;
 use mms_runtime::scene::Scene;
@@ -22,6 +17,9 @@ use mms_runtime::stencil::BUNCH;
 use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };
+use mms_spec::Claim;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Symbol;
 
 /// How many outputs a solver asks for.
 const ASKED: usize = 9;
@@ -103,7 +101,7 @@ impl<T: Real + Blockwise> Interpreted<T> {
         let asked = self.asked.iter().find(|asked| asked.output == output);
         let asked = asked.expect("every output that is evaluated is listed");
         let prepared = asked.prepared.get_or_init(|| {
-            let plan = Plan::new(&self.compiled.program, &[output]);
+            let plan = Plan::new(&self.compiled.program, &[output], Output::is_quantity);
             Prepared::new(Arc::new(plan), asked.way, &self.parameters)
         });
         asked.rooms.lend(|room| prepared.run(room, time, count, bring, take));
@@ -254,11 +252,11 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
 impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interpreted<T> {
     fn domain(&self) -> Domain<T, D> {
         let body = match self.compiled.field.domain.body {
-            spec::Body::Box { .. } => Body::Box {
+            mms_spec::Body::Box { .. } => Body::Box {
                 lower: Vector::from_column_slice(&self.bound(Bound::Lower)),
                 upper: Vector::from_column_slice(&self.bound(Bound::Upper)),
             },
-            spec::Body::Annulus { .. } => {
+            mms_spec::Body::Annulus { .. } => {
                 let theta = self.bound(Bound::Theta);
                 Body::Annulus {
                     inner: self.bound(Bound::Inner)[0],
@@ -295,14 +293,14 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
     }
 }
 
-fn face(face: spec::Face) -> Face {
+fn face(face: mms_spec::Face) -> Face {
     match face {
-        spec::Face::Min(axis) => Face::Min(axis),
-        spec::Face::Max(axis) => Face::Max(axis),
-        spec::Face::Inner => Face::Inner,
-        spec::Face::Outer => Face::Outer,
-        spec::Face::ThetaMin => Face::ThetaMin,
-        spec::Face::ThetaMax => Face::ThetaMax,
+        mms_spec::Face::Min(axis) => Face::Min(axis),
+        mms_spec::Face::Max(axis) => Face::Max(axis),
+        mms_spec::Face::Inner => Face::Inner,
+        mms_spec::Face::Outer => Face::Outer,
+        mms_spec::Face::ThetaMin => Face::ThetaMin,
+        mms_spec::Face::ThetaMax => Face::ThetaMax,
     }
 }
 

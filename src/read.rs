@@ -6,9 +6,9 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use anyhow::{Context as _, anyhow};
-use mms_codegen::foreign;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::MAX_FILE;
+use mms_spec::MAX_FILE;
+use mms_spec::foreign;
+use mms_spec::source::Sources;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use mms_codegen::foreign;
+use mms_spec::foreign;
 
 /// A word, on one line. What cannot be seen in it stands as the bytes of its escape, which shells read back since POSIX.1-2024.
 pub fn quoted(word: &str) -> String {

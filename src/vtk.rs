@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use mms_codegen::foreign;
 use mms_runtime::study::Frame;
+use mms_spec::foreign;
 
 use crate::report::write_own;
 

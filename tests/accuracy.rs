@@ -3,9 +3,10 @@
 #[path = "../examples/accuracy/sample.rs"]
 mod sample;
 
-use mms_codegen::accuracy::{Precision, Request};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::selection::Form;
+use mms_analysis::accuracy::Request;
+use mms_program::precision::Precision;
+use mms_spec::Form;
+use mms_spec::quantity::Quantity;
 
 /// The page.
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/accuracy.md");

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use mms::gallery::find;
-use mms_codegen::expr::Symbol;
-use mms_codegen::program::Output;
-use mms_codegen::program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};
-use mms_codegen::quantity::Quantity;
 use mms_gallery::axis_aligned_3d;
+use mms_mechanics::Output;
+use mms_program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Symbol;
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -51,7 +51,8 @@ fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]])
     let entry = find("axis_aligned_3d").expect("a field of the gallery");
     let compiled = entry.compile().expect("a right field");
     let parameters = compiled.parameters::<f64>(&BTreeMap::new());
-    let plan = Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)]);
+    let plan =
+        Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)], Output::is_quantity);
     let mut prepared = Prepared::new(Arc::new(plan), Way::fused(), &parameters);
     let rooms = Rooms::default();
     let mut evaluate = |prepared: &Prepared<f64>, time: f64, count: usize| {

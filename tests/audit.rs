@@ -83,7 +83,7 @@ fn agree(fields: &[String]) {
         let (printed, complaint) =
             (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
         assert!(output.status.success(), "{field}:\n{printed}\n{complaint}");
-        for quantity in mms_codegen::quantity::Quantity::ALL {
+        for quantity in mms_spec::quantity::Quantity::ALL {
             assert!(printed.contains(quantity.name()), "{field}: {}", quantity.name());
         }
     });
@@ -107,7 +107,7 @@ fn a_wrong_digit_is_found_in_every_quantity() {
         return;
     }
     let script = script("bar_1d");
-    mms_codegen::quantity::Quantity::ALL.par_iter().for_each(|quantity| {
+    mms_spec::quantity::Quantity::ALL.par_iter().for_each(|quantity| {
         let output = run(&mutated(&script, quantity.name()));
         let printed = String::from_utf8_lossy(&output.stdout);
         assert_eq!(output.status.code(), Some(1), "{}:\n{printed}", quantity.name());

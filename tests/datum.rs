@@ -4,12 +4,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
-use mms_codegen::expr::print::Names;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::syntax::{self, Ast, Kind, Operator};
-use mms_codegen::{Compiled, Selection, compile_with, emit};
+use mms_codegen::{Compiled, Selection, compile_with};
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
+use mms_spec::syntax;
+use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_symbolic::expr::print::Names;
 
 fn bar() -> Compiled {
     let text = fs::read_to_string("fields/bar_1d.toml").expect("the bar");
@@ -45,12 +46,12 @@ fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");
     let names = Names { parameters: compiled.model.names.parameters.clone(), ..Names::default() };
     let print = |expr| compiled.graph.print(expr, &names);
-    let emitted = emit::rust_mms_math::file(compiled).text;
+    let emitted = mms_codegen::rust::file(compiled).text;
     let function = emitted.find("pub fn jacobian(").expect("the function");
     let length = emitted[function..].find("\n    }").expect("its end");
     let output = Output::Quantity(Quantity::Jacobian);
     let parameters = compiled.parameters::<f64>(&BTreeMap::new());
-    let mut interpreter = Interpreter::<f64>::new(&compiled.program, &parameters);
+    let mut interpreter = Interpreter::<f64, _>::new(&compiled.program, &parameters);
     interpreter.set_time(&0.0023);
     let plan = interpreter.plan(&[output]);
     interpreter.set_point(&plan, Point::at(&[0.3]));

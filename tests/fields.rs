@@ -9,20 +9,20 @@ use std::sync::Arc;
 
 use mms::gallery::Entry;
 use mms::interpreted;
+use mms_analysis::visibility::{Status, Term, Visibility};
 use mms_codegen::certify::closed_form::{Finding, compare};
-use mms_codegen::program::Output;
-use mms_codegen::program::block::Blockwise;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::Sample;
-use mms_codegen::selection::Form;
-use mms_codegen::spec::StudySpec;
-use mms_codegen::visibility::{Status, Term, Visibility};
 use mms_codegen::{Compiled, Options};
+use mms_mechanics::Output;
+use mms_mechanics::sample::Sample;
+use mms_program::block::Blockwise;
+use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{TOLERANCE, judge};
 use mms_runtime::{Level, Method, Verdict};
+use mms_spec::Form;
+use mms_spec::StudySpec;
+use mms_spec::quantity::Quantity;
 
 use current::both_frames;
 use support::dual::Dual;

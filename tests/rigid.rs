@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use mms::gallery::{Entry, FIELDS};
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::program::{Bound, Output};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{Sample, samples};
-use mms_codegen::twin::Twin;
 use mms_codegen::{Compiled, Options, Selection};
+use mms_mechanics::Response;
+use mms_mechanics::sample::{Sample, samples};
+use mms_mechanics::{Bound, Output};
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
 use mms_runtime::math::Scalar as _;
+use mms_spec::quantity::Quantity;
+use mms_spec::twin::Twin;
 use rayon::prelude::*;
 
 /// At how many points a field is looked at.
@@ -126,16 +126,16 @@ impl Field {
     }
 
     fn points(&self) -> Vec<Sample<Precise>> {
-        samples(&self.compiled, &self.parameters, POINTS)
+        samples(&self.compiled.program, &self.parameters, POINTS)
     }
 
     /// The length of the body along X, or its outer radius.
     fn size(&self) -> Precise {
         match self.compiled.field.domain.body {
-            mms_codegen::spec::Body::Box { .. } => {
+            mms_spec::Body::Box { .. } => {
                 self.bound(Bound::Upper)[0].clone() - self.bound(Bound::Lower)[0].clone()
             }
-            mms_codegen::spec::Body::Annulus { .. } => self.bound(Bound::Outer)[0].clone(),
+            mms_spec::Body::Annulus { .. } => self.bound(Bound::Outer)[0].clone(),
         }
     }
 }

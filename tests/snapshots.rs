@@ -5,7 +5,7 @@
 
 use std::process::Command;
 
-use mms_codegen::{Compiled, compile, emit};
+use mms_codegen::{Compiled, compile};
 
 fn bar() -> Compiled {
     let entry = mms::gallery::find("bar_1d").expect("the bar is in the gallery");
@@ -15,7 +15,7 @@ fn bar() -> Compiled {
 
 #[test]
 fn the_generated_rust_of_the_bar_is_as_reviewed() {
-    insta::assert_snapshot!("bar_1d_rust", emit::rust_mms_math::text(&bar()));
+    insta::assert_snapshot!("bar_1d_rust", mms_codegen::rust::text(&bar()));
 }
 
 #[test]

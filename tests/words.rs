@@ -1,10 +1,11 @@
 //! The compiler of field files knows no solver, so it keeps its own lists of the words that a field
 //! file may use. These tests hold them together with the lists of what there is.
 
-use mms_codegen::compile::{Failure, compile};
-use mms_codegen::spec::names::{FUNCTIONS, MAX_NAME};
-use mms_codegen::spec::{INTEGRATORS, SHAPES};
+use mms_codegen::compile;
+use mms_codegen::compile::Failure;
 use mms_runtime::{IntegratorName, ShapeName};
+use mms_spec::names::{FUNCTIONS, MAX_NAME};
+use mms_spec::{INTEGRATORS, SHAPES};
 
 /// What means something in a target language or in what is generated for it: one line per target. A
 /// field may use every one of these as a name.

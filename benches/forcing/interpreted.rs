@@ -4,11 +4,11 @@ use std::error::Error;
 use std::sync::Arc;
 
 use mms_codegen::Compiled;
-use mms_codegen::compile::compile;
-use mms_codegen::expr::Symbol;
-use mms_codegen::program::Output;
-use mms_codegen::program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
-use mms_codegen::quantity::Quantity;
+use mms_codegen::compile;
+use mms_mechanics::Output;
+use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Symbol;
 
 use crate::{COUNT, Case, Contender, Run, timed};
 
@@ -67,7 +67,11 @@ fn contenders_in<T: Blockwise + Into<f64> + 'static>(
     case: &Case,
     precision: &'static str,
 ) -> Vec<Box<dyn Contender>> {
-    let plan = Arc::new(Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)]));
+    let plan = Arc::new(Plan::new(
+        &compiled.program,
+        &[Output::Quantity(Quantity::BodyForce)],
+        Output::is_quantity,
+    ));
     let numbers = |values: &[f64]| -> Vec<T> { values.iter().map(|it| T::from_f64(*it)).collect() };
     let ways = [("batch", Way::fused()), ("portable", Way::portable())];
     let contender = |(mode, way)| {

@@ -17,12 +17,12 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 
 use floor::Slot;
-use mms_codegen::compile::compile;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::quantity::Quantity;
+use mms_codegen::compile;
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
 use mms_runtime::math::Scalar as _;
+use mms_spec::quantity::Quantity;
 use serde_json::json;
 
 /// Points of a field, and what b is there.

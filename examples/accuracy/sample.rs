@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use mms_codegen::accuracy::{Accuracy, Precision, Request, Row, measure};
+use mms_analysis::accuracy::{Accuracy, Request, Row, measure};
 use mms_codegen::compile::compile_unproved;
-use mms_codegen::selection::Form;
+use mms_program::precision::Precision;
+use mms_spec::Form;
 
 /// The paths of the gallery's files, in order of their names.
 pub fn files() -> Vec<PathBuf> {

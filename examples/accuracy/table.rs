@@ -1,7 +1,8 @@
 //! The table of errors, as a page of Markdown.
 
-use mms_codegen::accuracy::{Accuracy, Precision, Request};
-use mms_codegen::selection::Form;
+use mms_analysis::accuracy::{Accuracy, Request};
+use mms_program::precision::Precision;
+use mms_spec::Form;
 
 use crate::sample::{columns, files, measured, regimes, stem, worst};
 

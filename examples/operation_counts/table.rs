@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use mms_codegen::emit::rust_mms_math as rust;
-use mms_codegen::program::{Output, Stage};
-use mms_codegen::quantity::Quantity;
+use mms_codegen::rust;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
+use mms_mechanics::Output;
+use mms_program::Stage;
+use mms_spec::quantity::Quantity;
 
 /// What stands above the table.
 const HEAD: &str = "\
@@ -152,8 +153,8 @@ impl Row {
 }
 
 fn logarithms(compiled: &Compiled, outputs: &[Output]) -> usize {
-    use mms_codegen::expr::Function;
-    use mms_codegen::program::Op;
+    use mms_program::Op;
+    use mms_symbolic::expr::Function;
     let program = &compiled.program;
     let needed = program.needed(outputs);
     let instrs = program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);

@@ -8,10 +8,10 @@ use std::error::Error;
 use std::sync::Arc;
 
 use mms::gallery::{self, Entry};
-use mms_codegen::twin::Twin;
 use mms_codegen::{Options, Selection};
 use mms_runtime::scene::Scene;
 use mms_runtime::study::{TOLERANCE, Watch, differences, judge, orders};
+use mms_spec::twin::Twin;
 use rows::{GROUPS, IN_TIME, InTime, Row, STANDARD};
 
 /// What stands before the tables.

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context as _, anyhow};
 use mms::workbench::{self, Module, Time, Way, Workbench};
-use mms_codegen::program::{Output, Stage};
-use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
+use mms_mechanics::Output;
+use mms_program::Stage;
+use mms_spec::quantity::Quantity;
 use object::{Object as _, ObjectSection as _, SectionKind};
 
 use crate::table::{Table, Variant};

@@ -1,7 +1,7 @@
 //! What is compared with what.
 
-use mms_codegen::accuracy::Precision;
-use mms_codegen::quantity::Quantity;
+use mms_program::precision::Precision;
+use mms_spec::quantity::Quantity;
 
 /// A field, and what of it a scene takes.
 #[derive(Clone, Copy)]

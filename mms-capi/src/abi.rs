@@ -7,8 +7,8 @@ use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
 
-use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::MAX_FILE;
+use mms_spec::MAX_FILE;
+use mms_spec::quantity::Quantity;
 
 use crate::border::{attempt, guarded, guarded_or};
 use crate::error::{Error, MmsCode};

@@ -5,7 +5,7 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use mms_codegen::compile::MATERIALS;
+use mms_codegen::materials::MATERIALS;
 
 use super::*;
 

@@ -2,10 +2,10 @@
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use mms_codegen::expr::Symbol;
-use mms_codegen::program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
-use mms_codegen::program::{Output, Program};
-use mms_codegen::quantity::Quantity;
+use mms_mechanics::{Output, Program};
+use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Symbol;
 
 /// How many points are evaluated together.
 pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
@@ -54,7 +54,8 @@ impl Evaluator {
         let idle = || asked.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let known = idle().pop();
         let mut ready = known.unwrap_or_else(|| {
-            let plan = || Arc::new(Plan::new(program, &[Output::Quantity(quantity)]));
+            let plan =
+                || Arc::new(Plan::new(program, &[Output::Quantity(quantity)], Output::is_quantity));
             let plan = asked.plan.get_or_init(plan).clone();
             Ready {
                 parameters: parameters.to_vec(),

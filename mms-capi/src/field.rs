@@ -5,18 +5,17 @@ use std::ffi::CString;
 use std::mem;
 use std::sync::OnceLock;
 
-use mms_codegen::certify::declared::accepts;
-use mms_codegen::certify::declared::quick::Quick;
-use mms_codegen::compile::compile_with;
-use mms_codegen::expr::Rational;
-use mms_codegen::mechanics::boundary::Datum;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::{Bound, Output};
-use mms_codegen::quantity::Quantity;
+use mms_codegen::compile::quick::Quick;
+use mms_codegen::compile_with;
 use mms_codegen::selection::quantity;
-use mms_codegen::spec::Face;
-use mms_codegen::suggest::advice;
 use mms_codegen::{Compiled, Options};
+use mms_mechanics::boundary::Datum;
+use mms_mechanics::{Bound, Output};
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::Face;
+use mms_spec::quantity::Quantity;
+use mms_spec::suggest::advice;
+use mms_symbolic::expr::Rational;
 
 use crate::border::on_own_stack;
 use crate::error::{Error, MmsCode};
@@ -136,7 +135,8 @@ impl Field {
         if let Some(all) = quick.as_ref().and_then(|quick| quick.accepted(set)) {
             return Ok(all);
         }
-        accepts(&self.compiled, set)
+        self.compiled
+            .accepts(set)
             .map_err(|failure| Error::new(MmsCode::InvalidParameter, failure))?;
         Ok(self.compiled.parameters(set))
     }

@@ -2,7 +2,7 @@
 
 use std::ffi::CStr;
 
-use mms_codegen::suggest::advice;
+use mms_spec::suggest::advice;
 
 use crate::error::{Error, MmsCode};
 use crate::field::Field;

@@ -4,7 +4,7 @@ use crate::error::{Error, MmsCode};
 
 /// By which calls are told to stop.
 #[derive(Clone, Debug, Default)]
-pub struct Stop(mms_codegen::work::Stop);
+pub struct Stop(mms_symbolic::work::Stop);
 
 impl Stop {
     /// Tells them so. It is one store to an atomic variable, so that signal handlers may do it.
@@ -26,7 +26,7 @@ impl Stop {
     }
 
     /// What the compiler asks.
-    pub fn of_compiler(&self) -> mms_codegen::work::Stop {
+    pub fn of_compiler(&self) -> mms_symbolic::work::Stop {
         self.0.clone()
     }
 }

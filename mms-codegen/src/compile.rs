@@ -1,38 +1,34 @@
 //! From a text to everything that follows from it.
 
 mod phases;
+pub mod quick;
 
 use std::collections::BTreeMap;
 
 use self::phases::Phases;
-use crate::certify::certificate::contradictions;
-use crate::diagnostic::{self, Diagnostic};
-use crate::expr::resolve::Scope;
-use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph, Rational, Symbol};
-use crate::mechanics::boundary::Datum;
-use crate::mechanics::face;
-use crate::mechanics::{Derivation, Model, Response, TooLarge, tangent};
-use crate::pass::substitute::substitute;
-use crate::program::interpret::{Interpreter, Number, Point};
-use crate::program::schedule::schedule;
-use crate::program::{Output, Program};
-use crate::selection::{Form, Selection};
-use crate::source::Sources;
-use crate::spec::{Face, FieldSpec, Formula, MaterialSpec};
-use crate::suggest::advice;
-use crate::syntax;
+use crate::declared;
+use crate::materials::shipped;
+use crate::selection::Selection;
 use crate::variation::Variation;
-use crate::work::Stop;
+use mms_mechanics::boundary::Datum;
+use mms_mechanics::face;
+use mms_mechanics::model::{as_set, parameter_values};
+use mms_mechanics::resolve::Scope;
+use mms_mechanics::{Derivation, Model, Response, TooLarge, tangent};
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::schedule::schedule;
+use mms_spec::Form;
+use mms_spec::diagnostic;
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::source::Sources;
+use mms_spec::suggest::advice;
+use mms_spec::syntax;
+use mms_spec::{Face, FieldSpec, Formula, MaterialSpec};
+use mms_symbolic::expr::{DEFAULT_MAX_NODES, Graph, Rational};
+use mms_symbolic::work::Stop;
 
-/// The materials that come with the crate: stem and text.
-pub const MATERIALS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/materials.rs"));
-
-/// The stem and the text of the material of that stem that comes with the crate.
-pub(crate) fn shipped(stem: &str) -> Option<&'static (&'static str, &'static str)> {
-    MATERIALS.iter().find(|(shipped, _)| *shipped == stem)
-}
-
-/// What the search for a cheap program of closed forms or parameters may take, in the steps of [`crate::work`].
+/// What the search for a cheap program of closed forms or parameters may take, in the steps of [`mms_symbolic::work`].
 const STEPS_OF_SCHEDULE: u64 = 50_000_000;
 
 /// Reads the file of a material such as `./mine.toml`, given as the field file writes it.
@@ -123,34 +119,8 @@ impl From<Selection> for Options {
     }
 }
 
-/// Compiles the text of a field file, all of it, within the default limits.
-///
-/// `name` is the field's name (its file's stem), `path` what messages show. Every mistake of the
-/// file and of its material is in the failure.
-pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<Compiled, Failure> {
-    compile_with(name, path, text, load, &Options::default())
-}
-
-/// Compiles a part of a field, the field with some parameters fixed, or within other limits.
-///
-/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart. So is
-/// what a short search finds to contradict the field: see [`contradictions`].
-pub fn compile_with(
-    name: &str,
-    path: &str,
-    text: &str,
-    load: Loader<'_>,
-    options: &Options,
-) -> Result<Compiled, Failure> {
-    let compiled = compile_unproved(name, path, text, load, options)?;
-    match contradictions(&compiled) {
-        found if found.is_empty() => Ok(compiled),
-        diagnostics => Err(Failure { sources: compiled.sources, diagnostics }),
-    }
-}
-
-/// The same without a look at what the field claims: for [`crate::certify::certificate::certify`],
-/// which looks longer.
+/// Compiles the text of a field file, without a look at what contradicts its claims: see
+/// [`compile_with`](crate::compile_with), and [`certify`](crate::certify::certificate::certify), which looks longer.
 pub fn compile_unproved(
     name: &str,
     path: &str,
@@ -189,27 +159,23 @@ pub fn constant(text: &str) -> Result<Rational, Failure> {
     value.ok_or(Failure { sources, diagnostics })
 }
 
-/// Values that are set, as expressions.
-pub(crate) fn as_set(graph: &mut Graph, set: &BTreeMap<usize, Rational>) -> BTreeMap<usize, Expr> {
-    set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
-}
-
-/// The parameters' values as constants, some of them set by the caller in terms of those before.
-pub(crate) fn parameter_values(
-    graph: &mut Graph,
-    model: &Model,
-    set: &BTreeMap<usize, Expr>,
-) -> Vec<Expr> {
-    let mut known = BTreeMap::new();
-    for (index, parameter) in model.parameters.iter().enumerate() {
-        let value = *set.get(&index).unwrap_or(&parameter.default);
-        let value = substitute(graph, &[value], &known)[0];
-        known.insert(Symbol::Parameter(index), value);
-    }
-    known.into_values().collect()
-}
-
 impl Compiled {
+    /// Whether the field allows these values of its parameters, by position: each within its range, a body and a time
+    /// window that are not empty, a positive density, an elastic material.
+    ///
+    /// # Errors
+    /// What it does not allow, with the place in the file that says so.
+    pub fn accepts(&self, set: &BTreeMap<usize, Rational>) -> Result<(), Failure> {
+        let mut graph = self.graph.clone();
+        graph.make_room();
+        let set = as_set(&mut graph, set);
+        let diagnostics = declared::check(&graph, &self.model, (&self.field, &self.material), &set);
+        if diagnostics.is_empty() {
+            return Ok(());
+        }
+        Err(Failure { sources: self.sources.clone(), diagnostics })
+    }
+
     /// The parameters' values in the order of the file; those that depend on a set one follow it.
     pub fn parameters<T: Number>(&self, set: &BTreeMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
@@ -223,7 +189,7 @@ impl Compiled {
             .map(|(index, value)| (Output::Parameter(index), vec![value]))
             .collect();
         let program = schedule(&graph, &outputs);
-        let interpreter = Interpreter::<T>::new(&program, &[]);
+        let interpreter = Interpreter::<T, _>::new(&program, &[]);
         (0..self.model.parameters.len())
             .flat_map(|index| interpreter.output(Output::Parameter(index)))
             .collect()

@@ -7,13 +7,14 @@
 
 use std::collections::BTreeSet;
 
-use crate::expr::resolve::Scope;
-use crate::expr::{Graph, Symbol};
-use crate::pass::differentiate::differentiate;
-use crate::source::Span;
-use crate::spec::names::COORDINATES;
-use crate::spec::{FieldSpec, Formula, RigidSpec};
-use crate::syntax::{self, Ast, Kind, Operator};
+use mms_mechanics::resolve::Scope;
+use mms_spec::names::COORDINATES;
+use mms_spec::source::Span;
+use mms_spec::syntax;
+use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::{FieldSpec, Formula, RigidSpec};
+use mms_symbolic::expr::{Graph, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
 
 /// How large the graph of a trial may become: enough to tell sizes apart.
 const TRIAL: usize = 20_000;
@@ -256,8 +257,8 @@ fn part(ast: &Ast, root: usize) -> Vec<syntax::Node> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::Sources;
-    use crate::spec::read_field;
+    use mms_spec::read_field;
+    use mms_spec::source::Sources;
 
     /// The text that is found guilty in a field of these definitions, and what it is part of.
     fn found(lets: &str, u: &str) -> Option<(String, String)> {

@@ -2,41 +2,23 @@
 //! clock, no environment.
 //!
 //! A displacement field u(X, t) and a strain-energy density W go in; everything that follows from
-//! them (v, a, F, P, Div P, b, ...) comes out as a [`program::Program`], which the interpreter
-//! evaluates and the emitters print. The phases, each a function from the last one's output, are
-//! the body of [`compile()`].
+//! them (v, a, F, P, Div P, b, ...) comes out as a [`Program`](mms_mechanics::Program), which the interpreter
+//! evaluates and the emitters print. [`compile`] reads, resolves, derives and schedules; [`certify`] proves what the
+//! file claims, over the [`bounds`] of formulas; [`rust`] prints the module that `field!` is.
 
-pub mod accuracy;
+pub mod bounds;
 pub mod certify;
 pub mod compile;
 pub mod culprit;
-#[cfg(feature = "defects")]
-pub mod defect;
-#[cfg(not(feature = "defects"))]
-mod defect;
-pub mod diagnostic;
-pub mod emit;
-pub mod expr;
-pub mod foreign;
-pub mod mechanics;
-pub mod operations;
-pub mod pass;
-pub mod period;
-pub mod program;
-pub mod quantity;
-pub mod sample;
+pub mod declared;
+mod driver;
+pub mod liveness;
+pub mod materials;
+pub mod rust;
 pub mod selection;
-pub mod show;
-pub mod simplify;
-pub mod source;
-pub mod spec;
-pub mod suggest;
-pub mod syntax;
-pub mod twin;
-pub mod units;
 pub mod variation;
-pub mod visibility;
-pub mod work;
 
-pub use compile::{Compiled, Options, compile, compile_with};
+pub use compile::{Compiled, Options};
+pub use driver::{compile, compile_with};
+pub use mms_spec::quantity::Quantity;
 pub use selection::Selection;

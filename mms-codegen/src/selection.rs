@@ -8,18 +8,19 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::compile::Compiled;
-use crate::diagnostic::{Diagnostic, quoted};
-use crate::expr::{Expr, Graph, Rational, Symbol};
-use crate::mechanics::Response;
-use crate::pass::substitute::substitute;
-use crate::program::interpret::{Interpreter, Number as _};
-use crate::program::precise::Precise;
-use crate::program::{Bound, Op, Output, Program, Value};
-use crate::quantity::Quantity;
-use crate::source::{Sources, Span};
-use crate::spec::{FieldSpec, Formula, ParameterSpec};
-use crate::suggest::advice;
-use crate::twin::Twin;
+use mms_mechanics::Response;
+use mms_mechanics::{Bound, Output, Program};
+use mms_program::interpret::{Interpreter, Number as _};
+use mms_program::precise::Precise;
+use mms_program::{Op, Value};
+use mms_spec::Form;
+use mms_spec::diagnostic::{Diagnostic, quoted};
+use mms_spec::quantity::Quantity;
+use mms_spec::source::{Sources, Span};
+use mms_spec::suggest::advice;
+use mms_spec::twin::Twin;
+use mms_spec::{FieldSpec, Formula, ParameterSpec};
+use mms_symbolic::expr::{Rational, Symbol};
 
 /// What of a field is wanted. The default is everything, as the file says it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -34,39 +35,6 @@ pub struct Selection {
     pub freeze: Freeze,
     /// A rigid motion on top of the field.
     pub twin: Twin,
-}
-
-/// Which of the ways to compute a quantity are open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Form {
-    /// Those that hold the accuracy contract: of each quantity, at any strain down to 1e-12, an error
-    /// of at most 64 eps of its largest magnitude.
-    #[default]
-    Stable,
-    /// All. Where a strain e is small, its stress may lose eps/e, and its energy eps/e^2.
-    Fast,
-}
-
-impl Form {
-    /// Every form.
-    pub const ALL: [Form; 2] = [Form::Stable, Form::Fast];
-
-    /// Its name in a field file, on the command line and in the macro.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Form::Stable => "stable",
-            Form::Fast => "fast",
-        }
-    }
-
-    /// The form of that name; otherwise what is wrong with it, in one line.
-    pub fn from_name(name: &str) -> Result<Form, String> {
-        Self::ALL.into_iter().find(|form| form.name() == name).ok_or_else(|| {
-            let known = Self::ALL.map(Form::name);
-            let advice = advice(name, known, |all| format!("the forms are {all}"));
-            format!("unknown form {}; {advice}", quoted(name))
-        })
-    }
 }
 
 /// Which parameters become constants, at their default values. They are then no parameters of the
@@ -330,30 +298,6 @@ fn mentions(formula: &str, name: &str) -> bool {
     formula.split(|c| !part(c)).any(|word| word == name)
 }
 
-/// What the names of parameters stand for in the formulas of a field: themselves, or constants.
-#[derive(Debug, Default)]
-pub(crate) struct Meanings {
-    /// The value of each parameter so far, where all have their defaults.
-    defaults: BTreeMap<Symbol, Expr>,
-}
-
-impl Meanings {
-    /// What the next parameter stands for, given its default in terms of those before it.
-    pub(crate) fn next(
-        &mut self,
-        graph: &mut Graph,
-        parameter: &ParameterSpec,
-        default: Option<Expr>,
-    ) -> Option<Expr> {
-        let symbol = Symbol::Parameter(self.defaults.len());
-        let leaf = graph.symbol(symbol);
-        let value = default.map(|default| substitute(graph, &[default], &self.defaults)[0]);
-        // One whose formula has failed keeps its place.
-        self.defaults.insert(symbol, value.unwrap_or(leaf));
-        if parameter.frozen { value } else { default.map(|_| leaf) }
-    }
-}
-
 /// The first instruction without operands that vary whose value is not a number.
 fn undefined_constant(program: &Program) -> Option<usize> {
     let mut constants = Vec::<Value>::new();
@@ -365,18 +309,17 @@ fn undefined_constant(program: &Program) -> Option<usize> {
             constants.push(Value(index as u32));
         }
     }
-    let output = Output::Expected(0);
-    let outputs = BTreeMap::from([(output, constants.clone())]);
-    let program = Program { instrs: program.instrs.clone(), outputs };
+    let outputs = BTreeMap::from([((), constants.clone())]);
+    let program = mms_program::Program { instrs: program.instrs.clone(), outputs };
     // What depends on a parameter is not looked at.
     let any = vec![Precise::from_rational(&Rational::ONE); parameter_count(&program)];
-    let values = Interpreter::new(&program, &any).output(output);
+    let values = Interpreter::new(&program, &any).output(());
     let undefined = values.iter().position(|value| !value.is_defined())?;
     Some(constants[undefined].index())
 }
 
 /// One more than the largest position of a parameter that a program reads.
-fn parameter_count(program: &Program) -> usize {
+fn parameter_count(program: &mms_program::Program<()>) -> usize {
     let positions = program.instrs.iter().map(|instr| match instr.op {
         Op::Input(Symbol::Parameter(index)) => index + 1,
         _ => 0,

@@ -3,11 +3,11 @@
 //! A variation is made before anything is differentiated, so that what follows from the varied field
 //! is derived as that of any other. Nothing that it claims is looked at: its boundary may be another.
 
-use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::model::{Body, Model};
-use crate::pass::substitute::{coordinates, substitute};
-use crate::source::{Sources, Spanned};
-use crate::spec::{self, FieldSpec, Formula, ParameterSpec};
+use mms_mechanics::model::{Body, Model};
+use mms_spec::source::{Sources, Spanned};
+use mms_spec::{FieldSpec, Formula, ParameterSpec};
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::substitute::{coordinates, substitute};
 
 /// What is changed of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,7 +35,7 @@ impl Variation {
     /// Whether a field can be varied so; otherwise what it lacks.
     pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
         match self {
-            Variation::Moved if !matches!(field.domain.body, spec::Body::Box { .. }) => {
+            Variation::Moved if !matches!(field.domain.body, mms_spec::Body::Box { .. }) => {
                 Err("the body is no box: an annulus lies about the origin".into())
             }
             Variation::Moduli(_) if pair(field).is_none() && !has_definitions(field) => {

@@ -10,14 +10,14 @@ use mms_codegen::certify::claims::Finding;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::{Frame, Rates};
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::Output;
-use mms_codegen::program::dual::Dual;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{domain, samples};
 use mms_codegen::{Compiled, Options, compile, compile_with};
+use mms_mechanics::Output;
+use mms_mechanics::Response;
+use mms_mechanics::sample::{domain, samples};
+use mms_program::dual::Dual;
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
 use proptest::prelude::*;
 
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
@@ -193,13 +193,13 @@ proptest! {
         let certificate = certify(&compiled);
         prop_assert_eq!(&certificate.finite, &Finite::Proved);
         let (jacobian, rates) = bounds(&certificate);
-        let value = mms_codegen::expr::Rational::from_parts(value.into(), 1000_u64.into());
+        let value = mms_symbolic::expr::Rational::from_parts(value.into(), 1000_u64.into());
         let set = [(0, value)].into();
         let parameters = compiled.parameters::<Precise>(&set);
         let numbers: Vec<_> = parameters.iter().map(|x| Dual::constant(x.to_f64())).collect();
         let mut response = Interpreter::new(&compiled.program, &numbers);
         let mut motion = Interpreter::new(&compiled.program, &numbers);
-        for point in samples(&compiled, &parameters, 12) {
+        for point in samples(&compiled.program, &parameters, 12) {
             let mut interpreter = Interpreter::new(&compiled.program, &parameters);
             interpreter.set_time(&point.time);
             let outputs = [Quantity::Jacobian, Quantity::DeformationGradient].map(Output::Quantity);
@@ -310,7 +310,7 @@ fn quadratic(tangent: &[f64], m: &[f64], n: &[f64]) -> f64 {
 
 /// F and dF/dt in space at a point and a time.
 fn moving(
-    interpreter: &mut Interpreter<'_, Dual<f64>>,
+    interpreter: &mut Interpreter<'_, Dual<f64>, Output>,
     at: &[Dual<f64>],
     time: Dual<f64>,
 ) -> (Matrix, Matrix) {
@@ -331,7 +331,7 @@ fn moving(
 /// precision.
 fn attained(compiled: &Compiled) -> [f64; 3] {
     let parameters = compiled.parameters::<f64>(&Default::default());
-    let (extent, [from, to]) = domain(compiled, &parameters);
+    let (extent, [from, to]) = domain(&compiled.program, &parameters);
     let variables = extent.dimension() + 1;
     let steps: usize = [0, 0, 33, 13, 7][variables];
     let constants: Vec<_> = parameters.iter().copied().map(Dual::constant).collect();
@@ -357,7 +357,7 @@ fn attained(compiled: &Compiled) -> [f64; 3] {
 
 /// dP/dF and rho0 at a point, in double precision.
 fn tangent(
-    interpreter: &mut Interpreter<'_, Dual<f64>>,
+    interpreter: &mut Interpreter<'_, Dual<f64>, Output>,
     at: &[Dual<f64>],
     deformation: &[f64],
 ) -> (Vec<f64>, f64) {

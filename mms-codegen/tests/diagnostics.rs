@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 
 use mms_codegen::certify::certificate::certify;
 use mms_codegen::compile::{Failure, constant};
-use mms_codegen::diagnostic::{Diagnostic, render};
 use mms_codegen::selection::{Freeze, Selection};
-use mms_codegen::source::Sources;
-use mms_codegen::spec::read_material;
-use mms_codegen::syntax::parse;
-use mms_codegen::twin::Twin;
 use mms_codegen::{Options, compile, compile_with};
+use mms_spec::diagnostic::{Diagnostic, render};
+use mms_spec::read_material;
+use mms_spec::source::Sources;
+use mms_spec::syntax::parse;
+use mms_spec::twin::Twin;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/fail")
@@ -83,10 +83,10 @@ fn source_files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// A place in the sources as `src/file.rs:line`.
+/// A place in the sources as `mms-spec/src/file.rs:line`.
 fn place(path: &str, line: usize) -> String {
     let path = path.replace('\\', "/");
-    let start = path.rfind("src/").unwrap_or(0);
+    let start = path.rfind("mms-").unwrap_or(0);
     format!("{}:{line}", &path[start..])
 }
 
@@ -189,7 +189,10 @@ fn every_message_of_the_compiler_has_a_wrong_file() {
         );
     }
     let mut files = Vec::new();
-    source_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    for name in ["mms-spec", "mms-mechanics", "mms-codegen"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src");
+        source_files(&folder, &mut files);
+    }
     let made: BTreeSet<_> = files
         .iter()
         .filter(|path| !path.ends_with("syntax/tests.rs"))

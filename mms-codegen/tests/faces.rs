@@ -1,15 +1,15 @@
 //! What is given on the faces of a body: normals by geometry, u and P N by the quantities.
 
-use mms_codegen::expr::Rational;
-use mms_codegen::mechanics::boundary::Datum;
-use mms_codegen::program::interpret::{Interpreter, Number as _, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::program::{Output, Program};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{Sample, halton};
-use mms_codegen::spec::Face;
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;
+use mms_mechanics::boundary::Datum;
+use mms_mechanics::sample::{Sample, halton};
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Number as _, Point};
+use mms_program::precise::Precise;
+use mms_spec::Face;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Rational;
 
 const BLOCK: &str = r#"
 shape = "box"

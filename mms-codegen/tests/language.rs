@@ -1,11 +1,11 @@
 //! The language of formulas: what each construct means, to the last digit.
 
 use mms_codegen::compile::{Failure, compile_unproved, constant};
-use mms_codegen::expr::Rational;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
 use mms_codegen::{Compiled, Options};
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Rational;
 
 /// A field of one component with these parameters.
 fn field(parameters: &str, lets: &str, u: &str) -> String {

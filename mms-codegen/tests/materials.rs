@@ -3,20 +3,21 @@
 
 use std::sync::LazyLock;
 
-use mms_codegen::certify::rest::{self, Rest};
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::expr::Rational;
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::dual::Dual;
-use mms_codegen::program::interpret::{Interpreter, Number, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::program::{Output, Program};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{halton, samples};
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{MaterialSpec, read_material};
+use mms_codegen::certify::rest;
+use mms_codegen::certify::rest::Rest;
+use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;
+use mms_mechanics::Response;
+use mms_mechanics::sample::{halton, samples};
+use mms_mechanics::{Output, Program};
+use mms_program::dual::Dual;
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Sources;
+use mms_spec::{MaterialSpec, read_material};
+use mms_symbolic::expr::Rational;
 
 /// Displacements in which no derivative vanishes, of every dimension.
 const DISPLACEMENTS: [&str; 3] = [
@@ -55,7 +56,7 @@ fn field(dimension: usize, material: &str, arguments: &str) -> Compiled {
 /// The arguments of a material: distinct stresses that change from place to place, and a large
 /// number for what has no unit.
 fn arguments(spec: &MaterialSpec) -> String {
-    let line = |(index, parameter): (usize, &mms_codegen::spec::MaterialParameter)| {
+    let line = |(index, parameter): (usize, &mms_spec::MaterialParameter)| {
         let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
         let name = &parameter.name.value;
         let value = if unit == Some("Pa") { 2 + index } else { 30 };
@@ -332,7 +333,7 @@ fn greatest_eigenvalue(matrix: &[f64], dimension: usize) -> f64 {
 fn momentum_balances(name: &str, compiled: &Compiled) {
     let dimension = compiled.field.dimension;
     let step = precise(1e-20);
-    for sample in samples::<Precise>(compiled, &[], 3) {
+    for sample in samples::<Precise>(&compiled.program, &[], 3) {
         let of = |quantity: Quantity, at: &[Precise]| {
             let mut interpreter = Interpreter::new(&compiled.program, &[]);
             interpreter.set_time(&sample.time);
@@ -422,7 +423,7 @@ const PAIRS: [&str; 3] = [
 #[test]
 fn any_pair_of_moduli_gives_the_same_solid() {
     for spec in specs() {
-        let Some((own, _)) = mms_codegen::spec::moduli::pairs(&spec) else { continue };
+        let Some((own, _)) = mms_spec::moduli::pairs(&spec) else { continue };
         let is_other = |line: &&str| !own.iter().any(|name| line.starts_with(name));
         let all = arguments(&spec);
         let others: Vec<&str> = all.lines().filter(is_other).collect();

@@ -4,8 +4,9 @@
 //! (sharing, nesting, relations, kernels in derivatives) at least one of them is exceeded.
 
 use mms_codegen::compile;
-use mms_codegen::program::{Output, Stage};
-use mms_codegen::quantity::Quantity;
+use mms_mechanics::Output;
+use mms_program::Stage;
+use mms_spec::quantity::Quantity;
 
 const MATERIAL: &str = r#"
 [parameters]

@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use mms_codegen::diagnostic::render;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{Body, FieldSpec, read_field, read_material};
-use mms_codegen::syntax::parse;
+use mms_spec::diagnostic::render;
+use mms_spec::source::Sources;
+use mms_spec::syntax::parse;
+use mms_spec::{Body, FieldSpec, read_field, read_material};
 
 /// Reads a field that must be right.
 fn field(path: &Path) -> FieldSpec {

@@ -9,12 +9,13 @@ use mms_codegen::certify::certificate::{Certificate, certify};
 use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
-use mms_codegen::certify::rest::{self, Rest};
+use mms_codegen::certify::rest;
+use mms_codegen::certify::rest::Rest;
 use mms_codegen::certify::written::gaps;
 use mms_codegen::certify::{claims, computed};
 use mms_codegen::compile::{Failure, compile_unproved};
-use mms_codegen::work::Stop;
 use mms_codegen::{Compiled, Options};
+use mms_symbolic::work::Stop;
 
 /// A check ends within ten seconds of the processor's time. What takes this long has no end.
 const ENDLESS: Duration = Duration::from_secs(120);

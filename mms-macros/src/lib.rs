@@ -8,10 +8,10 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use mms_codegen::compile::Failure;
-use mms_codegen::emit::rust_mms_math::{module, module_named};
-use mms_codegen::source;
-use mms_codegen::spec::MAX_FILE;
+use mms_codegen::rust::{module, module_named};
 use mms_codegen::{Options, compile_with};
+use mms_spec::MAX_FILE;
+use mms_spec::source;
 use proc_macro::TokenStream;
 use quote::quote;
 use syn::{Error, Result};

@@ -1,8 +1,9 @@
 //! The words between the parentheses of `field!`.
 
-use mms_codegen::selection::{Entry, Form, Freeze, Selection, quantity};
-use mms_codegen::suggest::advice;
-use mms_codegen::twin::Twin;
+use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
+use mms_spec::Form;
+use mms_spec::suggest::advice;
+use mms_spec::twin::Twin;
 use proc_macro2::{Ident, Span};
 use syn::ext::IdentExt as _;
 use syn::parse::{Parse, ParseStream};

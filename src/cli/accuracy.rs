@@ -4,13 +4,15 @@ use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use mms_codegen::accuracy::regime::REGIMES;
-use mms_codegen::accuracy::{Precision, Request, measure, names};
-use mms_codegen::foreign::{Foreign, one_line, shown};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::selection::{Form, Selection};
-use mms_codegen::suggest::advice;
+use mms_analysis::accuracy::regime::REGIMES;
+use mms_analysis::accuracy::{Request, measure, names};
+use mms_codegen::selection::Selection;
 use mms_codegen::{Compiled, Options};
+use mms_program::precision::Precision;
+use mms_spec::Form;
+use mms_spec::foreign::{Foreign, one_line, shown};
+use mms_spec::quantity::Quantity;
+use mms_spec::suggest::advice;
 
 use super::input::{Motion, Text, precision, quantities, settings};
 use super::{Outcome, hold_output, print, print_json, say, this_command};

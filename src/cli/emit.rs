@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use mms_codegen::emit::{Bundle, Subject, TARGETS, Target};
-use mms_codegen::foreign::Foreign;
 use mms_codegen::selection::{Freeze, Selection};
+use mms_emit::{Bundle, Subject, TARGETS, Target};
+use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use self::folder::{State, compare, write};

@@ -2,15 +2,15 @@
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
-use mms_codegen::accuracy::Precision;
 use mms_codegen::compile::constant;
-use mms_codegen::foreign::Foreign;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Number, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{domain, is_between};
+use mms_mechanics::Output;
+use mms_mechanics::sample::{domain, is_between};
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::precise::Precise;
+use mms_program::precision::Precision;
 use mms_runtime::math::{Double, Scalar as _};
+use mms_spec::foreign::Foreign;
+use mms_spec::quantity::Quantity;
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
@@ -221,7 +221,7 @@ impl Eval {
         time: &T,
     ) -> Outside {
         let near = |values: &[T]| values.iter().map(T::near).collect::<Vec<f64>>();
-        let (body, [first, last]) = domain(&input.compiled, &near(parameters));
+        let (body, [first, last]) = domain(&input.compiled.program, &near(parameters));
         let is_outside = |(_, point): &(usize, &Vec<T>)| !body.contains(&near(point));
         let points = points.iter().enumerate().filter(is_outside);
         let outside_body: Vec<_> = points.map(|(index, _)| index).collect();

@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_codegen::suggest::advice;
-use mms_codegen::twin::Twin;
 use mms_codegen::{Options, Selection};
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
+use mms_spec::suggest::advice;
+use mms_spec::twin::Twin;
 
 use super::input::{Motion, settings};
 use super::method::{Arithmetic, MethodOptions, Precision};

@@ -8,19 +8,19 @@ use anyhow::{Context as _, Error, anyhow, bail};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
-use mms_codegen::accuracy::Precision;
-use mms_codegen::certify::declared::accepts;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
-use mms_codegen::foreign::{Foreign, shown};
-use mms_codegen::program::block::Blockwise;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::selection::{Form, quantity};
-use mms_codegen::suggest::advice;
-use mms_codegen::twin::Twin;
+use mms_codegen::selection::quantity;
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
+use mms_program::block::Blockwise;
+use mms_program::precision::Precision;
 use mms_runtime::Real;
 use mms_runtime::scene::{Code, Scene};
+use mms_spec::Form;
+use mms_spec::foreign::{Foreign, shown};
+use mms_spec::quantity::Quantity;
+use mms_spec::suggest::advice;
+use mms_spec::twin::Twin;
 
 use crate::gallery::{self, Entry};
 use crate::read::{self, Kind};
@@ -230,7 +230,7 @@ impl Input {
             }
         }
         if !set.is_empty() {
-            accepts(&self.compiled, &set).map_err(|failure| not_allowed(settings, &failure))?;
+            self.compiled.accepts(&set).map_err(|failure| not_allowed(settings, &failure))?;
         }
         Ok(set)
     }

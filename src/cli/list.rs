@@ -3,9 +3,9 @@
 use clap::Args;
 use comfy_table::Table;
 use comfy_table::presets::NOTHING;
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
+use mms_codegen::materials::MATERIALS;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
+use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 use serde_json::{Map, Value, json};
 
 use super::{Outcome, print, print_json};

@@ -6,11 +6,11 @@ use std::str::FromStr;
 use anyhow::bail;
 use clap::Args;
 use mms_codegen::certify::certificate::not_computed;
-use mms_codegen::sample::domain;
-use mms_codegen::selection::Form;
+use mms_mechanics::sample::domain;
 use mms_runtime::{
     Division, Fill, FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer,
 };
+use mms_spec::Form;
 
 use super::input::{Input, Motion, Variant};
 use super::stability::fastest_wave;
@@ -217,7 +217,7 @@ impl MethodOptions {
             return Ok(());
         }
         let set = input.settings(settings)?;
-        match not_computed(&input.compiled, &set, mms_codegen::accuracy::Precision::F32) {
+        match not_computed(&input.compiled, &set, mms_program::precision::Precision::F32) {
             Some(found) => {
                 bail!("{}: {}; run it with `--precision f64`", found.message, found.label)
             }
@@ -229,7 +229,7 @@ impl MethodOptions {
     fn hold_end(&self, input: &Input, settings: &[String]) -> anyhow::Result<()> {
         let Some(end) = self.end_time else { return Ok(()) };
         let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
-        let (_, [start, usual]) = domain(&input.compiled, &parameters);
+        let (_, [start, usual]) = domain(&input.compiled.program, &parameters);
         if end <= start {
             bail!(
                 "`--time {end}`: `{}` begins at {start}; expected a later time, as in `--time {usual:.3e}`",

@@ -29,8 +29,8 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
-use mms_codegen::foreign;
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
+use mms_spec::foreign;
 
 use crate::report::file::{is_same, try_to_write};
 use crate::report::provenance::{Input, Provenance};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::Args;
-use mms_codegen::foreign;
+use mms_spec::foreign;
 
 use super::{Outcome, print, say, spare};
 use crate::gallery::{self, FIELDS};

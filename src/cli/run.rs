@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use mms_codegen::foreign;
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Watch;
 use mms_runtime::{Division, Method};
+use mms_spec::foreign;
 
 use super::follow::{Followers, Interrupted};
 use super::input::{Input, Motion};

@@ -5,9 +5,9 @@ use std::ffi::OsString;
 use anyhow::{anyhow, bail};
 use clap::{Arg, Args, Command};
 use mms_codegen::compile::Failure;
-use mms_codegen::diagnostic::Diagnostic;
-use mms_codegen::source::Sources;
-use mms_codegen::suggest::advice;
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::source::Sources;
+use mms_spec::suggest::advice;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 

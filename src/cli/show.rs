@@ -4,15 +4,18 @@ use std::collections::BTreeMap;
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+use mms_analysis::operations::Operations;
+use mms_analysis::visibility::{POINTS, Span, Status, Term, Visibility};
 use mms_codegen::Compiled;
-use mms_codegen::certify::rest::{self, Rest};
-use mms_codegen::diagnostic::render_styled;
-use mms_codegen::mechanics::TooLarge;
-use mms_codegen::program::{Output, Stage};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::show::language::Language;
-use mms_codegen::show::{Document, Line, Section, latex, mathml, sympy, text};
-use mms_codegen::visibility::{POINTS, Span, Status, Term, Visibility};
+use mms_codegen::certify::rest;
+use mms_codegen::certify::rest::Rest;
+use mms_mechanics::Output;
+use mms_mechanics::TooLarge;
+use mms_program::Stage;
+use mms_show::language::Language;
+use mms_show::{Document, Line, Section, latex, mathml, sympy, text};
+use mms_spec::diagnostic::render_styled;
+use mms_spec::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
 use super::input::{Input, Variant, quantities};
@@ -161,7 +164,7 @@ fn visibility(visibility: &Visibility) -> Value {
 /// What all quantities that are shown cost together.
 fn together(compiled: &Compiled, document: &Document) -> Value {
     let shown: Vec<_> = document.sections.iter().map(|section| section.quantity).collect();
-    let operations = compiled.operations(&shown);
+    let operations = Operations::of(compiled, &shown);
     let by_stage = Stage::ALL.map(|stage| (stage.name(), operations.by_stage[&stage]));
     json!({
         "before": operations.before,

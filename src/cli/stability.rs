@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::wave_speed;
 use mms_codegen::certify::rates::Frame;
-use mms_codegen::expr::Rational;
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::sample::samples;
+use mms_mechanics::Output;
+use mms_mechanics::Response;
+use mms_mechanics::sample::samples;
+use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::{FormulationName, Method};
+use mms_symbolic::expr::Rational;
 
 use super::input::Input;
 use super::say;
@@ -62,7 +62,7 @@ pub fn sound(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> [f64; 2] {
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
     interpreter.set_time(&0.0);
     let plan = interpreter.plan(&[output]);
-    let speeds = samples(compiled, &parameters, POINTS).into_iter().map(|sample| {
+    let speeds = samples(&compiled.program, &parameters, POINTS).into_iter().map(|sample| {
         interpreter.set_point(&plan, Point::at(&sample.coordinates));
         interpreter.output(output)[0]
     });

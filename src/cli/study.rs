@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
-use mms_codegen::period::period;
-use mms_codegen::sample::domain;
+use mms_analysis::period::period;
+use mms_mechanics::sample::domain;
 use mms_runtime::study::{
     Fit, Phase, Phases, Refinement, Series, TOLERANCE, Watch, differences, fit,
 };
@@ -299,7 +299,8 @@ impl Study {
         let set = input.settings(&self.set)?;
         let length = period(&input.compiled, &set)
             .with_context(|| format!("`--periods`: `{}` has no period", input.name.shown()))?;
-        let (_, [start, _]) = domain(&input.compiled, &input.compiled.parameters::<f64>(&set));
+        let (_, [start, _]) =
+            domain(&input.compiled.program, &input.compiled.parameters::<f64>(&set));
         method.setup.end_time = Some(start + last as f64 * length);
         method.setup.parts = last;
         Ok(Some(Periods { start, length, last }))

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::Compiled;
-use mms_codegen::expr::Rational;
-use mms_codegen::sample::{Extent, domain};
-use mms_codegen::selection::Form;
+use mms_mechanics::sample::{Extent, domain};
 use mms_runtime::Division;
+use mms_spec::Form;
+use mms_symbolic::expr::Rational;
 
 use super::input::{Input, Motion, Variant};
 use super::method::positive;
@@ -230,7 +230,7 @@ impl Bench<'_> {
 /// About how many particle-steps a run takes on one cell as long as the `longest` edge of the body, with one particle in it
 /// and a Courant number of 1: the part of the cell that is the body's, times how often a wave crosses it.
 fn unit_work(compiled: &Compiled, set: &BTreeMap<usize, Rational>, longest: f64) -> f64 {
-    let (extent, [start, end]) = domain(compiled, &compiled.parameters::<f64>(set));
+    let (extent, [start, end]) = domain(&compiled.program, &compiled.parameters::<f64>(set));
     let [_, speed] = sound(compiled, set);
     let part: f64 = match extent {
         Extent::Box([lower, upper]) => {

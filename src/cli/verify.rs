@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mms_codegen::suggest::advice;
+use mms_spec::suggest::advice;
 use serde_json::Value;
 
 use super::input::Input;

@@ -1,7 +1,7 @@
 //! The rows: what is extreme, what is expected of it, and why.
 
 use anyhow::ensure;
-use mms_codegen::accuracy::regime;
+use mms_analysis::accuracy::regime;
 use serde::Deserialize;
 
 use super::verdict::Diagnosis;

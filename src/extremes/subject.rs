@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use mms_codegen::accuracy::{Varied, regime, vary};
-use mms_codegen::expr::Rational;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{Extent, domain, samples};
+use mms_analysis::accuracy::{Varied, regime, vary};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options};
+use mms_mechanics::Output;
+use mms_mechanics::sample::{Extent, domain, samples};
+use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, FormulationName, Method};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Rational;
 
 use super::rows::Row;
 use super::theory::Elasticity;
@@ -87,7 +87,7 @@ impl Subject {
     fn of(input: Input, set: BTreeMap<usize, Rational>, settings: String) -> Self {
         let compiled = &input.compiled;
         let parameters = compiled.parameters::<f64>(&set);
-        let (extent, window) = domain(compiled, &parameters);
+        let (extent, window) = domain(&compiled.program, &parameters);
         let edge = match extent {
             Extent::Box([lower, upper]) => lower
                 .iter()
@@ -142,7 +142,7 @@ impl Subject {
     /// The gallery is not that of its files.
     pub fn elasticity(&self) -> anyhow::Result<Option<Elasticity>> {
         let compiled = &self.input.compiled;
-        let (extent, _) = domain(compiled, &compiled.parameters::<f64>(&self.set));
+        let (extent, _) = domain(&compiled.program, &compiled.parameters::<f64>(&self.set));
         let Extent::Box([lower, upper]) = extent else { return Ok(None) };
         let middle: Vec<f64> =
             lower.iter().zip(upper).map(|(lower, upper)| (lower + upper) / 2.0).collect();
@@ -235,7 +235,7 @@ fn motion(compiled: &Compiled, parameters: &[f64]) -> (f64, f64) {
     let mut interpreter = Interpreter::new(&compiled.program, parameters);
     let plan = interpreter.plan(&[u, jacobian]);
     let (mut size, mut least) = (0.0_f64, f64::INFINITY);
-    for sample in samples(compiled, parameters, POINTS) {
+    for sample in samples(&compiled.program, parameters, POINTS) {
         interpreter.set_time(&sample.time);
         interpreter.set_point(&plan, Point::at(&sample.coordinates));
         size = size.max(interpreter.output(u).iter().map(|u| u * u).sum::<f64>().sqrt());

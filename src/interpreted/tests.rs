@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use mms_codegen::program::block::Blockwise;
-use mms_codegen::sample::samples;
+use mms_mechanics::sample::samples;
+use mms_program::block::Blockwise;
 use mms_runtime::column::{Bunch as _, Matrices};
 use mms_runtime::scene::{Code, Scene};
 use mms_runtime::stencil::BUNCH;
@@ -106,7 +106,7 @@ fn hold<T: Real + Blockwise>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     let code = entry.code().expect("the field is compiled");
     let compiled = Arc::new(entry.compile().expect("a field of the gallery"));
     let parameters = compiled.parameters::<T>(&BTreeMap::new());
-    let all = samples(&compiled, &parameters, COUNTS[COUNTS.len() - 1]);
+    let all = samples(&compiled.program, &parameters, COUNTS[COUNTS.len() - 1]);
     let time = all[0].time;
     let interpreted = scene::<T>(compiled, &BTreeMap::new());
     let Some(compiled) = of(code)(&parameters) else { panic!("as many parameters") };

@@ -1,8 +1,8 @@
 //! What rounding does to formulas, and what digits cost.
 
 use maud::{Markup, html};
-use mms_codegen::accuracy::Precision;
-use mms_codegen::selection::Form;
+use mms_program::precision::Precision;
+use mms_spec::Form;
 use serde::Deserialize;
 
 use super::mark::{Column, count, number, numbers, table, verdict, words};

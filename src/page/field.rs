@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use maud::{Markup, PreEscaped, html};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::show::{Document, mathml};
 use mms_codegen::{Options, Selection};
+use mms_show::{Document, mathml};
+use mms_spec::quantity::Quantity;
 
 use super::motion::Motion;
 use crate::cli::input;

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use mms_codegen::foreign;
+use mms_spec::foreign;
 use serde_json::Value;
 
 use super::{Entry, Page, entry, states};

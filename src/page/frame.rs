@@ -1,7 +1,7 @@
 //! The page around the sections: verdict first, then what there is, then each of it.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use mms_codegen::foreign;
+use mms_spec::foreign;
 
 use super::mark::{table, verdict, words};
 use super::{Entry, Page, Verdicts, origin};

@@ -2,7 +2,7 @@
 //! them depends on the machine.
 
 use maud::html;
-use mms_codegen::spec::{FieldSpec, StudySpec};
+use mms_spec::{FieldSpec, StudySpec};
 use serde_json::Value;
 
 use super::mark::{table, words};

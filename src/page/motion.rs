@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use dashu_ratio::RBig;
 use maud::{Markup, html};
 use mms_codegen::Compiled;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::{Bound, Output};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::Body;
+use mms_mechanics::{Bound, Output};
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::Body;
+use mms_spec::quantity::Quantity;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::plot::short;
@@ -126,7 +126,7 @@ fn divisions(edge: f64, longest: f64, most: usize) -> usize {
     ((edge / longest * most as f64).round() as usize).max(2)
 }
 
-fn cells(interpreter: &Interpreter<'_, f64>, body: &Body) -> Vec<Cell> {
+fn cells(interpreter: &Interpreter<'_, f64, Output>, body: &Body) -> Vec<Cell> {
     let bound = |bound| interpreter.output(Output::Bound(bound));
     match body {
         Body::Box { .. } => {

@@ -2,8 +2,8 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_codegen::foreign::Foreign;
 use mms_runtime::Method;
+use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::provenance::Provenance;

@@ -24,7 +24,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_codegen::foreign;
+use mms_spec::foreign;
 use serde_json::Value;
 
 /// Writes texts to files of one stem in a folder, which is made if there is none, by their extensions; returns

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use mms_codegen::Compiled;
-use mms_codegen::spec::MAX_FILE;
-use mms_codegen::twin::Twin;
+use mms_spec::MAX_FILE;
+use mms_spec::twin::Twin;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

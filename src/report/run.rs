@@ -2,9 +2,9 @@
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_codegen::foreign::Foreign;
 use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
+use mms_spec::foreign::Foreign;
 use serde_json::{Map, Value, json};
 
 use super::provenance::Provenance;

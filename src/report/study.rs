@@ -4,12 +4,12 @@ use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_codegen::foreign::Foreign;
 use mms_runtime::study::{
     CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Reason, Refinement, Series,
     is_near,
 };
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run, Verdict};
+use mms_spec::foreign::Foreign;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 

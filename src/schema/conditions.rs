@@ -1,10 +1,12 @@
 //! What one value of a field file says about others: how many components there are, which faces,
 //! which parameters of a material.
 
-use mms_codegen::quantity::Quantity;
-use mms_codegen::spec::format::{self, MATERIAL};
-use mms_codegen::spec::moduli::{self, Pair};
-use mms_codegen::spec::{Face, MaterialSpec};
+use mms_spec::format;
+use mms_spec::format::MATERIAL;
+use mms_spec::moduli;
+use mms_spec::moduli::Pair;
+use mms_spec::quantity::Quantity;
+use mms_spec::{Face, MaterialSpec};
 use serde_json::{Map, Value, json};
 
 use super::holds::{count, extend};

@@ -1,9 +1,10 @@
 //! What a key holds, as a schema of its value.
 
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::spec::format::{self, Holds, Key, Length};
-use mms_codegen::spec::names::{COORDINATES, FUNCTIONS, INVARIANTS, Keeper, MAX_NAME};
-use mms_codegen::spec::{Claim, Face, MAX_COUNT};
+use mms_codegen::materials::MATERIALS;
+use mms_spec::format;
+use mms_spec::format::{Holds, Key, Length};
+use mms_spec::names::{COORDINATES, FUNCTIONS, INVARIANTS, Keeper, MAX_NAME};
+use mms_spec::{Claim, Face, MAX_COUNT};
 use serde_json::{Map, Value, json};
 
 /// Adds the keywords of one schema to another.

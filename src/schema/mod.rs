@@ -1,7 +1,7 @@
 //! The JSON Schemas of field files and of material files, for editors.
 //!
 //! They are made of the table that the reader takes its keys from
-//! ([`mms_codegen::spec::format`]) and of the reader's own lists of words. What JSON Schema can
+//! ([`mms_spec::format`]) and of the reader's own lists of words. What JSON Schema can
 //! say, they say as the reader does; what it cannot (what a formula means, whether a name is
 //! defined, whether cells increase) is left to `mms check`.
 //!
@@ -11,7 +11,7 @@
 mod conditions;
 mod holds;
 
-use mms_codegen::spec::format::{FIELD_FILE, Key, MATERIAL_FILE};
+use mms_spec::format::{FIELD_FILE, Key, MATERIAL_FILE};
 use serde_json::{Value, json};
 
 /// The JSON Schema of a field file.

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use mms_codegen::selection::Form;
 use mms_runtime::{FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer};
+use mms_spec::Form;
 
 use crate::cli::method::{Arithmetic, Precision};
 

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mms_codegen::spec::Claim;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
+use mms_spec::Claim;
 
 use super::matrix::{Expected, Quantity, Row, Study, Word, arguments, rows};
 use super::plan::Plan;
@@ -108,7 +108,8 @@ fn every_condition_has_a_row_whose_field_claims_it() {
 fn every_material_and_every_dimension_has_a_row() {
     let fields = gallery::fields();
     let of = |study: &Study| fields.iter().find(|field| field.name == study.field).unwrap();
-    let materials: Vec<_> = mms_codegen::compile::MATERIALS.iter().map(|(name, _)| *name).collect();
+    let materials: Vec<_> =
+        mms_codegen::materials::MATERIALS.iter().map(|(name, _)| *name).collect();
     each_has_a_row(&materials, |_, study, name| of(study).material.model.value == name);
     each_has_a_row(&[1, 2, 3], |_, study, dimension| of(study).dimension == dimension);
 }

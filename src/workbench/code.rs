@@ -1,6 +1,6 @@
 //! The machine code of what is emitted.
 
-use mms_codegen::accuracy::Precision;
+use mms_program::precision::Precision;
 
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context as _, bail};
-use mms_codegen::foreign;
+use mms_spec::foreign;
 use tempfile::TempDir;
 
 pub use code::object;

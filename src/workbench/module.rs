@@ -1,10 +1,10 @@
 //! Emitted code, and the ways to call it.
 
 use mms_codegen::Compiled;
-use mms_codegen::accuracy::Precision;
-use mms_codegen::emit::rust_mms_math as rust;
-use mms_codegen::program::Output;
-use mms_codegen::quantity::Quantity;
+use mms_codegen::rust;
+use mms_mechanics::Output;
+use mms_program::precision::Precision;
+use mms_spec::quantity::Quantity;
 
 use super::Workbench;
 

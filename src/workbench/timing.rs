@@ -4,9 +4,10 @@
 use std::fmt::Write as _;
 
 use anyhow::Context as _;
+use mms_analysis::accuracy::{Input, Place, inputs};
 use mms_codegen::Compiled;
-use mms_codegen::accuracy::{Input, Place, Precision, inputs};
-use mms_codegen::quantity::Quantity;
+use mms_program::precision::Precision;
+use mms_spec::quantity::Quantity;
 
 use super::Workbench;
 use super::module::{Call, Module, Way, scalar};

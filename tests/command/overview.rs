@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use mms::gallery::FIELDS;
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::selection::Form;
-use mms_codegen::spec::PRECISIONS;
+use mms_codegen::materials::MATERIALS;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
+use mms_spec::Form;
+use mms_spec::PRECISIONS;
 use serde_json::{Map, Value, json};
 
 use super::mms::Folder;

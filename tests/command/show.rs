@@ -1,6 +1,6 @@
 //! `mms show`.
 
-use mms_codegen::quantity::Quantity;
+use mms_spec::quantity::Quantity;
 use serde_json::json;
 
 use super::mms::{Folder, keys};

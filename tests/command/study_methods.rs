@@ -1,6 +1,6 @@
 //! `mms study`: what each method shows on the bar.
 
-use mms_codegen::spec::PRECISIONS;
+use mms_spec::PRECISIONS;
 use serde_json::{Value, json};
 
 use super::mms::{Folder, assert_close, keys};

@@ -1,6 +1,6 @@
 //! The current frame: x is the independent variable, and X is found from it.
 
-use mms_codegen::quantity::Quantity;
+use mms_spec::quantity::Quantity;
 
 use super::largest;
 use super::support::kernel::{Kernel, compiled, sample};

@@ -6,12 +6,12 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::samples;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
+use mms_mechanics::Output;
+use mms_mechanics::sample::samples;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -109,7 +109,7 @@ impl Expected {
         let parameters = compiled.parameters::<f64>(&Default::default());
         let mut interpreter = Interpreter::new(&compiled.program, &parameters);
         let plan = interpreter.plan(&[output]);
-        for point in samples(compiled, &parameters, 64) {
+        for point in samples(&compiled.program, &parameters, 64) {
             interpreter.set_time(&point.time);
             interpreter.set_point(&plan, Point::at(&point.coordinates));
             let answer = interpreter.output(output);

@@ -6,12 +6,12 @@ use std::sync::{LazyLock, Mutex};
 
 use jsonschema::Validator;
 use mms_codegen::compile::compile_unproved;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::format::{MATERIAL, names};
-use mms_codegen::spec::names::{Keeper, is_identifier, reserved};
-use mms_codegen::spec::{read_field, read_material};
 use mms_codegen::{Options, Selection};
+use mms_spec::format::{MATERIAL, names};
+use mms_spec::names::{Keeper, is_identifier, reserved};
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Sources;
+use mms_spec::{read_field, read_material};
 use serde_json::{Map, Value};
 
 static FIELD_SCHEMA: LazyLock<Validator> =

@@ -5,9 +5,9 @@ use std::sync::{LazyLock, OnceLock};
 
 use mms::gallery::FIELDS;
 use mms_codegen::Compiled;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{Sample, samples};
+use mms_mechanics::sample::{Sample, samples};
 use mms_runtime::math::Real;
+use mms_spec::quantity::Quantity;
 
 /// The generated functions of one field.
 pub trait Kernel {
@@ -38,11 +38,11 @@ macro_rules! kernel {
             const DIMENSION: usize = mms_gallery::$module::DIMENSION;
 
             fn quantity<T: mms_runtime::math::Real>(
-                quantity: mms_codegen::quantity::Quantity,
+                quantity: mms_spec::quantity::Quantity,
                 time: T,
                 point: &[T],
             ) -> Vec<T> {
-                use mms_codegen::quantity::Quantity;
+                use mms_spec::quantity::Quantity;
                 let field = mms_gallery::$module::prepare(&Default::default());
                 let (at, x) =
                     (field.at_time(time), point.try_into().expect("DIMENSION components"));
@@ -129,5 +129,5 @@ pub fn compiled(name: &str) -> &'static Compiled {
 
 /// Points and times over a field's domain.
 pub fn sample(compiled: &Compiled, count: usize) -> Vec<Sample<f64>> {
-    samples(compiled, &compiled.parameters::<f64>(&Default::default()), count)
+    samples(&compiled.program, &compiled.parameters::<f64>(&Default::default()), count)
 }

@@ -11,9 +11,9 @@ use std::sync::LazyLock;
 
 use mms_codegen::compile;
 use mms_codegen::compile::constant;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::quantity::Quantity;
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
 
 /// Where the library is installed, and then moved to. A space is in its name, as in folders of users.
 static PREFIX: LazyLock<PathBuf> = LazyLock::new(|| {

@@ -10,24 +10,24 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use mms_math::Scalar as _;
 
-use super::chart::Chart;
-use super::enclosure::{Evaluation, Formulas};
 use super::finite::corners;
 use super::limits::{Limit, Must, limits, limits_of};
 use super::motion::Motion;
-use super::search::{Cell, Measure, largest};
-use super::witness::Witness;
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::{Evaluation, Formulas};
+use crate::bounds::search::{Cell, Measure, largest};
+use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::invariant::{Kind, VOLUME};
-use crate::mechanics::kinematics::Strain;
-use crate::mechanics::model::{Part, Written};
-use crate::mechanics::tensor::Tensor;
-use crate::pass::relations::Relations;
-use crate::pass::substitute::substitute;
-use crate::program::interval::Interval;
-use crate::program::precise::Precise;
-use crate::source::Span;
+use mms_mechanics::invariant::{Kind, VOLUME};
+use mms_mechanics::kinematics::Strain;
+use mms_mechanics::model::{Part, Written};
+use mms_mechanics::tensor::Tensor;
+use mms_program::interval::Interval;
+use mms_program::precise::Precise;
+use mms_spec::source::Span;
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::substitute::substitute;
 
 /// How often the way between two points is halved on which a limit is met.
 const HALVINGS: usize = 60;

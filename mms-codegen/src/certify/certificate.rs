@@ -3,22 +3,22 @@
 use std::collections::BTreeMap;
 
 use super::branches::{self, Exit};
-use super::chart::Chart;
 use super::claims::{self, Finding};
 use super::computed::{self, AsComputed};
-use super::enclosure::Formulas;
 use super::finite::{self, Finite};
 use super::jacobian::{self, Jacobian};
 use super::message;
 use super::motion::Motion;
 use super::rates::{self, Frame, Rates};
-use super::witness::Witness;
-use crate::accuracy::Precision;
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use crate::diagnostic::Diagnostic;
-use crate::expr::{Graph, Rational};
-use crate::quantity::Quantity;
-use crate::spec::BoundarySpec;
+use mms_program::precision::Precision;
+use mms_spec::BoundarySpec;
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Graph, Rational};
 
 /// How many cells each bound may take.
 pub const CELLS: usize = 2000;
@@ -26,7 +26,7 @@ pub const CELLS: usize = 2000;
 /// How many cells a rate may take: its bound holds however many there were.
 const CELLS_OF_RATES: usize = 500;
 
-/// What each part of a proof may take, in steps of the budget of [`crate::work`]: the formulas, J, the rates, finite
+/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, the rates, finite
 /// values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;

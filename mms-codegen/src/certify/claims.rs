@@ -3,26 +3,26 @@
 
 use mms_math::Scalar as _;
 
-use super::chart::{Chart, straightened};
-use super::enclosure::Formulas;
 use super::motion::gradient;
-use super::search::{Measure, largest};
-use super::witness::Witness;
+use crate::bounds::chart::{Chart, straightened};
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::search::{Measure, largest};
+use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::face::normal;
-use crate::mechanics::model::Body;
-use crate::mechanics::tensor::dot;
-use crate::mechanics::{Response, face};
-use crate::pass::reduce::reduce;
-use crate::pass::relations::Relations;
-use crate::pass::substitute::substitute;
-use crate::program::interpret::Number as _;
-use crate::program::interval::Interval;
-use crate::program::precise::Precise;
-use crate::quantity::Quantity;
-use crate::sample::spread;
-use crate::spec::{BoundarySpec, Claim, Face};
+use mms_mechanics::face::normal;
+use mms_mechanics::model::Body;
+use mms_mechanics::sample::spread;
+use mms_mechanics::tensor::dot;
+use mms_mechanics::{Response, face};
+use mms_program::interpret::Number as _;
+use mms_program::interval::Interval;
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
+use mms_spec::{BoundarySpec, Claim, Face};
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::reduce::reduce;
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::substitute::substitute;
 
 /// At how many points of a face a claim is evaluated in 77 digits.
 pub const POINTS: usize = 32;
@@ -33,7 +33,7 @@ const DOUBT: f64 = 1e-40;
 /// What is enclosed more narrowly than this, relative to its natural scale, passes for 0.
 const NARROW: f64 = 1e-12;
 
-/// What a scale may take, in the steps of [`crate::work`].
+/// What a scale may take, in the steps of [`mms_symbolic::work`].
 const STEPS_OF_SCALE: u64 = 20_000_000;
 
 /// What is known of a claim.
@@ -324,7 +324,7 @@ fn size(compiled: &Compiled) -> f64 {
         }
         Body::Annulus { outer, .. } => vec![graph.scale(*outer, 2)],
     };
-    let values = super::declared::values(&graph, &compiled.model, &lengths);
+    let values = crate::declared::values(&graph, &compiled.model, &lengths);
     values.into_iter().fold(0.0, f64::max)
 }
 

@@ -2,21 +2,21 @@
 //! arbitrary precision.
 
 use crate::compile::Compiled;
-use crate::expr::Rational;
-use crate::foreign::Foreign;
-use crate::mechanics::model::Check;
-use crate::program::interpret::{Interpreter, Number as _, Point};
-use crate::program::precise::Precise;
-use crate::program::{Output, Program};
-use crate::quantity::Quantity;
-use crate::sample::{Sample, samples};
-use crate::source::Span;
-use crate::work::Work;
+use mms_mechanics::model::Check;
+use mms_mechanics::sample::{Sample, samples};
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Number as _, Point};
+use mms_program::precise::Precise;
+use mms_spec::foreign::Foreign;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Span;
+use mms_symbolic::expr::Rational;
+use mms_symbolic::work::Work;
 
 /// At how many points of the domain a closed form is compared.
 pub const POINTS: usize = 128;
 
-/// What all closed forms together may take, in the steps of [`crate::work`].
+/// What all closed forms together may take, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 100_000_000;
 
 /// How one closed form compares.
@@ -75,7 +75,7 @@ pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
     work.allow(STEPS);
     let parameters = compiled.parameters::<Precise>(&Default::default());
     let program = compiled.checks();
-    let all = samples(compiled, &parameters, POINTS);
+    let all = samples(&compiled.program, &parameters, POINTS);
     let compared = |(index, check): (usize, &Check)| {
         // Each may take its part of what is left.
         let part = work.left() / (compiled.model.checks.len() - index) as u64;

@@ -5,20 +5,21 @@ use std::collections::BTreeSet;
 
 use mms_math::Scalar as _;
 
-use super::chart::{Chart, Run, Spot};
-use super::enclosure::Formulas;
 use super::finite::{blame, corners};
-use super::search::{Cell, Measure, largest};
-use super::witness::{Witness, digits};
-use crate::accuracy::Precision;
+use crate::bounds::chart::{Chart, Run, Spot};
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::search::{Cell, Measure, largest};
+use crate::bounds::witness::{Witness, digits};
 use crate::compile::Compiled;
-use crate::expr::{Expr, Function, Graph, Symbol};
-use crate::program::computed::{Computed, Double, Format, Single};
-use crate::program::interpret::{Number, apply};
-use crate::program::interval::Interval;
-use crate::program::precise::Precise;
-use crate::program::{Op, Output, Program, Stage, Value};
-use crate::quantity::Quantity;
+use mms_mechanics::{Output, Program};
+use mms_program::computed::{Computed, Double, Format, Single};
+use mms_program::interpret::{Number, apply};
+use mms_program::interval::Interval;
+use mms_program::precise::Precise;
+use mms_program::precision::Precision;
+use mms_program::{Op, Stage, Value};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Function, Graph, Symbol};
 
 /// Angles of which so many digits are right after the point are told from their neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
@@ -480,7 +481,7 @@ struct Judge<'a> {
     subject: &'a Subject<'a>,
     chart: &'a Chart,
     operands: &'a Operands,
-    spots: Run<'a, Interval>,
+    spots: Run<'a, Interval, crate::bounds::chart::Output>,
 }
 
 impl Judge<'_> {

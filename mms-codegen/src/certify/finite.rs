@@ -2,21 +2,21 @@
 
 use std::collections::BTreeMap;
 
-use super::chart::{Chart, Spot};
-use super::enclosure::Formulas;
 use super::motion::{Motion, without_volume};
-use super::search::{Cell, Measure, largest};
-use super::witness::Witness;
+use crate::bounds::chart::{Chart, Spot};
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::search::{Cell, Measure, largest};
+use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use crate::expr::{Graph, Symbol};
-use crate::pass::substitute::replace;
-use crate::program::interpret::{Interpreter, Number, Point};
-use crate::program::interval::Interval;
-use crate::program::precise::Precise;
-use crate::program::schedule::schedule_plainly;
-use crate::program::{Output, Program};
-use crate::quantity::Quantity;
-use crate::work::Work;
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::interval::Interval;
+use mms_program::precise::Precise;
+use mms_program::schedule::schedule_plainly;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Graph, Symbol};
+use mms_symbolic::pass::substitute::replace;
+use mms_symbolic::work::Work;
 
 /// What is known of the values of all quantities.
 #[derive(Clone, Debug, PartialEq)]

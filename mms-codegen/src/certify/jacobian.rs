@@ -2,12 +2,12 @@
 
 use mms_math::Scalar as _;
 
-use super::chart::Chart;
-use super::enclosure::{Evaluation, Formulas};
-use super::search::{Found, Measure, largest};
-use super::witness::Witness;
-use crate::program::interval::Interval;
-use crate::program::precise::Precise;
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::{Evaluation, Formulas};
+use crate::bounds::search::{Found, Measure, largest};
+use crate::bounds::witness::Witness;
+use mms_program::interval::Interval;
+use mms_program::precise::Precise;
 
 /// How near a bound of J must be to a value of J, relative to that.
 const SHARPNESS: f64 = 0.2;

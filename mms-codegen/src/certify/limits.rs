@@ -18,7 +18,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Expr, Function, Graph, Node, Rational, is_negative};
+use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, is_negative};
 
 /// What must hold of operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -208,7 +208,7 @@ fn hides(function: Function, turns: &Turns) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Symbol;
+    use mms_symbolic::expr::Symbol;
 
     /// Whether the cut of the angle of (X, Y) is seen in what is made of it.
     fn sees_cut(make: impl Fn(&mut Graph, Expr) -> Expr) -> bool {

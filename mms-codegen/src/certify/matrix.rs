@@ -6,7 +6,7 @@
 
 use mms_math::Scalar as _;
 
-use crate::program::interval::Interval;
+use mms_program::interval::Interval;
 
 /// What rounding may have taken from a bound, relative to it.
 const ROUNDING: f64 = 1e-9;

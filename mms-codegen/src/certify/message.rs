@@ -1,18 +1,18 @@
 //! What is said of a field that is not what it claims to be.
 
 use super::branches::Exit;
-use super::chart::Chart;
 use super::computed;
-use super::enclosure::Formulas;
 use super::limits::Must;
-use super::witness::{Witness, digits};
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::witness::{Witness, digits};
 use crate::compile::Compiled;
-use crate::diagnostic::{Diagnostic, quoted};
-use crate::quantity::Quantity;
-use crate::source::Span;
-use crate::spec::{BoundarySpec, Claim};
+use mms_spec::diagnostic::{Diagnostic, quoted};
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Span;
+use mms_spec::{BoundarySpec, Claim};
 
-/// What the search for a parameter to blame may take, in the steps of [`crate::work`].
+/// What the search for a parameter to blame may take, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 20_000_000;
 
 /// J is not positive.

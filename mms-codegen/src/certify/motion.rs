@@ -3,17 +3,17 @@
 
 use std::collections::BTreeMap;
 
-use super::chart::Chart;
+use crate::bounds::chart::Chart;
 use crate::compile::Compiled;
-use crate::expr::{Expr, Graph, Rational, Symbol};
-use crate::mechanics::Response;
-use crate::mechanics::invariant::Kind;
-use crate::mechanics::kinematics::Strain;
-use crate::mechanics::tensor::Tensor;
-use crate::pass::differentiate::differentiate;
-use crate::pass::relations::Relations;
-use crate::pass::substitute::replace;
-use crate::quantity::Quantity;
+use mms_mechanics::Response;
+use mms_mechanics::invariant::Kind;
+use mms_mechanics::kinematics::Strain;
+use mms_mechanics::tensor::Tensor;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::substitute::replace;
 
 /// The motion of a field in the variables of a chart.
 ///

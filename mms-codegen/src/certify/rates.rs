@@ -5,17 +5,17 @@ use std::ops::Range;
 
 use mms_math::Scalar as _;
 
-use super::chart::Chart;
-use super::enclosure::Formulas;
 use super::matrix::{
     Grid, eigenvalues, largest_acoustic, largest_rate, largest_relative_rate, singular_values,
 };
 use super::motion::Motion;
-use super::search::{Found, Measure, largest};
 use super::tangent::Tangent;
-use crate::expr::{Expr, Graph};
-use crate::program::interpret::Number as _;
-use crate::program::interval::Interval;
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::search::{Found, Measure, largest};
+use mms_program::interpret::Number as _;
+use mms_program::interval::Interval;
+use mms_symbolic::expr::{Expr, Graph};
 
 /// A bound that exceeds a value by no more than this part of it is sharp enough.
 const SHARPNESS: f64 = 0.1;

@@ -6,18 +6,17 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::certificate::chart_of;
-use super::chart::Chart;
 use super::message;
-use super::witness::Witness;
+use crate::bounds::chart::Chart;
+use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use crate::diagnostic::Diagnostic;
-use crate::expr::{Expr, Graph, Symbol};
-use crate::mechanics::Response;
-use crate::pass::substitute::substitute;
-use crate::program::Output;
-use crate::program::precise::Precise;
-use crate::program::schedule::schedule_plainly;
-use crate::sample::spread;
+use mms_mechanics::Response;
+use mms_mechanics::sample::spread;
+use mms_program::precise::Precise;
+use mms_program::schedule::schedule_plainly;
+use mms_spec::diagnostic::Diagnostic;
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::substitute::substitute;
 
 /// At how many points of the body, for the defaults and again for parameters within their ranges.
 const POINTS: usize = 16;
@@ -25,7 +24,7 @@ const POINTS: usize = 16;
 /// What is less than this part of the longitudinal modulus may be what 77 digits round.
 const DOUBT: f64 = 1e-40;
 
-/// What the search may take, in the steps of [`crate::work`].
+/// What the search may take, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 20_000_000;
 
 /// What is known of P at F = I.
@@ -90,15 +89,14 @@ pub fn stress(compiled: &Compiled) -> Rest {
 /// Of points spread over a chart, that where a component of a stress is greatest beside the modulus, which comes last;
 /// if any is beyond doubt.
 fn greatest(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Option<(Vec<f64>, Witness)> {
-    let output = Output::Expected(0);
     let formulas = chart.pull_back(graph, formulas);
-    let program = schedule_plainly(graph, &BTreeMap::from([(output, formulas)]));
-    let mut run = chart.run::<Precise>(&program);
+    let program = schedule_plainly(graph, &BTreeMap::from([((), formulas)]));
+    let mut run = chart.run::<Precise, _>(&program);
     let mut found: Option<(f64, Vec<f64>, Witness)> = None;
     for index in 1..=POINTS {
         let fractions = spread(index, chart.variables().len());
         let fractions: Vec<Precise> = fractions.iter().map(Precise::new).collect();
-        let mut stress = run.at(&chart.place(&fractions), [&[], &[]], &[output]).swap_remove(0);
+        let mut stress = run.at(&chart.place(&fractions), [&[], &[]], &[()]).swap_remove(0);
         let modulus = stress.pop()?.magnitude() * Precise::from_f64(DOUBT);
         let is_certain =
             |it: &Precise| it.is_defined() && !it.clone().magnitude().at_most(&modulus);

@@ -4,22 +4,19 @@ use std::collections::BTreeMap;
 
 use mms_math::Scalar as _;
 
-use super::chart::{Chart, Run};
-use crate::expr::{Expr, Graph};
-use crate::mechanics::Response;
-use crate::program::dual::Dual;
-use crate::program::fan::Fan;
-use crate::program::interpret::Number;
-use crate::program::interval::Interval;
-use crate::program::schedule::schedule_plainly;
-use crate::program::{Output, Program};
-
-const STRESS: Output = Output::Response(Response::FirstPiolaKirchhoff);
+use crate::bounds::chart::{Chart, Run};
+use mms_program::Program;
+use mms_program::dual::Dual;
+use mms_program::fan::Fan;
+use mms_program::interpret::Number;
+use mms_program::interval::Interval;
+use mms_program::schedule::schedule_plainly;
+use mms_symbolic::expr::{Expr, Graph};
 
 /// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
 pub struct Tangent<'a> {
-    first: Run<'a, Fan<Interval>>,
-    second: Run<'a, Fan<Dual<Interval>>>,
+    first: Run<'a, Fan<Interval>, ()>,
+    second: Run<'a, Fan<Dual<Interval>>, ()>,
 }
 
 /// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
@@ -27,12 +24,12 @@ const DIRECTIONS: usize = 4;
 
 impl<'a> Tangent<'a> {
     /// The program of P at a gradient that is supplied.
-    pub fn program(graph: &Graph, stress: &[Expr]) -> Program {
-        schedule_plainly(graph, &BTreeMap::from([(STRESS, stress.to_vec())]))
+    pub fn program(graph: &Graph, stress: &[Expr]) -> Program<()> {
+        schedule_plainly(graph, &BTreeMap::from([((), stress.to_vec())]))
     }
 
     /// Of the stress of such a program.
-    pub fn new(chart: &'a Chart, stress: &'a Program) -> Self {
+    pub fn new(chart: &'a Chart, stress: &'a Program<()>) -> Self {
         Tangent { first: chart.run(stress), second: chart.run(stress) }
     }
 
@@ -49,7 +46,7 @@ impl<'a> Tangent<'a> {
         let mut volume = volume(&gradient);
         volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
         self.first.charge(gradient.len() as u64);
-        let stress = self.first.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+        let stress = self.first.at(&place, [&[volume], &gradient], &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value, it.slope(column)))
     }
 
@@ -96,7 +93,7 @@ impl<'a> Tangent<'a> {
         let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
         let volume = volume(&gradient);
         self.second.charge(gradient.len() as u64);
-        let stress = self.second.at(&place, [&[volume], &gradient], &[STRESS]).swap_remove(0);
+        let stress = self.second.at(&place, [&[volume], &gradient], &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value.value, it.slope(column).slope))
     }
 }

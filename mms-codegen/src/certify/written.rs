@@ -8,19 +8,20 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use crate::compile::Compiled;
-use crate::expr::Function;
-use crate::program::interpret::{Number as _, binary, unary};
-use crate::program::precise::Precise;
-use crate::sample::{Sample, samples};
-use crate::source::Span;
-use crate::spec::names::COORDINATES;
-use crate::spec::{FieldSpec, Formula, RigidSpec};
-use crate::syntax::{self, Ast, Kind, Operator};
+use mms_mechanics::sample::{Sample, samples};
+use mms_program::interpret::{Number as _, binary, unary};
+use mms_program::precise::Precise;
+use mms_spec::names::COORDINATES;
+use mms_spec::source::Span;
+use mms_spec::syntax;
+use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::{FieldSpec, Formula, RigidSpec};
+use mms_symbolic::expr::Function;
 
 /// At how many points of the domain u is evaluated.
 pub const POINTS: usize = 32;
 
-/// What all points together may take, in the steps of [`crate::work`], and what an operation does, a power, and a function.
+/// What all points together may take, in the steps of [`mms_symbolic::work`], and what an operation does, a power, and a function.
 const STEPS: u64 = 50_000_000;
 const STEPS_OF_OPERATION: u64 = 60;
 const STEPS_OF_POWER: u64 = 3_000;
@@ -52,7 +53,7 @@ pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     let Some([lets, formulas]) = parsed(field) else { return Vec::new() };
     let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
     let mut found: Vec<Option<Gap>> = vec![None; formulas.len()];
-    for point in samples(compiled, &parameters, points(compiled)) {
+    for point in samples(&compiled.program, &parameters, points(compiled)) {
         let mut names = leaves(compiled, &parameters, &point);
         for (definition, ast) in field.lets.iter().zip(&lets) {
             let value = evaluate(ast, &names);

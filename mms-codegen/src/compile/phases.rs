@@ -2,29 +2,34 @@
 
 use std::collections::BTreeMap;
 
-use super::{Compiled, Loader, MATERIALS, Options, parameter_values, shipped};
-use crate::certify::{declared, near_zero};
+use super::{Compiled, Loader, Options};
+use crate::bounds::angles::near_zero;
 use crate::culprit::culprit;
-use crate::diagnostic::Diagnostic;
-use crate::expr::{DEFAULT_MAX_NODES, Expr, Graph};
-use crate::mechanics::boundary::data;
-use crate::mechanics::kinematics::Route;
+use crate::declared;
+use crate::materials::{MATERIALS, shipped};
+use mms_mechanics::boundary::data;
+use mms_mechanics::kinematics::Route;
 #[cfg(feature = "defects")]
-use crate::mechanics::misread;
-use crate::mechanics::model::Body;
-use crate::mechanics::offset::about_its_place;
-use crate::mechanics::{Derivation, Model, TooLarge, derive};
-use crate::pass::half_turns::half_turns;
-use crate::pass::relations::Relations;
-use crate::pass::whole_turns::whole_turns;
-use crate::program::schedule::schedule;
-use crate::program::{Bound, Op, Output, Program};
-use crate::simplify::{simplify, twins};
-use crate::source::{SourceId, Sources, Span};
-use crate::spec::{self, FieldSpec, Formula, MaterialSpec, moduli};
-use crate::suggest::advice;
-use crate::syntax::{self, Kind};
-use crate::units;
+use mms_mechanics::misread;
+use mms_mechanics::model::Body;
+use mms_mechanics::model::parameter_values;
+use mms_mechanics::offset::about_its_place;
+use mms_mechanics::simplify::{simplify, twins};
+use mms_mechanics::{Bound, Output, Program};
+use mms_mechanics::{Derivation, Model, TooLarge, derive};
+use mms_program::Op;
+use mms_program::schedule::schedule;
+use mms_spec::diagnostic::Diagnostic;
+use mms_spec::source::{SourceId, Sources, Span};
+use mms_spec::suggest::advice;
+use mms_spec::syntax;
+use mms_spec::syntax::Kind;
+use mms_spec::units;
+use mms_spec::{FieldSpec, Formula, MaterialSpec, moduli};
+use mms_symbolic::expr::{DEFAULT_MAX_NODES, Expr, Graph};
+use mms_symbolic::pass::half_turns::half_turns;
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::whole_turns::whole_turns;
 
 /// How many steps reading and deriving may take, each, for each node that a graph may have: beyond them a text is
 /// refused.
@@ -101,7 +106,7 @@ impl<'a> Phases<'a> {
     fn read(&mut self, graph: &mut Graph, name: &str, path: &str, text: &str) -> Option<Read> {
         let Options { selection, variation, .. } = self.options;
         let source = self.sources.add(path, text);
-        let mut field = spec::read_field(&self.sources, source, name, &mut self.diagnostics)?;
+        let mut field = mms_spec::read_field(&self.sources, source, name, &mut self.diagnostics)?;
         selection.apply(&mut self.sources, &mut field, &mut self.diagnostics);
         variation.rewrite(&mut self.sources, &mut field);
         let mut material = self.read_material(&field);
@@ -181,7 +186,7 @@ impl<'a> Phases<'a> {
 
     fn read_material(&mut self, field: &FieldSpec) -> Option<MaterialSpec> {
         let (source, stem) = self.find_material(field)?;
-        spec::read_material(&self.sources, source, &stem, &mut self.diagnostics)
+        mms_spec::read_material(&self.sources, source, &stem, &mut self.diagnostics)
     }
 
     fn find_material(&mut self, field: &FieldSpec) -> Option<(SourceId, String)> {

@@ -4,14 +4,15 @@ mod refusals;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mms_codegen::emit::rust_mms_math as rust;
-use mms_codegen::expr::{Function, Rational};
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::{Op, Output, Stage};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::samples;
+use mms_codegen::rust;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile, compile_with};
+use mms_mechanics::Output;
+use mms_mechanics::sample::samples;
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::{Op, Stage};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Function, Rational};
 
 /// A field of one dimension; `{dimension}` and the like are filled in.
 const FIELD: &str = r#"
@@ -75,7 +76,7 @@ fn values(compiled: &Compiled, quantity: Quantity, set: &BTreeMap<usize, Rationa
     let output = Output::Quantity(quantity);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
     let plan = interpreter.plan(&[output]);
-    let points = samples(compiled, &parameters, 32);
+    let points = samples(&compiled.program, &parameters, 32);
     let normal = vec![1.0; compiled.field.dimension];
     points
         .iter()
@@ -271,7 +272,7 @@ fn a_frozen_parameter_keeps_the_value_that_the_defaults_give() {
 fn with_all_parameters_frozen_nothing_depends_on_any() {
     let everything = compiled(&moving(), &selection(&[], &[], &["*"]));
     let of_parameters = everything.program.instrs.iter().filter(|instr| {
-        use mms_codegen::expr::Symbol;
+        use mms_symbolic::expr::Symbol;
         matches!(instr.op, Op::Input(Symbol::Parameter(_)))
     });
     assert_eq!(of_parameters.count(), 0);

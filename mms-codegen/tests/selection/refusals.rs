@@ -1,7 +1,7 @@
 //! What is wrong with a selection, and what a selection makes wrong.
 
-use mms_codegen::quantity::Quantity;
 use mms_codegen::selection::Selection;
+use mms_spec::quantity::Quantity;
 
 use super::{compiled, moving, selected, selection};
 
@@ -140,7 +140,7 @@ fn quantities_have_names_and_aliases() {
 
 #[test]
 fn a_form_that_does_not_exist_is_refused() {
-    use mms_codegen::selection::Form;
+    use mms_spec::Form;
     for form in Form::ALL {
         assert_eq!(Form::from_name(form.name()), Ok(form));
     }

@@ -12,15 +12,16 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use measure::{Excess, of_field, of_responses};
-use mms_codegen::compile::{MATERIALS, compile_unproved};
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{MaterialSpec, read_material};
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
 use mms_math::Scalar as _;
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Sources;
+use mms_spec::{MaterialSpec, read_material};
 
 /// The bound, in units of eps.
 const BOUND: f64 = 64.0;
@@ -187,7 +188,7 @@ fn stresses_of_materials_of_ones_own_hold() {
 /// A motion with a material, its resistance to changes of volume of that size. The files lack their last table,
 /// [material].
 fn with_material(stem: &str, text: &str, spec: &MaterialSpec, bulk: usize) -> (String, String) {
-    let line = |(index, parameter): (usize, &mms_codegen::spec::MaterialParameter)| {
+    let line = |(index, parameter): (usize, &mms_spec::MaterialParameter)| {
         let unit = parameter.unit.as_ref().map(|unit| unit.value.as_str());
         let value = match (parameter.name.value.as_str(), unit) {
             ("lambda" | "kappa" | "c3", _) => bulk,

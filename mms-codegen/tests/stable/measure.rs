@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use mms_codegen::Compiled;
-use mms_codegen::expr::Rational;
-use mms_codegen::mechanics::Response;
-use mms_codegen::program::interpret::{Interpreter, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::program::{Output, Program};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{halton, samples};
 use mms_math::Scalar as _;
+use mms_mechanics::Response;
+use mms_mechanics::sample::{halton, samples};
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Rational;
 
 /// How many points and times.
 const POINTS: usize = 24;
@@ -59,7 +59,7 @@ pub fn of_field(compiled: &Compiled, name: &str, set: Option<(usize, f64)>) -> V
         set.into_iter().map(|(index, value)| (index, exact(value))).collect();
     let parameters = compiled.parameters::<f64>(&set);
     let dimension = compiled.field.dimension;
-    let cases: Vec<Case> = samples(compiled, &parameters, POINTS)
+    let cases: Vec<Case> = samples(&compiled.program, &parameters, POINTS)
         .into_iter()
         .enumerate()
         .map(|(index, sample)| {

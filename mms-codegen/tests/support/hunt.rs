@@ -1,22 +1,25 @@
 //! Hunts points where a certificate says one thing and the program that is evaluated another: shared by the tests and by
 //! the fuzzer.
 
+use mms_codegen::bounds::chart::Chart;
+use mms_codegen::bounds::enclosure::Formulas;
+use mms_codegen::bounds::witness::Witness;
 use mms_codegen::certify::branches;
-use mms_codegen::certify::chart::Chart;
-use mms_codegen::certify::computed::{self, Finding};
-use mms_codegen::certify::enclosure::Formulas;
-use mms_codegen::certify::finite::{self, Finite};
-use mms_codegen::certify::jacobian::{self, Jacobian};
+use mms_codegen::certify::computed;
+use mms_codegen::certify::computed::Finding;
+use mms_codegen::certify::finite;
+use mms_codegen::certify::finite::Finite;
+use mms_codegen::certify::jacobian;
+use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::motion::Motion;
-use mms_codegen::certify::witness::Witness;
 use mms_codegen::compile::compile_unproved;
-use mms_codegen::expr::Graph;
-use mms_codegen::program::Output;
-use mms_codegen::program::interpret::{Interpreter, Number, Point};
-use mms_codegen::program::precise::Precise;
-use mms_codegen::quantity::Quantity;
 use mms_codegen::{Compiled, Options};
 use mms_math::Scalar as _;
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::precise::Precise;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Graph;
 
 /// At how many points beside the corners a program is evaluated.
 const POINTS: usize = 48;

@@ -1,10 +1,10 @@
 //! What any text must not break: shared by the tests and by the fuzzer.
 
-use mms_codegen::diagnostic::render;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{read_field, read_material};
-use mms_codegen::syntax::parse;
 use mms_codegen::{Options, compile_with};
+use mms_spec::diagnostic::render;
+use mms_spec::source::Sources;
+use mms_spec::syntax::parse;
+use mms_spec::{read_field, read_material};
 
 /// Reads a text as a field and as a material, parses every formula, and renders what was found.
 pub fn survive(text: &str, options: &Options) {

@@ -7,7 +7,7 @@ use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::Rates;
-use mms_codegen::spec::BoundarySpec;
+use mms_spec::BoundarySpec;
 use serde_json::{Value, json};
 
 /// One line for each thing that was to be proved.

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::Context as _;
-use mms_codegen::emit::File;
-use mms_codegen::foreign::{self, Foreign};
+use mms_emit::File;
+use mms_spec::foreign;
+use mms_spec::foreign::Foreign;
 
 use crate::read;
 use crate::report::write_own;

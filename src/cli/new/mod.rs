@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
-use mms_codegen::foreign;
-use mms_codegen::spec::field_name;
+use mms_spec::field_name;
+use mms_spec::foreign;
 
 use self::template::{Body, Template};
 use super::{Outcome, print};

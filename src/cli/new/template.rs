@@ -6,13 +6,13 @@
 //! list something from the very list that the reader of field files uses.
 
 use anyhow::bail;
-use mms_codegen::compile::MATERIALS;
-use mms_codegen::foreign::Foreign;
-use mms_codegen::spec::names::FUNCTIONS;
-use mms_codegen::spec::{
+use mms_codegen::materials::MATERIALS;
+use mms_spec::foreign::Foreign;
+use mms_spec::names::FUNCTIONS;
+use mms_spec::suggest::advice;
+use mms_spec::{
     FILLS, FORMS, FORMULATIONS, INTEGRATORS, MaterialSpec, PRECISIONS, SHAPES, TRANSFERS,
 };
-use mms_codegen::suggest::advice;
 
 use crate::gallery;
 

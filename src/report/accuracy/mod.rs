@@ -6,10 +6,11 @@ use std::path::Path;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_codegen::accuracy::{Accuracy, Errors, Precision, Row};
-use mms_codegen::foreign::Foreign;
-use mms_codegen::quantity::Quantity;
-use mms_codegen::selection::Form;
+use mms_analysis::accuracy::{Accuracy, Errors, Row};
+use mms_program::precision::Precision;
+use mms_spec::Form;
+use mms_spec::foreign::Foreign;
+use mms_spec::quantity::Quantity;
 use serde_json::{Value, json};
 
 use super::provenance::Provenance;

@@ -1,8 +1,8 @@
 //! Errors over time, for each precision and form, both logarithmic: down and left is better.
 
 use anyhow::anyhow;
-use mms_codegen::accuracy::Precision;
-use mms_codegen::selection::Form;
+use mms_program::precision::Precision;
+use mms_spec::Form;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_codegen::foreign::Foreign;
+use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::front::front;

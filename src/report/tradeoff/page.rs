@@ -1,6 +1,6 @@
 //! The page docs/tradeoff.md.
 
-use mms_codegen::foreign::Foreign;
+use mms_spec::foreign::Foreign;
 
 use super::{Report, factor};
 use crate::tradeoff::search::{Cost, Goal};

@@ -11,9 +11,9 @@ pub mod report;
 use std::num::NonZero;
 
 use anyhow::ensure;
-use mms_codegen::defect as compiler;
-use mms_codegen::suggest::did_you_mean;
+use mms_mechanics::defect as compiler;
 use mms_runtime::defect as solver;
+use mms_spec::suggest::did_you_mean;
 
 use super::matrix::Row;
 use super::plan::Plan;

@@ -1,8 +1,8 @@
 use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
 use mms_codegen::compile::Failure;
-use mms_codegen::source::Sources;
-use mms_codegen::spec::{format, read_material};
 use mms_codegen::{Compiled, compile};
+use mms_spec::source::Sources;
+use mms_spec::{format, read_material};
 
 use super::*;
 

@@ -1,0 +1,175 @@
+//! Where errors are measured: points of the body and times of the window, as numbers of a precision.
+//!
+//! They are random, and the same in every run. One in four lies on a face or close to one.
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::sample::{Extent, domain};
+use mms_program::precision::Digits;
+use mms_symbolic::expr::Rational;
+
+/// Where points lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In the body, at times of the window.
+    Body,
+    /// The same, with s more along each axis: s is the last parameter.
+    Shifted,
+    /// In the body, at times a million windows later.
+    Late,
+    /// In the body, with a coordinate or the time that is subnormal.
+    Subnormal,
+    /// With a coordinate or the time that is the largest number; outside of the body.
+    Largest,
+}
+
+/// How many windows later is late.
+pub const LATE: f64 = 1e6;
+
+/// What one evaluation takes.
+#[derive(Clone, Debug)]
+pub struct Input<T> {
+    /// X.
+    pub coordinates: Vec<T>,
+    /// t.
+    pub time: T,
+    /// N, a unit vector but for rounding.
+    pub normal: Vec<T>,
+}
+
+/// Random numbers (Steele, Lea & Flood, Fast splittable pseudorandom number generators, 2014).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Between 0 and 1, with 53 digits.
+    fn fraction(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * 2f64.powi(-53)
+    }
+
+    /// The same with as many digits as a precision has.
+    fn digits<T: Digits>(&mut self) -> T {
+        let (high, low) = (self.fraction(), self.fraction());
+        T::from_parts(high, low * 2f64.powi(-53))
+    }
+
+    /// On a face, or closer to it than a thousandth.
+    fn near_face<T: Digits>(&mut self) -> T {
+        let kind = self.bits() % 4;
+        let distance = T::from_f64(self.fraction() * 2f64.powi(-10));
+        match kind {
+            0 => T::from_f64(0.0),
+            1 => T::from_f64(1.0),
+            2 => distance,
+            _ => T::from_f64(1.0) - distance,
+        }
+    }
+}
+
+/// Inputs for a field with these parameters. Fewer than `count`, or none, where the body and the time
+/// window do not hold that many.
+pub fn inputs<T: Digits>(
+    compiled: &Compiled,
+    parameters: &[T],
+    place: Place,
+    count: usize,
+) -> Vec<Input<T>> {
+    let (extent, window) = domain(&compiled.program, parameters);
+    let mut random = Random(0);
+    let inputs = (0..count).filter_map(|index| {
+        let mut input = inside(&extent, &window, index, &mut random);
+        match place {
+            Place::Body => {}
+            Place::Shifted => {
+                let shift = *parameters.last()?;
+                input.coordinates.iter_mut().for_each(|x| *x = *x + shift);
+            }
+            Place::Late => {
+                input.time = input.time + (window[1] - window[0]) * T::from_f64(LATE);
+            }
+            Place::Subnormal => subnormal(&mut input, &extent, &window, index)?,
+            Place::Largest => largest(&mut input, index),
+        }
+        Some(input)
+    });
+    inputs.collect()
+}
+
+fn inside<T: Digits>(
+    extent: &Extent<T>,
+    [first, last]: &[T; 2],
+    index: usize,
+    random: &mut Random,
+) -> Input<T> {
+    let dimension = extent.dimension();
+    let mut fractions: Vec<T> = (0..dimension).map(|_| random.digits()).collect();
+    if index.is_multiple_of(4) {
+        fractions[index / 4 % dimension] = random.near_face();
+    }
+    let fraction: T = random.digits();
+    let direction: Vec<f64> = (0..dimension).map(|_| random.fraction() - 0.5).collect();
+    let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+    Input {
+        coordinates: extent.point(&fractions),
+        time: *first + (*last - *first) * fraction,
+        normal: direction.iter().map(|x| T::from_f64(x / length)).collect(),
+    }
+}
+
+/// The number of one input that is extreme: coordinates and the time take turns.
+fn extreme_input(index: usize, dimension: usize) -> Option<usize> {
+    Some(index % (dimension + 1)).filter(|axis| *axis < dimension)
+}
+
+/// Makes a coordinate or the time subnormal, where that is in the body or in the window.
+fn subnormal<T: Digits>(
+    input: &mut Input<T>,
+    extent: &Extent<T>,
+    window: &[T; 2],
+    index: usize,
+) -> Option<()> {
+    let tiny = (1 + index % 1000) as f64 * T::PRECISION.smallest();
+    let holds = |from: &T, to: &T| (from.parts().0..=to.parts().0).contains(&tiny);
+    match (extreme_input(index, extent.dimension()), extent) {
+        (None, _) => holds(&window[0], &window[1]).then(|| input.time = T::from_f64(tiny)),
+        (Some(axis), Extent::Box([lower, upper])) => {
+            holds(&lower[axis], &upper[axis]).then(|| input.coordinates[axis] = T::from_f64(tiny))
+        }
+        (Some(_), Extent::Annulus([inner, outer], [first, last])) => {
+            let radius = *inner + (*outer - *inner) * T::from_f64(0.5);
+            holds(first, last).then(|| input.coordinates = vec![radius, T::from_f64(tiny)])
+        }
+    }
+}
+
+/// Makes a coordinate or the time the largest number, of either sign.
+fn largest<T: Digits>(input: &mut Input<T>, index: usize) {
+    let dimension = input.coordinates.len();
+    let sign = if (index / (dimension + 1)).is_multiple_of(2) { 1.0 } else { -1.0 };
+    let value = T::from_f64(sign * T::PRECISION.largest());
+    match extreme_input(index, dimension) {
+        Some(axis) => input.coordinates[axis] = value,
+        None => input.time = value,
+    }
+}
+
+/// The longest edge of the box around the body.
+pub fn size(compiled: &Compiled, parameters: &[f64]) -> f64 {
+    match domain(&compiled.program, parameters).0 {
+        Extent::Box([lower, upper]) => {
+            upper.iter().zip(&lower).map(|(upper, lower)| upper - lower).fold(0.0, f64::max)
+        }
+        Extent::Annulus([_, outer], _) => 2.0 * outer,
+    }
+}
+
+/// A number of double precision as an exact one.
+pub fn exact(value: f64) -> Option<Rational> {
+    Rational::try_from(value).ok()
+}

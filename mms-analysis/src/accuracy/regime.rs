@@ -1,0 +1,224 @@
+//! The regimes: how a field is evaluated as declared, and at extremes.
+//!
+//! How each is made follows from the field alone: from the units of its parameters, from what they do
+//! to u and J, or from a variation of the field.
+
+use std::collections::BTreeMap;
+
+use super::points::{LATE, Place, exact, size};
+use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
+use super::subject::Subject;
+use mms_codegen::compile::Compiled;
+use mms_codegen::variation::Variation;
+use mms_program::precision::Precision;
+use mms_spec::units::{Dimension, Unit};
+use mms_symbolic::expr::Rational;
+
+/// A way to evaluate any field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Regime {
+    /// Its name on the command line and in JSON.
+    pub name: &'static str,
+    /// What is extreme about it.
+    pub doc: &'static str,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Declared,
+    Displacement(f64),
+    Jacobian(f64),
+    Moduli(&'static str),
+    Stress(f64),
+    Length(f64),
+    Shifted,
+    At(Place),
+    SubnormalAmplitude,
+    LargestAmplitude,
+}
+
+const fn regime(name: &'static str, doc: &'static str, kind: Kind) -> Regime {
+    Regime { name, doc, kind }
+}
+
+/// Every regime, beside the `[[extreme]]` tables of a field.
+#[rustfmt::skip]
+pub const REGIMES: &[Regime] = &[
+    regime("declared", "as the file says", Kind::Declared),
+    regime("displacement_1e-4", "displacement 1e-4 of the size", Kind::Displacement(1e-4)),
+    regime("displacement_1e-8", "displacement 1e-8 of the size", Kind::Displacement(1e-8)),
+    regime("displacement_1e-12", "displacement 1e-12 of the size", Kind::Displacement(1e-12)),
+    regime("displacement_1e-15", "displacement 1e-15 of the size", Kind::Displacement(1e-15)),
+    regime("jacobian_1e-3", "amplitude such that J falls to 1e-3", Kind::Jacobian(1e-3)),
+    regime("jacobian_1e-6", "amplitude such that J falls to 1e-6", Kind::Jacobian(1e-6)),
+    regime("jacobian_1e3", "amplitude such that J rises to 1e3", Kind::Jacobian(1e3)),
+    regime("lambda_mu_1e8", "lambda/mu = 1e8", Kind::Moduli("1e8")),
+    regime("lambda_mu_0", "lambda = 0", Kind::Moduli("0")),
+    regime("moduli_1e-9", "moduli of 1e-9 in their unit", Kind::Stress(1e-9)),
+    regime("moduli_1e9", "moduli of 1e9 in their unit", Kind::Stress(1e9)),
+    regime("lengths_1e-9", "lengths of 1e-9 in their unit", Kind::Length(1e-9)),
+    regime("lengths_1e9", "lengths of 1e9 in their unit", Kind::Length(1e9)),
+    regime("origin_1e6", "the body 1e6 of its sizes off the origin", Kind::Shifted),
+    regime("time_1e6", "1e6 time windows later", Kind::At(Place::Late)),
+    regime("subnormal_inputs", "a coordinate or the time subnormal", Kind::At(Place::Subnormal)),
+    regime("largest_inputs", "a coordinate or the time the last finite number", Kind::At(Place::Largest)),
+    regime("subnormal_amplitude", "amplitude subnormal", Kind::SubnormalAmplitude),
+    regime("largest_amplitude", "amplitude the last finite number", Kind::LargestAmplitude),
+];
+
+/// The regime of that name.
+pub fn find(name: &str) -> Option<&'static Regime> {
+    REGIMES.iter().find(|regime| regime.name == name)
+}
+
+/// What is evaluated, and where.
+#[derive(Clone, Debug)]
+pub(super) struct Case {
+    /// The field that is made of the field.
+    pub variation: Variation,
+    /// The `[[extreme]]` table that applies, by position.
+    pub extreme: Option<usize>,
+    /// Where.
+    pub place: Place,
+    /// The least J of a point that counts.
+    pub least_jacobian: Option<f64>,
+    setting: Setting,
+}
+
+#[derive(Clone, Debug)]
+enum Setting {
+    Values(BTreeMap<usize, Rational>),
+    Subnormal(usize),
+    Largest(usize),
+}
+
+impl Case {
+    /// The field as it is.
+    fn plain() -> Self {
+        Case {
+            variation: Variation::Nothing,
+            extreme: None,
+            place: Place::Body,
+            least_jacobian: None,
+            setting: Setting::Values(BTreeMap::new()),
+        }
+    }
+
+    /// The field with the values of an `[[extreme]]` table.
+    pub fn extreme(index: usize) -> Self {
+        Case { extreme: Some(index), ..Case::plain() }
+    }
+
+    /// The parameters that are set, by position.
+    pub fn values(&self, precision: Precision) -> BTreeMap<usize, Rational> {
+        match &self.setting {
+            Setting::Values(values) => values.clone(),
+            Setting::Subnormal(parameter) => set(*parameter, 1000.0 * precision.smallest()),
+            Setting::Largest(parameter) => set(*parameter, precision.largest()),
+        }
+    }
+}
+
+impl Regime {
+    /// How the regime is made for a field; otherwise why it cannot be.
+    pub(super) fn case(&self, subject: &Subject, search: Search) -> Result<Case, String> {
+        let plain = Case::plain();
+        Ok(match self.kind {
+            Kind::Declared => plain,
+            Kind::At(place) => Case { place, ..plain },
+            Kind::Moduli(ratio) => {
+                let variation = Variation::Moduli(ratio.into());
+                variation.fits(&subject.plain().field)?;
+                Case { variation, ..plain }
+            }
+            Kind::Stress(target) => {
+                let values = scaled(subject.plain(), &Dimension::stress(), "stress", target)?;
+                Case { setting: Setting::Values(values), ..plain }
+            }
+            Kind::Length(target) => {
+                let values = scaled(subject.plain(), &Dimension::length(), "length", target)?;
+                Case { setting: Setting::Values(values), ..plain }
+            }
+            Kind::Shifted => {
+                let field = subject.plain();
+                let shift = LATE * size(field, &field.parameters::<f64>(&BTreeMap::new()));
+                let setting = Setting::Values(set(field.model.parameters.len(), shift));
+                Case { variation: Variation::Shifted, place: Place::Shifted, setting, ..plain }
+            }
+            Kind::Displacement(part) => {
+                let field = subject.plain();
+                let displacement = part * size(field, &field.parameters::<f64>(&BTreeMap::new()));
+                with_amplitude(subject, |_, amplitude| {
+                    let value = amplitude.for_displacement(displacement);
+                    Ok(Setting::Values(set(amplitude.parameter, value)))
+                })?
+            }
+            Kind::Jacobian(target) => {
+                let case = with_amplitude(subject, |field, amplitude| {
+                    let value = amplitude_for_jacobian(field, amplitude, target, search)?;
+                    Ok(Setting::Values(set(amplitude.parameter, value)))
+                })?;
+                // Where a large amplitude turns the body inside out it is no motion.
+                Case { least_jacobian: (target > 1.0).then_some(0.5), ..case }
+            }
+            Kind::SubnormalAmplitude => {
+                with_amplitude(subject, |_, it| Ok(Setting::Subnormal(it.parameter)))?
+            }
+            Kind::LargestAmplitude => {
+                with_amplitude(subject, |_, it| Ok(Setting::Largest(it.parameter)))?
+            }
+        })
+    }
+}
+
+/// A setting of the amplitude: of the field's own, or of the factor of a variation.
+fn with_amplitude(
+    subject: &Subject,
+    setting: impl Fn(&Compiled, &Amplitude) -> Result<Setting, String>,
+) -> Result<Case, String> {
+    let plain = Case::plain();
+    if let Some(own) = Amplitude::find(subject.plain()) {
+        return Ok(Case { setting: setting(subject.plain(), &own)?, ..plain });
+    }
+    let scaled = subject.variant(&Variation::Scaled)?;
+    let amplitude = Amplitude::of(&scaled, subject.plain().model.parameters.len())
+        .ok_or("the displacement is 0, and has no amplitude")?;
+    Ok(Case { variation: Variation::Scaled, setting: setting(&scaled, &amplitude)?, ..plain })
+}
+
+/// The parameters of that dimension, all scaled alike, the largest of them to `target`.
+fn scaled(
+    field: &Compiled,
+    dimension: &Dimension,
+    what: &str,
+    target: f64,
+) -> Result<BTreeMap<usize, Rational>, String> {
+    let defaults = field.parameters::<f64>(&BTreeMap::new());
+    let measures = |index: &usize| {
+        let parameter = &field.model.parameters[*index];
+        let unit = parameter.unit.as_deref().and_then(Unit::known);
+        unit.is_some_and(|unit| unit.dimension == *dimension)
+            && !field.field.parameters[*index].frozen
+    };
+    let of_dimension: Vec<usize> = (0..defaults.len()).filter(measures).collect();
+    let largest = of_dimension.iter().map(|index| defaults[*index].abs()).fold(0.0, f64::max);
+    if largest == 0.0 || !largest.is_finite() {
+        return Err(format!("no parameter has the unit of a {what} and a value other than 0"));
+    }
+    let factor = target / largest;
+    Ok(of_dimension
+        .into_iter()
+        .filter_map(|index| Some((index, exact(defaults[index] * factor)?)))
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    /// A field file is refused that names an extreme of its own like one of these.
+    #[test]
+    fn field_files_keep_their_names() {
+        let names: Vec<_> = super::REGIMES.iter().map(|regime| regime.name).collect();
+        assert_eq!(names, mms_spec::REGIMES);
+    }
+}

@@ -1,0 +1,69 @@
+//! What quantities cost, before and after simplification.
+
+use std::collections::BTreeMap;
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::Derivation;
+use mms_program::schedule::{cost, schedule, schedule_plainly};
+use mms_program::{Op, Program, Stage};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Expr;
+use mms_symbolic::pass::half_turns::half_turns;
+
+/// The number of scalar operations of the program of some quantities: + - * / and each call of a
+/// function count one; constants, loads and changes of sign none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the expressions as they were derived, where only equal ones are computed once.
+    pub before: usize,
+    /// Of the expressions that were chosen, and what they share taken out.
+    pub after: usize,
+    /// The latter, stage by stage.
+    pub by_stage: BTreeMap<Stage, usize>,
+    /// The latter by what is done: `add`, `multiply`, `sin`, ...; no entry is 0.
+    pub by_kind: BTreeMap<&'static str, usize>,
+}
+
+impl Operations {
+    /// What it takes to compute all of `quantities` together.
+    pub fn of(compiled: &Compiled, quantities: &[Quantity]) -> Self {
+        let components = |derivation: &Derivation| -> Vec<Expr> {
+            quantities
+                .iter()
+                .flat_map(|quantity| &derivation.quantities[quantity])
+                .copied()
+                .collect()
+        };
+        let (derived, chosen) = (components(&compiled.derived), components(&compiled.derivation));
+        let before = schedule_plainly(&compiled.graph, &BTreeMap::from([((), derived.clone())]));
+        // What is cheapest for each alone need not be so together.
+        let forms = [chosen, derived];
+        let cheapest = forms.into_iter().min_by_key(|form| cost(&compiled.graph, form));
+        let mut graph = compiled.graph.clone();
+        graph.make_room();
+        let outputs = half_turns(&mut graph, &cheapest.unwrap_or_default());
+        let after = schedule(&graph, &BTreeMap::from([((), outputs)]));
+        Operations {
+            before: before.operations(&[()]).values().sum(),
+            after: after.operations(&[()]).values().sum(),
+            by_stage: after.operations(&[()]),
+            by_kind: by_kind(&after),
+        }
+    }
+}
+
+fn by_kind(program: &Program<()>) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for instr in program.instrs.iter().filter(|instr| instr.op.is_counted()) {
+        let kind = match instr.op {
+            Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_) => continue,
+            Op::Add(..) => "add",
+            Op::Subtract(..) => "subtract",
+            Op::Multiply(..) => "multiply",
+            Op::Divide(..) => "divide",
+            Op::Unary(function, _) | Op::Binary(function, ..) => function.name(),
+        };
+        *counts.entry(kind).or_default() += 1;
+    }
+    counts
+}

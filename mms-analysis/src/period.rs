@@ -1,0 +1,109 @@
+//! The time after which a motion repeats itself, for good.
+//!
+//! u repeats itself if it depends on t through sines and cosines alone whose angles grow evenly, at rates that
+//! are multiples of one. That is read off the formula, so that a period is proved; it may be a multiple of
+//! the least one, as in sin(w t)^2.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use mms_codegen::compile::Compiled;
+use mms_program::Stage;
+use mms_program::interpret::Interpreter;
+use mms_program::schedule::schedule_plainly;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+
+/// Why no period of a displacement is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPeriod {
+    /// It does not depend on t.
+    AtRest,
+    /// It depends on t not only through sines and cosines of what grows evenly.
+    Unsteady,
+    /// Two angles grow at rates whose ratio is no rational number as a formula.
+    Incommensurate,
+    /// With these parameters the period is not a positive number.
+    OutOfRange,
+}
+
+impl fmt::Display for NoPeriod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            NoPeriod::AtRest => "u does not depend on t",
+            NoPeriod::Unsteady => {
+                "u depends on t other than through sines and cosines of w*t + .. with w free of X"
+            }
+            NoPeriod::Incommensurate => {
+                "the frequencies of u are not multiples of one, as far as formulas tell"
+            }
+            NoPeriod::OutOfRange => "the period is not a positive number with these parameters",
+        })
+    }
+}
+
+impl std::error::Error for NoPeriod {}
+
+/// A period of the displacement with these parameters: u(X, t + period) = u(X, t) for all X and t.
+///
+/// # Errors
+/// A displacement of which none is known.
+pub fn period(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<f64, NoPeriod> {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    let u = &compiled.derived.quantities[&Quantity::Displacement];
+    let rates = rates(&mut graph, u)?;
+    let first = *rates.first().ok_or(NoPeriod::AtRest)?;
+    let ratios: Option<Vec<Rational>> = rates
+        .iter()
+        .map(|rate| {
+            let ratio = graph.div(*rate, first);
+            graph.as_number(ratio).cloned()
+        })
+        .collect();
+    let common = ratios.ok_or(NoPeriod::Incommensurate)?.into_iter().reduce(common);
+    let slowest = graph.scale(first, common.unwrap_or(Rational::ONE));
+    let turn = graph.pi();
+    let turn = graph.scale(turn, 2);
+    let period = graph.div(turn, slowest);
+    let program = schedule_plainly(&graph, &BTreeMap::from([((), vec![period])]));
+    let period = Interpreter::new(&program, &compiled.parameters::<f64>(set)).output(())[0];
+    let period = period.abs();
+    (period > 0.0 && period.is_finite()).then_some(period).ok_or(NoPeriod::OutOfRange)
+}
+
+/// The rates at which the angles of all sines and cosines grow that contain t.
+fn rates(graph: &mut Graph, roots: &[Expr]) -> Result<BTreeSet<Expr>, NoPeriod> {
+    let mut rates = BTreeSet::new();
+    let mut seen = BTreeSet::new();
+    let mut open = roots.to_vec();
+    while let Some(expr) = open.pop() {
+        let moves = matches!(graph.stage(expr), Stage::Time | Stage::PointTime);
+        if !moves || !seen.insert(expr) {
+            continue;
+        }
+        let node = graph.node(expr).clone();
+        if node == Node::Symbol(Symbol::Time) {
+            return Err(NoPeriod::Unsteady);
+        }
+        if let Node::Call(Function::Sin | Function::Cos, angle) = &node {
+            let rate = differentiate(graph, angle, Symbol::Time)[0];
+            if graph.stage(rate) == Stage::Parameter {
+                rates.insert(rate);
+                continue;
+            }
+        }
+        open.extend(node.children());
+    }
+    Ok(rates)
+}
+
+/// The largest number that both are multiples of, but for its sign.
+fn common(mut a: Rational, mut b: Rational) -> Rational {
+    while !b.is_zero() {
+        let times = Rational::from((a.clone() / b.clone()).floor());
+        (a, b) = (b.clone(), a - times * b);
+    }
+    a
+}

@@ -1,0 +1,214 @@
+//! What a field can see of the equations, and what it cannot.
+//!
+//! A solver may do wrong what vanishes in a field, and still agree with it. A term is called absent
+//! where its expressions are 0, or where they are so small at points spread over the domain that
+//! 77 digits tell nothing else; which of the two is part of the answer, and the latter is no proof.
+
+mod scale;
+mod term;
+mod vanish;
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::sample::{Sample, samples};
+use mms_mechanics::{Bound, Output};
+use mms_mechanics::{Response, TooLarge};
+use mms_program::interpret::{Interpreter, Point};
+use mms_program::precise::Precise;
+use mms_program::schedule::schedule_plainly;
+use mms_symbolic::expr::{Expr, Graph};
+pub use term::Term;
+
+use scale::Sizes;
+
+/// At how many points of the domain a term is evaluated.
+pub const POINTS: usize = 32;
+
+/// What is no more than this part of its natural size is 0 to all digits that are left.
+pub const NEGLIGIBLE: f64 = 1e-60;
+
+/// Whether a term is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    /// It is not 0 at some point.
+    Present,
+    /// It is 0 as an expression: at every point and time, for all parameters.
+    Zero,
+    /// It is negligible at [`POINTS`] points, for the default parameters.
+    Negligible,
+    /// It has no value at any point that could tell.
+    Undecided,
+}
+
+impl Status {
+    /// Whether the term is called absent.
+    pub fn is_absent(self) -> bool {
+        matches!(self, Status::Zero | Status::Negligible)
+    }
+}
+
+/// The shape functions that hold a displacement, exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Span {
+    /// Polynomials of degree 1.
+    Linear,
+    /// Polynomials of degree 1 in each coordinate.
+    Multilinear,
+    /// Polynomials of degree 2.
+    Quadratic,
+}
+
+impl Span {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Span::Linear => "linear",
+            Span::Multilinear => "multilinear",
+            Span::Quadratic => "quadratic",
+        }
+    }
+}
+
+/// Every term that a field of its dimension may have, and whether it does.
+#[derive(Clone, Debug)]
+pub struct Visibility {
+    /// In a fixed order.
+    pub findings: Vec<(Term, Status)>,
+}
+
+impl Visibility {
+    /// Looks at every term of a compiled field, with its default parameters. An error where their
+    /// expressions outgrow the graph.
+    pub fn of(compiled: &Compiled) -> Result<Self, TooLarge> {
+        let mut graph = compiled.graph.clone();
+        graph.make_room();
+        let terms = vanish::terms(&mut graph, compiled);
+        if graph.is_exhausted() {
+            return Err(TooLarge("terms of the equations"));
+        }
+        let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+        let points = samples(&compiled.program, &parameters, POINTS);
+        let sizes = sizes(compiled, &parameters, &points);
+        let statuses = statuses(&graph, &terms, &parameters, &points, &sizes);
+        let mut findings: Vec<_> = terms.into_iter().map(|(term, _)| term).zip(statuses).collect();
+        let kind = |term: &Term| Term::KINDS.iter().position(|kind| *kind == term.kind());
+        findings.sort_by_key(|(term, _)| kind(term));
+        Ok(Visibility { findings })
+    }
+
+    /// The terms of that status.
+    pub fn with(&self, status: Status) -> impl Iterator<Item = &Term> {
+        self.findings.iter().filter(move |(_, found)| *found == status).map(|(term, _)| term)
+    }
+
+    /// The absent terms that say more than others which are absent as well.
+    pub fn telling(&self) -> impl Iterator<Item = &(Term, Status)> {
+        let absent = || self.findings.iter().filter(|(_, status)| status.is_absent());
+        absent().filter(move |(term, _)| !absent().any(|(other, _)| other.carries().contains(term)))
+    }
+
+    /// Whether a term is called absent.
+    pub fn lacks(&self, term: &Term) -> bool {
+        self.findings.iter().any(|(found, status)| found == term && status.is_absent())
+    }
+
+    /// The least space of polynomials that holds u at every time.
+    pub fn span(&self) -> Option<Span> {
+        let spaces = [
+            (Term::Curvature, Span::Linear),
+            (Term::CurvatureAlongAxes, Span::Multilinear),
+            (Term::ThirdGradient, Span::Quadratic),
+        ];
+        spaces.into_iter().find(|(term, _)| self.lacks(term)).map(|(_, span)| span)
+    }
+
+    /// Whether u is at most quadratic in t.
+    pub fn is_exact_in_time(&self) -> bool {
+        self.lacks(&Term::Jerk)
+    }
+
+    /// Whether H is symmetric; in one dimension it is.
+    pub fn has_symmetric_gradient(&self) -> bool {
+        !self.findings.iter().any(|(term, status)| *term == Term::Rotation && !status.is_absent())
+    }
+}
+
+/// The status of each term, in their order.
+fn statuses(
+    graph: &Graph,
+    terms: &[(Term, Vec<Expr>)],
+    parameters: &[Precise],
+    points: &[Sample<Precise>],
+    sizes: &Sizes,
+) -> Vec<Status> {
+    let is_zero = |exprs: &[Expr]| exprs.iter().all(|expr| graph.is_zero(*expr));
+    let outputs = terms.iter().enumerate().filter(|(_, (_, exprs))| !is_zero(exprs));
+    let outputs: BTreeMap<usize, Vec<Expr>> =
+        outputs.map(|(index, (_, exprs))| (index, exprs.clone())).collect();
+    let program = schedule_plainly(graph, &outputs);
+    let mut interpreter = Interpreter::new(&program, parameters);
+    let plan = interpreter.plan(&outputs.keys().copied().collect::<Vec<_>>());
+    let mut statuses = vec![Status::Undecided; terms.len()];
+    for point in points {
+        interpreter.set_time(&point.time);
+        interpreter.set_point(&plan, Point::at(&point.coordinates));
+        for (index, (term, exprs)) in terms.iter().enumerate() {
+            if is_zero(exprs) {
+                statuses[index] = Status::Zero;
+                continue;
+            }
+            let allowed = sizes.of(term.scale()) * Precise::from_f64(NEGLIGIBLE);
+            let values = interpreter.output(index);
+            if !allowed.is_defined() || !values.iter().all(Precise::is_defined) {
+                continue;
+            }
+            let is_negligible = values.into_iter().all(|value| value.magnitude().at_most(&allowed));
+            statuses[index] = match statuses[index] {
+                Status::Undecided | Status::Negligible if is_negligible => Status::Negligible,
+                _ => Status::Present,
+            };
+        }
+    }
+    statuses
+}
+
+/// Length, time, modulus and density of a field.
+fn sizes(compiled: &Compiled, parameters: &[Precise], points: &[Sample<Precise>]) -> Sizes {
+    let mut interpreter = Interpreter::new(&compiled.program, parameters);
+    let bound = |bound: Bound| interpreter.output(Output::Bound(bound));
+    let length = |from: Vec<Precise>, to: Vec<Precise>| {
+        let edges = from.into_iter().zip(to).map(|(from, to)| (to - from).magnitude());
+        edges.reduce(larger)
+    };
+    let edge = length(bound(Bound::Lower), bound(Bound::Upper));
+    let radius = || bound(Bound::Outer).pop();
+    let undefined = || Precise::from_f64(f64::NAN);
+    let size = edge.or_else(radius).unwrap_or_else(undefined);
+    let [first, last] = [0, 1].map(|end| bound(Bound::Time).get(end).cloned());
+    let window = first.zip(last).map_or_else(undefined, |(first, last)| last - first);
+    let outputs = [Output::Response(Response::Density), Output::Response(Response::WaveSpeed)];
+    let plan = interpreter.plan(&outputs);
+    let mut largest: Option<[Precise; 2]> = None;
+    for point in points {
+        interpreter.set_point(&plan, Point::at(&point.coordinates));
+        let [Some(density), Some(speed)] = outputs.map(|output| interpreter.output(output).pop())
+        else {
+            continue;
+        };
+        let modulus = density.clone() * speed.clone() * speed;
+        largest = Some(match largest {
+            Some([m, r]) => [larger(m, modulus), larger(r, density)],
+            None => [modulus, density],
+        });
+    }
+    let [modulus, density] = largest.unwrap_or_else(|| [undefined(), undefined()]);
+    Sizes([size, window, modulus, density])
+}
+
+/// The larger of two numbers; the defined one if there is only one.
+fn larger(a: Precise, b: Precise) -> Precise {
+    if a.at_most(&b) || !a.is_defined() { b } else { a }
+}

@@ -1,0 +1,241 @@
+//! For each term, the expressions that vanish where it is absent.
+
+use std::collections::BTreeMap;
+
+use super::term::Term;
+use mms_codegen::compile::Compiled;
+use mms_mechanics::face;
+use mms_mechanics::kinematics::Route;
+use mms_mechanics::model::energy_with;
+use mms_mechanics::model::parameter_values;
+use mms_mechanics::tensor::dot;
+use mms_mechanics::{Model, Response, TooLarge, derive};
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Spanned;
+use mms_spec::{Face, Formula};
+use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::substitute::substitute;
+
+/// Every term that a field of this dimension may have, with what it takes to be absent.
+pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
+    let mut terms = motion(graph, compiled);
+    terms.extend(strain(graph, compiled));
+    let stress = Stress::new(graph, compiled);
+    terms.extend(stress.terms(graph));
+    let density = compiled.model.density;
+    terms.push((Term::GradedDensity, gradient(graph, &[density], compiled.field.dimension)));
+    terms.push((Term::BodyForce, quantity(compiled, Quantity::BodyForce).to_vec()));
+    terms.extend(parameters(graph, compiled));
+    terms.extend(tractions(graph, compiled));
+    terms
+}
+
+fn quantity(compiled: &Compiled, quantity: Quantity) -> &[Expr] {
+    &compiled.derivation.quantities[&quantity]
+}
+
+/// The derivatives of every expression by every coordinate: those of one expression stand together.
+fn gradient(graph: &mut Graph, of: &[Expr], dimension: usize) -> Vec<Expr> {
+    let by_axis: Vec<Vec<Expr>> =
+        (0..dimension).map(|axis| differentiate(graph, of, Symbol::Coordinate(axis))).collect();
+    (0..of.len()).flat_map(|k| by_axis.iter().map(move |column| column[k])).collect()
+}
+
+/// What is seen in time.
+fn motion(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
+    let [u, v, a] = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
+        .map(|of| quantity(compiled, of));
+    let [first, last] = compiled.model.domain.time;
+    let mut at =
+        |of: &[Expr], time: Expr| substitute(graph, of, &BTreeMap::from([(Symbol::Time, time)]));
+    let (start, end) = ([u, v, a].map(|of| at(of, first)), at(u, last));
+    let [displaced, moving, accelerated] = start;
+    vec![
+        (Term::Velocity, v.to_vec()),
+        (Term::Acceleration, a.to_vec()),
+        (Term::Jerk, differentiate(graph, a, Symbol::Time)),
+        (Term::InitialDisplacement, displaced),
+        (Term::InitialVelocity, moving),
+        (Term::InitialAcceleration, accelerated),
+        (Term::FinalDisplacement, end),
+    ]
+}
+
+/// What is seen in the displacement gradient and its derivatives.
+fn strain(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
+    let dimension = compiled.field.dimension;
+    let [h, e] =
+        [Quantity::DisplacementGradient, Quantity::GreenLagrange].map(|of| quantity(compiled, of));
+    let one = graph.number(1);
+    let volume = graph.sub(quantity(compiled, Quantity::Jacobian)[0], one);
+    let second = gradient(graph, h, dimension);
+    let third = gradient(graph, &second, dimension);
+    let mut terms = vec![
+        (Term::VolumeChange, vec![volume]),
+        (Term::Curvature, second.clone()),
+        (Term::ThirdGradient, third),
+    ];
+    if dimension == 1 {
+        return terms;
+    }
+    let place = |k: usize| (k / dimension, k % dimension);
+    let above: Vec<usize> = (0..h.len()).filter(|k| place(*k).0 < place(*k).1).collect();
+    let turned = above.iter().map(|k| {
+        let (row, column) = place(*k);
+        graph.sub(h[*k], h[column * dimension + row])
+    });
+    let turned = turned.collect();
+    // u_i,JJ is the component J of the gradient of H_iJ.
+    let along = (0..h.len()).map(|k| second[k * dimension + place(k).1]).collect();
+    terms.push((Term::Shear, above.iter().map(|k| e[*k]).collect()));
+    terms.push((Term::Rotation, turned));
+    terms.push((Term::CurvatureAlongAxes, along));
+    if dimension == 3 {
+        let outside = (0..h.len()).filter(|k| place(*k).0 == 2 || place(*k).1 == 2);
+        terms.push((Term::OutOfPlane, outside.map(|k| h[k]).collect()));
+    }
+    terms
+}
+
+/// P as a function of H and X, at the gradient of the field.
+struct Stress {
+    dimension: usize,
+    /// dP_iJ/dX_K at fixed H, K fastest.
+    explicit: Vec<Expr>,
+    /// dP_iJ/dH_mN u_m,NK with mN != iJ, K fastest.
+    cross: Vec<Expr>,
+    /// The same with mN = iJ.
+    direct: Vec<Expr>,
+}
+
+impl Stress {
+    fn new(graph: &mut Graph, compiled: &Compiled) -> Self {
+        let dimension = compiled.field.dimension;
+        let response = &compiled.derivation.responses[&Response::FirstPiolaKirchhoff];
+        let h = quantity(compiled, Quantity::DisplacementGradient);
+        let leaf = |k: usize| Symbol::Gradient(k / dimension, k % dimension);
+        let values = h.iter().enumerate().map(|(k, value)| (leaf(k), *value)).collect();
+        let explicit = gradient(graph, response, dimension);
+        let explicit = substitute(graph, &explicit, &values);
+        let second = gradient(graph, h, dimension);
+        // tangent[mN][iJ] = dP_iJ/dH_mN
+        let tangent: Vec<Vec<Expr>> = (0..h.len())
+            .map(|k| {
+                let slopes = differentiate(graph, response, leaf(k));
+                substitute(graph, &slopes, &values)
+            })
+            .collect();
+        let mut through = |keeps: &dyn Fn(usize, usize) -> bool| -> Vec<Expr> {
+            (0..h.len() * dimension)
+                .map(|slot| {
+                    let (component, axis) = (slot / dimension, slot % dimension);
+                    let kept = (0..h.len()).filter(|k| keeps(component, *k));
+                    let pairs = kept.map(|k| (tangent[k][component], second[k * dimension + axis]));
+                    let pairs: Vec<_> = pairs.collect();
+                    dot(graph, pairs)
+                })
+                .collect()
+        };
+        let cross = through(&|component, k| component != k);
+        let direct = through(&|component, k| component == k);
+        Stress { dimension, explicit, cross, direct }
+    }
+
+    fn terms(&self, graph: &mut Graph) -> Vec<(Term, Vec<Expr>)> {
+        let mut terms =
+            vec![(Term::GradedModuli, self.divergence(graph, &[&self.explicit], false))];
+        if self.dimension > 1 {
+            let all = [&self.explicit[..], &self.cross, &self.direct];
+            let (divergence, transposed) =
+                (self.divergence(graph, &all, false), self.divergence(graph, &all, true));
+            let pairs = divergence.into_iter().zip(transposed);
+            let differences = pairs.map(|(a, b)| graph.sub(a, b)).collect();
+            terms.push((Term::CrossTerms, self.divergence(graph, &[&self.cross], false)));
+            terms.push((Term::TransposedStress, differences));
+        }
+        terms
+    }
+
+    /// The divergence of P, or of its transpose, from parts of its gradient.
+    fn divergence(&self, graph: &mut Graph, parts: &[&[Expr]], is_transposed: bool) -> Vec<Expr> {
+        let dimension = self.dimension;
+        let slot = |row: usize, axis: usize| {
+            let (first, second) = if is_transposed { (axis, row) } else { (row, axis) };
+            (first * dimension + second) * dimension + axis
+        };
+        (0..dimension)
+            .map(|row| {
+                let terms = (0..dimension).flat_map(|axis| {
+                    parts.iter().map(move |part| (part[slot(row, axis)], Rational::ONE))
+                });
+                let terms: Vec<_> = terms.collect();
+                graph.sum(terms)
+            })
+            .collect()
+    }
+}
+
+/// d(Div P)/ds at s = 0, where the parameter of the material is p exp(s): p d(Div P)/dp, which is 0
+/// where p is. A parameter that the density takes as a number only, such as an exponent, has none.
+fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
+    let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
+    let share = |k: usize| Symbol::Parameter(model.parameters.len() + k);
+    let mut varied = model.arguments.clone();
+    let mut is_varied = Vec::new();
+    for (k, value) in model.arguments.iter().enumerate() {
+        let leaf = graph.symbol(share(k));
+        let factor = graph.call(Function::Exp, &[leaf]);
+        varied[k] = graph.mul(*value, factor);
+        is_varied.push(energy_with(graph, field, material, &varied).is_some());
+        if !is_varied[k] {
+            varied[k] = *value;
+        }
+    }
+    let energy = energy_with(graph, field, material, &varied).unwrap_or(model.energy);
+    let divergence = divergence(graph, &Model { energy, ..model.clone() });
+    let (zero, count) = (graph.number(0), model.arguments.len());
+    let at_rest: BTreeMap<Symbol, Expr> = (0..count).map(|k| (share(k), zero)).collect();
+    let undefined = graph.call(Function::Ln, &[zero]);
+    let term = |(k, (name, _)): (usize, &(Spanned<String>, Formula))| {
+        let slopes = match is_varied[k] {
+            true => differentiate(graph, &divergence, share(k)),
+            false => vec![undefined],
+        };
+        (Term::Parameter(name.value.clone()), substitute(graph, &slopes, &at_rest))
+    };
+    field.material.arguments.iter().enumerate().map(term).collect()
+}
+
+/// Div P of a model, with what it can be reduced to; that of a rotation has no ln J then.
+fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
+    let relations = Relations::find(graph, &model.displacement);
+    let reduced = graph.attempt(|graph| derive(graph, model, &relations, Route::Gradient));
+    let derivation = match reduced {
+        Some(Ok(derivation)) => Ok(derivation),
+        _ => derive(graph, model, &Relations::default(), Route::Gradient),
+    };
+    // Where the graph is full, what is in it is not looked at.
+    derivation.map_or_else(
+        |TooLarge(_)| Vec::new(),
+        |mut derivation| derivation.quantities.remove(&Quantity::DivP).unwrap_or_default(),
+    )
+}
+
+/// P N on each face; a point of the body stands for the one of the face that it projects to.
+fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
+    let (model, field) = (&compiled.model, &compiled.field);
+    let values = parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate();
+    let values = values.map(|(index, value)| (Symbol::Parameter(index), value)).collect();
+    let (body, dimension) = (&model.domain.body, field.dimension);
+    let declared = Face::of(&field.domain.body, dimension);
+    let faces = face::present(graph, body, declared, &values);
+    let mut term = |face: Face| {
+        let normal = face::normal(graph, body, dimension, face);
+        let mut place = face::projection(graph, body, face);
+        place.extend((0..dimension).map(Symbol::Normal).zip(normal));
+        (Term::Traction(face), substitute(graph, quantity(compiled, Quantity::Traction), &place))
+    };
+    faces.into_iter().map(&mut term).collect()
+}

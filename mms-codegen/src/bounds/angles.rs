@@ -1,0 +1,115 @@
+//! Sines and cosines whose angle is proved to be less than a quarter turn: nothing need be taken off it; and where it is
+//! at most 1, or a little more, fewer terms are enough.
+//!
+//! The proof is for the body, the time window and the ranges of parameters. Elsewhere the functions are right
+//! too, only slower (`mms_math::batch`), so an angle that depends on a parameter without a range, which may be
+//! set to anything, is left as it is.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::chart::Chart;
+use super::enclosure::Formulas;
+use super::search::{Measure, largest};
+use mms_mechanics::Output;
+use mms_mechanics::face;
+use mms_mechanics::model::Model;
+use mms_program::Stage;
+use mms_program::interval::Interval;
+use mms_spec::FieldSpec;
+use mms_symbolic::expr::{Expr, Function, Graph, Node, Symbol};
+use mms_symbolic::pass::substitute::rebuild;
+
+/// What is proved of the magnitude of an angle, and the sine and the cosine of such: less than they know
+/// (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
+const KINDS: [(f64, [Function; 2]); 2] = [
+    (1.0 + 1.0 / 32.0, [Function::SinWithinOne, Function::CosWithinOne]),
+    (1.5, [Function::SinNearZero, Function::CosNearZero]),
+];
+
+/// How many cells and operations a proof may take.
+const CELLS: usize = 128;
+const OPERATIONS: usize = 50_000;
+
+/// Sines and cosines for angles near zero in place of those whose angles are proved to be.
+pub fn near_zero(
+    graph: &mut Graph,
+    field: &FieldSpec,
+    model: &Model,
+    outputs: &mut BTreeMap<Output, Vec<Expr>>,
+) {
+    let roots: Vec<Expr> = outputs.values().flatten().copied().collect();
+    let candidates = candidates(graph, model, &roots);
+    if candidates.is_empty() {
+        return;
+    }
+    let small: BTreeMap<Expr, [Function; 2]> = graph.aside(|graph| {
+        let chart = Chart::new(graph, field, model, None);
+        let with_functions = |angle| Some((angle, functions_of(graph, &chart, angle)?));
+        candidates.into_iter().filter_map(with_functions).collect()
+    });
+    for components in outputs.values_mut() {
+        *components = rebuild(graph, components, |graph, node| {
+            if let Node::Call(function @ (Function::Sin | Function::Cos), angle) = &node
+                && let Some([sin, cos]) = small.get(&angle[0])
+            {
+                let own = if *function == Function::Sin { sin } else { cos };
+                return graph.call(*own, angle);
+            }
+            graph.remake(node)
+        });
+    }
+}
+
+/// The angles at points of the body that depend on nothing without bounds.
+fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> BTreeSet<Expr> {
+    let is_bounded = |expr: Expr| is_bounded(graph, model, expr);
+    let mut bounds = face::bounds(&model.domain.body).into_iter().flatten();
+    if !bounds.all(is_bounded) || !model.domain.time.into_iter().all(is_bounded) {
+        return BTreeSet::new();
+    }
+    let angle = |expr: Expr| match graph.node(expr) {
+        Node::Call(Function::Sin | Function::Cos, angle) => Some(angle[0]),
+        _ => None,
+    };
+    let at_points = |angle: &Expr| graph.stage(*angle) >= Stage::Point;
+    let angles = graph.reachable(roots).into_iter().filter_map(angle);
+    let may_be_asked = |_: &Expr| !graph.work().is_over();
+    angles.filter(at_points).filter(may_be_asked).filter(|angle| is_bounded(*angle)).collect()
+}
+
+/// Whether the domain and the ranges of parameters bound everything that an expression depends on.
+fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
+    graph.symbols(expr).into_iter().all(|symbol| match symbol {
+        Symbol::Parameter(index) => model.parameters[index]
+            .range
+            .is_some_and(|range| range.into_iter().all(|bound| is_bounded(graph, model, bound))),
+        Symbol::Time | Symbol::Coordinate(_) => true,
+        Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => false,
+    })
+}
+
+/// The sine and the cosine of an angle that is proved to be small.
+fn functions_of(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Function; 2]> {
+    let angle = chart.pull_back(graph, &[angle]);
+    let formulas = Formulas::new(graph, chart, &angle);
+    let (mut bounds, mut values) = (formulas.run::<Interval>(chart), formulas.run::<f64>(chart));
+    let limit = (OPERATIONS / formulas.size()).min(CELLS);
+    // The smallest limit that is not refuted is proved.
+    let enough = |bound: f64, attained: f64| {
+        KINDS.iter().find(|(limit, _)| attained <= *limit).is_none_or(|(limit, _)| bound <= *limit)
+    };
+    let found = largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
+        let place = chart.place(&cell.0);
+        let enclosure = bounds.enclose(&place);
+        let angle = enclosure.values[0];
+        let at = cell.centre();
+        let attained = values.values(&chart.place(&at))[0].abs();
+        Measure {
+            bound: if angle.is_defined() { angle.farthest() } else { f64::INFINITY },
+            attained: if attained.is_nan() { f64::INFINITY } else { attained },
+            split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
+            at,
+        }
+    });
+    KINDS.into_iter().find_map(|(limit, kind)| (found.bound <= limit).then_some(kind))
+}

@@ -1,0 +1,104 @@
+//! Bounds of formulas over a part of their domain, and of their slopes.
+
+use std::collections::BTreeMap;
+
+use mms_math::Scalar as _;
+
+use super::chart::{Chart, Run};
+use super::forms::compact;
+use mms_program::Program;
+use mms_program::interpret::Number;
+use mms_program::interval::Interval;
+use mms_program::schedule::schedule_plainly;
+use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::pass::differentiate::differentiate;
+
+/// Formulas in the variables of a chart, with their derivatives by these.
+#[derive(Clone, Debug)]
+pub struct Formulas {
+    program: Program<Output>,
+    variables: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Output {
+    Values,
+    /// The derivatives by the variable of that index.
+    Slopes(usize),
+}
+
+impl Formulas {
+    /// Of formulas that were pulled back to a chart.
+    pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
+        let mut outputs = BTreeMap::from([(Output::Values, compact(graph, formulas))]);
+        for (index, symbol) in chart.variables().iter().enumerate() {
+            // Without a budget what is scheduled has no value, whatever it is.
+            let slopes = match graph.work().is_over() {
+                true => formulas.to_vec(),
+                false => differentiate(graph, formulas, *symbol),
+            };
+            outputs.insert(Output::Slopes(index), compact(graph, &slopes));
+        }
+        Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
+    }
+
+    /// How many operations one evaluation takes.
+    pub fn size(&self) -> usize {
+        self.program.instrs.len()
+    }
+
+    /// Ready to be evaluated in a scalar.
+    pub fn run<'a, T: Number>(&'a self, chart: &'a Chart) -> Evaluation<'a, T> {
+        let mut outputs = vec![Output::Values];
+        outputs.extend((0..self.variables).map(Output::Slopes));
+        Evaluation { run: chart.run(&self.program), outputs }
+    }
+}
+
+/// Formulas that are being evaluated.
+pub struct Evaluation<'a, T: Number> {
+    run: Run<'a, T, Output>,
+    outputs: Vec<Output>,
+}
+
+impl<T: Number> Evaluation<'_, T> {
+    /// The values.
+    pub fn values(&mut self, place: &[T]) -> Vec<T> {
+        self.run.at(place, [&[], &[]], &self.outputs[..1]).swap_remove(0)
+    }
+}
+
+/// Bounds of some formulas over a box.
+#[derive(Clone, Debug)]
+pub struct Enclosure {
+    /// Of each formula.
+    pub values: Vec<Interval>,
+    /// Of its derivative by each variable: first by variable, then by formula.
+    pub slopes: Vec<Vec<Interval>>,
+}
+
+impl Evaluation<'_, Interval> {
+    /// Bounds over a box: those of interval arithmetic, and within them those of the mean-value
+    /// form f(c) + f'(box) (box - c), whose excess shrinks with the square of the box (Moore,
+    /// Kearfott & Cloud, Introduction to Interval Analysis, 2009, section 6.3).
+    pub fn enclose(&mut self, place: &[Interval]) -> Enclosure {
+        let mut outputs = self.run.at(place, [&[], &[]], &self.outputs);
+        let slopes = outputs.split_off(1);
+        let mut values = outputs.swap_remove(0);
+        let centre: Vec<Interval> =
+            place.iter().map(|side| Interval::from_f64(side.middle())).collect();
+        let at_centre = self.values(&centre);
+        for (index, value) in values.iter_mut().enumerate() {
+            let smooth = slopes.iter().all(|slopes| slopes[index].is_defined());
+            if !value.is_defined() || !smooth {
+                continue;
+            }
+            let mut form = at_centre[index];
+            for (slopes, (side, middle)) in slopes.iter().zip(place.iter().zip(&centre)) {
+                form = form + slopes[index] * (*side - *middle);
+            }
+            *value = value.meet(form);
+        }
+        Enclosure { values, slopes }
+    }
+}

@@ -1,0 +1,62 @@
+//! Where something was found: a point of the domain that a message can name.
+
+use super::chart::{Chart, Spot};
+use mms_math::Scalar as _;
+use mms_program::precise::Precise;
+
+/// What it may take to find a place, in the steps of [`mms_symbolic::work`].
+const STEPS: u64 = 10_000_000;
+
+/// A place, a time, and the values there of the parameters that have a range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Witness {
+    /// X.
+    pub coordinates: Vec<f64>,
+    /// t.
+    pub time: f64,
+    /// The parameters that vary, by position.
+    pub parameters: Vec<(usize, f64)>,
+}
+
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+impl Witness {
+    /// At fractions of the way through a chart; and the spot itself, in 77 digits.
+    pub fn at(chart: &Chart, fractions: &[f64]) -> (Witness, Spot<Precise>) {
+        let fractions: Vec<Precise> = fractions.iter().map(|it| Precise::from_f64(*it)).collect();
+        Self::at_precise(chart, &fractions)
+    }
+
+    /// The same for fractions of 77 digits.
+    pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, Spot<Precise>) {
+        // Where a search ended is said, whatever is left of its budget.
+        let place = || chart.points().point(&chart.place(fractions));
+        let spot = chart.work().aside(STEPS, place);
+        let value = |index: usize| (index, spot.parameters[index].to_f64());
+        let witness = Witness {
+            coordinates: spot.coordinates.iter().map(Precise::to_f64).collect(),
+            time: spot.time.to_f64(),
+            parameters: chart.varying_parameters().map(value).collect(),
+        };
+        (witness, spot)
+    }
+
+    /// `X = 1, Y = 0, t = 0.5, amplitude = 0.3`
+    pub fn describe(&self, names: &[String]) -> String {
+        if self.time.is_nan() || self.coordinates.iter().any(|it| it.is_nan()) {
+            return "a place that takes too long to compute".into();
+        }
+        let axes = AXES.iter().zip(&self.coordinates).map(|(axis, x)| (axis.to_string(), *x));
+        let parameters = self.parameters.iter().map(|(index, x)| (names[*index].clone(), *x));
+        let all = axes.chain([("t".to_string(), self.time)]).chain(parameters);
+        all.map(|(name, value)| format!("{name} = {}", digits(value)))
+            .collect::<Vec<_>>()
+            .join(", ")
+    }
+}
+
+/// A number in a message: short, whatever its size.
+pub fn digits(value: f64) -> String {
+    let plain = value == 0.0 || (1e-4..1e7).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
+}

@@ -1,0 +1,278 @@
+//! Values that a field surely allows, told in microseconds: what [`Compiled::accepts`] looks at, evaluated once in
+//! intervals that hold for the whole body. Where that does not decide, or something is wrong, nothing is said.
+
+use std::collections::BTreeMap;
+
+use mms_math::Double;
+
+use super::Compiled;
+use crate::declared::elasticity::{curvatures, stiffness};
+use mms_mechanics::invariant::Kind;
+use mms_mechanics::model::{Body, Model};
+use mms_program::Program;
+use mms_program::interpret::{Interpreter, Number as _, Point};
+use mms_program::interval::Interval;
+use mms_program::schedule::schedule;
+use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+
+/// Sectors of a turn are left to those who tell them from full rings.
+const TURN: f64 = std::f64::consts::TAU * (1.0 - 1e-9);
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Output {
+    Ranges,
+    Body,
+    Time,
+    Density,
+    Poisson,
+    Defined,
+    Stiffness,
+}
+
+/// A field whose parameters are set time and again.
+#[derive(Debug)]
+pub struct Quick {
+    dimension: usize,
+    program: Program<Output>,
+    /// The parameters that have ranges.
+    ranged: Vec<usize>,
+    body: Shape,
+    defaults: Vec<Default>,
+}
+
+/// The value of a parameter that is not set.
+#[derive(Debug)]
+enum Default {
+    Number(Interval, Double),
+    /// Of the parameters before it.
+    Made(Program<()>),
+}
+
+impl Default {
+    fn new(graph: &Graph, default: Expr) -> Self {
+        match graph.as_number(default) {
+            Some(number) => {
+                Default::Number(Interval::from_rational(number), Double::from_rational(number))
+            }
+            None => Default::Made(schedule(graph, &BTreeMap::from([((), vec![default])]))),
+        }
+    }
+
+    /// Its enclosure and its value, where the parameters before it have these.
+    fn of(&self, enclosures: &[Interval], values: &[Double]) -> (Interval, Double) {
+        match self {
+            Default::Number(enclosure, value) => (*enclosure, *value),
+            Default::Made(program) => (
+                Interpreter::new(program, enclosures).output(())[0],
+                Interpreter::new(program, values).output(())[0],
+            ),
+        }
+    }
+}
+
+/// What a body is, and whether the angles of an annulus are given.
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    Box,
+    Annulus { sector: bool },
+}
+
+impl Quick {
+    /// What is to be looked at of a field; nothing where that would not do.
+    pub fn new(compiled: &Compiled) -> Option<Self> {
+        let (model, field) = (&compiled.model, &compiled.field);
+        let mut graph = compiled.graph.clone();
+        graph.make_room();
+        let is_simple = model.rigid.is_none() && !matches!(model.kind, Kind::Fibrous(_));
+        let outputs = is_simple.then(|| outputs(&mut graph, model))?;
+        let mut exprs = outputs.values().flatten();
+        // What changes in time is judged where it is read.
+        let moves = exprs.any(|expr| graph.symbols(*expr).contains(&Symbol::Time));
+        if field.incomplete || graph.is_exhausted() || moves {
+            return None;
+        }
+        let parameters = model.parameters.iter();
+        let sector = matches!(field.domain.body, mms_spec::Body::Annulus { theta: Some(_), .. });
+        Some(Quick {
+            dimension: field.dimension,
+            program: schedule(&graph, &outputs),
+            ranged: (0..model.parameters.len())
+                .filter(|index| model.parameters[*index].range.is_some())
+                .collect(),
+            body: match model.domain.body {
+                Body::Box { .. } => Shape::Box,
+                Body::Annulus { .. } => Shape::Annulus { sector },
+            },
+            defaults: parameters.map(|it| Default::new(&graph, it.default)).collect(),
+        })
+    }
+
+    /// The values of all parameters where some are set, if the field surely allows them.
+    pub fn accepted(&self, set: &BTreeMap<usize, Rational>) -> Option<Vec<f64>> {
+        let (mut enclosures, mut values) = (Vec::new(), Vec::new());
+        for (index, default) in self.defaults.iter().enumerate() {
+            let (enclosure, value) = match set.get(&index) {
+                None => default.of(&enclosures, &values),
+                Some(number) => {
+                    // What is set is a double precision number, or is left to others.
+                    let value = number.to_f64().value();
+                    Rational::try_from(value).ok().filter(|exact| exact == number)?;
+                    (Interval::new(value, value), Double::from(value))
+                }
+            };
+            enclosures.push(enclosure);
+            values.push(value);
+        }
+        let values = values.into_iter().map(Double::to_f64).collect();
+        self.allows(&enclosures).then_some(values)
+    }
+
+    fn allows(&self, parameters: &[Interval]) -> bool {
+        let mut interpreter = Interpreter::new(&self.program, parameters);
+        let early =
+            [Output::Ranges, Output::Body, Output::Time].map(|output| interpreter.output(output));
+        let [ranges, body, time] = &early;
+        let ranged = self.ranged.iter().map(|index| parameters[*index]);
+        let within = |(value, range): (Interval, &[Interval])| {
+            at_most(range[0], value) && at_most(value, range[1])
+        };
+        let Some(corners) = self.corners(body) else { return false };
+        if !(ranged.zip(ranges.chunks_exact(2)).all(within) && below(time[0], time[1])) {
+            return false;
+        }
+        let plan = interpreter.plan(&[
+            Output::Density,
+            Output::Poisson,
+            Output::Defined,
+            Output::Stiffness,
+        ]);
+        interpreter.set_point(&plan, Point::at(&corners));
+        let of_numbers = |value: f64| Interval::new(value, value);
+        let is_ratio = |it: &Interval| below(of_numbers(-1.0), *it) && below(*it, of_numbers(0.5));
+        let is_defined = |it: &Interval| it.is_defined() && it.farthest() < f64::INFINITY;
+        interpreter.output(Output::Density).iter().all(|it| below(of_numbers(0.0), *it))
+            && interpreter.output(Output::Poisson).iter().all(is_ratio)
+            && interpreter.output(Output::Defined).iter().all(is_defined)
+            && self.is_stiff(&interpreter.output(Output::Stiffness))
+    }
+
+    /// Coordinates that the body lies within, unless it may be empty.
+    fn corners(&self, body: &[Interval]) -> Option<Vec<Interval>> {
+        match self.body {
+            Shape::Box => {
+                let (lower, upper) = body.split_at(self.dimension);
+                let mut edges = lower.iter().zip(upper);
+                edges.all(|(from, to)| below(*from, *to)).then(|| {
+                    let edges = lower.iter().zip(upper);
+                    edges.map(|(from, to)| Interval::new(from.lower(), to.upper())).collect()
+                })
+            }
+            Shape::Annulus { sector } => {
+                let &[inner, outer, first, last] = body else { return None };
+                let is_part = below(first, last) && (last - first).upper() < TURN;
+                let is_ring = below(Interval::new(0.0, 0.0), inner) && below(inner, outer);
+                let reach = Interval::new(-outer.upper(), outer.upper());
+                (is_ring && (is_part || !sector)).then(|| vec![reach; self.dimension])
+            }
+        }
+    }
+
+    /// Whether Q_ik = A_i1k1 is positive definite: of an isotropic solid, that is all (see [`super::elasticity`]).
+    fn is_stiff(&self, tangent: &[Interval]) -> bool {
+        let size = self.dimension;
+        let entry = |i: usize, k: usize| tangent[(i * size * size + k) * size];
+        let mut matrix: Vec<Vec<_>> =
+            (0..size).map(|i| (0..size).map(|k| entry(i, k)).collect()).collect();
+        for row in 0..size {
+            let (above, rest) = matrix.split_at_mut(row + 1);
+            let above = &above[row];
+            if !below(Interval::new(0.0, 0.0), above[row]) {
+                return false;
+            }
+            for below in rest {
+                let factor = below[row] / above[row];
+                for (entry, over) in below.iter_mut().zip(above) {
+                    *entry = *entry - factor * *over;
+                }
+            }
+        }
+        true
+    }
+}
+
+/// The expressions that are looked at.
+fn outputs(graph: &mut Graph, model: &Model) -> BTreeMap<Output, Vec<Expr>> {
+    let ranges = model.parameters.iter().filter_map(|parameter| parameter.range).flatten();
+    let body = match &model.domain.body {
+        Body::Box { lower, upper } => [&lower[..], upper].concat(),
+        Body::Annulus { inner, outer, theta: [first, last] } => {
+            vec![*inner, *outer, *first, *last]
+        }
+    };
+    let (_, slopes) = curvatures(graph, model);
+    BTreeMap::from([
+        (Output::Ranges, ranges.collect()),
+        (Output::Body, body),
+        (Output::Time, model.domain.time.to_vec()),
+        (Output::Density, vec![model.density]),
+        (Output::Poisson, model.poisson.into_iter().collect()),
+        (Output::Defined, [&model.arguments[..], &slopes].concat()),
+        (Output::Stiffness, stiffness(graph, model)),
+    ])
+}
+
+/// Whether a < b, whatever numbers of the intervals they are.
+fn below(a: Interval, b: Interval) -> bool {
+    a.is_defined() && b.is_defined() && a.upper() < b.lower()
+}
+
+/// Whether a <= b likewise.
+fn at_most(a: Interval, b: Interval) -> bool {
+    a.is_defined() && b.is_defined() && a.upper() <= b.lower()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::driver::compile;
+
+    const FIELDS: [(&str, &str); 4] = [
+        ("axis_aligned_2d", include_str!("../../../fields/axis_aligned_2d.toml")),
+        ("bar_1d", include_str!("../../../fields/bar_1d.toml")),
+        ("cyclic_shear_3d", include_str!("../../../fields/cyclic_shear_3d.toml")),
+        ("expanding_ring", include_str!("../../../fields/expanding_ring.toml")),
+    ];
+
+    /// What is accepted is so by all who look longer, with the same values; ordinary values are, and wrong ones are not.
+    #[test]
+    fn what_is_accepted_quickly_is_accepted() {
+        for (name, text) in FIELDS {
+            let compiled = compile(name, name, text, &|_| Err("no files here".into()))
+                .unwrap_or_else(|failure| panic!("{failure}"));
+            let quick = Quick::new(&compiled).expect("an isotropic field");
+            let defaults = compiled.parameters::<f64>(&BTreeMap::new());
+            let (mut accepted, mut refused) = (0, 0);
+            for index in 0..compiled.model.parameters.len() {
+                let default = defaults[index];
+                for factor in [1.0, 1.25, 0.7, 1e-3, 0.0, -1.0, 1e30] {
+                    let number = Rational::try_from(default * factor).expect("a finite number");
+                    let set = BTreeMap::from([(index, number)]);
+                    let allowed = compiled.accepts(&set).is_ok();
+                    match quick.accepted(&set) {
+                        Some(values) => {
+                            accepted += 1;
+                            assert!(allowed, "{name}, parameter {index}: {}", default * factor);
+                            assert_eq!(values, compiled.parameters::<f64>(&set));
+                        }
+                        None if allowed => {
+                            assert!(!(0.1..=2.0).contains(&factor), "{name}, {set:?}")
+                        }
+                        None => refused += 1,
+                    }
+                }
+            }
+            assert!(accepted > 0 && refused > 0, "{name}: {accepted}, {refused}");
+        }
+    }
+}

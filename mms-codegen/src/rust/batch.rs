@@ -1,0 +1,310 @@
+//! Quantities at many points: the functions of a point, driven over slices.
+
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{ToTokens as _, format_ident, quote};
+
+use super::quantity::at;
+use super::{Emitter, MATH, Place, RUNTIME, input};
+use mms_mechanics::Output;
+use mms_program::loops::{Columns, Cut, is_worth_two};
+use mms_program::{Op, Stage, Value};
+use mms_spec::quantity::{Quantity, Shape};
+use mms_symbolic::expr::{Function, Symbol};
+
+impl Emitter<'_> {
+    /// The module of batches.
+    pub(super) fn math(&self) -> TokenStream {
+        let name = Ident::new(if self.contract { RUNTIME } else { MATH }, Span::call_site());
+        if self.contract { quote!(::#name::math) } else { quote!(::#name) }
+    }
+
+    /// What the loops over points need: the prepared field in the scalar of a loop, the cache of many
+    /// points, and a kernel for each quantity.
+    pub(super) fn batches(&self) -> TokenStream {
+        let reads: Vec<_> = self
+            .quantities()
+            .map(|quantity| {
+                let roots = self.values(Output::Quantity(quantity));
+                let columns = Columns::of(self.program, roots);
+                (quantity, self.kept_for(&columns), columns)
+            })
+            .collect();
+        let kept: BTreeSet<Value> =
+            reads.iter().flat_map(|(_, kept, _)| &kept.columns.values).copied().collect();
+        let kept = Vec::from_iter(kept);
+        let (stand_ins, points) = (self.stand_ins(), self.points(&kept));
+        let kernels = reads
+            .iter()
+            .map(|(quantity, own, columns)| self.kernels_of(*quantity, columns, own, &kept));
+        quote!(#stand_ins #points #(#kernels)*)
+    }
+
+    /// Conversions of the prepared structs.
+    fn stand_ins(&self) -> TokenStream {
+        let names = |values: Vec<Value>| -> Vec<_> {
+            values.into_iter().map(|value| self.name(value)).collect()
+        };
+        let (field, time) =
+            (names(self.kept_in(Stage::Parameter)), names(self.kept_in(Stage::Time)));
+        let wide: Vec<_> =
+            self.kept_for_times().into_iter().map(|value| self.wide_name(value)).collect();
+        let marker = (field.is_empty() && wide.is_empty())
+            .then(|| quote!(marker: ::core::marker::PhantomData,));
+        quote! {
+            impl<T: Real> Field<T> {
+                #[inline(always)]
+                fn standing<S: batch::Stand<T>>(&self) -> Field<S> {
+                    Field {
+                        #(#field: S::standing_for(self.#field),)*
+                        #(#wide: S::standing_for(T::narrow(self.#wide)).widen(),)*
+                        #marker
+                    }
+                }
+            }
+
+            impl<T: Real> AtTime<'_, T> {
+                #[inline(always)]
+                fn standing<'a, S: batch::Stand<T>>(&self, field: &'a Field<S>) -> AtTime<'a, S> {
+                    AtTime { field, #(#time: S::standing_for(self.#time),)* }
+                }
+            }
+        }
+    }
+
+    /// The cache of many points.
+    fn points(&self, kept: &[Value]) -> TokenStream {
+        let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
+        let place =
+            Place { scalar: quote!(S), ..Place::at_points(quote!(self.0), &[Stage::Point]) };
+        let body = self.statements(kept.iter().copied(), &place);
+        let (dimension, position) = (self.dimension(), self.position());
+        let count = self.axes().len() + kept.len();
+        let size = format!(
+            " {count} values of `T` a point, {} bytes in double precision: see `BYTES`.",
+            8 * count
+        );
+        let count = Literal::usize_unsuffixed(count);
+        quote! {
+            /// What many reference positions determine, as one column for each value.
+            ///
+            #[doc = #size]
+            /// It pays where computing those values costs more than reading them from
+            /// memory: for sines, exponentials and roots, not for a product or two.
+            #[derive(Clone, Debug)]
+            pub struct Points<T: batch::Float> {
+                kept: batch::Kept<T, #count>,
+            }
+
+            impl<T: batch::Float> Points<T> {
+                /// The size of one point in bytes.
+                pub const BYTES: usize = #count * ::core::mem::size_of::<T>();
+
+                /// How many points there are.
+                pub fn len(&self) -> usize {
+                    self.kept.len()
+                }
+
+                /// Whether there is no point.
+                pub fn is_empty(&self) -> bool {
+                    self.kept.is_empty()
+                }
+            }
+
+            impl<T: batch::Float> Field<T> {
+                /// Computes once what the parameters and many reference positions determine.
+                ///
+                /// # Panics
+                ///
+                /// If the slices have different lengths.
+                pub fn at_points(&self, points: [&[T]; #dimension]) -> Points<T> {
+                    let mut kept = batch::Kept::room_for(points[0].len());
+                    batch::run(&PointsOf(self), &points, &mut kept);
+                    Points { kept }
+                }
+            }
+
+            struct PointsOf<'a, T: Real>(&'a Field<T>);
+
+            impl<S: Real> batch::Function<S, #dimension, #count> for PointsOf<'_, S> {
+                #[inline(always)]
+                fn at(&self, [#(#position),*]: [S; #dimension]) -> [S; #count] {
+                    #body
+                    [#(#position,)* #(#names),*]
+                }
+            }
+
+            impl<T: batch::Float> batch::Kernel<T, #dimension, #count> for PointsOf<'_, T> {
+                #[inline(always)]
+                fn drive<S: batch::Stand<T>>(
+                    &self,
+                    points: &mut impl batch::Points<S, #dimension, #count>,
+                ) {
+                    points.each(&PointsOf(&self.0.standing()));
+                }
+            }
+        }
+    }
+
+    /// The kernels of a quantity that needs these `columns` of a point, and the functions that drive them: what it takes
+    /// of `all` that is kept of many points is its own.
+    fn kernels_of(
+        &self,
+        quantity: Quantity,
+        columns: &Columns,
+        own: &Cut,
+        all: &[Value],
+    ) -> TokenStream {
+        let math = self.math();
+        let dimension = self.axes().len();
+        let is_traction = quantity == Quantity::Traction;
+        let normals = if is_traction { dimension } else { 0 };
+        let (axes, results) = (count(dimension), count(quantity.shape().components(dimension)));
+        let name = quantity.name();
+        let [batch, batch_aos, batch_at] =
+            ["batch", "batch_aos", "batch_at"].map(|suffix| format_ident!("{name}_{suffix}"));
+        let (whole, cached) = (kernel(quantity, ""), kernel(quantity, "At"));
+        let function = format_ident!("{name}");
+        let position = self.position();
+        let normal = normal(normals);
+        let inputs = count(dimension + normals);
+        let with_normals = is_traction.then(|| quote!(normals,));
+        let Columns { axes: own_axes, values } = &own.columns;
+        let column = |value| dimension + all.binary_search(value).expect("what is read is kept");
+        let indices = own_axes.iter().copied().chain(values.iter().map(column));
+        let indices = indices.map(count);
+        let from_position = if is_worth_two(self.program, self.values(Output::Quantity(quantity))) {
+            self.two_loops(quantity, columns)
+        } else {
+            let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+            let result =
+                self.flat(quantity, quote!(at.#function([#(#position),*] #normal_argument)));
+            quote! {
+                #math::kernel! { #whole<S>, #inputs -> #results, |at, [#(#position,)* #(#normal),*]| {
+                    #result
+                } }
+            }
+        };
+        let over_columns = self.over_columns(quantity, &cached, columns, own);
+        quote! {
+            #from_position
+            #over_columns
+            #math::batches! {
+                #name, #with_normals #axes -> #results;
+                #whole: #batch, #batch_aos;
+                #cached: #batch_at, [#(#indices),*];
+            }
+        }
+    }
+
+    /// A kernel of a quantity that needs these `columns` of a point, and makes them of what it takes.
+    pub(super) fn over_columns(
+        &self,
+        quantity: Quantity,
+        kernel: &Ident,
+        columns: &Columns,
+        taken: &Cut,
+    ) -> TokenStream {
+        let math = self.math();
+        let dimension = self.axes().len();
+        let is_traction = quantity == Quantity::Traction;
+        let normal = normal(if is_traction { dimension } else { 0 });
+        let normal_argument = is_traction.then(|| quote!(, [#(#normal),*]));
+        let results = count(quantity.shape().components(dimension));
+        let (function, point) = (at(quantity), self.point_of(columns));
+        let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
+        let place =
+            Place { scalar: quote!(S), ..Place::at_points(quote!(at.field), &[Stage::Point]) };
+        let made = self.one_by_one(&taken.made, &place);
+        let axes = taken.columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
+        let taken = axes.chain(taken.columns.values.iter().map(|value| self.name(*value)));
+        let taken: Vec<_> = taken.chain(normal).collect();
+        let inputs = count(taken.len());
+        quote! {
+            #math::kernel! { #kernel<S>, #inputs -> #results, |at, [#(#taken),*]| {
+                #made
+                #result
+            } }
+        }
+    }
+
+    /// The names of a point's coordinates.
+    pub(super) fn position(&self) -> Vec<Ident> {
+        self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect()
+    }
+
+    /// How those loops go about it: together, if the first one has divisions or roots and, beside them, only sums and
+    /// products. Functions have coefficients, more than there are registers for beside those of the second loop.
+    pub(super) fn loops_of(&self, quantity: Quantity) -> Ident {
+        let roots = self.values(Output::Quantity(quantity));
+        let needed = self.program.needed_for(roots.iter().copied());
+        let has = |kind: fn(&Op) -> bool| {
+            let mut found = self.program.range(Stage::Point).filter(|index| needed[*index]);
+            found.any(|index| kind(&self.program.instrs[index].op))
+        };
+        let name = if has(divides) && !has(is_function) { "Together" } else { "Apart" };
+        Ident::new(name, Span::call_site())
+    }
+
+    /// The components of a result beside each other.
+    fn flat(&self, quantity: Quantity, result: TokenStream) -> TokenStream {
+        match quantity.shape() {
+            Shape::Scalar => quote!([#result]),
+            Shape::Vector => result,
+            Shape::Tensor => {
+                let columns: Vec<_> = self.axes().map(Literal::usize_unsuffixed).collect();
+                let components = columns
+                    .iter()
+                    .flat_map(|row| columns.iter().map(move |column| quote!(p[#row][#column])));
+                quote!(let p = #result; [#(#components),*])
+            }
+        }
+    }
+
+    /// A point of which only these columns are known.
+    fn point_of(&self, columns: &Columns) -> TokenStream {
+        let zero = quote!(S::from_f64(0.0));
+        let position = self.axes().map(|axis| match columns.axes.contains(&axis) {
+            true => input(Symbol::Coordinate(axis)).into_token_stream(),
+            false => zero.clone(),
+        });
+        let members = self.kept_in(Stage::Point).into_iter().map(|value| {
+            let name = self.name(value);
+            match columns.values.contains(&value) {
+                true => quote!(#name),
+                false => quote!(#name: #zero),
+            }
+        });
+        quote!(Point { reference_position: [#(#position),*], #(#members),* })
+    }
+}
+
+/// Whether an operation keeps the part of a processor busy that divides.
+fn divides(op: &Op) -> bool {
+    matches!(op, Op::Divide(..) | Op::Unary(Function::Sqrt, _))
+}
+
+/// Whether an operation is a function that is made of sums and products.
+fn is_function(op: &Op) -> bool {
+    matches!(op, Op::Unary(..) | Op::Binary(..)) && !divides(op)
+}
+
+/// The names of the components of a normal.
+pub(super) fn normal(components: usize) -> Vec<Ident> {
+    (0..components).map(|axis| input(Symbol::Normal(axis))).collect()
+}
+
+/// A number of things.
+pub(super) fn count(number: usize) -> Literal {
+    Literal::usize_unsuffixed(number)
+}
+
+/// The name of the kernel of a quantity.
+pub(super) fn kernel(quantity: Quantity, suffix: &str) -> Ident {
+    let words = quantity.name().split('_').map(|word| {
+        let (first, rest) = word.split_at(1);
+        first.to_uppercase() + rest
+    });
+    format_ident!("{}{suffix}Kernel", words.collect::<String>())
+}

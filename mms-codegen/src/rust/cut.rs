@@ -1,0 +1,57 @@
+//! The kernels of a quantity in two loops over points, and what is kept of many points.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::batch::{count, kernel, normal};
+use super::{Emitter, Place};
+use mms_program::Stage;
+use mms_program::loops::{Columns, Cut, WORTH_IN_CACHE, WORTH_IN_MEMORY};
+use mms_spec::quantity::Quantity;
+
+impl Emitter<'_> {
+    /// The kernel of a quantity that needs these `columns` of a point, in two loops.
+    pub(super) fn two_loops(&self, quantity: Quantity, columns: &Columns) -> TokenStream {
+        let math = self.math();
+        let dimension = self.axes().len();
+        let normals = if quantity == Quantity::Traction { dimension } else { 0 };
+        let [whole, first, then] = ["", "Of", "Then"].map(|suffix| kernel(quantity, suffix));
+        let found = format_ident!("{}_of", quantity.name());
+        let cut = Cut::new(self.program, columns, WORTH_IN_CACHE);
+        let handed = &cut.columns.values;
+        let body = self
+            .statements(handed.iter().copied(), &Place::at_points(quote!(self), &[Stage::Point]));
+        let names = handed.iter().map(|value| self.name(*value));
+        let of_first = dimension + normals..dimension + normals + handed.len();
+        let reads = cut.columns.axes.iter().copied().chain(of_first);
+        let reads = reads.chain(dimension..dimension + normals).map(count);
+        let inputs = count(dimension + normals);
+        let between = count(handed.len());
+        let results = count(quantity.shape().components(dimension));
+        let (point, position, normal) = (self.point(), self.position(), normal(normals));
+        let second = self.over_columns(quantity, &then, columns, &cut);
+        let loops = self.loops_of(quantity);
+        quote! {
+            impl<T: Real> Field<T> {
+                #[inline(always)]
+                fn #found(&self, #point) -> [T; #between] { #body [#(#names),*] }
+            }
+            #math::kernel! { #first<S>, #inputs -> #between, |at, [#(#position,)* #(#normal),*]| {
+                at.field.#found([#(#position),*])
+            } }
+            #second
+            #math::kernels! {
+                #whole = #first, #then [#(#reads),*], #loops; #inputs -> #between -> #results
+            }
+        }
+    }
+
+    /// What a quantity that needs these `columns` of a point reads of the cache of many: these, or fewer.
+    pub(super) fn kept_for(&self, columns: &Columns) -> Cut {
+        let cut = Cut::new(self.program, columns, WORTH_IN_MEMORY);
+        if cut.columns.count() < columns.count() {
+            return cut;
+        }
+        Cut { columns: columns.clone(), made: Vec::new() }
+    }
+}

@@ -1,0 +1,227 @@
+//! What needs no time: the parameters, the struct of their stage, the domain and the material.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{Emitter, Place};
+use mms_mechanics::Response;
+use mms_mechanics::model::Body;
+use mms_mechanics::{Bound, Output};
+use mms_program::Stage;
+use mms_spec::foreign::{Foreign, blanked};
+use mms_spec::quantity::Shape;
+
+impl Emitter<'_> {
+    pub(super) fn parameters(&self) -> TokenStream {
+        let left = self.parameter_names.keys();
+        let parameters: Vec<_> =
+            left.clone().map(|index| &self.compiled.model.parameters[*index]).collect();
+        let (dimension, count) = (self.dimension(), Literal::usize_unsuffixed(parameters.len()));
+        let names: Vec<_> = parameters.iter().map(|parameter| &parameter.name).collect();
+        let fields: Vec<_> = self.parameter_names.values().collect();
+        // A parameter may be called like something that a pattern cannot bind, such as `None`.
+        let locals: Vec<_> = (0..names.len()).map(|index| format_ident!("p{index}")).collect();
+        let docs = parameters.iter().map(|parameter| {
+            let what = parameter.doc.as_ref().map(Foreign::in_a_comment);
+            let what = what.as_deref().unwrap_or("A parameter of the field");
+            match &parameter.unit {
+                Some(unit) => format!(" {what} ({}).", blanked(unit)),
+                None => format!(" {what}."),
+            }
+        });
+        let place = Place::once(quote!(), &[Stage::Parameter]);
+        let outputs: Vec<_> = left.copied().map(Output::Parameter).collect();
+        let body = self.body(&outputs, &place);
+        let values = outputs.iter().map(|output| self.narrowed(self.values(*output)[0], &place));
+        let own_material = self.contract.then(|| self.own_material());
+        let doc = match self.compiled.selection.set.is_empty() {
+            true => " The parameters; their defaults are those of the field file.",
+            false => " The parameters; their defaults are those of the field file, or set.",
+        };
+        // A struct without members cannot be generic in their type.
+        let generic = self.parameters_generic();
+        let scalar = (!parameters.is_empty()).then(|| quote!(<T: Real>));
+        let (of_type, of_function) = if parameters.is_empty() {
+            (None, Some(quote!(<T>)))
+        } else {
+            (Some(quote!(<T>)), None)
+        };
+        quote! {
+            /// The number of space dimensions.
+            pub const DIMENSION: usize = #dimension;
+
+            #own_material
+
+            /// The names of the parameters, in the order of the field file.
+            pub const NAMES: [&str; #count] = [#(#names),*];
+
+            #[doc = #doc]
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct Parameters #generic {
+                #(#[doc = #docs] pub #fields: T,)*
+            }
+
+            impl #of_type Parameters #generic {
+                /// From the values in the order of `NAMES`.
+                pub fn from_array #of_function(values: [T; #count]) -> Self {
+                    let [#(#locals),*] = values;
+                    Parameters { #(#fields: #locals),* }
+                }
+            }
+
+            impl #scalar Default for Parameters #generic {
+                fn default() -> Self {
+                    #body
+                    Parameters { #(#fields: #values),* }
+                }
+            }
+        }
+    }
+
+    fn own_material(&self) -> TokenStream {
+        let text = match self.compiled.own_material() {
+            Some((_, text)) => quote!(::core::option::Option::Some(#text)),
+            None => quote!(::core::option::Option::None),
+        };
+        quote! {
+            /// The text of the material's file, where the field brings its own.
+            pub const OWN_MATERIAL: Option<&str> = #text;
+        }
+    }
+
+    /// The struct of the Parameter stage, and what needs no time.
+    pub(super) fn field(&self) -> TokenStream {
+        let kept = self.kept_in(Stage::Parameter);
+        let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
+        let place = Place::once(quote!(), &[Stage::Parameter]);
+        let values: Vec<_> = kept.iter().map(|value| self.narrowed(*value, &place)).collect();
+        let wide = self.kept_for_times();
+        let wide_names: Vec<_> = wide.iter().map(|value| self.wide_name(*value)).collect();
+        let wide_values = wide.iter().map(|value| self.operand(*value, &place));
+        let body = self.statements(kept.iter().chain(&wide).copied(), &place);
+        let generic = self.parameters_generic();
+        let solver = self.compiled.selection.is_for_a_solver().then(|| {
+            let (bounds, responses) = (self.bounds(), self.responses());
+            quote! {
+                impl<T: Real> Field<T> {
+                    #bounds
+                    #responses
+                }
+            }
+        });
+        // A field without any value still has a scalar type.
+        let (marker, marked) = match kept.is_empty() && wide.is_empty() {
+            true => (
+                Some(quote!(marker: ::core::marker::PhantomData<T>,)),
+                Some(quote!(marker: ::core::marker::PhantomData,)),
+            ),
+            false => (None, None),
+        };
+        quote! {
+            /// The field for one set of parameters: everything that needs neither t nor X, computed with
+            /// more digits than `T` has.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Field<T: Real> {
+                #(#names: T,)*
+                #(#wide_names: T::Wide,)*
+                #marker
+            }
+
+            /// Computes once what only the parameters determine.
+            pub fn prepare<T: Real>(parameters: &Parameters #generic) -> Field<T> {
+                #body
+                Field { #(#names: #values,)* #(#wide_names: #wide_values,)* #marked }
+            }
+
+            #solver
+        }
+    }
+
+    fn parameters_generic(&self) -> Option<TokenStream> {
+        (!self.parameter_names.is_empty()).then(|| quote!(<T>))
+    }
+
+    fn bounds(&self) -> TokenStream {
+        let place = Place::at_points(quote!(self), &[]);
+        let function = |bound: Bound, name: &str, doc: &str| {
+            let name = format_ident!("{name}");
+            let values = self.values(Output::Bound(bound));
+            let length = Literal::usize_unsuffixed(values.len());
+            let values = values.iter().map(|value| self.operand(*value, &place));
+            quote! {
+                #[doc = #doc]
+                pub fn #name(&self) -> [T; #length] { [#(#values),*] }
+            }
+        };
+        let time =
+            function(Bound::Time, "time_window", " The first and last time of the claims, s.");
+        let body = match &self.compiled.model.domain.body {
+            Body::Box { .. } => [
+                function(Bound::Lower, "lower", " The body's least reference coordinates, m."),
+                function(Bound::Upper, "upper", " The body's greatest reference coordinates, m."),
+            ]
+            .to_vec(),
+            Body::Annulus { .. } => [
+                function(Bound::Inner, "inner", " The body's inner radius, m."),
+                function(Bound::Outer, "outer", " The body's outer radius, m."),
+                function(Bound::Theta, "theta", " The body's first and last angle."),
+            ]
+            .to_vec(),
+        };
+        quote!(#(#body)* #time)
+    }
+
+    fn responses(&self) -> TokenStream {
+        let point = self.point();
+        let gradient = self.gradient();
+        let place = Place::at_points(quote!(self), &[Stage::Point, Stage::PointTime]);
+        let function = |response: Response, name: &str, doc: &str, shape: Shape, strained: bool| {
+            let name = format_ident!("{name}");
+            let gradient = strained.then(|| quote!(, #gradient));
+            let output = Output::Response(response);
+            let (kind, value) = (self.shape_type(shape), self.shaped(output, shape, &place));
+            let body = self.body(&[output], &place);
+            quote! {
+                #[doc = #doc]
+                #[inline(always)]
+                pub fn #name(&self, #point #gradient) -> #kind { #body #value }
+            }
+        };
+        let density = function(
+            Response::Density,
+            "density",
+            " Reference density rho0 at X, kg/m^3.",
+            Shape::Scalar,
+            false,
+        );
+        let speed = function(
+            Response::WaveSpeed,
+            "wave_speed",
+            " The fastest wave speed at X in the undeformed state, m/s.",
+            Shape::Scalar,
+            false,
+        );
+        let energy = function(
+            Response::StrainEnergy,
+            "material_strain_energy",
+            " Strain-energy density W at X of the displacement gradient H, Pa.",
+            Shape::Scalar,
+            true,
+        );
+        let first = function(
+            Response::FirstPiolaKirchhoff,
+            "material_first_piola_kirchhoff",
+            " First Piola-Kirchhoff stress P = dW/dF at X of the displacement gradient H, Pa.",
+            Shape::Tensor,
+            true,
+        );
+        let kirchhoff = function(
+            Response::KirchhoffStress,
+            "material_kirchhoff_stress",
+            " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",
+            Shape::Tensor,
+            true,
+        );
+        quote!(#density #speed #energy #first #kirchhoff)
+    }
+}

@@ -1,0 +1,120 @@
+//! Every quantity at a point and a time: plain functions over arrays, generic in the scalar.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use super::{Emitter, Place, input};
+use mms_mechanics::Output;
+use mms_program::Stage;
+use mms_spec::quantity::{Quantity, Shape};
+use mms_symbolic::expr::Symbol;
+
+/// The function that gives a quantity from what was kept of a point.
+pub(super) fn at(quantity: Quantity) -> Ident {
+    format_ident!("{}_at", quantity.name())
+}
+
+impl Emitter<'_> {
+    /// The struct of the Time stage, and every quantity at a point.
+    pub(super) fn at_time(&self) -> TokenStream {
+        let kept = self.kept_in(Stage::Time);
+        let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
+        let place = Place::once(quote!(self), &[Stage::Time]);
+        let body = self.statements(kept.iter().copied(), &place);
+        let values = kept.iter().map(|value| self.narrowed(*value, &place));
+        // Only where there is something to compute.
+        let widened = (!kept.is_empty()).then(|| quote!(let t = t.widen();));
+        let quantities = self.quantities().map(|quantity| self.quantity(quantity));
+        let faces = self.on_faces();
+        quote! {
+            /// The field at one time: everything that needs no X.
+            #[derive(Clone, Copy, Debug)]
+            pub struct AtTime<'a, T: Real> {
+                field: &'a Field<T>,
+                #(#names: T,)*
+            }
+
+            impl<T: Real> Field<T> {
+                /// Computes once what the parameters and the time determine.
+                #[inline]
+                pub fn at_time(&self, t: T) -> AtTime<'_, T> {
+                    #widened
+                    #body
+                    AtTime { field: self, #(#names: #values,)* }
+                }
+            }
+
+            impl<T: Real> AtTime<'_, T> {
+                #(#quantities)*
+                #(#faces)*
+            }
+        }
+    }
+
+    /// A quantity from a point, and from what was kept of it.
+    fn quantity(&self, quantity: Quantity) -> TokenStream {
+        let (name, at) = (format_ident!("{}", quantity.name()), at(quantity));
+        let doc = format!(" {} Unit: {}.", quantity.doc(), quantity.unit());
+        let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
+        let own: &[Stage] = &[Stage::Point, Stage::PointTime];
+        let place = |own| Place::at_points(quote!(self.field), own);
+        let (whole, rest) = (place(own), place(&own[1..]));
+        let output = Output::Quantity(quantity);
+        let point = self.point();
+        let normal = (quantity == Quantity::Traction).then(|| {
+            let components = self.axes().map(|axis| input(Symbol::Normal(axis)));
+            let dimension = self.dimension();
+            quote!(, [#(#components),*]: [T; #dimension])
+        });
+        let kind = self.shape_type(quantity.shape());
+        let [body, rest_body] = [&whole, &rest].map(|place| self.body(&[output], place));
+        let [value, rest_value] =
+            [&whole, &rest].map(|place| self.shaped(output, quantity.shape(), place));
+        quote! {
+            #[doc = #doc]
+            #[inline(always)]
+            pub fn #name(&self, #point #normal) -> #kind { #body #value }
+
+            #[doc = #cached]
+            #[inline(always)]
+            pub fn #at(&self, point: &Point<T> #normal) -> #kind { #rest_body #rest_value }
+        }
+    }
+
+    pub(super) fn point(&self) -> TokenStream {
+        let dimension = self.dimension();
+        let names = self.axes().map(|axis| input(Symbol::Coordinate(axis)));
+        quote!([#(#names),*]: [T; #dimension])
+    }
+
+    pub(super) fn gradient(&self) -> TokenStream {
+        let dimension = self.dimension();
+        let rows = self.axes().map(|row| {
+            let names = self.axes().map(|column| input(Symbol::Gradient(row, column)));
+            quote!([#(#names),*])
+        });
+        quote!([#(#rows),*]: [[T; #dimension]; #dimension])
+    }
+
+    pub(super) fn shape_type(&self, shape: Shape) -> TokenStream {
+        let dimension = self.dimension();
+        match shape {
+            Shape::Scalar => quote!(T),
+            Shape::Vector => quote!([T; #dimension]),
+            Shape::Tensor => quote!([[T; #dimension]; #dimension]),
+        }
+    }
+
+    pub(super) fn shaped(&self, output: Output, shape: Shape, place: &Place) -> TokenStream {
+        let values: Vec<_> =
+            self.values(output).iter().map(|value| self.operand(*value, place)).collect();
+        match shape {
+            Shape::Scalar => quote!(#(#values)*),
+            Shape::Vector => quote!([#(#values),*]),
+            Shape::Tensor => {
+                let rows = values.chunks(self.axes().len()).map(|row| quote!([#(#row),*]));
+                quote!([#(#rows),*])
+            }
+        }
+    }
+}

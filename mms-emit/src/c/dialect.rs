@@ -1,0 +1,97 @@
+//! How C writes numbers, functions and names.
+
+use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
+use crate::port::names::Rules;
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// Names that C takes; headers are also read by C++.
+pub const RULES: Rules = Rules {
+    words: &[C_KEYWORDS, CPP_KEYWORDS, MACROS],
+    modules: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, HEADERS],
+    folds_case: false,
+    longest: 120,
+};
+
+/// C23, section 6.4.1.
+pub const C_KEYWORDS: &str = "\
+    alignas alignof auto bool break case char const constexpr continue default do double else enum \
+    extern false float for goto if inline int long nullptr register restrict return short signed \
+    sizeof static static_assert struct switch thread_local true typedef typeof typeof_unqual union \
+    unsigned void volatile while asm fortran near far";
+
+/// C++23, section 5.11, where they are not those of C.
+pub const CPP_KEYWORDS: &str = "\
+    and and_eq bitand bitor catch char8_t char16_t char32_t class co_await co_return co_yield compl \
+    concept const_cast consteval constinit decltype delete dynamic_cast explicit export friend \
+    mutable namespace new noexcept not not_eq operator or or_eq private protected public \
+    reinterpret_cast requires static_cast template this throw try typeid typename using virtual \
+    wchar_t xor xor_eq";
+
+/// Macros of the standard headers and of compilers that stand without brackets.
+pub const MACROS: &str = "\
+    NULL I complex imaginary noreturn errno stdin stdout stderr unix linux i386 NAN INFINITY \
+    HUGE_VAL HUGE_VALF HUGE_VALL EOF RAND_MAX math_errhandling M_PI M_E MATH REAL \
+    DBL_EPSILON FLT_EPSILON assert offsetof none";
+
+/// Headers that a file of the same stem would hide.
+pub const HEADERS: &str = "\
+    assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg \
+    stdbool stddef stdint stdio stdlib string tgmath time uchar wchar wctype std main";
+
+/// How statements are written in C.
+pub struct C;
+
+impl Dialect for C {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
+            (true, (high, low)) => format!("wide_parts({}, {})", decimal(high), decimal(low)),
+            (false, _) => format!("REAL({})", decimal(nearest(number))),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "REAL(3.141592653589793)".into() }
+    }
+
+    fn input(&self, name: &str) -> String {
+        if name == "t" { name.into() } else { format!("{name}[i]") }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of((double){value})")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("(real){value}.high")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}->{name}", owner.name())
+    }
+
+    fn function(&self, function: Function) -> String {
+        in_c_library(function).map_or(function.name().into(), |name| format!("MATH({name})"))
+    }
+
+    fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {
+        let name = match operation {
+            _ if !wide => return format!("{a} {} {b}", operation.sign()),
+            Arithmetic::Add => "add",
+            Arithmetic::Subtract => "sub",
+            Arithmetic::Multiply => "mul",
+            Arithmetic::Divide => "div",
+        };
+        format!("wide_{name}({a}, {b})")
+    }
+
+    fn negated(&self, a: &str, wide: bool) -> String {
+        if wide { format!("wide_neg({a})") } else { format!("-{a}") }
+    }
+
+    fn statement(&self, name: &str, value: &str, wide: bool) -> String {
+        format!("const {} {name} = {value};", if wide { "wide" } else { "real" })
+    }
+}

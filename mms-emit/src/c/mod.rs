@@ -1,0 +1,73 @@
+//! C99: a header, a source file, and a program that checks them.
+
+pub(super) mod check;
+pub(super) mod dialect;
+mod header;
+mod source;
+
+use self::dialect::RULES;
+use crate::port::Port;
+use crate::text::wrapped;
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+
+/// C.
+pub const TARGET: Target = Target {
+    name: "c",
+    alias: None,
+    doc: "C99: a header, a source file and a check program",
+    emit: bundle,
+    words: RULES.words,
+};
+
+/// The flags of the line that proves a port: those that make every warning an error, and no fused
+/// operations, which would change what double-double arithmetic relies on.
+const FLAGS: &str = "-std=c99 -O2 -Wall -Wextra -Werror -ffp-contract=off";
+
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
+    let name = &port.name;
+    let file = |suffix: &str, text: String| File { name: format!("{name}{suffix}"), text };
+    Bundle {
+        files: vec![
+            file(".h", header::text(&port)),
+            file(".c", source::text(&port)),
+            file("_check.c", check::text(&port)),
+        ],
+        verify: Some(format!(
+            "cc {FLAGS} {name}.c {name}_check.c -lm -o {name}_check && ./{name}_check"
+        )),
+    }
+}
+
+/// Paragraphs as one comment.
+pub(super) fn comment(paragraphs: &[String], indent: &str) -> String {
+    // What would end the comment or begin another, and what C99 takes for a backslash.
+    let harmless =
+        |text: &String| text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?");
+    let paragraphs: Vec<Vec<String>> =
+        paragraphs.iter().map(|text| wrapped(&harmless(text), 96 - indent.len())).collect();
+    let lines = paragraphs.join(&String::new());
+    let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
+    let mut text = format!("{indent}/* {}", lines[0]);
+    for line in &lines[1..] {
+        text = text + "\n" + format!("{indent} * {line}").trim_end();
+    }
+    text + " */\n"
+}
+
+/// The same as a comment of documentation.
+fn documented(paragraphs: &[String], indent: &str) -> String {
+    comment(paragraphs, indent).replacen("/*", "/**", 1)
+}
+
+/// A function's head or call, broken where it is too long.
+pub(super) fn broken(start: &str, arguments: &[String], end: &str) -> String {
+    let line = format!("{start}({}){end}", arguments.join(", "));
+    if line.len() <= 100 {
+        return line;
+    }
+    let indent = " ".repeat(start.len() - start.trim_start().len() + 8);
+    let lines = crate::text::listed(arguments, 100 - indent.len());
+    format!("{start}(\n{indent}{}){end}", lines.join(&format!("\n{indent}")))
+}

@@ -1,0 +1,186 @@
+//! The source file: definitions, and what C lacks.
+
+use std::fmt::Write as _;
+
+use super::dialect::C;
+use super::header::{batch_head, head, subject};
+use super::{broken, comment};
+use crate::port::Port;
+use crate::port::body::{Place, local};
+use crate::port::callable::{Callable, input};
+use crate::port::support::Support;
+use mms_mechanics::Output;
+
+const WIDE: &str = include_str!("support/wide.c");
+const POINT: &str = include_str!("support/point.c");
+
+/// The text of `FIELD.c`.
+pub(super) fn text(port: &Port<'_>) -> String {
+    let functions = functions(port);
+    let support = |text| Support::new(text, &["/*", "#"]).needed(&functions).join("\n\n");
+    let (wide, point) = (support(WIDE), support(POINT));
+    let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
+    let mut text = comment(&port.header(), "");
+    text += &format!("#include \"{name}.h\"\n\n#include <math.h>\n\n");
+    if !wide.is_empty() {
+        text += "#ifdef __FAST_MATH__\n\
+                 #error \"-ffast-math takes away the digits that double-double arithmetic gains\"\n\
+                 #endif\n\n";
+    }
+    text += &format!(
+        "typedef {name}_real real;\n\n#define REAL(number) ((real)(number))\n\
+         #ifdef {upper}_FLOAT\n#define MATH(function) function##f\n\
+         #else\n#define MATH(function) function\n#endif\n\n"
+    );
+    if !wide.is_empty() {
+        text += &match port.kept_wide.is_empty() {
+            true => "/* A number of twice the digits of a double. */\n\
+                     typedef struct { double high, low; } wide;\n\n"
+                .into(),
+            false => format!("typedef {name}_wide wide;\n\n"),
+        };
+    }
+    for support in [wide, point].iter().filter(|support| !support.is_empty()) {
+        text += support;
+        text += "\n\n";
+    }
+    text + &functions
+}
+
+fn functions(port: &Port<'_>) -> String {
+    let mut text = defaults(port) + "\n" + &prepare(port) + "\n" + &at_time(port);
+    for callable in &port.callables {
+        text += "\n";
+        text += &match callable.is_of_points() {
+            true => of_many_points(port, callable) + "\n" + &of_one_point(port, callable),
+            false => of_no_point(port, callable),
+        };
+    }
+    text
+}
+
+fn defaults(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let mut text = format!("{name}_parameters {name}_default_parameters(void)\n{{\n");
+    let roots: Vec<_> =
+        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
+    let body = port.body(&C, &roots, Place::Parameters);
+    text += &format!("    {name}_parameters parameters;\n");
+    text += &indented(&body.statements, 4);
+    for (member, value) in port.parameters.values().zip(&body.results) {
+        let _ = writeln!(text, "    parameters.{member} = {value};");
+    }
+    if port.parameters.is_empty() {
+        text += "    parameters.none = 0;\n";
+    }
+    text + "    return parameters;\n}\n"
+}
+
+fn prepare(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let mut text =
+        format!("{name}_field {name}_prepare(const {name}_parameters *parameters)\n{{\n");
+    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
+    let body = port.body(&C, &roots, Place::Parameters);
+    text += &format!("    {name}_field field;\n");
+    text += &indented(&body.statements, 4);
+    if !body.statements.iter().any(|statement| statement.contains("parameters->")) {
+        text += "    (void)parameters;\n";
+    }
+    for (value, result) in port.kept.iter().zip(&body.results) {
+        let _ = writeln!(text, "    field.{} = {result};", local(*value, false));
+    }
+    for value in &port.kept_wide {
+        let wide = local(*value, true);
+        let _ = writeln!(text, "    field.{wide} = {wide};");
+    }
+    if roots.is_empty() {
+        text += "    field.none = 0;\n";
+    }
+    text + "    return field;\n}\n"
+}
+
+fn at_time(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let arguments = [format!("const {name}_field *field"), format!("{name}_real t")];
+    let mut text = broken(&format!("{name}_instant {name}_at_time"), &arguments, "\n{\n");
+    let body = port.body(&C, &port.kept_at_times, Place::Times);
+    text += &format!("    {name}_instant now;\n");
+    text += &indented(&body.statements, 4);
+    if !body.reads_kept {
+        text += "    (void)field;\n";
+    }
+    if body.inputs.is_empty() {
+        text += "    (void)t;\n";
+    }
+    for (value, result) in port.kept_at_times.iter().zip(&body.results) {
+        let _ = writeln!(text, "    now.{} = {result};", local(*value, false));
+    }
+    if port.kept_at_times.is_empty() {
+        text += "    now.none = 0;\n";
+    }
+    text + "    return now;\n}\n"
+}
+
+/// A loop over points, which is where a function is computed.
+fn of_many_points(port: &Port<'_>, callable: &Callable) -> String {
+    let body = port.body(&C, port.values(callable.output), Place::Points { timed: callable.time });
+    let mut text = batch_head(port, callable, "restrict ") + "\n{\n";
+    if !body.reads_kept {
+        let _ = writeln!(text, "    (void){};", if callable.time { "now" } else { "field" });
+    }
+    for symbol in callable.inputs.iter().filter(|symbol| !body.inputs.contains(symbol)) {
+        let _ = writeln!(text, "    (void){};", input(*symbol));
+    }
+    text += "    for (size_t i = 0; i < n; i++) {\n";
+    text += &indented(&body.statements, 8);
+    for (component, value) in callable.components.iter().zip(&body.results) {
+        let _ = writeln!(text, "        {component}[i] = {value};");
+    }
+    text + "    }\n}\n"
+}
+
+/// The same of one point.
+fn of_one_point(port: &Port<'_>, callable: &Callable) -> String {
+    let mut arguments = vec![if callable.time { "now" } else { "field" }.to_string(), "1".into()];
+    for (array, count) in callable.arrays() {
+        arguments.extend((0..count).map(|index| format!("&{array}[{index}]")));
+    }
+    let count = callable.components.len();
+    let mut text = head(port, callable) + "\n{\n";
+    let call = format!("{}_{}_batch", port.name, callable.name);
+    if callable.is_scalar() {
+        text += "    real out;\n";
+        arguments.push("&out".into());
+    } else {
+        arguments.extend((0..count).map(|index| format!("&out[{index}]")));
+    }
+    text += &broken(&format!("    {call}"), &arguments, ";\n");
+    if callable.is_scalar() {
+        text += "    return out;\n";
+    }
+    text + "}\n"
+}
+
+/// A part of the domain.
+fn of_no_point(port: &Port<'_>, callable: &Callable) -> String {
+    let body = port.body(&C, port.values(callable.output), Place::Points { timed: false });
+    let mut text = head(port, callable) + "\n{\n";
+    debug_assert!(subject(port, callable).ends_with("field"));
+    if !body.reads_kept {
+        text += "    (void)field;\n";
+    }
+    text += &indented(&body.statements, 4);
+    if callable.is_scalar() {
+        let _ = writeln!(text, "    return {};", body.results[0]);
+    } else {
+        for (index, value) in body.results.iter().enumerate() {
+            let _ = writeln!(text, "    out[{index}] = {value};");
+        }
+    }
+    text + "}\n"
+}
+
+fn indented(statements: &[String], by: usize) -> String {
+    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
+}

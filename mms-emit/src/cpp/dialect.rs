@@ -1,0 +1,57 @@
+//! How C++ writes numbers and functions.
+
+use crate::port::body::{Dialect, Owner, in_c_library};
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// How statements are written in C++, for a field of that dimension.
+pub struct Cpp(pub usize);
+
+impl Dialect for Cpp {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
+            (true, (high, low)) => format!("wide{{{}, {}}}", decimal(high), decimal(low)),
+            (false, _) => format!("T({})", decimal(nearest(number))),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "T(3.141592653589793)".into() }
+    }
+
+    /// Arguments are arrays: X, Y and Z are one, and so are the rows of H.
+    fn input(&self, name: &str) -> String {
+        let digit =
+            |at: usize| name[at..].chars().next().and_then(|it| it.to_digit(10)).unwrap_or(1);
+        match &name[..1] {
+            "X" => "X[0]".into(),
+            "Y" => "X[1]".into(),
+            "Z" => "X[2]".into(),
+            "N" => format!("N[{}]", digit(1) - 1),
+            "H" => format!("H[{}]", (digit(1) as usize - 1) * self.0 + digit(2) as usize - 1),
+            _ => name.into(),
+        }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of(static_cast<double>({value}))")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("T({value}.high)")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}.{name}", owner.name())
+    }
+
+    fn function(&self, function: Function) -> String {
+        in_c_library(function).map_or(function.name().into(), |name| format!("std::{name}"))
+    }
+
+    fn statement(&self, name: &str, value: &str, wide: bool) -> String {
+        format!("const {} {name} = {value};", if wide { "wide" } else { "T" })
+    }
+}

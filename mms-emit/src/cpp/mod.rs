@@ -1,0 +1,42 @@
+//! C++17: a header, templated on the scalar, and a program that checks it.
+
+mod check;
+mod dialect;
+mod header;
+
+use crate::c::dialect::{C_KEYWORDS, CPP_KEYWORDS, HEADERS, MACROS};
+use crate::port::Port;
+use crate::port::names::Rules;
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+
+/// C++.
+pub const TARGET: Target = Target {
+    name: "cpp",
+    alias: None,
+    doc: "C++17: a header templated on the scalar, for CUDA and HIP too, and a check program",
+    emit: bundle,
+    words: RULES.words,
+};
+
+/// Names that C++ takes.
+const RULES: Rules = Rules {
+    words: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, "T Parameters"],
+    modules: &[C_KEYWORDS, CPP_KEYWORDS, MACROS, HEADERS],
+    folds_case: false,
+    longest: 120,
+};
+
+const FLAGS: &str = "-std=c++17 -O2 -Wall -Wextra -Werror -ffp-contract=off";
+
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.hpp"), text: header::text(&port) },
+            File { name: format!("{name}_check.cpp"), text: check::text(&port) },
+        ],
+        verify: Some(format!("c++ {FLAGS} {name}_check.cpp -o {name}_check && ./{name}_check")),
+    }
+}

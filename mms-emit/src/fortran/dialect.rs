@@ -1,0 +1,50 @@
+//! How Fortran writes numbers and functions.
+
+use crate::port::body::{Dialect, Owner};
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// How statements are written in Fortran.
+pub struct Fortran;
+
+impl Dialect for Fortran {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("wide_of({}_dp)", decimal(high)),
+            (true, (high, low)) => format!("wide({}_dp, {}_dp)", decimal(high), decimal(low)),
+            (false, (value, _)) if value < 0.0 => format!("({}_wp)", decimal(value)),
+            (false, _) => format!("{}_wp", decimal(nearest(number))),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "3.141592653589793_wp".into() }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of(real({value}, dp))")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("real({value}%high, wp)")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}%{name}", owner.name())
+    }
+
+    fn function(&self, function: Function) -> String {
+        let name = match function {
+            Function::Ln => "log",
+            Function::Cbrt => "cubic_root",
+            Function::Powf => "power",
+            _ => function.name(),
+        };
+        name.into()
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("{name} = {value}")
+    }
+}

@@ -1,0 +1,50 @@
+//! Julia: a module of functions that broadcast, and a program that checks it.
+
+mod check;
+mod dialect;
+mod module;
+
+use crate::port::Port;
+use crate::port::names::{FUNCTIONS, Rules};
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+
+/// Julia.
+pub const TARGET: Target = Target {
+    name: "julia",
+    alias: None,
+    doc: "Julia: a module of functions that broadcast, in both precisions, and a check program",
+    emit: bundle,
+    words: RULES.words,
+};
+
+/// Names that Julia takes.
+const RULES: Rules = Rules {
+    words: &[KEYWORDS, "T Parameters float promote new"],
+    modules: &[KEYWORDS, FUNCTIONS, NAMES],
+    folds_case: false,
+    longest: 120,
+};
+
+/// The Julia Manual, section Keywords; those of two words too.
+const KEYWORDS: &str = "\
+    abstract baremodule begin break catch const continue do else elseif end export false finally for \
+    function global if import in isa let local macro module mutable outer primitive public quote return \
+    struct true try type using where while";
+
+/// What a module of the name would hide from itself.
+const NAMES: &str = "\
+    Base Core Main T Parameters Field Instant BigFloat Ref abs acos asin atan cbrt cos cosh cospi exp expm1 \
+    float log log1p ln_1p_rest pi promote setprecision sin sinh sinpi sqrt tan tanh wide dimension";
+
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::new(subject, &RULES);
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.jl"), text: module::text(&port) },
+            File { name: format!("{name}_check.jl"), text: check::text(&port) },
+        ],
+        verify: Some(format!("julia --startup-file=no {name}_check.jl")),
+    }
+}

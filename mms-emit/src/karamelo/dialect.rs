@@ -1,0 +1,68 @@
+//! How Karamelo writes numbers and functions.
+
+use crate::port::body::{Dialect, Owner};
+use crate::port::number::nearest;
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::Value;
+
+/// How variables are written, for a field of that name.
+pub struct Karamelo<'a>(pub &'a str);
+
+impl Dialect for Karamelo<'_> {
+    /// Without an exponent, which not all versions read.
+    fn literal(&self, number: &Rational, _wide: bool) -> String {
+        match nearest(number) {
+            value if value < 0.0 => format!("(0-{})", -value),
+            value => format!("{value}"),
+        }
+    }
+
+    fn pi(&self, _wide: bool) -> String {
+        "PI".into()
+    }
+
+    fn input(&self, name: &str) -> String {
+        match name {
+            "X" => "x0".into(),
+            "Y" => "y0".into(),
+            "Z" => "z0".into(),
+            "t" => "time".into(),
+            other => other.into(),
+        }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        value.into()
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        value.into()
+    }
+
+    fn member(&self, _owner: Owner, name: &str) -> String {
+        format!("{}_{name}", self.0)
+    }
+
+    fn has_wide(&self) -> bool {
+        false
+    }
+
+    fn function(&self, function: Function) -> String {
+        match function {
+            Function::Ln => "log".into(),
+            other => other.name().into(),
+        }
+    }
+
+    fn negated(&self, a: &str, _wide: bool) -> String {
+        format!("0-{a}")
+    }
+
+    fn local(&self, value: Value, _wide: bool) -> String {
+        format!("{}_{}", self.0, value.index())
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("{name} = {value}")
+    }
+}

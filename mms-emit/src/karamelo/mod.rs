@@ -1,0 +1,119 @@
+//! Karamelo: variables of its input language, and a program that checks them.
+//!
+//! Each variable is one operation. The language reads numbers in single precision and has few functions:
+//! the others are written out.
+
+mod check;
+mod dialect;
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use self::dialect::Karamelo;
+use crate::port::Port;
+use crate::port::body::Place;
+use crate::port::callable::Callable;
+use crate::port::names::Rules;
+use crate::python::module::comment;
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+use mms_symbolic::expr::Function;
+use mms_program::Value;
+
+/// Karamelo.
+pub const TARGET: Target = Target {
+    name: "karamelo",
+    alias: None,
+    doc: "Karamelo: variables of its input language, in single precision, and a check program in Python",
+    emit: bundle,
+    words: RULES.words,
+};
+
+/// Names stand behind those of the field, so that no word is in the way.
+const RULES: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
+
+/// The functions that all its versions have.
+const HAS: &[Function] =
+    &[Function::Sqrt, Function::Exp, Function::Ln, Function::Sin, Function::Cos, Function::Tan];
+
+/// Longer texts take versions long that put formulas in the place of names.
+const LONG: u64 = 1_000_000;
+
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let mut port = Port::once(subject, &RULES, HAS);
+    make_way(&mut port);
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.kar"), text: text(&port) },
+            File { name: format!("{name}_check.py"), text: check::text(&port) },
+        ],
+        verify: Some(format!("python3 -W error {name}_check.py")),
+    }
+}
+
+/// Renames parameters that are called like a result: all variables have one space of names.
+fn make_way(port: &mut Port<'_>) {
+    let dimension = port.dimension();
+    let results = port.callables.iter().flat_map(|callable| {
+        let suffixes = callable.suffixes(dimension).into_iter();
+        suffixes.map(|suffix| format!("{}{suffix}", callable.name))
+    });
+    let mut taken: Vec<String> = results.chain(port.parameters.values().cloned()).collect();
+    for name in port.parameters.values_mut() {
+        while taken.iter().filter(|other| *other == name).count() > 1 {
+            name.push('_');
+            taken.push(name.clone());
+        }
+    }
+}
+
+fn text(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let callables: Vec<&Callable> =
+        port.callables.iter().filter(|callable| callable.is_of_places()).collect();
+    let roots: Vec<Value> =
+        callables.iter().flat_map(|callable| port.values(callable.output)).copied().collect();
+    let body = port.body(&Karamelo(name), &roots, Place::Everything);
+    let mut header = port.header();
+    header.push(format!(
+        "Variables for an input file. Quantities are of the reference position x0, y0, z0 and of the time, and stand at the end; names with a number are steps on the way. Karamelo computes them in single precision. {name}_check.py checks the formulas."
+    ));
+    let longest = longest(port, &roots);
+    if longest > LONG {
+        header.push(format!(
+            "Versions of Karamelo without expressions (before class Expression) put formulas in the place of names: here up to {longest} of them in one, which they cannot hold. Choose quantities with --quantity, or freeze parameters."
+        ));
+    }
+    let mut text = comment(&header, "");
+    let defaults = &port.subject.vectors().defaults;
+    for ((index, parameter), default) in port.parameters.iter().zip(defaults) {
+        text += "\n";
+        text += &comment(&[port.parameter_doc(*index)], "");
+        let _ = writeln!(text, "{name}_{parameter} = {default}");
+    }
+    text += "\n";
+    for statement in &body.statements {
+        let _ = writeln!(text, "{statement}");
+    }
+    let mut results = body.results.iter();
+    for callable in callables {
+        text += "\n";
+        text += &comment(&[callable.documentation(port.dimension())], "");
+        for (suffix, result) in callable.suffixes(port.dimension()).iter().zip(&mut results) {
+            let _ = writeln!(text, "{name}_{}{suffix} = {result}", callable.name);
+        }
+    }
+    text
+}
+
+/// How many names the longest formula has when all formulas stand in the place of their names.
+fn longest(port: &Port<'_>, roots: &[Value]) -> u64 {
+    let mut lengths: BTreeMap<Value, u64> = BTreeMap::new();
+    for (index, instr) in port.program().instrs.iter().enumerate() {
+        let operands = instr.op.operands().map(|operand| lengths[&operand]);
+        let length = operands.fold(1_u64, u64::saturating_add);
+        lengths.insert(Value(index as u32), length);
+    }
+    roots.iter().map(|root| lengths[root]).max().unwrap_or(0)
+}

@@ -1,0 +1,64 @@
+//! The program that checks the blocks: it reads them, and evaluates their formulas.
+
+use std::fmt::Write as _;
+
+use crate::port::Port;
+use crate::port::once::Once;
+use crate::python::check::{CHECK, tables};
+use crate::python::module::comment;
+
+/// The text of `FIELD_check.py`.
+pub(super) fn text(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let mut header = port.check_header(&format!("{name}.i"));
+    if let Some(last) = header.last_mut() {
+        *last += " Formulas are evaluated in one precision throughout; where that loses more than half of it, four times that loss is accepted.";
+    }
+    let mut text = comment(&header, "");
+    let _ = write!(
+        text,
+        "\nimport math\nimport pathlib\nimport re\nimport sys\n\nFIELD = \"{name}\"\n\
+         EPS, LEAST = sys.float_info.epsilon, sys.float_info.min\n\n"
+    );
+    text += CHECK;
+    text += &tables(port);
+    text += &functions(port, port.accepted_once::<Once<f64>>());
+    text + include_str!("support/check.py")
+}
+
+/// The names of the parameters with their defaults, and what is checked.
+pub(in crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
+    let defaults = &port.subject.vectors().defaults;
+    let mut text = "\n# The parameters and their defaults.\nDEFAULTS = {\n".to_string();
+    for (parameter, default) in port.parameters.values().zip(defaults) {
+        let _ = writeln!(text, "    \"{parameter}\": {default:?},");
+    }
+    let (axes, _) = "txyz".split_at(1 + port.dimension());
+    let _ = write!(
+        text,
+        "}}\n\n# What the numbers of a point are called that functions take.\nAXES = \"{axes}\"\n\n\
+         # Name, whether it is of points, its components, and the accepted error.\nFUNCTIONS = [\n"
+    );
+    let mut unchecked = Vec::new();
+    for check in port.checks() {
+        let callable = check.callable;
+        if !callable.is_of_places() {
+            continue;
+        }
+        let suffixes = callable.suffixes(port.dimension());
+        let of_points = if callable.is_of_points() { "True" } else { "False" };
+        match accepted[check.place] {
+            Some(accepted) => {
+                let _ = writeln!(
+                    text,
+                    "    (\"{}\", {of_points}, {suffixes:?}, {accepted}),",
+                    callable.name
+                );
+            }
+            None => unchecked.push(&callable.name),
+        }
+    }
+    text + &format!(
+        "]\n\n# In the precision of the formulas no digit is left of these.\nUNCHECKED = {unchecked:?}\n\n"
+    )
+}

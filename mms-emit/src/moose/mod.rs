@@ -1,0 +1,178 @@
+//! MOOSE: blocks of an input file, one ParsedFunction for each component, and a program that checks them.
+//!
+//! Their formulas are those of the Function Parser for C++, whose optimiser rearranges sums: what the
+//! compiler writes has no difference that it could take for 0.
+
+mod check;
+mod dialect;
+
+use std::fmt::Write as _;
+
+pub(super) use self::check::functions;
+use self::dialect::Moose;
+use crate::port::Port;
+use crate::port::body::{Place, local};
+use crate::port::callable::input;
+use crate::port::names::Rules;
+use crate::port::number::decimal;
+use crate::python::module::comment;
+use crate::text::listed;
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+use mms_symbolic::expr::{Function, Symbol};
+use mms_program::{Op, Value};
+
+/// MOOSE.
+pub const TARGET: Target = Target {
+    name: "moose",
+    alias: None,
+    doc: "MOOSE: ParsedFunction blocks of an input file, and a check program in Python",
+    emit: bundle,
+    words: RULES.words,
+};
+
+/// Names stand behind those of the field, so that no word is in the way.
+const RULES: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
+
+/// The functions of the parser, and those that can be written in one formula.
+const HAS: &[Function] = &[
+    Function::Sqrt,
+    Function::Cbrt,
+    Function::Exp,
+    Function::Ln,
+    Function::Sin,
+    Function::Cos,
+    Function::SinPi,
+    Function::CosPi,
+    Function::Tan,
+    Function::Sinh,
+    Function::Cosh,
+    Function::Tanh,
+    Function::Asin,
+    Function::Acos,
+    Function::Atan,
+    Function::Atan2,
+    Function::Powf,
+];
+
+fn bundle(subject: &Subject<'_>) -> Bundle {
+    let port = Port::once(subject, &RULES, HAS);
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.i"), text: text(&port) },
+            File { name: format!("{name}_check.py"), text: check::text(&port) },
+        ],
+        verify: Some(format!("python3 -W error {name}_check.py")),
+    }
+}
+
+/// How many operations a formula may have when names stand for formulas. The optimiser of the parser takes
+/// as long as that, and more; and what is shared can double it at every step.
+const LONGEST: u32 = 400;
+
+fn text(port: &Port<'_>) -> String {
+    let name = &port.name;
+    let places = port.callables.iter().filter(|callable| callable.is_of_places());
+    let roots: Vec<Value> =
+        places.clone().flat_map(|callable| port.values(callable.output)).copied().collect();
+    let apart = apart(port, &roots);
+    let mut blocks = String::new();
+    for value in (0..apart.len()).filter(|index| apart[*index]) {
+        blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart);
+    }
+    for callable in places {
+        let doc = callable.documentation(port.dimension());
+        let values = port.values(callable.output);
+        for (suffix, value) in callable.suffixes(port.dimension()).iter().zip(values) {
+            blocks += &block(port, &format!("{}{suffix}", callable.name), &doc, *value, &apart);
+        }
+    }
+    let mut header = port.header();
+    header.push(format!(
+        "For `!include {name}.i` at the top level of an input file. Functions are of the coordinates of the undeformed mesh and of the time; those called {name}_q are steps on the way to others. A parameter is changed in its line, or on the command line. {name}_check.py checks the formulas."
+    ));
+    let mut text = comment(&header, "");
+    let defaults = &port.subject.vectors().defaults;
+    for ((index, parameter), default) in port.parameters.iter().zip(defaults) {
+        // MOOSE refuses what nobody reads.
+        if blocks.contains(&format!("${{{name}_{parameter}}}")) {
+            text += "\n";
+            text += &comment(&[port.parameter_doc(*index)], "");
+            let _ = writeln!(text, "{name}_{parameter} = {}", decimal(*default));
+        }
+    }
+    text + "\n[Functions]\n" + &blocks + "[]\n"
+}
+
+/// Which values are functions of their own, so that no formula is too long: within a function one that it
+/// names is computed once, however often its name stands there.
+fn apart(port: &Port<'_>, roots: &[Value]) -> Vec<bool> {
+    let program = port.program();
+    let needed = program.needed_for(roots.iter().copied());
+    let mut apart = vec![false; program.instrs.len()];
+    let mut lengths = vec![1; program.instrs.len()];
+    for (index, instr) in program.instrs.iter().enumerate() {
+        let operands = instr.op.operands().map(|operand| lengths[operand.index()]);
+        let length = operands.fold(1, u32::saturating_add);
+        apart[index] = needed[index] && length > LONGEST;
+        lengths[index] = if apart[index] { 1 } else { length };
+    }
+    apart
+}
+
+/// The block of one value.
+fn block(port: &Port<'_>, name: &str, doc: &str, value: Value, apart: &[bool]) -> String {
+    let program = port.program();
+    let mut needed = vec![false; program.instrs.len()];
+    let mut open: Vec<Value> = vec![value];
+    // A quantity may be such a step itself.
+    let is_known =
+        |other: Value| apart[other.index()] && (other != value || !name.starts_with('q'));
+    let mut known: Vec<Value> = Vec::new();
+    while let Some(value) = open.pop() {
+        if is_known(value) {
+            known.push(value);
+        } else if !std::mem::replace(&mut needed[value.index()], true) {
+            open.extend(program.instr(value).op.operands());
+        }
+    }
+    known.sort();
+    known.dedup();
+    let read = program.instrs.iter().zip(&needed).filter(|(_, needed)| **needed);
+    let parameters = read.filter_map(|(instr, _)| match instr.op {
+        Op::Input(Symbol::Parameter(index)) => Some(&port.parameters[&index]),
+        _ => None,
+    });
+    let field = &port.name;
+    let (mut symbols, mut values): (Vec<String>, Vec<String>) =
+        parameters.map(|it| (format!("p_{it}"), format!("${{{field}_{it}}}"))).unzip();
+    symbols.extend(known.iter().map(|value| local(*value, false)));
+    values.extend(known.iter().map(|value| format!("{field}_{}", local(*value, false))));
+    let body = port.body_of(&Moose, &[value], Place::Everything, needed);
+    let mut text = format!("  [{field}_{name}]\n");
+    if !doc.is_empty() {
+        text += &comment(&[doc.to_string()], "    ");
+    }
+    text += "    type = ParsedFunction\n    expression = '";
+    for statement in &body.statements {
+        let _ = write!(text, "{statement}\n                  ");
+    }
+    let _ = writeln!(text, "{}'", body.results[0]);
+    if !symbols.is_empty() {
+        let list = |items: Vec<String>, start: &str| {
+            let lines = listed(&items, 80).join(&format!("\n{:start$}", "", start = start.len()));
+            format!("{start}{}'\n", lines.replace(',', ""))
+        };
+        text += &list(symbols, "    symbol_names = '");
+        text += &list(values, "    symbol_values = '");
+    }
+    text + "  []\n"
+}
+
+/// The name of a leaf in a formula.
+fn leaf(name: &str) -> String {
+    let is = |symbol| input(symbol) == name;
+    let axis = (0..3).find(|axis| is(Symbol::Coordinate(*axis)));
+    axis.map_or(name.into(), |axis| ["x", "y", "z"][axis].into())
+}

@@ -1,0 +1,58 @@
+//! How Octave and MATLAB write numbers and functions.
+
+use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// How statements are written in Octave.
+pub struct Octave;
+
+impl Dialect for Octave {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, low)) => format!("[{}, {}]", decimal(high), decimal(low)),
+            (false, (value, _)) if value < 0.0 => format!("({})", decimal(value)),
+            (false, _) => decimal(nearest(number)),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "pi".into() }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of(double({value}))")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("{value}(1)")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        format!("{}.{name}", owner.name())
+    }
+
+    fn function(&self, function: Function) -> String {
+        let name = match function {
+            Function::Cbrt => "cubic_root",
+            Function::Powf => "power",
+            _ => in_c_library(function).unwrap_or(function.name()),
+        };
+        name.into()
+    }
+
+    fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {
+        let (wide_name, sign) = match operation {
+            Arithmetic::Add => ("wide_add", "+"),
+            Arithmetic::Subtract => ("wide_sub", "-"),
+            Arithmetic::Multiply => ("wide_mul", ".*"),
+            Arithmetic::Divide => ("wide_div", "./"),
+        };
+        if wide { format!("{wide_name}({a}, {b})") } else { format!("{a} {sign} {b}") }
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("{name} = {value};")
+    }
+}

@@ -1,0 +1,279 @@
+//! The functions of an emitted field: one list for every language.
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::Response;
+use mms_mechanics::boundary::Datum;
+use mms_mechanics::{Bound, Output};
+use mms_spec::quantity::{Quantity, Shape};
+use mms_symbolic::expr::Symbol;
+
+/// The names of the coordinates.
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// A function of an emitted field.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Callable {
+    /// Its name, without a prefix.
+    pub name: String,
+    /// What it gives.
+    pub output: Output,
+    /// One sentence on what that is.
+    pub doc: String,
+    /// Its unit, where the field's own are SI.
+    pub unit: &'static str,
+    /// Scalar, vector or tensor; none for a list of another length.
+    pub shape: Option<Shape>,
+    /// The names of its components, rows first.
+    pub components: Vec<String>,
+    /// Whether it is of a time.
+    pub time: bool,
+    /// What it takes at a point: coordinates, normal or gradient.
+    pub inputs: Vec<Symbol>,
+}
+
+impl Callable {
+    /// Whether it is evaluated at points.
+    pub fn is_of_points(&self) -> bool {
+        !self.inputs.is_empty()
+    }
+
+    /// Whether it gives one number, and not a list.
+    pub fn is_scalar(&self) -> bool {
+        self.shape == Some(Shape::Scalar)
+    }
+
+    /// What it is, of which shape and in which unit: its documentation in every language.
+    pub fn documentation(&self, dimension: usize) -> String {
+        let shape = match (self.shape, self.components.len()) {
+            (Some(Shape::Scalar), _) => "Scalar".into(),
+            (Some(Shape::Tensor), _) => format!("Tensor, {dimension}x{dimension}, by rows"),
+            (Some(Shape::Vector), count) => format!("Vector of {count}"),
+            (None, 1) => "1 number".into(),
+            (None, count) => format!("{count} numbers"),
+        };
+        format!("{} {shape}. Unit: {}.", self.doc, self.unit)
+    }
+
+    /// What it takes at a point as arrays: X, N or H, and how many numbers each holds.
+    pub fn arrays(&self) -> Vec<(&'static str, usize)> {
+        let mut arrays: Vec<(&'static str, usize)> = Vec::new();
+        for symbol in &self.inputs {
+            let name = match symbol {
+                Symbol::Normal(_) => "N",
+                Symbol::Gradient(..) => "H",
+                _ => "X",
+            };
+            match arrays.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, count)) => *count += 1,
+                None => arrays.push((name, 1)),
+            }
+        }
+        arrays
+    }
+
+    /// The places of what it takes, among t, X, N and H of a point.
+    pub fn columns(&self, dimension: usize) -> Vec<usize> {
+        let first = |array: &str| match array {
+            "N" => 1 + dimension,
+            "H" => 1 + 2 * dimension,
+            _ => 1,
+        };
+        let arrays = self.arrays().into_iter();
+        arrays.flat_map(|(array, count)| first(array)..first(array) + count).collect()
+    }
+
+    /// Whether it needs nothing but a point and a time, as functions of input files do.
+    pub fn is_of_places(&self) -> bool {
+        self.inputs.iter().all(|symbol| matches!(symbol, Symbol::Coordinate(_)))
+    }
+
+    /// What tells its components apart behind its name, rows first: nothing, `_1`, `_12`.
+    pub fn suffixes(&self, dimension: usize) -> Vec<String> {
+        match self.shape {
+            Some(Shape::Scalar) => vec![String::new()],
+            Some(Shape::Tensor) => (1..=dimension)
+                .flat_map(|i| (1..=dimension).map(move |j| format!("_{i}{j}")))
+                .collect(),
+            Some(Shape::Vector) | None => {
+                (1..=self.components.len()).map(|i| format!("_{i}")).collect()
+            }
+        }
+    }
+
+    /// The names of what it takes at a point.
+    pub fn input_names(&self) -> Vec<String> {
+        self.inputs.iter().map(|symbol| input(*symbol)).collect()
+    }
+}
+
+/// The argument that supplies a leaf.
+pub fn input(symbol: Symbol) -> String {
+    match symbol {
+        Symbol::Coordinate(axis) => AXES[axis].into(),
+        Symbol::Time => "t".into(),
+        Symbol::Normal(axis) => format!("N{}", axis + 1),
+        Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
+        Symbol::Parameter(_) | Symbol::Invariant(_) => {
+            unreachable!("a member of the parameters, or gone after derivation")
+        }
+    }
+}
+
+/// The functions of a field: its domain and its material unless only quantities were asked for,
+/// quantities in the order of derivation, and what is given on faces.
+pub fn callables(compiled: &Compiled) -> Vec<Callable> {
+    let wanted = |callable: &Callable| match callable.output {
+        Output::Bound(_) if !compiled.selection.is_for_a_solver() => false,
+        output => compiled.program.outputs.contains_key(&output),
+    };
+    let dimension = compiled.field.dimension;
+    let mut all: Vec<Callable> = BOUNDS.iter().map(|it| bound(*it, compiled)).collect();
+    all.extend(RESPONSES.iter().map(|it| response(*it, dimension)));
+    all.extend(Quantity::ALL.iter().map(|it| quantity(*it, dimension)));
+    all.extend(compiled.program.outputs.keys().filter_map(|output| match *output {
+        Output::Face(face, datum) => Some(on_face(face.name(), datum, *output, dimension)),
+        _ => None,
+    }));
+    all.retain(wanted);
+    all
+}
+
+const BOUNDS: [Bound; 6] =
+    [Bound::Lower, Bound::Upper, Bound::Inner, Bound::Outer, Bound::Theta, Bound::Time];
+
+const RESPONSES: [Response; 5] = [
+    Response::Density,
+    Response::WaveSpeed,
+    Response::StrainEnergy,
+    Response::FirstPiolaKirchhoff,
+    Response::KirchhoffStress,
+];
+
+fn bound(bound: Bound, compiled: &Compiled) -> Callable {
+    let (name, symbol, doc, unit) = match bound {
+        Bound::Lower => ("lower", "lower", "Least reference coordinates of the body.", "m"),
+        Bound::Upper => ("upper", "upper", "Greatest reference coordinates of the body.", "m"),
+        Bound::Inner => ("inner", "inner", "Inner radius of the body.", "m"),
+        Bound::Outer => ("outer", "outer", "Outer radius of the body.", "m"),
+        Bound::Theta => ("theta", "theta", "First and last angle of the body.", "1"),
+        Bound::Time => ("time_window", "t", "First and last time of what the field claims.", "s"),
+    };
+    let output = Output::Bound(bound);
+    let count = compiled.program.outputs.get(&output).map_or(0, Vec::len);
+    let shape = matches!(bound, Bound::Inner | Bound::Outer).then_some(Shape::Scalar);
+    Callable {
+        name: name.into(),
+        output,
+        doc: doc.into(),
+        unit,
+        shape,
+        components: match shape {
+            Some(_) => vec![symbol.into()],
+            None => (1..=count).map(|index| format!("{symbol}{index}")).collect(),
+        },
+        time: false,
+        inputs: Vec::new(),
+    }
+}
+
+fn response(response: Response, dimension: usize) -> Callable {
+    let (name, symbol, doc, unit, shape) = match response {
+        Response::Density => {
+            ("density", "rho0", "Reference density rho0(X).", "kg/m^3", Shape::Scalar)
+        }
+        Response::WaveSpeed => (
+            "wave_speed",
+            "c",
+            "Fastest wave speed at X in the undeformed state.",
+            "m/s",
+            Shape::Scalar,
+        ),
+        Response::StrainEnergy => (
+            "material_strain_energy",
+            "W",
+            "Strain-energy density W of the material at X, of the displacement gradient H.",
+            "Pa",
+            Shape::Scalar,
+        ),
+        Response::FirstPiolaKirchhoff => (
+            "material_first_piola_kirchhoff",
+            "P",
+            "First Piola-Kirchhoff stress P = dW/dF of the material at X, of the displacement gradient H.",
+            "Pa",
+            Shape::Tensor,
+        ),
+        Response::KirchhoffStress => (
+            "material_kirchhoff_stress",
+            "tau",
+            "Kirchhoff stress tau = P F^T of the material at X, of the displacement gradient H.",
+            "Pa",
+            Shape::Tensor,
+        ),
+        Response::Tangent => unreachable!("derived where it is asked for"),
+    };
+    let strained = !matches!(response, Response::Density | Response::WaveSpeed);
+    let mut inputs = coordinates(dimension);
+    if strained {
+        let rows = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
+        inputs.extend(rows);
+    }
+    Callable {
+        name: name.into(),
+        output: Output::Response(response),
+        doc: doc.into(),
+        unit,
+        shape: Some(shape),
+        components: components(symbol, shape, dimension),
+        time: false,
+        inputs,
+    }
+}
+
+fn quantity(quantity: Quantity, dimension: usize) -> Callable {
+    let mut inputs = coordinates(dimension);
+    if quantity == Quantity::Traction {
+        inputs.extend((0..dimension).map(Symbol::Normal));
+    }
+    Callable {
+        name: quantity.name().into(),
+        output: Output::Quantity(quantity),
+        doc: quantity.doc().into(),
+        unit: quantity.unit(),
+        shape: Some(quantity.shape()),
+        components: components(quantity.symbol(), quantity.shape(), dimension),
+        time: true,
+        inputs,
+    }
+}
+
+fn on_face(face: &str, datum: Datum, output: Output, dimension: usize) -> Callable {
+    let (what, symbol, unit) = match datum {
+        Datum::Normal => ("Outward reference unit normal N", "N", "1"),
+        Datum::Displacement => ("Displacement u(X, t)", "u", "m"),
+        Datum::Traction => ("Traction P N on reference area", "T", "Pa"),
+    };
+    Callable {
+        name: format!("{face}_{}", datum.name()),
+        output,
+        doc: format!("{what} on the face {face}, at a point of it."),
+        unit,
+        shape: Some(Shape::Vector),
+        components: components(symbol, Shape::Vector, dimension),
+        time: true,
+        inputs: coordinates(dimension),
+    }
+}
+
+fn coordinates(dimension: usize) -> Vec<Symbol> {
+    (0..dimension).map(Symbol::Coordinate).collect()
+}
+
+fn components(symbol: &str, shape: Shape, dimension: usize) -> Vec<String> {
+    match shape {
+        Shape::Scalar => vec![symbol.into()],
+        Shape::Vector => (1..=dimension).map(|i| format!("{symbol}{i}")).collect(),
+        Shape::Tensor => (1..=dimension)
+            .flat_map(|i| (1..=dimension).map(move |j| format!("{symbol}{i}{j}")))
+            .collect(),
+    }
+}

@@ -1,0 +1,118 @@
+//! What ports to other languages have in common: which functions a field has, what each stage
+//! keeps, and how names, numbers, instructions and test vectors are printed.
+//!
+//! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages
+//! Parameter and Time are computed with twice the digits of a double, as in Rust, from support text
+//! that stands in each language's folder. Languages of expressions have nothing to do that with: they
+//! compute everything once, and functions that they lack are written out in those that they have.
+
+pub mod body;
+pub mod callable;
+pub mod check;
+pub mod docs;
+pub mod lower;
+pub mod names;
+pub mod number;
+pub mod once;
+pub mod support;
+pub mod vectors;
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use self::callable::{Callable, callables};
+use self::names::{Rules, of_holder, unique};
+use super::Subject;
+use mms_codegen::compile::Compiled;
+use mms_codegen::liveness::Later;
+use mms_mechanics::{Output, Program};
+use mms_program::{Stage, Value};
+use mms_symbolic::expr::Function;
+
+/// The stages that are evaluated at a point.
+pub const AT_POINTS: &[Stage] = &[Stage::Point, Stage::PointTime];
+
+/// A field on its way into some language.
+pub struct Port<'a> {
+    /// The field, and its test vectors.
+    pub subject: &'a Subject<'a>,
+    /// The field.
+    pub compiled: &'a Compiled,
+    program: Cow<'a, Program>,
+    /// Its name in the language, which files are named after too.
+    pub name: String,
+    /// The parameters that are left: their positions in the file, and their names in the language.
+    pub parameters: BTreeMap<usize, String>,
+    /// The functions.
+    pub callables: Vec<Callable>,
+    /// What a prepared field holds: values of the Parameter stage that points read.
+    pub kept: Vec<Value>,
+    /// The same with all digits, of values that the Time stage reads.
+    pub kept_wide: Vec<Value>,
+    /// What a field at a time holds: values of both stages that points read.
+    pub kept_at_times: Vec<Value>,
+}
+
+impl<'a> Port<'a> {
+    /// The field under the rules of a language.
+    pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
+        Self::of(subject, rules, lower::of_any_angle(&subject.compiled.program))
+    }
+
+    /// The same for a language that computes everything in one precision, with functions that it has.
+    pub fn once(subject: &'a Subject<'a>, rules: &Rules, has: &[Function]) -> Self {
+        let lowered = lower::lowered(&lower::of_any_angle(&subject.compiled.program), has);
+        let mut port = Self::of(subject, rules, Cow::Owned(lowered));
+        let mut kept = std::mem::take(&mut port.kept_wide);
+        kept.append(&mut port.kept);
+        kept.sort();
+        kept.dedup();
+        port.kept = kept;
+        port
+    }
+
+    fn of(subject: &'a Subject<'a>, rules: &Rules, program: Cow<'a, Program>) -> Self {
+        let compiled = subject.compiled;
+        let callables = callables(compiled);
+        let emitted = |output: &Output| callables.iter().any(|it| it.output == *output);
+        let timed = |output: &Output| callables.iter().any(|it| it.output == *output && it.time);
+        let mut read = Later::new(&program, emitted);
+        read.outputs.clear();
+        let kept_wide = read.kept_values(&[Stage::Parameter], &[Stage::Time]);
+        let kept = Later::new(&program, emitted).kept_values(&[Stage::Parameter], AT_POINTS);
+        let kept_at_times =
+            Later::new(&program, timed).kept_values(&[Stage::Parameter, Stage::Time], AT_POINTS);
+        let left = compiled.field.parameters.iter().enumerate();
+        let (positions, names): (Vec<_>, Vec<_>) = left
+            .filter(|(_, parameter)| !parameter.frozen)
+            .map(|(position, parameter)| (position, parameter.name.value.as_str()))
+            .unzip();
+        let functions: Vec<&str> = callables.iter().map(|it| it.name.as_str()).collect();
+        Port {
+            subject,
+            compiled,
+            name: of_holder(compiled.field.name.raw(), rules, &functions),
+            parameters: positions.into_iter().zip(unique(&names, rules)).collect(),
+            callables,
+            kept,
+            kept_wide,
+            kept_at_times,
+            program,
+        }
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// The number of space dimensions.
+    pub fn dimension(&self) -> usize {
+        self.compiled.field.dimension
+    }
+
+    /// The components of an output.
+    pub fn values(&self, output: Output) -> &[Value] {
+        self.program().outputs.get(&output).map_or(&[], Vec::as_slice)
+    }
+}

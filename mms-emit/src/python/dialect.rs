@@ -1,0 +1,131 @@
+//! How Python writes numbers and functions.
+
+use crate::port::body::{Dialect, Owner, in_c_library};
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// What computes at points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// `math`: one point at a time.
+    Math,
+    /// NumPy: arrays that broadcast.
+    NumPy,
+    /// SymPy: expressions with exact numbers.
+    SymPy,
+    /// UFL: expressions of finite elements.
+    Ufl,
+}
+
+impl Form {
+    /// Whether it makes expressions: there is nothing to be gained by computing some of them before.
+    pub fn is_of_expressions(self) -> bool {
+        matches!(self, Form::SymPy | Form::Ufl)
+    }
+}
+
+/// A name of SymPy for which there is a function, and one to be written out otherwise.
+fn in_sympy(function: Function, arguments: &[String]) -> String {
+    let argument = &arguments[0];
+    match function {
+        Function::Ln1p => format!("sp.log(1 + {argument})"),
+        Function::Ln1pRest => format!("({argument} - sp.log(1 + {argument}))"),
+        Function::ExpM1 => format!("(sp.exp({argument}) - 1)"),
+        Function::SinPi => format!("sp.sin(PI*{argument})"),
+        Function::CosPi => format!("sp.cos(PI*{argument})"),
+        Function::Cbrt => format!("sp.sign({argument})*sp.Abs({argument})**sp.Rational(1, 3)"),
+        Function::Powf => format!("{argument}**{}", arguments[1]),
+        _ => {
+            let name = in_c_library(function).unwrap_or(function.name());
+            format!("sp.{name}({})", arguments.join(", "))
+        }
+    }
+}
+
+/// An exact number of SymPy.
+fn exact(number: &Rational) -> String {
+    match number.denominator().is_one() {
+        true => format!("sp.Integer({})", number.numerator()),
+        false => format!("sp.Rational({}, {})", number.numerator(), number.denominator()),
+    }
+}
+
+impl Dialect for Form {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        if *self == Form::SymPy {
+            return exact(number);
+        }
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("_Wide({})", decimal(high)),
+            (true, (high, low)) => format!("_Wide({}, {})", decimal(high), decimal(low)),
+            (false, (value, _)) if value < 0.0 => format!("({})", decimal(value)),
+            (false, _) => decimal(nearest(number)),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        match self {
+            Form::SymPy => "PI".into(),
+            _ if wide => "_PI".into(),
+            _ => "math.pi".into(),
+        }
+    }
+
+    fn has_wide(&self) -> bool {
+        !self.is_of_expressions()
+    }
+
+    fn widened(&self, value: &str) -> String {
+        match self {
+            Form::SymPy => format!("sp.sympify({value})"),
+            Form::Ufl => value.into(),
+            Form::Math | Form::NumPy => format!("_Wide(float({value}))"),
+        }
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("{value}.high")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        match owner {
+            Owner::Parameters => format!("parameters.{name}"),
+            Owner::Field => format!("field._{name}"),
+            Owner::Time => format!("self._{name}"),
+        }
+    }
+
+    fn function(&self, function: Function) -> String {
+        let Some(name) = in_c_library(function) else { return format!("_{}", function.name()) };
+        match (self, function) {
+            // Only Python 3.11 has it.
+            (Form::Math, Function::Cbrt) => "_cbrt".into(),
+            (Form::Ufl, Function::Ln) => "ufl.ln".into(),
+            (Form::Ufl, _) => format!("ufl.{name}"),
+            (Form::SymPy, _) => format!("sp.{name}"),
+            (Form::Math, _) => format!("math.{name}"),
+            (Form::NumPy, Function::Powf) => "np.power".into(),
+            (Form::NumPy, Function::Asin | Function::Acos | Function::Atan | Function::Atan2) => {
+                format!("np.{}", name.replacen('a', "arc", 1))
+            }
+            (Form::NumPy, _) => format!("np.{name}"),
+        }
+    }
+
+    fn call(&self, function: Function, arguments: &[String]) -> String {
+        match (self, function) {
+            (Form::SymPy, _) => in_sympy(function, arguments),
+            (Form::Ufl, Function::Powf) => arguments.join("**"),
+            _ => format!("{}({})", self.function(function), arguments.join(", ")),
+        }
+    }
+
+    fn wide_function(&self, function: Function) -> String {
+        format!("_wide_{}", function.name())
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("{name} = {value}")
+    }
+}

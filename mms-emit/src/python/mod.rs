@@ -1,0 +1,79 @@
+//! Python: a module for one point at a time that needs `math` alone.
+
+pub(super) mod check;
+mod dialect;
+pub(super) mod module;
+
+use self::dialect::Form;
+use crate::port::Port;
+use crate::port::names::Rules;
+use mms_codegen::rust::File;
+use crate::target::{Bundle, Subject, Target};
+use mms_symbolic::expr::Function;
+
+/// Python.
+pub const TARGET: Target = Target {
+    name: "python",
+    alias: None,
+    doc: "Python: a module that needs the standard library alone, and a check program",
+    emit: |subject| bundle(subject, Form::Math),
+    words: RULES.words,
+};
+
+/// Names that Python takes.
+const RULES: Rules = Rules {
+    words: &[KEYWORDS, "self float sp print match case type"],
+    modules: &[KEYWORDS, MODULES],
+    folds_case: false,
+    longest: 120,
+};
+
+/// The Python Language Reference, section 2.3.1.
+const KEYWORDS: &str = "\
+    False None True and as assert async await break class continue def del elif else except finally \
+    for from global if import in is lambda nonlocal not or pass raise return try while with yield";
+
+/// Modules that a file of the same stem would hide.
+const MODULES: &str = "\
+    math numpy dataclasses sys os abc array ast base64 bisect calendar cmath code collections copy \
+    csv ctypes datetime decimal enum errno fractions functools heapq importlib inspect io itertools \
+    json keyword logging numbers operator pickle platform random re reprlib select signal site \
+    socket stat statistics string struct subprocess tempfile test threading time token traceback \
+    types typing unittest uuid warnings weakref zlib scipy sympy ufl basix ffcx dolfinx mpmath";
+
+/// The functions that UFL has.
+const IN_UFL: &[Function] = &[
+    Function::Sqrt,
+    Function::Exp,
+    Function::Ln,
+    Function::Sin,
+    Function::Cos,
+    Function::Tan,
+    Function::Sinh,
+    Function::Cosh,
+    Function::Tanh,
+    Function::Asin,
+    Function::Acos,
+    Function::Atan,
+    Function::Atan2,
+    Function::Powf,
+];
+
+/// The module of a form, and the program that checks it.
+pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
+    let port = match form {
+        Form::Math | Form::NumPy => Port::new(subject, &RULES),
+        Form::SymPy => Port::once(subject, &RULES, Function::ALL),
+        Form::Ufl => Port::once(subject, &RULES, IN_UFL),
+    };
+    let name = &port.name;
+    Bundle {
+        files: vec![
+            File { name: format!("{name}.py"), text: module::text(&port, form) },
+            File { name: format!("{name}_check.py"), text: check::text(&port, form) },
+        ],
+        verify: Some(format!("python3 -W error {name}_check.py")),
+    }
+}
+
+pub(super) use self::dialect::Form as PythonForm;

@@ -1,0 +1,46 @@
+//! How Rust writes numbers and functions.
+
+use crate::port::body::{Dialect, Owner};
+use crate::port::number::{decimal, nearest};
+use mms_symbolic::expr::{Function, Rational};
+use mms_program::interpret::parts;
+
+/// How statements are written in Rust.
+pub struct Rust;
+
+impl Dialect for Rust {
+    fn literal(&self, number: &Rational, wide: bool) -> String {
+        match (wide, parts(number)) {
+            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
+            (true, (high, low)) => format!("wide_parts({}, {})", decimal(high), decimal(low)),
+            (false, _) => format!("T::of({})", decimal(nearest(number))),
+        }
+    }
+
+    fn pi(&self, wide: bool) -> String {
+        if wide { "wide_pi()".into() } else { "T::of(core::f64::consts::PI)".into() }
+    }
+
+    fn widened(&self, value: &str) -> String {
+        format!("wide_of(T::to_f64({value}))")
+    }
+
+    fn narrowed(&self, value: &str) -> String {
+        format!("T::of({value}.high)")
+    }
+
+    fn member(&self, owner: Owner, name: &str) -> String {
+        match owner {
+            Owner::Parameters => format!("parameters.{name}"),
+            Owner::Field | Owner::Time => format!("self.{name}"),
+        }
+    }
+
+    fn function(&self, function: Function) -> String {
+        format!("T::{}", function.name())
+    }
+
+    fn statement(&self, name: &str, value: &str, _wide: bool) -> String {
+        format!("let {name} = {value};")
+    }
+}

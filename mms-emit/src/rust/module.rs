@@ -1,0 +1,239 @@
+//! The module: the scalar trait, types, functions, and twice the digits where they are needed.
+
+use std::fmt::Write as _;
+
+use super::comment;
+use super::dialect::Rust;
+use crate::port::Port;
+use crate::port::body::{Place, local};
+use crate::port::callable::Callable;
+use crate::port::support::Support;
+use mms_mechanics::Output;
+use mms_program::Value;
+use mms_spec::quantity::Shape;
+
+const REAL: &str = include_str!("support/real.rs");
+const WIDE: &str = include_str!("support/wide.rs");
+
+/// What generated items are allowed: names of mathematics, and functions that nobody calls.
+const ALLOWED: &str = "#[allow(dead_code, non_snake_case, unused_variables, clippy::all)]\n";
+
+/// The text of `FIELD.rs`.
+pub(super) fn text(port: &Port<'_>) -> String {
+    let items = parameters(port) + &field(port) + &instant(port);
+    let wide = Support::new(WIDE, &["///", "//", "#"]).needed(&items).join("\n\n");
+    let wide = wide.replace("\n#[derive", &format!("\n{ALLOWED}#[derive"));
+    let mut header = port.header();
+    header.push(format!(
+        "A module for `mod {0};` or `include!`, which needs nothing but `core`, and the standard library or `libm` for elementary functions. {0}_check.rs checks the result.",
+        port.name
+    ));
+    let mut text = comment(&header, "//");
+    let _ = write!(
+        text,
+        "\n/// The number of space dimensions.\n#[allow(dead_code)]\npub const DIMENSION: usize = {};\n\n{}\n",
+        port.dimension(),
+        REAL.replace("pub trait Real:", "#[allow(dead_code)]\npub trait Real:")
+    );
+    if !wide.is_empty() {
+        let _ = write!(text, "{wide}\n\n");
+    }
+    text + &items
+}
+
+/// Lines of documentation.
+fn documented(doc: &str, indent: &str) -> String {
+    comment(&[doc.to_string()], &format!("{indent}///"))
+}
+
+/// A struct that is generic in its scalar, whatever it holds.
+fn structure(doc: &str, name: &str, members: &str) -> String {
+    format!(
+        "{}{ALLOWED}#[derive(Clone, Copy, Debug)]\npub struct {name}<T> {{\n{members}    \
+         marker: core::marker::PhantomData<T>,\n}}\n\n",
+        documented(doc, "")
+    )
+}
+
+fn members(values: &[Value], wide: bool) -> String {
+    let kind = if wide { "Wide" } else { "T" };
+    values.iter().map(|value| format!("    {}: {kind},\n", local(*value, wide))).collect()
+}
+
+fn parameters(port: &Port<'_>) -> String {
+    let mut members = String::new();
+    for (index, name) in &port.parameters {
+        members += &documented(&port.parameter_doc(*index), "    ");
+        let _ = writeln!(members, "    pub {name}: T,");
+    }
+    let doc = "The parameters; their defaults are those of the field file, or set.";
+    let mut text = structure(doc, "Parameters", &members);
+    let roots: Vec<_> =
+        port.parameters.keys().map(|index| port.values(Output::Parameter(*index))[0]).collect();
+    let body = port.body(&Rust, &roots, Place::Parameters);
+    let _ = write!(
+        text,
+        "{ALLOWED}impl<T: Real> Default for Parameters<T> {{\n    fn default() -> Self {{\n{}        \
+         Parameters {{\n",
+        indented(&body.statements, 8)
+    );
+    for (name, value) in port.parameters.values().zip(&body.results) {
+        let _ = writeln!(text, "            {name}: {value},");
+    }
+    text + "            marker: core::marker::PhantomData,\n        }\n    }\n}\n\n"
+}
+
+fn field(port: &Port<'_>) -> String {
+    let held = members(&port.kept, false) + &members(&port.kept_wide, true);
+    let mut text = structure("What only the parameters determine.", "Field", &held);
+    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
+    let body = port.body(&Rust, &roots, Place::Parameters);
+    let _ = write!(
+        text,
+        "/// Computes once what only the parameters determine.\n{ALLOWED}\
+         pub fn prepare<T: Real>(parameters: &Parameters<T>) -> Field<T> {{\n{}    Field {{\n",
+        indented(&body.statements, 4)
+    );
+    for (value, result) in port.kept.iter().zip(&body.results) {
+        let _ = writeln!(text, "        {}: {result},", local(*value, false));
+    }
+    for value in &port.kept_wide {
+        let _ = writeln!(text, "        {},", local(*value, true));
+    }
+    text += "        marker: core::marker::PhantomData,\n    }\n}\n\n";
+    let _ = write!(text, "{ALLOWED}impl<T: Real> Field<T> {{\n{}", at_time(port));
+    text + &methods(port, false) + "}\n\n"
+}
+
+fn at_time(port: &Port<'_>) -> String {
+    let body = port.body(&Rust, &port.kept_at_times, Place::Times);
+    let mut text = format!(
+        "    /// Computes once what the parameters and the time determine.\n    \
+         pub fn at_time(&self, t: T) -> Instant<T> {{\n{}        Instant {{\n",
+        indented(&body.statements, 8)
+    );
+    for (value, result) in port.kept_at_times.iter().zip(&body.results) {
+        let _ = writeln!(text, "            {}: {result},", local(*value, false));
+    }
+    text + "            marker: core::marker::PhantomData,\n        }\n    }\n"
+}
+
+fn instant(port: &Port<'_>) -> String {
+    let held = members(&port.kept_at_times, false);
+    let doc = "What the parameters and the time determine.";
+    let mut text = structure(doc, "Instant", &held);
+    let _ = writeln!(text, "{ALLOWED}impl<T: Real> Instant<T> {{");
+    let methods = methods(port, true);
+    text += methods.trim_start_matches('\n');
+    text + "}\n"
+}
+
+fn methods(port: &Port<'_>, timed: bool) -> String {
+    let mut text = String::new();
+    for callable in port.callables.iter().filter(|callable| callable.time == timed) {
+        text += "\n";
+        text += &method(port, callable);
+        if callable.is_of_points() {
+            text += "\n";
+            text += &batch(port, callable);
+        }
+    }
+    text
+}
+
+/// Items in brackets, in rows of `columns` where they are a matrix.
+fn array(items: &[String], columns: Option<usize>) -> String {
+    let list = |items: &[String]| format!("[{}]", items.join(", "));
+    match columns {
+        Some(columns) => list(&items.chunks(columns).map(list).collect::<Vec<_>>()),
+        None => list(items),
+    }
+}
+
+/// The type of as many numbers.
+fn kind(shape: Option<Shape>, count: usize, dimension: usize) -> String {
+    match shape {
+        Some(Shape::Scalar) => "T".into(),
+        Some(Shape::Tensor) => format!("[[T; {dimension}]; {dimension}]"),
+        Some(Shape::Vector) | None => format!("[T; {count}]"),
+    }
+}
+
+/// A function of one point, or of none.
+fn method(port: &Port<'_>, callable: &Callable) -> String {
+    let dimension = port.dimension();
+    let place = Place::Points { timed: callable.time };
+    let body = port.body(&Rust, port.values(callable.output), place);
+    let mut arguments = vec!["&self".to_string()];
+    let mut left = callable.input_names().into_iter();
+    for (name, count) in callable.arrays() {
+        let items: Vec<String> = left.by_ref().take(count).collect();
+        let (columns, shape) = match name {
+            "H" => (Some(dimension), Shape::Tensor),
+            _ => (None, Shape::Vector),
+        };
+        arguments.push(format!(
+            "{}: {}",
+            array(&items, columns),
+            kind(Some(shape), count, dimension)
+        ));
+    }
+    let result = match callable.shape {
+        Some(Shape::Scalar) => body.results[0].clone(),
+        Some(Shape::Tensor) => array(&body.results, Some(dimension)),
+        Some(Shape::Vector) | None => array(&body.results, None),
+    };
+    format!(
+        "{}    #[inline]\n    pub fn {}({}) -> {} {{\n{}        {result}\n    }}\n",
+        documented(&callable.documentation(dimension), "    "),
+        callable.name,
+        arguments.join(", "),
+        kind(callable.shape, callable.components.len(), dimension),
+        indented(&body.statements, 8)
+    )
+}
+
+/// The same at many points.
+fn batch(port: &Port<'_>, callable: &Callable) -> String {
+    let dimension = port.dimension();
+    let count = callable.components.len();
+    let (mut arguments, mut short, mut call) =
+        (vec!["&self".to_string()], String::new(), Vec::new());
+    for (name, count) in callable.arrays() {
+        arguments.push(format!("{name}: [&[T]; {count}]"));
+        let _ = writeln!(short, "        let {name} = {name}.map(|{name}| &{name}[..count]);");
+        let items: Vec<String> = (0..count).map(|index| format!("{name}[{index}][i]")).collect();
+        call.push(array(&items, (name == "H").then_some(dimension)));
+    }
+    arguments.push(format!("out: [&mut [T]; {count}]"));
+    let stores: String = (0..count)
+        .map(|index| {
+            let component = match callable.shape {
+                Some(Shape::Scalar) => "value".into(),
+                Some(Shape::Tensor) => {
+                    format!("value[{}][{}]", index / dimension, index % dimension)
+                }
+                Some(Shape::Vector) | None => format!("value[{index}]"),
+            };
+            format!("            out[{index}][i] = {component};\n")
+        })
+        .collect();
+    let doc = format!(
+        "The same at many points: a slice for each coordinate and each component ({}), of which none may be shorter than the first component.",
+        callable.components.join(", ")
+    );
+    documented(&doc, "    ")
+        + &format!(
+            "    pub fn {}_batch({}) {{\n        let count = out[0].len();\n{short}        \
+             let out = out.map(|out| &mut out[..count]);\n        \
+             for i in 0..count {{\n            let value = self.{}({});\n{stores}        }}\n    }}\n",
+            callable.name,
+            arguments.join(", "),
+            callable.name,
+            call.join(", ")
+        )
+}
+
+fn indented(statements: &[String], by: usize) -> String {
+    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
+}

@@ -1,0 +1,88 @@
+//! Every field of the gallery, every function of it, in every language.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::Mutex;
+
+use mms_codegen::{Compiled, Options, compile_with};
+use mms_emit::{Subject, Target};
+
+use super::build::{all_are_required, can_prove, in_pairs, ports, prove, quick};
+
+/// The fields of the gallery, compiled.
+fn gallery() -> Vec<Compiled> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
+    let files = fs::read_dir(folder).expect("the gallery");
+    let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    paths.sort();
+    let fields = paths.iter().filter(|path| path.extension().is_some_and(|it| it == "toml"));
+    fields.map(|path| compiled(path)).collect()
+}
+
+/// A field of the gallery, compiled.
+pub fn field(name: &str) -> Compiled {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
+    compiled(&folder.join(format!("{name}.toml")))
+}
+
+fn compiled(path: &Path) -> Compiled {
+    let text = fs::read_to_string(path).expect("a field file");
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let load = |material: &str| {
+        fs::read_to_string(path.with_file_name(material)).map_err(|error| error.to_string())
+    };
+    compile_with(&stem, &path.to_string_lossy(), &text, &load, &Options::default())
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// Languages that compute in one precision lose the digits of such angles; and the one that takes half a minute.
+const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
+const SLOW: &str = "octave";
+
+#[test]
+fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../mms-codegen/tests/data/late");
+    for name in ["wave_in_radians", "wave_in_half_turns"] {
+        let field = compiled(&folder.join(format!("{name}.toml")));
+        let subject = Subject::new(&field);
+        let is_meant = |target: &&'static Target| {
+            let is_quick = target.name != SLOW || all_are_required();
+            is_quick && !ONE_PRECISION.contains(&target.name)
+        };
+        for target in ports().filter(|target| can_prove(target)).filter(is_meant) {
+            let error = prove(target, &subject, &format!("late/{name}"), quick);
+            println!("{} {name}: {error} eps", target.name);
+        }
+    }
+}
+
+/// All pairs of a field and a language where compilers are required; elsewhere, to take no more than
+/// half a minute, each field in C and in one other language.
+#[test]
+fn every_field_proves_itself_in_every_language() {
+    let fields = gallery();
+    let subjects: Vec<_> = fields.iter().map(Subject::new).collect();
+    let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
+    let others = targets.iter().filter(|target| target.name != "c").count().max(1);
+    let is_tried = |field: usize, target: usize| {
+        all_are_required() || targets[target].name == "c" || (field + target).is_multiple_of(others)
+    };
+    let pairs: Vec<(usize, usize)> = (0..targets.len())
+        .flat_map(|target| (0..fields.len()).map(move |field| (field, target)))
+        .filter(|(field, target)| is_tried(*field, *target))
+        .collect();
+    let worst = Mutex::new(BTreeMap::new());
+    in_pairs(&pairs, |(field, target)| {
+        let (name, target) = (fields[*field].field.name.raw(), targets[*target]);
+        let error = prove(target, &subjects[*field], &format!("gallery/{name}"), quick);
+        let mut worst = worst.lock().expect("no panic while it is held");
+        let most = worst.entry(target.name).or_insert((0.0, String::new()));
+        if error > most.0 {
+            *most = (error, name.to_string());
+        }
+    });
+    for (target, (error, name)) in worst.into_inner().expect("no panic") {
+        println!("{target}: at most {error} eps, {name}");
+    }
+}

@@ -1,0 +1,126 @@
+//! Numbers that are hard to write, and programs that are hard to compile.
+
+use std::fs;
+
+use mms_codegen::compile::compile_unproved;
+use mms_codegen::{Compiled, Options};
+use mms_emit::{File, Subject, Target};
+use mms_spec::quantity::Quantity;
+
+use super::build::{can_build, can_prove, in_turn, ports, prove, quick, scratch, shell, write};
+
+fn field(u: &str, quantity: Quantity) -> Compiled {
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[parameters]\na = {{ value = \"1/3\" }}\n\
+         [displacement]\nu = [\"{u}\"]\n[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\n\
+         density = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\ntime = [0, 1]\n"
+    );
+    let mut options = Options::default();
+    options.selection.quantities = Some([quantity].into());
+    compile_unproved("field", "x.toml", &text, &|path| Err(path.into()), &options)
+        .unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+#[test]
+fn numbers_keep_their_digits_in_every_language() {
+    let formulas = [
+        "X/3*t/7",
+        "X*1e-400*t",
+        "X*1e-150*(t + 1e-150)",
+        "X*(t/1e300 + 0.1)/1e5",
+        "X*t*123456789012345678901234567890/1e40",
+        "-X*t*2/3*a - 1e-5*X",
+        "X*(a*0.1 + 1/3)*t/9007199254740993",
+        "0",
+    ];
+    for (index, u) in formulas.iter().enumerate() {
+        let field = field(u, Quantity::Displacement);
+        let subject = Subject::new(&field);
+        for target in in_turn(index, formulas.len()) {
+            prove(target, &subject, &format!("literals/{index}"), quick);
+        }
+    }
+}
+
+#[test]
+fn a_thousand_terms_compile_in_every_language() {
+    let terms: Vec<String> =
+        (1..=1000).map(|k| format!("sin({k}*X + t)/{}", 1000 * k * k)).collect();
+    let field = field(&terms.join(" + "), Quantity::Velocity);
+    let subject = Subject::new(&field);
+    for target in ports().filter(|target| can_prove(target)) {
+        prove(target, &subject, "thousand", quick);
+    }
+}
+
+/// Where no function has a value at any point, defaults are what is left to check.
+#[test]
+fn a_field_without_a_value_compiles() {
+    let field = field("t*sqrt(X - 10)", Quantity::Velocity);
+    let subject = Subject::new(&field);
+    assert!(subject.vectors().samples.is_empty());
+    for name in ["c", "cpp", "fortran", "rust", "python", "octave"] {
+        let target = Target::find(name).expect("a target of that name");
+        if can_prove(target) {
+            prove(target, &subject, "valueless", quick);
+        }
+    }
+}
+
+#[test]
+fn every_check_program_refuses_the_source_of_another_field() {
+    for target in ports().filter(|target| can_build(target)) {
+        is_refused(target, "X*t/3*1.001");
+        // Others say themselves that there is no such root.
+        if ["c", "cpp", "fortran", "rust"].contains(&target.name) {
+            is_refused(target, "X*t/3 + sqrt(X*t - 10)");
+        }
+    }
+}
+
+/// Asserts that a check program names the function that is wrong where the source is of this u.
+fn is_refused(target: &Target, wrong: &str) {
+    let [right, wrong] = ["X*t/3", wrong].map(|u| field(u, Quantity::DisplacementGradient));
+    let [right, wrong] = [&right, &wrong].map(|field| (target.emit)(&Subject::new(field)));
+    let folder = scratch(&format!("wrong/{}", target.name));
+    write(&right, &folder);
+    let is_source = |file: &&File| !file.name.contains("_check");
+    for source in wrong.files.iter().filter(is_source) {
+        fs::write(folder.join(&source.name), &source.text).expect("a written file");
+    }
+    let run = shell(&quick(right.verify.expect("a check program")), &folder);
+    let out = String::from_utf8_lossy(&run.stdout);
+    assert_eq!(run.status.code(), Some(1), "{}: {out}", target.name);
+    assert!(out.contains("displacement_gradient"), "{}: {out}", target.name);
+}
+
+#[test]
+fn check_programs_refuse_a_batch_without_its_last_point() {
+    let loops = [
+        (
+            "cpp",
+            "for (std::size_t i = 0; i < n; i++)",
+            "for (std::size_t i = 0; i + (n > 3) < n; i++)",
+        ),
+        ("rust", "for i in 0..count {", "for i in 0..count - usize::from(count > 3) {"),
+        ("fortran", "do i = 1, n", "do i = 1, merge(n - 1, n, n > 3)"),
+    ];
+    let field = field("X*t/3", Quantity::DisplacementGradient);
+    for (name, right, wrong) in loops {
+        let target = Target::find(name).expect("a target of that name");
+        if !can_build(target) {
+            continue;
+        }
+        let output = (target.emit)(&Subject::new(&field));
+        let folder = scratch(&format!("last/{name}"));
+        write(&output, &folder);
+        for file in &output.files {
+            let text = file.text.replace(right, wrong);
+            fs::write(folder.join(&file.name), text).expect("a written file");
+        }
+        let run = shell(&quick(output.verify.expect("a check program")), &folder);
+        let out = String::from_utf8_lossy(&run.stdout);
+        assert_eq!(run.status.code(), Some(1), "{name}: {out}");
+        assert!(out.contains("displacement_gradient"), "{name}: {out}");
+    }
+}

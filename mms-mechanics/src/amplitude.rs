@@ -1,0 +1,243 @@
+//! The parameter with which a motion vanishes, and which expressions lose digits where it is small.
+//!
+//! An expression that vanishes with the amplitude keeps its digits if no part of it is a difference
+//! of what does not: see [`Amplitude::keeps`]. What does not is replaced by [`difference`].
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mms_math::{Double, Scalar as _};
+
+use crate::model::Model;
+use crate::place::{
+    Place, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
+};
+use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
+use mms_symbolic::pass::curvature::{self, curvature};
+use mms_symbolic::pass::difference::{Parts, difference};
+use mms_symbolic::pass::factor::factor;
+use mms_symbolic::pass::substitute::replace;
+
+/// How many orders in the amplitude may cancel.
+const ORDERS: usize = 3;
+
+/// At how many places of the body an expression is looked at.
+const PLACES: usize = 2;
+
+/// A part of its default that is a small amplitude.
+const SMALL: f64 = 1e-6;
+
+/// A parameter with which u vanishes at every X and t.
+#[derive(Clone, Debug)]
+pub struct Amplitude {
+    symbol: Symbol,
+    /// Its number among the parameters, and its default, or 1 for 0.
+    index: usize,
+    usual: Double,
+    /// Places of the body, and places anywhere, where it is 0.
+    body: Vec<Place>,
+    anywhere: Vec<Place>,
+    /// Corners of the body, its middle and those of its faces, where it has its default.
+    edges: Vec<Place>,
+}
+
+impl Amplitude {
+    /// The first parameter with which u vanishes at the defaults of the others. The body does not
+    /// depend on it.
+    pub fn find(graph: &Graph, model: &Model) -> Option<Amplitude> {
+        let defaults = defaults(graph, model);
+        let bounds = bounds(model);
+        let of_body: BTreeSet<Symbol> =
+            bounds.iter().flat_map(|bound| graph.symbols(*bound)).collect();
+        let of_motion: BTreeSet<Symbol> =
+            model.displacement.iter().flat_map(|u| graph.symbols(*u)).collect();
+        let candidates = (0..defaults.len()).filter(|index| {
+            let symbol = Symbol::Parameter(*index);
+            of_motion.contains(&symbol) && !of_body.contains(&symbol)
+        });
+        let edges = edges(graph, model, &defaults);
+        let moves = |places: &[Place]| {
+            let values = evaluate(graph, &model.displacement, places);
+            model.displacement.iter().any(|u| !vanishes(&values[*u]))
+        };
+        let of_defaults = places(graph, model, &defaults, PLACES);
+        if !moves(&of_defaults) {
+            return None;
+        }
+        candidates.into_iter().find_map(|index| {
+            let mut parameters = defaults.clone();
+            parameters[index] = Double::from_f64(0.0);
+            let body = places(graph, model, &parameters, PLACES);
+            if graph.work().is_over() || moves(&body) {
+                return None;
+            }
+            let anywhere = anywhere(graph, model, &parameters, Some(index));
+            let symbol = Symbol::Parameter(index);
+            let edges = edges.clone();
+            let usual = size(&defaults[index]);
+            Some(Amplitude { symbol, index, usual, body, anywhere, edges })
+        })
+    }
+
+    /// `settled`, where that keeps its digits, else what is more exact: `plain`, of the same values,
+    /// less what it is without an amplitude, where that is 0.
+    pub fn mend(&self, graph: &mut Graph, plain: &[Expr], settled: &[Expr]) -> Vec<Expr> {
+        let keeps = self.kept(graph, settled).keeps;
+        let lost = |index: &usize| keeps[settled[*index]] != Keeps::All;
+        let lost: Vec<usize> = (0..settled.len()).filter(lost).collect();
+        let mut mended = settled.to_vec();
+        if lost.is_empty() {
+            return mended;
+        }
+        let lossy: Vec<Expr> = lost.iter().map(|index| plain[*index]).collect();
+        for (index, apart) in lost.into_iter().zip(self.apart(graph, &lossy)) {
+            mended[index] = apart.unwrap_or(mended[index]);
+        }
+        // Terms of the first order may cancel and leave those of the next.
+        for _ in 0..ORDERS {
+            mended = factor(graph, &mended);
+            let Kept { lossy, .. } = self.kept(graph, &mended);
+            let inner: Vec<Expr> = lossy.into_iter().filter(|it| !mended.contains(it)).collect();
+            let apart = self.apart(graph, &inner);
+            let changes = inner.into_iter().zip(apart).filter_map(|(it, made)| Some((it, made?)));
+            let changes: BTreeMap<Expr, Expr> = changes.filter(|(it, made)| it != made).collect();
+            if changes.is_empty() {
+                break;
+            }
+            mended = replace(graph, &mended, &changes);
+        }
+        // A quotient may have no value at an edge where the whole has one.
+        if self.has_values(graph, settled, &mended) { mended } else { settled.to_vec() }
+    }
+
+    /// Whether `after` have values wherever `before` have.
+    fn has_values(&self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        let values = evaluate(graph, &[before, after].concat(), &self.edges);
+        let finite = |expr: &Expr| values[*expr].iter().map(|value| value.to_f64().is_finite());
+        let pairs = || before.iter().zip(after);
+        pairs().all(|(old, new)| finite(old).zip(finite(new)).all(|(old, new)| new || !old))
+    }
+
+    /// What expressions that vanish with the amplitude are more than without it.
+    fn apart(&self, graph: &mut Graph, exprs: &[Expr]) -> Vec<Option<Expr>> {
+        let parts = difference(graph, exprs, self.symbol);
+        let limits: Vec<Expr> = parts.iter().flatten().map(|parts| parts.limit).collect();
+        let nothing = evaluate(graph, &limits, &self.anywhere);
+        let mut apart = |Parts { limit, rest }: Parts| match is_identity(&nothing[limit]) {
+            true => rest,
+            false => graph.add(limit, rest),
+        };
+        parts.into_iter().map(|parts| parts.map(&mut apart)).collect()
+    }
+
+    /// What is of second order in the amplitude, at the defaults of the other parameters: without what is of first
+    /// order, where that is 0 whatever they are, or beside it. `None` if it is of first order, or has a part for which
+    /// there is no rule.
+    pub fn of_second_order(&self, graph: &mut Graph, roots: &[Expr]) -> Option<Vec<Expr>> {
+        if !self.shrinks_twice(graph, roots) {
+            return None;
+        }
+        let parts = curvature(graph, roots, self.symbol);
+        let parts = parts.into_iter().collect::<Option<Vec<_>>>()?;
+        let early: Vec<Expr> = parts.iter().flat_map(|parts| [parts.limit, parts.slope]).collect();
+        let early = factor(graph, &early);
+        let [here, anywhere] =
+            [&self.body, &self.anywhere].map(|places| evaluate(graph, &early, places));
+        if !early.iter().all(|part| vanishes(&here[*part])) {
+            return None;
+        }
+        let symbol = graph.symbol(self.symbol);
+        let mut with_early = |(early, parts): (&[Expr], &curvature::Parts)| {
+            let linear = graph.mul(symbol, early[1]);
+            let kept = [(early[0], early[0]), (early[1], linear)].into_iter();
+            let kept = kept.filter(|(part, _)| !is_identity(&anywhere[*part]));
+            let terms = kept.map(|(_, term)| term).chain([parts.rest]);
+            graph.sum(terms.map(|term| (term, Rational::ONE)).collect::<Vec<_>>())
+        };
+        Some(early.chunks(2).zip(&parts).map(&mut with_early).collect())
+    }
+
+    /// Whether half of a small amplitude makes no more than a quarter of these.
+    fn shrinks_twice(&self, graph: &Graph, roots: &[Expr]) -> bool {
+        let largest = |amplitude: f64| {
+            let mut places = self.body.clone();
+            for place in &mut places {
+                place.parameters[self.index] = Double::from_f64(amplitude) * self.usual;
+            }
+            let values = evaluate(graph, roots, &places);
+            let sizes = roots.iter().flat_map(|root| &values[*root]).map(|it| it.to_f64().abs());
+            sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+        };
+        let (whole, half) = (largest(SMALL), largest(SMALL / 2.0));
+        half > 0.0 && half < 0.3 * whole
+    }
+
+    /// Whether all of these keep their digits where the amplitude is small: each is not small with it,
+    /// or it is made by sums of what is, by products with what keeps them, and by functions of what
+    /// keeps them. Of a product it is enough that one small factor does.
+    pub fn keeps(&self, graph: &Graph, roots: &[Expr]) -> bool {
+        let keeps = self.kept(graph, roots).keeps;
+        roots.iter().all(|root| keeps[*root] != Keeps::None)
+    }
+
+    fn kept(&self, graph: &Graph, roots: &[Expr]) -> Kept {
+        let values = evaluate(graph, roots, &self.body);
+        let mut kept = Kept { keeps: ByExpr::of(roots), lossy: Vec::new() };
+        for expr in values.reached.iter().copied() {
+            let at = &values[expr];
+            let of = |child: &Expr| vanishes(&values[*child]).then(|| kept.keeps[*child]);
+            let node = graph.node(expr);
+            let keeps = match node {
+                _ if !vanishes(at) => Keeps::All,
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => Keeps::All,
+                Node::Sum(constant, terms) => {
+                    let terms = terms.iter().map(|(term, _)| of(term).unwrap_or(Keeps::None));
+                    let least = terms.min().unwrap_or(Keeps::All);
+                    if constant.is_zero() { least } else { Keeps::None }
+                }
+                // The error of a factor is multiplied by what the others are.
+                Node::Product(factors) => {
+                    let small = || factors.iter().filter_map(|(base, _)| of(base));
+                    match small().min() {
+                        Some(Keeps::None) if small().max() > Some(Keeps::None) => Keeps::First,
+                        least => least.unwrap_or(Keeps::All),
+                    }
+                }
+                Node::Call(_, arguments) => {
+                    arguments.iter().filter_map(of).max().unwrap_or(Keeps::None)
+                }
+            };
+            if keeps == Keeps::None && matches!(node, Node::Sum(..)) {
+                kept.lossy.push(expr);
+            }
+            kept.keeps.set(expr, keeps);
+        }
+        kept
+    }
+}
+
+/// `settled`, mended where a motion has an amplitude: see [`Amplitude::mend`].
+pub(super) fn mended(
+    graph: &mut Graph,
+    amplitude: Option<&Amplitude>,
+    plain: &[Expr],
+    settled: &[Expr],
+) -> Vec<Expr> {
+    amplitude.map_or_else(|| settled.to_vec(), |amplitude| amplitude.mend(graph, plain, settled))
+}
+
+/// How well an expression that is small with the amplitude keeps its digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Keeps {
+    /// Its error is of the size of what cancels in it.
+    None,
+    /// So is that of a factor of it, and another factor is small.
+    First,
+    /// No part of it cancels.
+    All,
+}
+
+/// Of all that expressions are made of, how well it keeps its digits, and which sums do not.
+struct Kept {
+    keeps: ByExpr<Keeps>,
+    lossy: Vec<Expr>,
+}

@@ -1,0 +1,256 @@
+//! From a resolved field to every quantity.
+
+use std::collections::BTreeMap;
+
+use crate::amplitude::{Amplitude, mended};
+use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
+use crate::material::{self, Law};
+use crate::misread;
+use crate::model::Model;
+use crate::tensor::{Tensor, dot};
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::factor::factor;
+use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::pass::settle::settle;
+
+/// Functions of a displacement gradient H that the caller supplies: the material of the field as a
+/// solver needs it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Response {
+    /// Reference density rho0(X).
+    Density,
+    /// The fastest wave speed at F = I, m/s.
+    WaveSpeed,
+    /// W(H).
+    StrainEnergy,
+    /// P(H) = dW/dF.
+    FirstPiolaKirchhoff,
+    /// tau(H) = P F^T.
+    KirchhoffStress,
+    /// dP_iJ/dF_kL at H, the last index fastest. Derived where it is asked for, by [`tangent`].
+    Tangent,
+}
+
+/// All quantities of a field as expressions.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// The components of each quantity, tensors row-major.
+    pub quantities: BTreeMap<Quantity, Vec<Expr>>,
+    /// The components of each response.
+    pub responses: BTreeMap<Response, Vec<Expr>>,
+}
+
+/// What was being derived when the graph reached its bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooLarge(pub &'static str);
+
+/// Derives every quantity of a field; the motion is simplified by `relations` between its parts.
+pub fn derive(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+    route: Route<'_>,
+) -> Result<Derivation, TooLarge> {
+    let law = Law::new(graph, model.energy, &model.kind);
+    within_bound(graph, "stress of the material")?;
+    let motion = Motion::new(graph, model, relations, route);
+    within_bound(graph, "motion (velocity, acceleration, displacement gradient)")?;
+    let mut quantities = kinematic_quantities(graph, &motion);
+    quantities.extend(strain_quantities(graph, &motion.strain));
+    let energy = match route {
+        Route::Gradient | Route::Settled(_) => law.energy(graph, &motion.strain),
+        Route::Deformation => law.typed_energy(graph, &motion.strain),
+    };
+    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, Kirchhoff::Left));
+    within_bound(graph, "stress")?;
+    let divergence = law.divergence(graph, &motion);
+    within_bound(graph, "divergence of the stress")?;
+    quantities.extend(balance_quantities(graph, model.density, &motion, divergence));
+    let responses = responses(graph, &law, model);
+    within_bound(graph, "body force")?;
+    Ok(Derivation { quantities, responses })
+}
+
+/// The quantities that vanish with the displacement or the strain, such that nothing cancels in them
+/// but what the numbers given make cancel: rotations and functions less their value at 0 are taken
+/// apart in exact numbers. `None` where there is nothing to take apart.
+pub fn derive_settled(
+    graph: &mut Graph,
+    model: &Model,
+    relations: &Relations,
+    amplitude: Option<&Amplitude>,
+) -> Result<Option<BTreeMap<Quantity, Vec<Expr>>>, TooLarge> {
+    let plain = factor(graph, &model.displacement);
+    let gradient = gradient_of(graph, &plain);
+    let gradient = traceless(graph, model, gradient);
+    let displacement = settle(graph, &plain);
+    let displacement = mended(graph, amplitude, &plain, &displacement);
+    let halves = half_angles(graph, &plain, &gradient);
+    let of = [relations, &halves];
+    let strain = Strain::settled(graph, gradient.clone(), &model.kind, of, amplitude);
+    let settled = settle(graph, gradient.components());
+    let settled = mended(graph, amplitude, gradient.components(), &settled);
+    let as_it_was = settled == gradient.components();
+    within_bound(graph, "strain")?;
+    if !halves.has_angles() && displacement == plain && as_it_was {
+        return Ok(None);
+    }
+    let law = Law::new(graph, model.energy, &model.kind);
+    let energy = law.energy(graph, &strain);
+    let from = if halves.has_angles() { Kirchhoff::First } else { Kirchhoff::Left };
+    let mut quantities = strain_quantities(graph, &strain);
+    quantities.extend(stress_quantities(graph, &law, &strain, energy, from));
+    quantities.insert(Quantity::Displacement, displacement);
+    quantities.insert(Quantity::DisplacementGradient, strain.gradient.components().to_vec());
+    within_bound(graph, "stress")?;
+    Ok(Some(quantities))
+}
+
+fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
+    if graph.is_exhausted() { Err(TooLarge(what)) } else { Ok(()) }
+}
+
+/// u, x = X + u, v, a, H, F and J.
+fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {
+    let strain = &motion.strain;
+    let displacement = motion.displacement.iter().enumerate();
+    let position = displacement
+        .map(|(axis, component)| {
+            let reference = graph.symbol(Symbol::Coordinate(axis));
+            graph.add(reference, *component)
+        })
+        .collect();
+    BTreeMap::from([
+        (Quantity::Displacement, motion.displacement.clone()),
+        (Quantity::Position, position),
+        (Quantity::Velocity, motion.velocity.clone()),
+        (Quantity::Acceleration, motion.acceleration.clone()),
+        (Quantity::DisplacementGradient, strain.gradient.components().to_vec()),
+        (Quantity::DeformationGradient, strain.deformation.components().to_vec()),
+        (Quantity::Jacobian, vec![strain.jacobian]),
+    ])
+}
+
+/// C, B and E = (C - I)/2. E is made of H, so that small strains do not cancel.
+fn strain_quantities(graph: &mut Graph, strain: &Strain) -> BTreeMap<Quantity, Vec<Expr>> {
+    let identity = Tensor::identity(graph, strain.gradient.dimension());
+    let right = identity.add(graph, &strain.right);
+    let left = identity.add(graph, &strain.left);
+    let half = graph.number(Rational::from_parts(1.into(), 2u8.into()));
+    let lagrange = strain.right.scale(graph, half);
+    BTreeMap::from([
+        (Quantity::RightCauchyGreen, right.components().to_vec()),
+        (Quantity::LeftCauchyGreen, left.components().to_vec()),
+        (Quantity::GreenLagrange, lagrange.components().to_vec()),
+    ])
+}
+
+/// What tau is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kirchhoff {
+    /// B - I, which needs no inverse.
+    Left,
+    /// P F^T: a rotation cancels in C - I, while B - I turns with it and grows.
+    First,
+}
+
+/// W, P, P^T, sigma = tau/J, tau and P N.
+fn stress_quantities(
+    graph: &mut Graph,
+    law: &Law,
+    strain: &Strain,
+    energy: Expr,
+    from: Kirchhoff,
+) -> BTreeMap<Quantity, Vec<Expr>> {
+    let first = law.first_piola_kirchhoff(graph, strain);
+    let kirchhoff = match from {
+        Kirchhoff::Left => law.kirchhoff(graph, strain),
+        Kirchhoff::First => first.mul(graph, &strain.deformation.transpose()),
+    };
+    let per_volume = graph.power(strain.jacobian, -1);
+    let cauchy = kirchhoff.scale(graph, per_volume);
+    let dimension = first.dimension();
+    let traction = (0..dimension)
+        .map(|row| {
+            let pairs: Vec<_> = (0..dimension)
+                .map(|axis| (first.at(row, axis), graph.symbol(Symbol::Normal(axis))))
+                .collect();
+            dot(graph, pairs)
+        })
+        .collect();
+    BTreeMap::from([
+        (Quantity::StrainEnergy, vec![energy]),
+        (Quantity::FirstPiolaKirchhoff, first.components().to_vec()),
+        (Quantity::NominalStress, first.transpose().components().to_vec()),
+        (Quantity::CauchyStress, cauchy.components().to_vec()),
+        (Quantity::KirchhoffStress, kirchhoff.components().to_vec()),
+        (Quantity::Traction, traction),
+    ])
+}
+
+/// rho = rho0 / J, div sigma = Div P / J by the Piola identity (Bonet & Wood, Nonlinear Continuum
+/// Mechanics for Finite Element Analysis, 2008, chapter 5), b = a - Div P / rho0, rho0 b = rho0 a -
+/// Div P, and rho b = rho0 b / J.
+fn balance_quantities(
+    graph: &mut Graph,
+    density: Expr,
+    motion: &Motion,
+    divergence: Vec<Expr>,
+) -> BTreeMap<Quantity, Vec<Expr>> {
+    let per_volume = graph.power(motion.strain.jacobian, -1);
+    let mut body_force = Vec::new();
+    let mut body_force_density = Vec::new();
+    for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
+        let specific = graph.div(*divergence, density);
+        let force = graph.sub(*acceleration, specific);
+        let balance = [*acceleration, *divergence];
+        body_force.push(misread::body_force(graph, force, balance, [density, per_volume]));
+        let inertia = graph.mul(density, *acceleration);
+        body_force_density.push(graph.sub(inertia, *divergence));
+    }
+    let mut current = |reference: &[Expr]| -> Vec<Expr> {
+        reference.iter().map(|component| graph.mul(per_volume, *component)).collect()
+    };
+    BTreeMap::from([
+        (Quantity::MassDensity, current(&[density])),
+        (Quantity::DivSigma, current(&divergence)),
+        (Quantity::CurrentBodyForceDensity, current(&body_force_density)),
+        (Quantity::DivP, divergence),
+        (Quantity::BodyForce, body_force),
+        (Quantity::BodyForceDensity, body_force_density),
+    ])
+}
+
+/// The strain of a displacement gradient that the caller supplies.
+fn supplied(graph: &mut Graph, model: &Model) -> Strain {
+    let dimension = model.displacement.len();
+    let gradient =
+        Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
+    Strain::new(graph, gradient, &model.kind, &Relations::default())
+}
+
+fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, Vec<Expr>> {
+    let strain = supplied(graph, model);
+    let modulus = law.fastest_modulus(graph, &model.kind);
+    let squared_speed = graph.div(modulus, model.density);
+    let speed = graph.power(squared_speed, Rational::from_parts(1.into(), 2u8.into()));
+    BTreeMap::from([
+        (Response::Density, vec![model.density]),
+        (Response::WaveSpeed, vec![speed]),
+        (Response::StrainEnergy, vec![law.energy(graph, &strain)]),
+        (
+            Response::FirstPiolaKirchhoff,
+            law.first_piola_kirchhoff(graph, &strain).components().to_vec(),
+        ),
+        (Response::KirchhoffStress, law.kirchhoff(graph, &strain).components().to_vec()),
+    ])
+}
+
+/// The components of [`Response::Tangent`].
+pub fn tangent(graph: &mut Graph, model: &Model) -> Result<Vec<Expr>, TooLarge> {
+    let strain = supplied(graph, model);
+    let tangent = material::tangent(graph, model.energy, &model.kind, &strain);
+    within_bound(graph, "tangent of the stress")?;
+    Ok(tangent)
+}

@@ -1,0 +1,54 @@
+//! What a defect derives in place of what is right. Without the feature `defects` each is what it is.
+
+use crate::defect::{Defect, on};
+use mms_symbolic::expr::{Expr, Graph};
+
+/// b = a - Div P/rho0.
+pub(super) fn body_force(
+    graph: &mut Graph,
+    right: Expr,
+    [acceleration, divergence]: [Expr; 2],
+    [density, per_volume]: [Expr; 2],
+) -> Expr {
+    if on(Defect::ForceSign) {
+        let specific = graph.div(divergence, density);
+        return graph.add(acceleration, specific);
+    }
+    if on(Defect::ForcePresentDensity) {
+        let present = graph.mul(density, per_volume);
+        let specific = graph.div(divergence, present);
+        return graph.sub(acceleration, specific);
+    }
+    if on(Defect::InertiaDropped) {
+        let specific = graph.div(divergence, density);
+        return graph.scale(specific, -1);
+    }
+    if on(Defect::ForcePerVolume) {
+        return graph.mul(right, density);
+    }
+    right
+}
+
+/// The model of the motion and its b, where they are derived for other moduli than those of the solver's stress.
+#[cfg(feature = "defects")]
+pub(crate) fn moduli(
+    graph: &mut Graph,
+    field: &mms_spec::FieldSpec,
+    material: &mms_spec::MaterialSpec,
+    model: &super::Model,
+) -> Option<super::Model> {
+    let names = field.material.arguments.iter().map(|(name, _)| name.value.as_str());
+    let names: Vec<_> = names.collect();
+    let place = |name: &str| names.iter().position(|other| *other == name);
+    let (lambda, mu) = (place("lambda")?, place("mu")?);
+    let mut arguments = model.arguments.clone();
+    if on(Defect::LambdaDropped) {
+        arguments[lambda] = graph.number(0);
+    } else if on(Defect::ModuliSwapped) {
+        arguments.swap(lambda, mu);
+    } else {
+        return None;
+    }
+    let energy = super::model::energy_with(graph, field, material, &arguments)?;
+    Some(super::Model { energy, ..model.clone() })
+}

@@ -1,0 +1,539 @@
+//! A field file with its names resolved: expressions instead of text.
+
+pub mod energy;
+mod written;
+
+use std::collections::BTreeMap;
+
+use crate::invariant::Kind;
+use crate::meanings::Meanings;
+use crate::resolve::Scope;
+use crate::rigid::{RigidMotion, Rotation};
+use mms_spec::diagnostic::{Diagnostic, quoted};
+use mms_spec::foreign::Foreign;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::{Span, Spanned};
+use mms_spec::syntax;
+use mms_spec::{FieldSpec, Formula, LetSpec, MaterialSpec, RigidSpec};
+use mms_symbolic::expr::print::Names;
+use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::pass::substitute::substitute;
+
+use written::Read;
+pub use written::{Part, Written};
+
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// A parameter of a field.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its default value, in terms of the parameters before it.
+    pub default: Expr,
+    /// The least and the greatest value it may take, in terms of the parameters before it.
+    pub range: Option<[Expr; 2]>,
+    /// Its unit, where the file states one.
+    pub unit: Option<String>,
+    /// What it is.
+    pub doc: Option<Foreign>,
+}
+
+/// The reference body.
+#[derive(Clone, Debug)]
+pub enum Body {
+    /// A box with edges along the axes.
+    Box {
+        /// The least coordinates.
+        lower: Vec<Expr>,
+        /// The greatest coordinates.
+        upper: Vec<Expr>,
+    },
+    /// A plane ring, or a sector of it, about the origin.
+    Annulus {
+        /// The inner radius.
+        inner: Expr,
+        /// The outer radius.
+        outer: Expr,
+        /// The first and last angle.
+        theta: [Expr; 2],
+    },
+}
+
+impl Body {
+    /// The coordinates between whose bounds the body is a box: X itself, or radius and angle.
+    pub fn coordinates(&self, reference: &[f64]) -> Vec<f64> {
+        match (self, reference) {
+            (Body::Annulus { .. }, [x, y]) => vec![x.hypot(*y), y.atan2(*x)],
+            _ => reference.to_vec(),
+        }
+    }
+}
+
+/// The body and the time window that a field's claims are about, in terms of the parameters.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    /// The reference body.
+    pub body: Body,
+    /// The first and last time.
+    pub time: [Expr; 2],
+}
+
+/// A closed form that a quantity must agree with.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// What it is a closed form of.
+    pub quantity: Quantity,
+    /// Its components.
+    pub equals: Vec<Expr>,
+    /// Where it was published.
+    pub source: Option<Foreign>,
+    /// Where it stands in the file.
+    pub span: Span,
+}
+
+/// A field whose formulas are expressions.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The parameters, in the order of the file.
+    pub parameters: Vec<Parameter>,
+    /// The names a reader knows: parameters and definitions.
+    pub names: Names,
+    /// u, without the rigid motion.
+    pub displacement: Vec<Expr>,
+    /// rho0.
+    pub density: Expr,
+    /// The parameters of the material, in the field's terms and in the order of the file.
+    pub arguments: Vec<Expr>,
+    /// W, as a function of the material's invariants.
+    pub energy: Expr,
+    /// Which invariants W is a function of, and the direction of the fibres.
+    pub kind: Kind,
+    /// a0 in space, where W is a function of I4.
+    pub fibre: Option<Vec<Expr>>,
+    /// Poisson's ratio, where the field gives it in place of the material's own moduli.
+    pub poisson: Option<Expr>,
+    /// The reference body and the time window.
+    pub domain: Domain,
+    /// Closed forms from paper.
+    pub checks: Vec<Check>,
+    /// The values of each extreme by position of the parameter, in terms of the parameters before it.
+    pub extremes: Vec<BTreeMap<usize, Expr>>,
+    /// The rigid motion on top of u.
+    pub rigid: Option<RigidMotion>,
+    /// The formulas as they are written.
+    pub written: Written,
+}
+
+impl Model {
+    /// Resolves all formulas of a field and of its material. Reports every mistake, and returns
+    /// `None` if there was one.
+    pub fn resolve(
+        graph: &mut Graph,
+        field: &FieldSpec,
+        material: Option<&MaterialSpec>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Model> {
+        let reported = diagnostics.len();
+        let mut reader = Reader::new(graph, diagnostics);
+        if field.incomplete {
+            reader.scope.tolerate_unknown_names();
+        }
+        reader.scope.refuse(&field.refused);
+        let mut names = Names::default();
+        let parameters = reader.parameters(field, &mut names);
+        reader.coordinates(field.dimension);
+        reader.definitions(&field.lets, &mut names);
+        let displacement = reader.formulas(&field.displacement);
+        let density = reader.formula(&field.material.density);
+        reader.independent_of_time(density, &field.material.density, "density");
+        reader.positive(density, &field.material.density);
+        let mut arguments = reader.arguments(field);
+        let poisson = material.and_then(|material| reader.poisson(field, material, &mut arguments));
+        let energy = material.and_then(|material| reader.energy(field, material, &arguments));
+        let fibre = reader.fibre(field, material);
+        let kind = material.and_then(|material| reader.kind(field, material, fibre.as_deref()));
+        let of_the_field = reader.read.len();
+        let domain = reader.domain(&field.domain);
+        let checks = field.checks.iter().map(|check| reader.check(check)).collect::<Vec<_>>();
+        reader.read.truncate(of_the_field);
+        let rigid = field.rigid.as_ref().map(|rigid| reader.rigid(rigid, field.dimension));
+        let written = reader.written();
+        let extremes = reader.extremes(field);
+        reader.strays(field);
+        reader.within_bound(field, reported);
+        Some(Model {
+            parameters: parameters?,
+            names,
+            displacement: displacement?,
+            density: density?,
+            arguments: arguments.into_iter().collect::<Option<_>>()?,
+            energy: energy?,
+            kind: kind?,
+            fibre: fibre.filter(|_| material.is_some_and(MaterialSpec::has_fibres)),
+            poisson,
+            domain: domain?,
+            checks: checks.into_iter().collect::<Option<_>>()?,
+            extremes,
+            rigid: match rigid {
+                Some(rigid) => Some(rigid?),
+                None => None,
+            },
+            written,
+        })
+    }
+}
+
+impl Model {
+    /// All formulas that may depend on X.
+    pub fn in_space(&self) -> Vec<Expr> {
+        let fibre = self.fibre.iter().flatten();
+        let direction = match &self.kind {
+            Kind::Fibrous(direction) => &direction[..],
+            Kind::Isotropic | Kind::SmallStrain => &[],
+        };
+        let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
+        let [density, energy] = [&self.density, &self.energy];
+        self.displacement.iter().chain([density, energy]).chain(others).copied().collect()
+    }
+
+    /// Replaces these, the closed forms and what has a name.
+    pub fn map_in_space(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
+        for exprs in [&mut self.displacement, &mut self.arguments] {
+            *exprs = made(exprs);
+        }
+        self.density = made(&[self.density])[0];
+        self.energy = made(&[self.energy])[0];
+        self.fibre = self.fibre.as_deref().map(&mut made);
+        self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
+        if let Kind::Fibrous(direction) = &mut self.kind {
+            *direction = made(direction);
+        }
+        for check in &mut self.checks {
+            check.equals = made(&check.equals);
+        }
+        let names = std::mem::take(&mut self.names.expressions);
+        let (exprs, texts): (Vec<Expr>, Vec<String>) = names.into_iter().unzip();
+        self.names.expressions = made(&exprs).into_iter().zip(texts).collect();
+    }
+}
+
+/// W of a field that has been resolved, for other values of the material's parameters.
+pub fn energy_with(
+    graph: &mut Graph,
+    field: &FieldSpec,
+    material: &MaterialSpec,
+    arguments: &[Expr],
+) -> Option<Expr> {
+    let mut diagnostics = Vec::new();
+    let mut reader = Reader::new(graph, &mut diagnostics);
+    let arguments: Vec<_> = arguments.iter().copied().map(Some).collect();
+    reader.energy(field, material, &arguments)
+}
+
+struct Reader<'a> {
+    graph: &'a mut Graph,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    scope: Scope,
+    /// The formulas so far: of the field, and of the density of its material.
+    read: Vec<Read>,
+    of_energy: Vec<Read>,
+}
+
+impl<'a> Reader<'a> {
+    fn new(graph: &'a mut Graph, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
+        let scope = Scope::default();
+        Reader { graph, diagnostics, scope, read: Vec::new(), of_energy: Vec::new() }
+    }
+}
+
+impl Reader<'_> {
+    fn formula(&mut self, formula: &Formula) -> Option<Expr> {
+        let ast = syntax::parse(formula, self.diagnostics)?;
+        let mut steps = Vec::new();
+        let value = self.scope.resolve_in_steps(self.graph, &ast, self.diagnostics, &mut steps)?;
+        self.read.push(Read::new(&ast, value, formula.span, steps));
+        Some(value)
+    }
+
+    /// Resolves all, so that every one reports its mistakes.
+    fn formulas(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
+        let values: Vec<_> = formulas.iter().map(|formula| self.formula(formula)).collect();
+        values.into_iter().collect()
+    }
+
+    fn parameters(&mut self, field: &FieldSpec, names: &mut Names) -> Option<Vec<Parameter>> {
+        let pi = self.graph.pi();
+        self.scope.define("pi", Some(pi));
+        for name in AXES.iter().chain(&["t"]) {
+            self.scope.withhold(name, "parameters are constants");
+        }
+        for parameter in &field.parameters {
+            self.scope.announce(&parameter.name);
+        }
+        for definition in &field.lets {
+            self.scope.announce(&definition.name);
+        }
+        let mut parameters = Vec::new();
+        let mut meanings = Meanings::default();
+        for (index, parameter) in field.parameters.iter().enumerate() {
+            let name = &parameter.name.value;
+            let default = self.formula(&parameter.value);
+            self.definition_of(name);
+            let own = self.read.len();
+            let range = parameter.range.as_ref().and_then(|range| {
+                let [least, greatest] = range.each_ref().map(|bound| self.formula(bound));
+                Some([least?, greatest?])
+            });
+            self.read.truncate(own);
+            let symbol = Symbol::Parameter(index);
+            if default.is_some_and(|value| self.scope.is_positive(self.graph, value)) {
+                self.scope.assume_positive(symbol);
+            }
+            let meaning = meanings.next(self.graph, parameter, default);
+            self.scope.define(name, meaning);
+            let default = if parameter.frozen { meaning } else { default };
+            names.parameters.push(name.clone());
+            parameters.push(default.map(|default| Parameter {
+                name: name.clone(),
+                default,
+                range,
+                unit: parameter.unit.as_ref().map(|unit| unit.value.clone()),
+                doc: parameter.doc.clone(),
+            }));
+        }
+        parameters.into_iter().collect()
+    }
+
+    fn coordinates(&mut self, dimension: usize) {
+        for (axis, name) in AXES.iter().enumerate() {
+            if axis < dimension {
+                let coordinate = self.graph.symbol(Symbol::Coordinate(axis));
+                self.scope.define(name, Some(coordinate));
+            } else {
+                let plural = if dimension == 1 { "dimension" } else { "dimensions" };
+                self.scope.withhold(name, format!("the field has {dimension} {plural}"));
+            }
+        }
+        let time = self.graph.symbol(Symbol::Time);
+        self.scope.define("t", Some(time));
+    }
+
+    fn definitions(&mut self, definitions: &[LetSpec], names: &mut Names) {
+        for definition in definitions {
+            let value = self.formula(&definition.value);
+            self.definition_of(&definition.name.value);
+            self.scope.define(&definition.name.value, value);
+            // A definition that is only another name for a leaf or a number names nothing new.
+            if let Some(value) =
+                value.filter(|value| self.graph.node(*value).children().next().is_some())
+            {
+                names.expressions.entry(value).or_insert_with(|| definition.name.value.clone());
+            }
+        }
+    }
+
+    fn positive(&mut self, density: Option<Expr>, formula: &Formula) {
+        let number = density.and_then(|density| self.graph.as_number(density));
+        if let Some(number) = number.filter(|number| **number <= Rational::ZERO) {
+            let label = format!("this is {number}");
+            self.diagnostics.push(
+                Diagnostic::error(formula.span, "the density must be positive")
+                    .label(label)
+                    .help("the body force is per unit mass: b = a - Div P/rho0"),
+            );
+        }
+    }
+
+    fn independent_of_time(&mut self, value: Option<Expr>, formula: &Formula, what: &str) {
+        let Some(value) = value else { return };
+        if self.graph.symbols(value).contains(&Symbol::Time) {
+            self.diagnostics.push(
+                Diagnostic::error(formula.span, format!("{what} depends on time"))
+                    .label("expected parameters and reference coordinates only")
+                    .help("the mass and the elastic law of a material point do not change"),
+            );
+        }
+    }
+
+    fn domain(&mut self, domain: &mms_spec::DomainSpec) -> Option<Domain> {
+        // Everything is resolved before anything may be missing: each formula reports its mistakes.
+        let [first, last] = domain.time.each_ref().map(|time| self.constant(time));
+        let body = self.body(&domain.body)?;
+        Some(Domain { body, time: [first?, last?] })
+    }
+
+    fn body(&mut self, body: &mms_spec::Body) -> Option<Body> {
+        match body {
+            mms_spec::Body::Box { lower, upper } => {
+                let (lower, upper) = (self.constants(lower), self.constants(upper));
+                Some(Body::Box { lower: lower?, upper: upper? })
+            }
+            mms_spec::Body::Annulus { inner, outer, theta } => {
+                let (inner, outer) = (self.constant(inner), self.constant(outer));
+                let [first, last] = match theta {
+                    Some(theta) => theta.each_ref().map(|angle| self.constant(angle)),
+                    None => {
+                        let pi = self.graph.pi();
+                        [Some(self.graph.number(0)), Some(self.graph.scale(pi, 2))]
+                    }
+                };
+                Some(Body::Annulus { inner: inner?, outer: outer?, theta: [first?, last?] })
+            }
+        }
+    }
+
+    fn constants(&mut self, formulas: &[Formula]) -> Option<Vec<Expr>> {
+        let values: Vec<_> = formulas.iter().map(|formula| self.constant(formula)).collect();
+        values.into_iter().collect()
+    }
+
+    /// A formula of the domain, which only parameters may enter.
+    fn constant(&mut self, formula: &Formula) -> Option<Expr> {
+        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
+        self.limited(formula, "the domain must be fixed", HELP, is_parameter)
+    }
+
+    /// A formula that only some symbols may enter.
+    fn limited(
+        &mut self,
+        formula: &Formula,
+        message: &str,
+        help: &str,
+        allowed: impl Fn(&Symbol) -> bool,
+    ) -> Option<Expr> {
+        let value = self.formula(formula)?;
+        let intruder = self.graph.symbols(value).into_iter().find(|symbol| !allowed(symbol));
+        let Some(intruder) = intruder else { return Some(value) };
+        let name = Names::default().symbol(intruder);
+        self.diagnostics.push(
+            Diagnostic::error(formula.span, message).label(format!("depends on {name}")).help(help),
+        );
+        None
+    }
+
+    fn rigid(&mut self, rigid: &RigidSpec, dimension: usize) -> Option<RigidMotion> {
+        const MESSAGE: &str = "a rigid motion moves all points alike";
+        const HELP: &str = "use parameters, t, and definitions that contain no X, Y or Z";
+        let of_time = |symbol: &Symbol| is_parameter(symbol) || *symbol == Symbol::Time;
+        let angle = rigid.angle().map(|angle| self.limited(angle, MESSAGE, HELP, of_time));
+        let axis = match &rigid.rotation {
+            Some(mms_spec::Rotation::Space { axis, .. }) => Some(self.axis(axis)),
+            _ => None,
+        };
+        let translation: Option<Vec<Expr>> = match &rigid.translation {
+            Some(components) => {
+                let components: Vec<_> = components
+                    .iter()
+                    .map(|component| self.limited(component, MESSAGE, HELP, of_time))
+                    .collect();
+                components.into_iter().collect()
+            }
+            None => Some(vec![self.graph.number(0); dimension]),
+        };
+        let rotation = match (axis, angle) {
+            (Some(axis), angle) => Some(Rotation::Space { axis: axis?, angle: angle?? }),
+            (None, Some(angle)) => Some(Rotation::Plane { angle: angle? }),
+            (None, None) => None,
+        };
+        Some(RigidMotion { rotation, translation: translation? })
+    }
+
+    fn axis(&mut self, formulas: &[Formula]) -> Option<[Expr; 3]> {
+        const HELP: &str = "use parameters, and definitions that contain no X, Y, Z or t";
+        let components: Vec<_> = formulas
+            .iter()
+            .map(|formula| self.limited(formula, "the axis must be fixed", HELP, is_parameter))
+            .collect();
+        components.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()
+    }
+
+    /// The values that extremes set.
+    fn extremes(&mut self, field: &FieldSpec) -> Vec<BTreeMap<usize, Expr>> {
+        let names = field.parameters.iter().enumerate();
+        let places: BTreeMap<&str, usize> =
+            names.map(|(index, parameter)| (parameter.name.value.as_str(), index)).collect();
+        let mut setting = |(name, value): &(Spanned<String>, Formula)| {
+            let index = *places.get(name.value.as_str())?;
+            Some((index, self.setting(index, name, value)?))
+        };
+        let extremes = field.extremes.iter();
+        extremes.map(|extreme| extreme.set.iter().filter_map(&mut setting).collect()).collect()
+    }
+
+    /// The value that is set of a parameter: it follows from those above, as a default does.
+    fn setting(&mut self, index: usize, name: &Spanned<String>, value: &Formula) -> Option<Expr> {
+        let set = self.constant(value)?;
+        let is_above = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(at) if *at < index);
+        if self.graph.symbols(set).iter().all(is_above) {
+            return Some(set);
+        }
+        let message =
+            format!("the value of {} does not follow from what is above it", quoted(&name.value));
+        self.diagnostics.push(
+            Diagnostic::error(value.span, message)
+                .label("expected numbers, and parameters above that one in [parameters]")
+                .help("definitions that are made of this parameter, or of later ones, cannot be used here"),
+        );
+        None
+    }
+
+    /// Formulas of keys that were refused.
+    fn strays(&mut self, field: &FieldSpec) {
+        for stray in &field.stray {
+            syntax::parse(stray, self.diagnostics);
+        }
+    }
+
+    /// Reports a graph that was full before any formula was to blame for it.
+    fn within_bound(&mut self, field: &FieldSpec, reported: usize) {
+        if !self.graph.is_exhausted() || self.diagnostics.len() > reported {
+            return;
+        }
+        let first = field.displacement.first();
+        let span = first.map_or(field.material.span, |formula| formula.span);
+        let diagnostic = Diagnostic::error(span, "the formulas of this field are too large");
+        let help = self.graph.exhaustion();
+        self.diagnostics.push(Diagnostic { help, ..diagnostic.label("with what they use") });
+    }
+
+    fn check(&mut self, check: &mms_spec::CheckSpec) -> Option<Check> {
+        let outer = self.scope.clone();
+        for definition in &check.lets {
+            self.scope.announce(&definition.name);
+        }
+        self.definitions(&check.lets, &mut Names::default());
+        let equals = self.formulas(&check.equals);
+        self.scope = outer;
+        Some(Check {
+            quantity: check.quantity.value,
+            equals: equals?,
+            source: check.source.clone(),
+            span: check.equals.first().map_or(check.quantity.span, |formula| formula.span),
+        })
+    }
+}
+
+/// Values that are set, as expressions.
+pub fn as_set(graph: &mut Graph, set: &BTreeMap<usize, Rational>) -> BTreeMap<usize, Expr> {
+    set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
+}
+
+/// The parameters' values as constants, some of them set by the caller in terms of those before.
+pub fn parameter_values(
+    graph: &mut Graph,
+    model: &Model,
+    set: &BTreeMap<usize, Expr>,
+) -> Vec<Expr> {
+    let mut known = BTreeMap::new();
+    for (index, parameter) in model.parameters.iter().enumerate() {
+        let value = *set.get(&index).unwrap_or(&parameter.default);
+        let value = substitute(graph, &[value], &known)[0];
+        known.insert(Symbol::Parameter(index), value);
+    }
+    known.into_values().collect()
+}
+
+fn is_parameter(symbol: &Symbol) -> bool {
+    matches!(symbol, Symbol::Parameter(_))
+}

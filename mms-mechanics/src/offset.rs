@@ -1,0 +1,93 @@
+//! Fields about a place far from the origin, in coordinates less that place.
+//!
+//! k (X - s) - w t is one sum, k X - k s - w t, and what multiplies out squares has X^2 and s^2 apart: where X is a million
+//! times larger than the body, six digits are gone. So X - s becomes a value of its own, [`Function::Offset`], as exact as
+//! X is, and all that follows is derived from that.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::model::{Body, Model};
+use crate::place::{defaults, value_with};
+use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use mms_symbolic::pass::substitute::{coordinates, substitute};
+
+/// How many times larger than the body a coordinate is where it is far from the origin.
+const FAR: f64 = 4.0;
+
+/// Puts the coordinates less the place that the field is about in place of the coordinates, where there is such a place:
+/// parameters that are nothing but subtracted from coordinates, or a corner of a box that is far from there.
+pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
+    let mut places = said(graph, model);
+    places.extend(far_corners(graph, model, &places));
+    let offsets = coordinates(graph, places, |graph, coordinate, place| {
+        let offset = graph.call(Function::Offset, &[coordinate, place]);
+        graph.add(offset, place)
+    });
+    if !offsets.is_empty() {
+        model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
+    }
+}
+
+/// The places that parameters say, by axes.
+fn said(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
+    let axes: Vec<usize> = (0..model.displacement.len()).collect();
+    let mut places = BTreeMap::<usize, Expr>::new();
+    for parameter in subtracted(graph, model) {
+        let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));
+        let about = some.find(|axes| is_about(graph, model, axes, parameter));
+        for axis in about.into_iter().flatten() {
+            let others = places.get(axis);
+            let place = others.map_or(parameter, |others| graph.add(*others, parameter));
+            places.insert(*axis, place);
+        }
+    }
+    places
+}
+
+/// Numbers near the lower bounds of a box, where these are far from the places: multiples of a power of two that is about
+/// as large as the box. Every precision has them, and takes them from a coordinate without an error.
+fn far_corners(
+    graph: &mut Graph,
+    model: &Model,
+    places: &BTreeMap<usize, Expr>,
+) -> BTreeMap<usize, Expr> {
+    let Body::Box { lower, upper } = &model.domain.body else { return BTreeMap::new() };
+    let defaults = defaults(graph, model);
+    let far = |axis: usize| {
+        let number = |expr: Expr| value_with(graph, expr, &defaults).to_f64();
+        let (lower, upper) = (number(lower[axis]), number(upper[axis]));
+        let (extent, place) = (upper - lower, places.get(&axis).map_or(0.0, |it| number(*it)));
+        let step = extent.log2().ceil().exp2();
+        let corner = Rational::try_from((lower / step).floor() * step).ok()?;
+        let is_far = (lower - place).abs() >= FAR * extent;
+        is_far.then(|| (axis, graph.number(corner)))
+    };
+    (0..lower.len()).filter_map(far).collect()
+}
+
+/// The parameters that a coordinate has beside it in a sum.
+fn subtracted(graph: &mut Graph, model: &Model) -> BTreeSet<Expr> {
+    let is = |expr: Expr, wanted: fn(&Symbol) -> bool| match graph.node(expr) {
+        Node::Symbol(symbol) => wanted(symbol),
+        _ => false,
+    };
+    let mut found = BTreeSet::new();
+    for expr in graph.reachable(&model.in_space()) {
+        let Node::Sum(_, terms) = graph.node(expr) else { continue };
+        let of = |wanted| terms.iter().map(|(term, _)| *term).filter(move |it| is(*it, wanted));
+        if of(|symbol| matches!(symbol, Symbol::Coordinate(_))).next().is_some() {
+            found.extend(of(|symbol| matches!(symbol, Symbol::Parameter(_))));
+        }
+    }
+    found
+}
+
+/// Whether the fields have nothing of a parameter but coordinates less it.
+fn is_about(graph: &mut Graph, model: &Model, axes: &[usize], parameter: Expr) -> bool {
+    graph.aside(|graph| {
+        let places = axes.iter().map(|axis| (*axis, parameter));
+        let moved = coordinates(graph, places, Graph::add);
+        let fields = substitute(graph, &model.in_space(), &moved);
+        !graph.reachable(&fields).contains(&parameter)
+    })
+}

@@ -1,0 +1,429 @@
+//! From a parsed formula and the names in scope to an expression.
+
+mod sign;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED};
+use mms_spec::names::FUNCTIONS;
+use mms_spec::source::{Span, Spanned};
+use mms_spec::suggest::advice;
+use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+
+/// Functions that people try, and why a field cannot have them.
+const NON_SMOOTH: &[&str] =
+    &["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step", "heaviside"];
+
+/// An operation that may not have a value or a derivative everywhere, as it is written.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Where it stands.
+    pub span: Span,
+    /// What it makes, by itself: a power or a call; of a quotient what it divides by, for to record a step is to make no
+    /// node. Canonical form may cancel it in what uses it.
+    pub value: Expr,
+    /// Whether that is a divisor.
+    pub is_divisor: bool,
+}
+
+impl Step {
+    /// What the step makes.
+    pub fn made(&self, graph: &mut Graph) -> Expr {
+        if self.is_divisor { graph.power(self.value, -1) } else { self.value }
+    }
+}
+
+/// The names that a formula may use.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    names: BTreeMap<String, Expr>,
+    /// Names whose definitions stand further down, with those definitions.
+    later: BTreeMap<String, Span>,
+    /// Names whose definitions failed or were refused: using them is a consequence, not a mistake.
+    failed: BTreeSet<String>,
+    /// Names that exist elsewhere in the language, with the reason why they do not here.
+    unavailable: BTreeMap<String, String>,
+    /// Symbols known to be positive.
+    positive: BTreeSet<Symbol>,
+    /// A part of the file could not be read: a name may be defined there.
+    incomplete: bool,
+}
+
+impl Scope {
+    /// Makes a name known from here on; `None` marks a definition that failed.
+    pub fn define(&mut self, name: &str, value: Option<Expr>) {
+        self.later.remove(name);
+        match value {
+            Some(value) => {
+                self.names.insert(name.into(), value);
+            }
+            None => {
+                self.failed.insert(name.into());
+            }
+        }
+    }
+
+    /// Makes names of the language that a file would define mean nothing.
+    pub fn refuse(&mut self, names: &[String]) {
+        self.failed.extend(names.iter().cloned());
+    }
+
+    /// Announces a name that is defined further down.
+    pub fn announce(&mut self, name: &Spanned<String>) {
+        self.later.insert(name.value.clone(), name.span);
+    }
+
+    /// Says why a name of the language is not available in this scope.
+    pub fn withhold(&mut self, name: &str, reason: impl Into<String>) {
+        self.unavailable.insert(name.into(), reason.into());
+    }
+
+    /// Records that definitions may be missing, so that an unknown name is not a mistake.
+    pub fn tolerate_unknown_names(&mut self) {
+        self.incomplete = true;
+    }
+
+    /// Records that a symbol is positive.
+    pub fn assume_positive(&mut self, symbol: Symbol) {
+        self.positive.insert(symbol);
+    }
+
+    /// Resolves a formula. Reports every mistake in it, and returns `None` if there was one.
+    pub fn resolve(
+        &self,
+        graph: &mut Graph,
+        ast: &Ast,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<Expr> {
+        self.resolve_in_steps(graph, ast, diagnostics, &mut Vec::new())
+    }
+
+    /// The same, with the powers, quotients and calls of it.
+    pub fn resolve_in_steps(
+        &self,
+        graph: &mut Graph,
+        ast: &Ast,
+        diagnostics: &mut Vec<Diagnostic>,
+        steps: &mut Vec<Step>,
+    ) -> Option<Expr> {
+        if graph.is_exhausted() {
+            return None;
+        }
+        let reported = diagnostics.len();
+        let mut resolver = Resolver { scope: self, graph, diagnostics, steps };
+        let mut values = Vec::<Option<Partial>>::with_capacity(ast.nodes.len());
+        for node in &ast.nodes {
+            let value = resolver.node(&node.kind, node.span, ast, &mut values);
+            values.push(value);
+        }
+        let root = values.pop().flatten().map(|root| root.finish(graph));
+        if graph.is_exhausted() {
+            // What was reported of a void graph means nothing, and so would a second report.
+            diagnostics.truncate(reported);
+            diagnostics.extend(ast.nodes.last().map(|formula| {
+                let diagnostic = Diagnostic::error(formula.span, "the formula is too large");
+                Diagnostic { help: graph.exhaustion(), ..diagnostic.label("with what it uses") }
+            }));
+            return None;
+        }
+        root
+    }
+}
+
+/// A value under construction. A chain such as a + b - c is collected first and made canonical
+/// once, so that long formulas take linear time.
+enum Partial {
+    Done(Expr),
+    Sum(Vec<(Expr, Rational)>),
+    Product(Vec<(Expr, Rational)>),
+}
+
+impl Partial {
+    fn finish(self, graph: &mut Graph) -> Expr {
+        match self {
+            Partial::Done(expr) => expr,
+            Partial::Sum(terms) => graph.sum(terms),
+            Partial::Product(factors) => graph.product(factors),
+        }
+    }
+
+    fn into_terms(self, graph: &mut Graph) -> Vec<(Expr, Rational)> {
+        match self {
+            Partial::Sum(terms) => terms,
+            other => vec![(other.finish(graph), Rational::ONE)],
+        }
+    }
+
+    fn into_factors(self, graph: &mut Graph) -> Vec<(Expr, Rational)> {
+        match self {
+            Partial::Product(factors) => factors,
+            other => vec![(other.finish(graph), Rational::ONE)],
+        }
+    }
+}
+
+struct Resolver<'a> {
+    scope: &'a Scope,
+    graph: &'a mut Graph,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    steps: &'a mut Vec<Step>,
+}
+
+impl Resolver<'_> {
+    /// Every node is the operand of one other, so that its value can be taken.
+    fn node(
+        &mut self,
+        kind: &Kind,
+        span: Span,
+        ast: &Ast,
+        values: &mut [Option<Partial>],
+    ) -> Option<Partial> {
+        let expr = match kind {
+            Kind::Number(number) => Some(self.graph.number(number.clone())),
+            Kind::Name(name) => self.name(name, span),
+            Kind::Negate(operand) => {
+                let operand = values[*operand].take()?.finish(self.graph);
+                Some(self.graph.scale(operand, -1))
+            }
+            Kind::Binary(operator, left, right) => {
+                let (a, b) = (values[*left].take(), values[*right].take());
+                let b = b.map(|b| b.finish(self.graph));
+                let (left, right) = (ast.nodes[*left].span, ast.nodes[*right].span);
+                return self.binary(*operator, a?, b?, [span, left, right]);
+            }
+            Kind::Call { name, arguments } => {
+                let spans: Vec<_> = arguments.iter().map(|index| ast.nodes[*index].span).collect();
+                let values: Vec<_> = arguments
+                    .iter()
+                    .map(|index| values[*index].take().map(|value| value.finish(self.graph)))
+                    .collect();
+                let value = self.call(name, &values, &spans);
+                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
+                value
+            }
+        };
+        expr.map(Partial::Done)
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) -> Option<Expr> {
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Option<Expr> {
+        if self.scope.failed.contains(name) {
+            return None;
+        }
+        if let Some(expr) = self.scope.names.get(name) {
+            return Some(*expr);
+        }
+        if let Some(definition) = self.scope.later.get(name) {
+            return self.report(forward_reference(name, span, *definition));
+        }
+        if let Some(reason) = self.scope.unavailable.get(name) {
+            let diagnostic = Diagnostic::error(span, format!("`{name}` is not available here"));
+            return self.report(diagnostic.label(reason.clone()));
+        }
+        if let Some(arity) = arity(name) {
+            let call = if arity == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
+            let diagnostic = Diagnostic::error(span, format!("`{name}` is a function"));
+            return self.report(diagnostic.label(format!("expected a call such as `{call}`")));
+        }
+        if self.scope.incomplete {
+            return None;
+        }
+        let diagnostic =
+            Diagnostic::error(span, format!("unknown name `{name}`")).label("not defined");
+        // So many are not shown, and to look for what each may mean takes long.
+        if self.diagnostics.len() >= MAX_RENDERED {
+            return self.report(diagnostic);
+        }
+        let candidates = self.scope.names.keys().map(String::as_str);
+        let diagnostic =
+            diagnostic.help(advice(name, candidates, |_| match self.scope.names.is_empty() {
+                true => "expected a number".into(),
+                false => format!("names in scope: {}", self.known_names()),
+            }));
+        self.report(diagnostic)
+    }
+
+    fn known_names(&self) -> String {
+        let names: Vec<_> = self.scope.names.keys().map(|name| format!("`{name}`")).collect();
+        names.join(", ")
+    }
+
+    fn binary(
+        &mut self,
+        operator: Operator,
+        a: Partial,
+        b: Expr,
+        [span, left, right]: [Span; 3],
+    ) -> Option<Partial> {
+        match operator {
+            Operator::Add | Operator::Subtract => {
+                let mut terms = a.into_terms(self.graph);
+                let plus = operator == Operator::Add;
+                terms.push((b, if plus { Rational::ONE } else { Rational::NEG_ONE }));
+                Some(Partial::Sum(terms))
+            }
+            Operator::Divide if self.graph.is_zero(b) => {
+                let diagnostic = Diagnostic::error(right, "division by zero");
+                self.diagnostics.push(diagnostic.label("this is exactly 0"));
+                None
+            }
+            Operator::Multiply | Operator::Divide => {
+                let mut factors = a.into_factors(self.graph);
+                let exponent = match operator {
+                    Operator::Multiply => Rational::ONE,
+                    _ => Rational::NEG_ONE,
+                };
+                if operator == Operator::Divide && self.graph.as_number(b).is_none() {
+                    self.steps.push(Step { span, value: b, is_divisor: true });
+                }
+                factors.push((b, exponent));
+                Some(Partial::Product(factors))
+            }
+            Operator::Power => {
+                let base = a.finish(self.graph);
+                let value = self.power(base, b, left, right);
+                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
+                value.map(Partial::Done)
+            }
+        }
+    }
+
+    fn power(&mut self, base: Expr, exponent: Expr, left: Span, right: Span) -> Option<Expr> {
+        let Some(number) = self.graph.as_number(exponent).cloned() else {
+            if !self.is_positive(base) {
+                return self.report(
+                    Diagnostic::error(left, "a variable exponent needs a positive base")
+                        .label("not proved positive")
+                        .help("write the exponent as a number, or the base as exp(..) of its logarithm"),
+                );
+            }
+            return Some(self.graph.call(Function::Powf, &[base, exponent]));
+        };
+        match self.graph.as_number(base) {
+            Some(zero) if zero.is_zero() && number < Rational::ZERO => {
+                return self.report(
+                    Diagnostic::error(left, "division by zero")
+                        .label("0 to a negative power")
+                        .help(format!("the exponent is {number}")),
+                );
+            }
+            Some(negative) if *negative < Rational::ZERO && !number.is_int() => {
+                return self.report(
+                    Diagnostic::error(left, "a root of a negative number is not real")
+                        .label(format!("this is {negative}"))
+                        .help("cbrt(x) is the real cube root of either sign"),
+                );
+            }
+            _ => {}
+        }
+        let power = self.graph.power(base, number);
+        let unfolded =
+            self.graph.as_number(base).is_some() && self.graph.as_number(power).is_none();
+        if unfolded && self.graph.as_number(exponent).is_some_and(Rational::is_int) {
+            return self.report(
+                Diagnostic::error(right, "the power of a number is too long")
+                    .label("the exact result has thousands of digits"),
+            );
+        }
+        Some(power)
+    }
+
+    fn call(
+        &mut self,
+        name: &Spanned<String>,
+        values: &[Option<Expr>],
+        spans: &[Span],
+    ) -> Option<Expr> {
+        let Some(arity) = arity(&name.value) else {
+            let diagnostic = self.unknown_function(name);
+            return self.report(diagnostic);
+        };
+        if values.len() != arity {
+            let plural = if arity == 1 { "argument" } else { "arguments" };
+            let message =
+                format!("`{}` takes {arity} {plural}, found {}", name.value, values.len());
+            return self.report(
+                Diagnostic::error(name.span, message).label(format!("expected {arity} {plural}")),
+            );
+        }
+        let arguments: Vec<Expr> = values.iter().copied().collect::<Option<_>>()?;
+        self.outside_domain(&name.value, arguments[0], spans[0])?;
+        if name.value == "hypot" {
+            let (x, y) = (self.graph.power(arguments[0], 2), self.graph.power(arguments[1], 2));
+            let squares = self.graph.add(x, y);
+            return Some(self.graph.call(Function::Sqrt, &[squares]));
+        }
+        let function = Function::ALL.iter().find(|function| function.name() == name.value)?;
+        Some(self.graph.call(*function, &arguments))
+    }
+
+    /// Refuses an argument that is a number outside the function's domain.
+    fn outside_domain(&mut self, function: &str, argument: Expr, span: Span) -> Option<()> {
+        let Some(number) = self.graph.as_number(argument) else { return Some(()) };
+        let outside = match function {
+            "ln" => *number <= Rational::ZERO,
+            "sqrt" => *number < Rational::ZERO,
+            "asin" | "acos" => *number > Rational::ONE || *number < Rational::NEG_ONE,
+            _ => false,
+        };
+        if !outside {
+            return Some(());
+        }
+        let message = format!("`{function}` is not defined at {number}");
+        self.diagnostics.push(Diagnostic::error(span, message).label("outside the domain"));
+        None
+    }
+
+    fn unknown_function(&self, name: &Spanned<String>) -> Diagnostic {
+        let shown = &name.value;
+        if NON_SMOOTH.contains(&shown.as_str()) {
+            return Diagnostic::error(name.span, format!("`{shown}` is not smooth"))
+                .label("a manufactured solution is differentiated up to twice")
+                .help("a smooth field has a body force; choose one of the smooth functions");
+        }
+        if self.scope.names.contains_key(shown) {
+            return Diagnostic::error(name.span, format!("`{shown}` is not a function"))
+                .label("called like a function")
+                .help(format!("a product needs its sign: `{shown}*(...)`"));
+        }
+        let diagnostic = Diagnostic::error(name.span, format!("unknown function `{shown}`"))
+            .label("not a function");
+        let functions = FUNCTIONS.iter().copied();
+        diagnostic.help(advice(shown, functions, |all| format!("the functions are {all}")))
+    }
+
+    /// A sufficient condition for a base to be positive: read off, not proved by bounds.
+    fn is_positive(&self, root: Expr) -> bool {
+        self.scope.is_positive(self.graph, root)
+    }
+}
+
+/// How many arguments a function of the language takes. `hypot` is a square root in the graph.
+fn arity(name: &str) -> Option<usize> {
+    if name == "hypot" {
+        return Some(2);
+    }
+    let function = Function::ALL.iter().find(|function| function.name() == name)?;
+    FUNCTIONS.contains(&name).then(|| function.arity())
+}
+
+fn forward_reference(name: &str, span: Span, definition: Span) -> Diagnostic {
+    // The definition that a formula belongs to is still announced while it is resolved.
+    let own = span.source == definition.source && definition.end <= span.start;
+    let message = if own {
+        format!("`{name}` is defined by itself")
+    } else {
+        format!("`{name}` is used before it is defined")
+    };
+    let help = if own {
+        "a definition may use only the names above it"
+    } else {
+        "definitions are read in order: move this one below"
+    };
+    Diagnostic::error(span, message).label("not defined yet").help(help)
+}

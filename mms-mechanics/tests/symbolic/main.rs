@@ -1,0 +1,13 @@
+//! Properties of the symbolic core over random expressions, each by a second route: plain
+//! arithmetic on the recipe of the expression, finite differences in 77 digits, dual numbers,
+//! interval arithmetic.
+
+mod canonical;
+mod curvatures;
+mod derivatives;
+mod differences;
+mod evaluation;
+mod intervals;
+mod passes;
+mod read;
+mod recipe;

@@ -1,0 +1,304 @@
+//! Programs over many points: every operation is a loop over a block of them.
+//!
+//! A [`Plan`] says what is to be done, once for all; [`Prepared`] has the numbers of one set of parameters; a [`Room`] has
+//! those of a time and of a block, and belongs to one thread at a time. So setting a parameter runs the stage Parameter,
+//! another time the stage Time, and nothing is allocated once a room has been used.
+
+mod column;
+mod plan;
+mod steps;
+#[cfg(test)]
+mod tests;
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use mms_math::batch::Float;
+use mms_math::dispatch::{Instructions, Work};
+
+pub use column::{Blockwise, Column, Numbers};
+pub use plan::Plan;
+
+use crate::interpret::apply;
+use mms_symbolic::expr::Symbol;
+use plan::{Place, Scalar, Source};
+
+/// With which instructions, and how products are rounded that are added to something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way {
+    instructions: Instructions,
+    fused: bool,
+}
+
+impl Way {
+    /// The bits of the interpreter of one point, and of the functions of one point in compiled code: products are
+    /// rounded, and the results are the same on all processors.
+    pub fn portable() -> Self {
+        Way::portable_with(Instructions::best())
+    }
+
+    /// The bits of the loops over many points in compiled code: one rounding where the processor has such instructions.
+    pub fn fused() -> Self {
+        Way::fused_with(Instructions::best())
+    }
+
+    /// As [`portable`](Way::portable), with these instructions.
+    pub fn portable_with(instructions: Instructions) -> Self {
+        Way { instructions, fused: false }
+    }
+
+    /// As [`fused`](Way::fused), with these instructions.
+    pub fn fused_with(instructions: Instructions) -> Self {
+        Way { instructions, fused: true }
+    }
+
+    fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
+        if self.fused { self.instructions.run(work) } else { self.instructions.run_plainly(work) }
+    }
+}
+
+/// A plan with the numbers of one set of parameters. Threads share it, each with a room of its own.
+#[derive(Clone, Debug)]
+pub struct Prepared<T: Blockwise> {
+    plan: Arc<Plan>,
+    way: Way,
+    /// The stage Parameter.
+    early: Vec<T::Wide>,
+    /// The numbers that are the same at all points; those of the stage Time are not yet known.
+    scalars: Vec<T>,
+    /// Tells it from others, and from what it was with other parameters.
+    stamp: u64,
+}
+
+/// The numbers of one time and of one block.
+#[derive(Clone, Debug)]
+pub struct Room<T: Blockwise> {
+    /// Whose numbers they are.
+    stamp: u64,
+    time: Option<T>,
+    /// The stages Parameter and Time.
+    once: Vec<T::Wide>,
+    scalars: Vec<T>,
+    columns: Vec<T::Column>,
+}
+
+impl<T: Blockwise> Default for Room<T> {
+    fn default() -> Self {
+        Room { stamp: 0, time: None, once: Vec::new(), scalars: Vec::new(), columns: Vec::new() }
+    }
+}
+
+/// What the points of a block supply, to be written.
+pub struct Inputs<'a, T: Blockwise> {
+    symbols: &'a [Symbol],
+    columns: &'a mut [T::Column],
+    count: usize,
+}
+
+/// What was found at the points of a block.
+pub struct Outputs<'a, T: Blockwise> {
+    plan: &'a Plan,
+    scalars: &'a [T],
+    columns: &'a [T::Column],
+    count: usize,
+}
+
+/// A component of an output at the points of a block.
+#[derive(Clone, Copy, Debug)]
+pub enum Component<'a, T> {
+    /// One number for each point.
+    Each(&'a [T]),
+    /// The same at all points.
+    Same(T),
+}
+
+impl<T: Blockwise> Prepared<T> {
+    /// Runs the stage Parameter. `parameters` are in the order of the field file.
+    pub fn new(plan: Arc<Plan>, way: Way, parameters: &[T]) -> Self {
+        let constant = |scalar: &Scalar| match &scalar.source {
+            Source::Constant(number) => signed(scalar, T::from_rational(number)),
+            Source::Pi => signed(scalar, T::pi()),
+            Source::Once(_) => T::from_f64(0.0),
+        };
+        let scalars = plan.scalars.iter().map(constant).collect();
+        let early = Vec::with_capacity(plan.early);
+        let mut prepared = Prepared { plan, way, early, scalars, stamp: 0 };
+        prepared.set(parameters);
+        prepared
+    }
+
+    /// Runs the stage Parameter once more.
+    pub fn set(&mut self, parameters: &[T]) {
+        // 0 is nobody's.
+        static STAMPS: AtomicU64 = AtomicU64::new(1);
+        self.stamp = STAMPS.fetch_add(1, Ordering::Relaxed);
+        let plan = &self.plan;
+        self.early.clear();
+        for instr in &plan.once[..plan.early] {
+            let value =
+                apply(&instr.op, &self.early, T::wide_from_rational, T::wide_square, |symbol| {
+                    match symbol {
+                        Symbol::Parameter(index) => parameters[index].widen(),
+                        _ => unreachable!("the stage Parameter reads parameters only"),
+                    }
+                });
+            self.early.push(value);
+        }
+        for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {
+            if let Source::Once(index) = scalar.source
+                && index < plan.early
+            {
+                *number = signed(scalar, T::narrow(self.early[index]));
+            }
+        }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Has `bring` write what the points of each block supply, whose first one has that position, and `take` read what
+    /// was found there, for `count` points.
+    pub fn run(
+        &self,
+        room: &mut Room<T>,
+        time: T,
+        count: usize,
+        bring: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
+        take: &mut dyn FnMut(usize, &Outputs<'_, T>),
+    ) {
+        let plan = &*self.plan;
+        room.enter(self, time);
+        let Room { scalars, columns, .. } = room;
+        for start in (0..count).step_by(T::BLOCK) {
+            let count = (count - start).min(T::BLOCK);
+            let pieces = count.div_ceil(T::TOGETHER);
+            let inputs = &mut columns[..plan.inputs.len()];
+            bring(start, &mut Inputs { symbols: &plan.inputs, columns: inputs, count });
+            // It might be that nothing is defined elsewhere.
+            for column in inputs {
+                let numbers = &mut column.numbers_mut()[..pieces * T::TOGETHER];
+                let first = numbers[0];
+                numbers[count..].fill(first);
+            }
+            T::run(plan, self.way, scalars, columns, pieces);
+            take(start, &Outputs { plan, scalars, columns, count });
+        }
+    }
+}
+
+fn signed<T: Blockwise>(scalar: &Scalar, number: T) -> T {
+    if scalar.negated { -number } else { number }
+}
+
+impl<T: Blockwise> Room<T> {
+    /// Makes room for a prepared plan at a time, and runs the stage Time unless that has been done.
+    fn enter(&mut self, prepared: &Prepared<T>, time: T) {
+        let plan = &*prepared.plan;
+        if self.stamp != prepared.stamp {
+            self.stamp = prepared.stamp;
+            self.time = None;
+            self.once.clone_from(&prepared.early);
+            self.scalars.clone_from(&prepared.scalars);
+            if self.columns.len() < plan.registers {
+                self.columns.resize_with(plan.registers, || T::Column::of(T::from_f64(0.0)));
+            }
+        }
+        if self.time.is_none_or(|known| !known.is_same(time)) {
+            self.time = Some(time);
+            self.pass_time(plan, time);
+        }
+    }
+
+    fn pass_time(&mut self, plan: &Plan, time: T) {
+        self.once.truncate(plan.early);
+        for instr in &plan.once[plan.early..] {
+            let value =
+                apply(&instr.op, &self.once, T::wide_from_rational, T::wide_square, |symbol| {
+                    match symbol {
+                        Symbol::Time => time.widen(),
+                        _ => unreachable!("the stage Time reads the time only"),
+                    }
+                });
+            self.once.push(value);
+        }
+        for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {
+            if let Source::Once(index) = scalar.source
+                && index >= plan.early
+            {
+                *number = signed(scalar, T::narrow(self.once[index]));
+            }
+        }
+    }
+}
+
+impl<T: Blockwise> Inputs<'_, T> {
+    /// The numbers of the points, one for each, of everything that they have to supply.
+    pub fn columns(&mut self) -> impl Iterator<Item = (Symbol, &mut [T])> {
+        let count = self.count;
+        let columns = self.columns.iter_mut().map(move |column| &mut column.numbers_mut()[..count]);
+        self.symbols.iter().copied().zip(columns)
+    }
+}
+
+impl<'a, T: Blockwise> Outputs<'a, T> {
+    /// How many points there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The components of the output at that position of the plan's.
+    pub fn components(&self, output: usize) -> impl Iterator<Item = Component<'a, T>> + use<'a, T> {
+        let (columns, scalars, count) = (self.columns, self.scalars, self.count);
+        self.plan.components[self.plan.outputs[output].clone()].iter().map(move |place| match place
+        {
+            Place::Column(column) => Component::Each(&columns[*column as usize].numbers()[..count]),
+            Place::Scalar(scalar) => Component::Same(scalars[*scalar as usize]),
+        })
+    }
+}
+
+impl<T: Copy> Component<'_, T> {
+    /// Its value at a point of the block.
+    pub fn at(&self, point: usize) -> T {
+        match self {
+            Component::Each(numbers) => numbers[point],
+            Component::Same(number) => *number,
+        }
+    }
+
+    /// Writes it to the points' places: as many as there are.
+    pub fn write<'a>(&self, places: impl Iterator<Item = &'a mut T>)
+    where
+        T: 'a,
+    {
+        match self {
+            Component::Each(numbers) => {
+                places.zip(*numbers).for_each(|(place, number)| *place = *number);
+            }
+            Component::Same(number) => places.for_each(|place| *place = *number),
+        }
+    }
+}
+
+/// Rooms for threads that come and go.
+#[derive(Debug)]
+pub struct Rooms<T: Blockwise>(Mutex<Vec<Room<T>>>);
+
+impl<T: Blockwise> Default for Rooms<T> {
+    fn default() -> Self {
+        Rooms(Mutex::new(Vec::new()))
+    }
+}
+
+impl<T: Blockwise> Rooms<T> {
+    /// Lends a room that nobody else has meanwhile.
+    pub fn lend<R>(&self, work: impl FnOnce(&mut Room<T>) -> R) -> R {
+        let rooms = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut room = rooms().pop().unwrap_or_default();
+        let result = work(&mut room);
+        rooms().push(room);
+        result
+    }
+}

@@ -1,0 +1,492 @@
+//! From a program to steps over blocks of points: operations on columns of numbers and on scalars, and a register for
+//! each column as long as it is needed.
+//!
+//! What is fused, and what two loops of compiled code compute apart, is so here too: hence the same bits.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use crate::fusion::{Fused, Fusion};
+use crate::loops::{Columns, Cut, WORTH_IN_CACHE, is_worth_two};
+use crate::program::{Instr, Key, Op, Program, Value};
+use mms_symbolic::expr::Stage;
+use mms_symbolic::expr::{Function, Rational, Symbol};
+
+/// What a step does with the columns and scalars at its places a, b and c.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    /// The scalar a everywhere.
+    Fill,
+    /// a + b
+    Add,
+    /// a + b, b a scalar.
+    AddScalar,
+    /// a - b
+    Subtract,
+    /// b - a, b a scalar.
+    SubtractFrom,
+    /// a b
+    Multiply,
+    /// a b, b a scalar.
+    Scale,
+    /// a / b
+    Divide,
+    /// a / b, b a scalar.
+    DivideBy,
+    /// b / a, b a scalar.
+    DivideInto,
+    /// -a
+    Negate,
+    /// The square root of a.
+    Root,
+    /// a b + c
+    MultiplyAdd,
+    /// a b - c
+    MultiplySubtract,
+    /// c - a b
+    SubtractProduct,
+    /// a b + c, c a scalar.
+    MultiplyAddScalar,
+    /// c - a b, c a scalar.
+    SubtractProductFrom,
+    /// a b + c, b a scalar.
+    ScaleAdd,
+    /// a b - c, b a scalar.
+    ScaleSubtract,
+    /// a b + c, b and c scalars.
+    ScaleAddScalar,
+    /// A function of a.
+    Unary(Function),
+    /// A function of a and b.
+    Binary(Function),
+}
+
+impl Kind {
+    /// How many operands it has, of a, b and c in this order, and which of them are columns.
+    fn columns(self) -> &'static [bool] {
+        match self {
+            Kind::Fill => &[false],
+            Kind::Negate | Kind::Root | Kind::Unary(_) => &[true],
+            Kind::Add | Kind::Subtract | Kind::Multiply | Kind::Divide | Kind::Binary(_) => {
+                &[true, true]
+            }
+            Kind::AddScalar
+            | Kind::SubtractFrom
+            | Kind::Scale
+            | Kind::DivideBy
+            | Kind::DivideInto => &[true, false],
+            Kind::MultiplyAdd | Kind::MultiplySubtract | Kind::SubtractProduct => {
+                &[true, true, true]
+            }
+            Kind::MultiplyAddScalar | Kind::SubtractProductFrom => &[true, true, false],
+            Kind::ScaleAdd | Kind::ScaleSubtract => &[true, false, true],
+            Kind::ScaleAddScalar => &[true, false, false],
+        }
+    }
+
+    /// Whether it is a function made of many operations: it is compiled apart, since its coefficients would take the
+    /// registers of all others.
+    fn is_function(self) -> bool {
+        matches!(self, Kind::Unary(_) | Kind::Binary(_))
+    }
+}
+
+/// One operation on all points of a block. The places of operands are registers or scalars, as its kind says; that of
+/// the result is a register that none of them is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Step {
+    pub kind: Kind,
+    pub result: u32,
+    pub operands: [u32; 3],
+}
+
+impl Step {
+    /// The operands that are columns.
+    fn columns(&self) -> impl Iterator<Item = u32> + use<> {
+        let operands = self.operands.into_iter().zip(self.kind.columns());
+        operands.filter(|(_, is_column)| **is_column).map(|(operand, _)| operand)
+    }
+}
+
+/// Where a number comes from that is the same at all points.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Source {
+    Constant(Rational),
+    Pi,
+    /// The result of that instruction of [`Plan::once`].
+    Once(usize),
+}
+
+/// A number that is the same at all points.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Scalar {
+    pub source: Source,
+    /// Whether its negative is meant.
+    pub negated: bool,
+}
+
+/// Where a value is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Place {
+    Column(u32),
+    Scalar(u32),
+}
+
+/// What is done to have some outputs of a program at many points. It holds for all parameters, times and precisions, and
+/// any number of threads share it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The stages Parameter and Time.
+    pub(super) once: Vec<Instr>,
+    /// How many of those are of the stage Parameter.
+    pub(super) early: usize,
+    pub(super) scalars: Vec<Scalar>,
+    /// What a point supplies, each in the register of its position.
+    pub(super) inputs: Vec<Symbol>,
+    /// The stages Point and PointTime.
+    pub(super) steps: Vec<Step>,
+    /// The steps in parts: functions one by one, and what is between them.
+    pub(super) parts: Vec<Range<usize>>,
+    pub(super) registers: usize,
+    /// The components of all outputs.
+    pub(super) components: Vec<Place>,
+    /// Which of them are those of each output.
+    pub(super) outputs: Vec<Range<usize>>,
+}
+
+impl Plan {
+    /// The plan of some outputs, each to the bits that it has alone in compiled code, which computes some of them
+    /// `in_two_loops`: of X, and of t. One that the program lacks has no component.
+    pub fn new<K: Key>(
+        program: &Program<K>,
+        outputs: &[K],
+        in_two_loops: impl Fn(K) -> bool,
+    ) -> Self {
+        let mut lowering = Lowering::new(program, outputs);
+        let mut components = Vec::new();
+        let mut ranges = Vec::new();
+        for output in outputs {
+            let found = lowering.output(*output, in_two_loops(*output));
+            ranges.push(components.len()..components.len() + found.len());
+            components.extend(found);
+        }
+        lowering.finish(components, ranges)
+    }
+
+    /// What a point has to supply.
+    pub fn inputs(&self) -> &[Symbol] {
+        &self.inputs
+    }
+
+    /// Whether the values depend on the time.
+    pub fn needs_time(&self) -> bool {
+        self.early < self.once.len()
+    }
+}
+
+/// A plan that is being made: every step has a column of its own.
+struct Lowering<'a, K> {
+    program: &'a Program<K>,
+    once: Vec<Instr>,
+    /// The instructions of `once`, by their positions in the program.
+    renamed: Vec<Option<usize>>,
+    scalars: Vec<Scalar>,
+    scalar_places: HashMap<Scalar, u32>,
+    /// The columns of what a point supplies.
+    inputs: Vec<(Symbol, u32)>,
+    steps: Vec<Step>,
+    /// The columns of steps that are there, by kind and operands.
+    known: HashMap<(Kind, [u32; 3]), u32>,
+    columns: u32,
+    /// Where the values at points are that have been found for an output.
+    found: Vec<Option<Place>>,
+}
+
+impl<'a, K: Key> Lowering<'a, K> {
+    fn new(program: &'a Program<K>, outputs: &[K]) -> Self {
+        let needed = program.needed(outputs);
+        let mut renamed = vec![None; program.instrs.len()];
+        let mut once: Vec<Instr> = Vec::new();
+        for index in (0..program.start(Stage::Point)).filter(|index| needed[*index]) {
+            let Instr { op, stage } = &program.instrs[index];
+            let rename = |value: Value| {
+                Value(renamed[value.index()].expect("operands come first and are needed") as u32)
+            };
+            let op = op.map(rename);
+            renamed[index] = Some(once.len());
+            once.push(Instr { op, stage: *stage });
+        }
+        Lowering {
+            program,
+            once,
+            renamed,
+            scalars: Vec::new(),
+            scalar_places: HashMap::new(),
+            inputs: Vec::new(),
+            steps: Vec::new(),
+            known: HashMap::new(),
+            columns: 0,
+            found: vec![None; program.instrs.len()],
+        }
+    }
+
+    /// Lowers an output, and says where its components are.
+    fn output(&mut self, output: K, in_two_loops: bool) -> Vec<Place> {
+        let program = self.program;
+        let roots = program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
+        self.found.fill(None);
+        if in_two_loops && is_worth_two(program, roots) {
+            self.in_two_loops(roots);
+        } else {
+            self.statements(roots, &[Stage::Point, Stage::PointTime]);
+        }
+        roots.iter().map(|root| self.place(*root)).collect()
+    }
+
+    fn in_two_loops(&mut self, roots: &[Value]) {
+        let columns = Columns::of(self.program, roots);
+        let cut = Cut::new(self.program, &columns, WORTH_IN_CACHE);
+        self.statements(&cut.columns.values, &[Stage::Point]);
+        let mut handed = vec![None; self.found.len()];
+        for value in &cut.columns.values {
+            handed[value.index()] = self.found[value.index()];
+        }
+        self.found = handed;
+        for value in &cut.made {
+            self.operation(*value);
+        }
+        self.statements(roots, &[Stage::PointTime]);
+    }
+
+    /// What `roots` need of the stages that a loop computes.
+    fn statements(&mut self, roots: &[Value], own: &[Stage]) {
+        let program = self.program;
+        let needed = program.needed_for(roots.iter().copied());
+        let fusion = Fusion::new(&program.instrs, roots, &needed, own);
+        for (index, instr) in program.instrs.iter().enumerate() {
+            let computed = needed[index] && own.contains(&instr.stage) && !fusion.absorbed[index];
+            match &fusion.fused[index] {
+                _ if !computed => {}
+                Some(fused) => self.found[index] = Some(self.fused(fused)),
+                None => self.operation(Value(index as u32)),
+            }
+        }
+    }
+
+    /// Lowers the operation that makes a value; numbers and inputs are there already.
+    fn operation(&mut self, value: Value) {
+        let (kind, operands) = match &self.program.instr(value).op {
+            Op::Constant(_) | Op::Pi | Op::Input(_) => return,
+            Op::Add(a, b) => self.sum(*a, *b),
+            Op::Subtract(a, b) | Op::Binary(Function::Offset, a, b) => self.difference(*a, *b),
+            Op::Multiply(a, b) => self.product(*a, *b),
+            Op::Divide(a, b) => self.quotient(*a, *b),
+            Op::Negate(a) => (Kind::Negate, [self.column(*a), 0, 0]),
+            Op::Unary(Function::Sqrt, a) => (Kind::Root, [self.column(*a), 0, 0]),
+            Op::Unary(function, a) => (Kind::Unary(*function), [self.column(*a), 0, 0]),
+            Op::Binary(function, a, b) => {
+                (Kind::Binary(*function), [self.column(*a), self.column(*b), 0])
+            }
+        };
+        self.found[value.index()] = Some(Place::Column(self.step(kind, operands)));
+    }
+
+    fn sum(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+        match (self.place(a), self.place(b)) {
+            (Place::Column(a), Place::Column(b)) => (Kind::Add, [a, b, 0]),
+            (Place::Column(a), Place::Scalar(b)) => (Kind::AddScalar, [a, b, 0]),
+            (Place::Scalar(a), _) => (Kind::AddScalar, [self.column(b), a, 0]),
+        }
+    }
+
+    fn difference(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+        match (self.place(a), self.place(b)) {
+            (Place::Column(a), Place::Column(b)) => (Kind::Subtract, [a, b, 0]),
+            (Place::Column(a), Place::Scalar(b)) => (Kind::AddScalar, [a, self.negative(b), 0]),
+            (Place::Scalar(a), _) => (Kind::SubtractFrom, [self.column(b), a, 0]),
+        }
+    }
+
+    fn product(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+        match (self.place(a), self.place(b)) {
+            (Place::Column(a), Place::Column(b)) => (Kind::Multiply, [a, b, 0]),
+            (Place::Column(a), Place::Scalar(b)) => (Kind::Scale, [a, b, 0]),
+            (Place::Scalar(a), _) => (Kind::Scale, [self.column(b), a, 0]),
+        }
+    }
+
+    fn quotient(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+        match (self.place(a), self.place(b)) {
+            (Place::Column(a), Place::Column(b)) => (Kind::Divide, [a, b, 0]),
+            (Place::Column(a), Place::Scalar(b)) => (Kind::DivideBy, [a, b, 0]),
+            (Place::Scalar(a), _) => (Kind::DivideInto, [self.column(b), a, 0]),
+        }
+    }
+
+    /// A product and a sum in one. Signs of scalars are turned before, which changes no bit.
+    fn fused(&mut self, fused: &Fused) -> Place {
+        let Fused { factors: [a, b], term, minus_product, minus_term } = *fused;
+        let places = [a, b].map(|factor| self.place(factor));
+        let (a, scalar) = match places {
+            [Place::Column(a), b] => (a, b),
+            [b, Place::Column(a)] => (a, b),
+            [Place::Scalar(_), b] => (self.column(a), b),
+        };
+        let (kind, operands) = match (scalar, self.place(term)) {
+            (Place::Column(b), Place::Column(c)) => {
+                let kind = match (minus_product, minus_term) {
+                    (true, _) => Kind::SubtractProduct,
+                    (_, true) => Kind::MultiplySubtract,
+                    _ => Kind::MultiplyAdd,
+                };
+                (kind, [a, b, c])
+            }
+            (Place::Column(b), Place::Scalar(c)) => match minus_product {
+                true => (Kind::SubtractProductFrom, [a, b, c]),
+                false => (Kind::MultiplyAddScalar, [a, b, self.turned(c, minus_term)]),
+            },
+            (Place::Scalar(b), Place::Column(c)) => match minus_term {
+                true => (Kind::ScaleSubtract, [a, b, c]),
+                false => (Kind::ScaleAdd, [a, self.turned(b, minus_product), c]),
+            },
+            (Place::Scalar(b), Place::Scalar(c)) => {
+                let operands = [a, self.turned(b, minus_product), self.turned(c, minus_term)];
+                (Kind::ScaleAddScalar, operands)
+            }
+        };
+        Place::Column(self.step(kind, operands))
+    }
+
+    /// The column of a step; that of one which is there, if it is the same.
+    fn step(&mut self, kind: Kind, operands: [u32; 3]) -> u32 {
+        if let Some(known) = self.known.get(&(kind, operands)) {
+            return *known;
+        }
+        let result = self.new_column();
+        self.steps.push(Step { kind, result, operands });
+        self.known.insert((kind, operands), result);
+        result
+    }
+
+    fn new_column(&mut self) -> u32 {
+        self.columns += 1;
+        self.columns - 1
+    }
+
+    /// Where a value is: a number, what a point supplies, or what has been found.
+    fn place(&mut self, value: Value) -> Place {
+        let Instr { op, stage } = self.program.instr(value);
+        match op {
+            Op::Constant(number) => self.scalar(Source::Constant(number.clone())),
+            Op::Pi => self.scalar(Source::Pi),
+            _ if !stage.needs_point() => {
+                let index = self.renamed[value.index()].expect("what is read is needed");
+                self.scalar(Source::Once(index))
+            }
+            Op::Input(symbol) => Place::Column(self.input(*symbol)),
+            _ => self.found[value.index()].expect("operands come first"),
+        }
+    }
+
+    /// The column of a value; a number is written to one.
+    fn column(&mut self, value: Value) -> u32 {
+        match self.place(value) {
+            Place::Column(column) => column,
+            Place::Scalar(scalar) => self.step(Kind::Fill, [scalar, 0, 0]),
+        }
+    }
+
+    fn input(&mut self, symbol: Symbol) -> u32 {
+        if let Some((_, column)) = self.inputs.iter().find(|(known, _)| *known == symbol) {
+            return *column;
+        }
+        let column = self.new_column();
+        self.inputs.push((symbol, column));
+        column
+    }
+
+    fn scalar(&mut self, source: Source) -> Place {
+        Place::Scalar(self.scalar_place(Scalar { source, negated: false }))
+    }
+
+    fn negative(&mut self, scalar: u32) -> u32 {
+        let Scalar { source, negated } = self.scalars[scalar as usize].clone();
+        self.scalar_place(Scalar { source, negated: !negated })
+    }
+
+    fn turned(&mut self, scalar: u32, negative: bool) -> u32 {
+        if negative { self.negative(scalar) } else { scalar }
+    }
+
+    fn scalar_place(&mut self, scalar: Scalar) -> u32 {
+        *self.scalar_places.entry(scalar).or_insert_with_key(|scalar| {
+            self.scalars.push(scalar.clone());
+            self.scalars.len() as u32 - 1
+        })
+    }
+
+    /// Gives columns their registers. Those of the inputs are kept, since a block may have to be computed again.
+    fn finish(mut self, mut components: Vec<Place>, outputs: Vec<Range<usize>>) -> Plan {
+        const KEPT: usize = usize::MAX;
+        let mut last = vec![0; self.columns as usize];
+        for (index, step) in self.steps.iter().enumerate() {
+            step.columns().for_each(|column| last[column as usize] = index);
+        }
+        let columns = components.iter().filter_map(|place| match place {
+            Place::Column(column) => Some(*column),
+            Place::Scalar(_) => None,
+        });
+        let inputs = self.inputs.iter().map(|(_, column)| *column);
+        columns.chain(inputs).for_each(|column| last[column as usize] = KEPT);
+        let mut registers = vec![0_u32; self.columns as usize];
+        for (register, (_, column)) in self.inputs.iter().enumerate() {
+            registers[*column as usize] = register as u32;
+        }
+        let (mut free, mut count) = (Vec::new(), self.inputs.len() as u32);
+        for (index, step) in self.steps.iter_mut().enumerate() {
+            // The result gets its register before those of the operands are free.
+            let result = free.pop().unwrap_or_else(|| {
+                count += 1;
+                count - 1
+            });
+            registers[step.result as usize] = result;
+            step.result = result;
+            let is_column = step.kind.columns();
+            for place in (0..is_column.len()).filter(|place| is_column[*place]) {
+                let column = step.operands[place] as usize;
+                step.operands[place] = registers[column];
+                if last[column] == index {
+                    free.push(registers[column]);
+                    last[column] = KEPT;
+                }
+            }
+        }
+        for place in &mut components {
+            if let Place::Column(column) = place {
+                *column = registers[*column as usize];
+            }
+        }
+        Plan {
+            early: self.once.partition_point(|instr| instr.stage == Stage::Parameter),
+            once: self.once,
+            scalars: self.scalars,
+            inputs: self.inputs.into_iter().map(|(symbol, _)| symbol).collect(),
+            parts: parts(&self.steps),
+            steps: self.steps,
+            registers: count as usize,
+            components,
+            outputs,
+        }
+    }
+}
+
+/// Functions one by one, and what is between them.
+fn parts(steps: &[Step]) -> Vec<Range<usize>> {
+    let together = |a: &Step, b: &Step| !a.kind.is_function() && !b.kind.is_function();
+    let mut start = 0;
+    let parts = steps.chunk_by(together).map(|part| {
+        start += part.len();
+        start - part.len()..start
+    });
+    parts.collect()
+}

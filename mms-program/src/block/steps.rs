@@ -1,0 +1,387 @@
+//! The steps of a plan as loops over a block.
+//!
+//! Loops take a piece of some numbers at a time, and write it when it is done: so the compiler makes vector instructions
+//! of each without asking whether columns overlap. Sums, products, quotients and roots are in one function, which goes
+//! from step to step; every elementary function is compiled apart, since the compiler loads all coefficients of a
+//! function first.
+
+use mms_math::Scalar;
+use mms_math::batch::{Float, Stand};
+use mms_math::dispatch::Work;
+use mms_math::machine::Machine;
+
+use super::Way;
+use super::column::Column;
+use super::plan::{Kind, Place, Plan, Step};
+use crate::interpret;
+use mms_symbolic::expr::Function;
+
+/// The numbers that steps read and write.
+struct Registers<'a, T, const C: usize, const K: usize> {
+    scalars: &'a [T],
+    columns: &'a mut [Column<T, C, K>],
+    /// How many pieces of a column are wanted.
+    pieces: usize,
+}
+
+impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
+    /// The column of a result, and those of operands: other ones, as the plan says.
+    #[inline(always)]
+    fn of<const N: usize>(
+        &mut self,
+        result: u32,
+        operands: [u32; N],
+    ) -> (&mut [[T; C]], [&[[T; C]]; N]) {
+        let pieces = self.pieces.min(K);
+        let (below, rest) = self.columns.split_at_mut(result as usize);
+        let (result, above) = rest.split_first_mut().expect("a register for each result");
+        let column = |place: u32| {
+            let place = place as usize;
+            let column = match below.get(place) {
+                Some(column) => column,
+                None => &above[place - below.len() - 1],
+            };
+            &column.0[..pieces]
+        };
+        (&mut result.0[..pieces], std::array::from_fn(|k| column(operands[k])))
+    }
+
+    #[inline(always)]
+    fn scalar<S: Stand<T>>(&self, place: u32) -> S {
+        S::standing_for(self.scalars[place as usize])
+    }
+
+    #[inline(always)]
+    fn one<S: Stand<T>>(&mut self, step: &Step, function: impl Fn(S) -> S) {
+        let (result, [a]) = self.of(step.result, [step.operands[0]]);
+        one(result, a, function);
+    }
+
+    #[inline(always)]
+    fn two<S: Stand<T>>(&mut self, step: &Step, places: [usize; 2], function: impl Fn(S, S) -> S) {
+        let (result, [a, b]) = self.of(step.result, places.map(|place| step.operands[place]));
+        two(result, a, b, function);
+    }
+
+    #[inline(always)]
+    fn three<S: Stand<T>>(&mut self, step: &Step, function: impl Fn(S, S, S) -> S) {
+        let (result, [a, b, c]) = self.of(step.result, step.operands);
+        for (((result, a), b), c) in result.iter_mut().zip(a).zip(b).zip(c) {
+            let mut found = *a;
+            for k in 0..C {
+                let [a, b, c] = [a[k], b[k], c[k]];
+                let [a, b, c] = [S::standing_for(a), S::standing_for(b), S::standing_for(c)];
+                found[k] = function(a, b, c).value();
+            }
+            *result = found;
+        }
+    }
+
+    /// Takes a step that is no elementary function.
+    #[inline(always)]
+    fn step<S: Stand<T>>(&mut self, step: &Step) {
+        let [a, b, c] = step.operands;
+        match step.kind {
+            Kind::Fill => {
+                let value = self.scalars[a as usize];
+                let (result, []) = self.of(step.result, []);
+                result.fill([value; C]);
+            }
+            Kind::Add => self.two(step, [0, 1], |a: S, b: S| a + b),
+            Kind::AddScalar => {
+                let b: S = self.scalar(b);
+                self.one(step, |a: S| a + b);
+            }
+            Kind::Subtract => self.two(step, [0, 1], |a: S, b: S| a - b),
+            Kind::SubtractFrom => {
+                let b: S = self.scalar(b);
+                self.one(step, |a: S| b - a);
+            }
+            Kind::Multiply => self.two(step, [0, 1], |a: S, b: S| a * b),
+            Kind::Scale => {
+                let b: S = self.scalar(b);
+                self.one(step, |a: S| a * b);
+            }
+            Kind::Divide => self.two(step, [0, 1], |a: S, b: S| a / b),
+            Kind::DivideBy => {
+                let b: S = self.scalar(b);
+                self.one(step, |a: S| a / b);
+            }
+            Kind::DivideInto => {
+                let b: S = self.scalar(b);
+                self.one(step, |a: S| b / a);
+            }
+            Kind::Negate => self.one(step, |a: S| -a),
+            Kind::Root => self.one(step, |a: S| a.sqrt()),
+            Kind::MultiplyAdd => self.three(step, |a: S, b: S, c: S| a.mul_add(b, c)),
+            Kind::MultiplySubtract => self.three(step, |a: S, b: S, c: S| a.mul_add(b, -c)),
+            Kind::SubtractProduct => self.three(step, |a: S, b: S, c: S| (-a).mul_add(b, c)),
+            Kind::MultiplyAddScalar => {
+                let c: S = self.scalar(c);
+                self.two(step, [0, 1], |a: S, b: S| a.mul_add(b, c));
+            }
+            Kind::SubtractProductFrom => {
+                let c: S = self.scalar(c);
+                self.two(step, [0, 1], |a: S, b: S| (-a).mul_add(b, c));
+            }
+            Kind::ScaleAdd => {
+                let b: S = self.scalar(b);
+                self.two(step, [0, 2], |a: S, c: S| a.mul_add(b, c));
+            }
+            Kind::ScaleSubtract => {
+                let b: S = self.scalar(b);
+                self.two(step, [0, 2], |a: S, c: S| a.mul_add(b, -c));
+            }
+            Kind::ScaleAddScalar => {
+                let [b, c]: [S; 2] = [self.scalar(b), self.scalar(c)];
+                self.one(step, |a: S| a.mul_add(b, c));
+            }
+            Kind::Unary(_) | Kind::Binary(_) => unreachable!("functions are parts of their own"),
+        }
+    }
+}
+
+#[inline(always)]
+fn one<T: Copy, S: Stand<T>, const C: usize>(
+    result: &mut [[T; C]],
+    a: &[[T; C]],
+    function: impl Fn(S) -> S,
+) {
+    for (result, a) in result.iter_mut().zip(a) {
+        let mut found = *a;
+        for k in 0..C {
+            found[k] = function(S::standing_for(a[k])).value();
+        }
+        *result = found;
+    }
+}
+
+#[inline(always)]
+fn two<T: Copy, S: Stand<T>, const C: usize>(
+    result: &mut [[T; C]],
+    a: &[[T; C]],
+    b: &[[T; C]],
+    function: impl Fn(S, S) -> S,
+) {
+    for ((result, a), b) in result.iter_mut().zip(a).zip(b) {
+        let mut found = *a;
+        for k in 0..C {
+            found[k] = function(S::standing_for(a[k]), S::standing_for(b[k])).value();
+        }
+        *result = found;
+    }
+}
+
+/// Steps between functions.
+struct Arithmetic<'a, 'b, T, const C: usize, const K: usize> {
+    steps: &'a [Step],
+    registers: &'a mut Registers<'b, T, C, K>,
+}
+
+impl<T: Float, const C: usize, const K: usize> Work<T> for Arithmetic<'_, '_, T, C, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, _: M) {
+        for step in self.steps {
+            self.registers.step::<M::Lane>(step);
+        }
+    }
+}
+
+/// A function of one argument at all points of a block.
+struct Unary<'a, T, F, const C: usize> {
+    function: F,
+    result: &'a mut [[T; C]],
+    argument: &'a [[T; C]],
+}
+
+impl<T: Float, F: OfOne, const C: usize> Work<T> for Unary<'_, T, F, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, _: M) {
+        one::<T, M::Lane, C>(self.result, self.argument, |x| self.function.at(x));
+    }
+}
+
+/// A function of two arguments at all points of a block.
+struct Binary<'a, T, F, const C: usize> {
+    function: F,
+    result: &'a mut [[T; C]],
+    arguments: [&'a [[T; C]]; 2],
+}
+
+impl<T: Float, F: OfTwo, const C: usize> Work<T> for Binary<'_, T, F, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn on<M: Machine<T>>(self, _: M) {
+        let [a, b] = self.arguments;
+        two::<T, M::Lane, C>(self.result, a, b, |a, b| self.function.at(a, b));
+    }
+}
+
+trait OfOne {
+    fn at<S: Scalar>(&self, x: S) -> S;
+}
+
+trait OfTwo {
+    fn at<S: Scalar>(&self, a: S, b: S) -> S;
+}
+
+macro_rules! functions {
+    ($($one:ident $one_method:ident)*; $($two:ident $two_method:ident)*; not: $($not:ident)*) => {
+        $(
+            struct $one;
+            impl OfOne for $one {
+                #[inline(always)]
+                fn at<S: Scalar>(&self, x: S) -> S {
+                    x.$one_method()
+                }
+            }
+        )*
+        $(
+            struct $two;
+            impl OfTwo for $two {
+                #[inline(always)]
+                fn at<S: Scalar>(&self, a: S, b: S) -> S {
+                    a.$two_method(b)
+                }
+            }
+        )*
+
+        fn unary<T: Float, const C: usize>(
+            function: Function,
+            way: Way,
+            result: &mut [[T; C]],
+            argument: &[[T; C]],
+        ) {
+            match function {
+                $(Function::$one => way.run(Unary { function: $one, result, argument }),)*
+                $(Function::$two)|* $(| Function::$not)* => {
+                    unreachable!("no function of one argument, or no step of this kind")
+                }
+            }
+        }
+
+        fn binary<T: Float, const C: usize>(
+            function: Function,
+            way: Way,
+            result: &mut [[T; C]],
+            arguments: [&[[T; C]]; 2],
+        ) {
+            match function {
+                $(Function::$two => way.run(Binary { function: $two, result, arguments }),)*
+                $(Function::$one)|* $(| Function::$not)* => {
+                    unreachable!("no function of two arguments, or no step of this kind")
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    Cbrt cbrt
+    Exp exp
+    ExpM1 exp_m1
+    Ln ln
+    Ln1p ln_1p
+    Ln1pRest ln_1p_rest
+    Sin sin
+    Cos cos
+    SinNearZero sin_near_zero
+    CosNearZero cos_near_zero
+    SinWithinOne sin_within_one
+    CosWithinOne cos_within_one
+    SinPi sin_pi
+    CosPi cos_pi
+    Tan tan
+    Sinh sinh
+    Cosh cosh
+    Tanh tanh
+    Asin asin
+    Acos acos
+    Atan atan;
+    Atan2 atan2
+    Powf powf;
+    not: Sqrt Offset WithinTurns WithinTurnsPi
+}
+
+/// Runs a plan with the quick functions, over the first pieces of a block.
+pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
+    plan: &Plan,
+    way: Way,
+    scalars: &[T],
+    columns: &mut [Column<T, C, K>],
+    pieces: usize,
+) {
+    let mut registers = Registers { scalars, columns, pieces };
+    for part in &plan.parts {
+        let steps = &plan.steps[part.clone()];
+        let Step { kind, result, operands: [a, b, _] } = steps[0];
+        match kind {
+            Kind::Unary(function) => {
+                let (result, [argument]) = registers.of(result, [a]);
+                unary(function, way, result, argument);
+            }
+            Kind::Binary(function) => {
+                let (result, arguments) = registers.of(result, [a, b]);
+                binary(function, way, result, arguments);
+            }
+            _ => way.run(Arithmetic { steps, registers: &mut registers }),
+        }
+    }
+}
+
+/// The same with the careful functions of the number itself, which know every argument.
+pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
+    plan: &Plan,
+    scalars: &[T],
+    columns: &mut [Column<T, C, K>],
+    pieces: usize,
+) {
+    let mut registers = Registers { scalars, columns, pieces };
+    for step in &plan.steps {
+        match step.kind {
+            Kind::Unary(function) => registers.one(step, |x: T| interpret::unary(function, x)),
+            Kind::Binary(function) => {
+                registers.two(step, [0, 1], |a: T, b: T| interpret::binary(function, a, b));
+            }
+            _ => registers.step::<T>(step),
+        }
+    }
+}
+
+/// Whether all results are numbers, asked of sums as compiled code asks it: it may be denied where infinite ones are
+/// among them. Past the last point there are copies of the first one.
+pub(super) fn are_numbers<T: Float, const C: usize, const K: usize>(
+    plan: &Plan,
+    scalars: &[T],
+    columns: &[Column<T, C, K>],
+    pieces: usize,
+) -> bool {
+    let mut sums = [T::from_f64(0.0); C];
+    let mut add = |numbers: &[T; C]| {
+        for k in 0..C {
+            sums[k] = sums[k] + numbers[k];
+        }
+    };
+    for component in &plan.components {
+        match component {
+            Place::Scalar(scalar) => add(&[scalars[*scalar as usize]; C]),
+            Place::Column(column) => {
+                let numbers = &columns[*column as usize].0;
+                numbers[..pieces.min(K)].iter().for_each(&mut add);
+                if pieces < K {
+                    add(&[numbers[0][0]; C]);
+                }
+            }
+        }
+    }
+    let mut eight = [T::from_f64(0.0); 8];
+    for (k, sum) in sums.iter().enumerate() {
+        eight[k % 8] = eight[k % 8] + *sum;
+    }
+    eight.iter().all(|sum| sum.partial_cmp(sum).is_some())
+}

@@ -1,0 +1,491 @@
+//! The interpreter of one point is the judge: random programs, every length, numbers of all kinds.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use mms_math::Double;
+use mms_math::dispatch::Instructions;
+use proptest::prelude::*;
+
+use super::{Blockwise, Plan, Prepared, Room, Rooms, Way};
+use crate::interpret::{Interpreter, Point};
+use crate::program::{Instr, Op, Value};
+use mms_symbolic::expr::Stage;
+use mms_symbolic::expr::{Function, Rational, Symbol};
+
+/// Outputs that compiled code computes in two loops, or in one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Output {
+    TwoLoops,
+    Expected(usize),
+}
+
+type Program = crate::Program<Output>;
+
+const DIMENSION: usize = 2;
+
+/// Leaves of all stages, and numbers that are exact and that are not.
+fn leaves() -> Vec<Op> {
+    let mut leaves = vec![
+        Op::Constant(Rational::from_parts(1.into(), 3_u8.into())),
+        Op::Constant(Rational::from(-2)),
+        Op::Pi,
+        Op::Input(Symbol::Parameter(0)),
+        Op::Input(Symbol::Parameter(1)),
+        Op::Input(Symbol::Time),
+    ];
+    for axis in 0..DIMENSION {
+        leaves.push(Op::Input(Symbol::Coordinate(axis)));
+        leaves.push(Op::Input(Symbol::Normal(axis)));
+        leaves.push(Op::Input(Symbol::Gradient(axis, 1 - axis)));
+    }
+    leaves
+}
+
+/// A program of these operations: what to do, and with which values before, as fractions. The last values are the
+/// results of two outputs, one of which compiled code may have in two loops.
+fn program(recipe: &[(u8, u16, u16)]) -> Program {
+    let mut ops = leaves();
+    for (what, a, b) in recipe {
+        let value = |fraction: u16| Value(((usize::from(fraction) * ops.len()) >> 16) as u32);
+        let (a, b) = (value(*a), value(*b));
+        // Sums and products are most of what programs do, and what is fused.
+        ops.push(match what % 32 {
+            0..8 => Op::Add(a, b),
+            8..14 => Op::Subtract(a, b),
+            14..22 => Op::Multiply(a, b),
+            22 | 23 => Op::Divide(a, b),
+            24 => Op::Negate(a),
+            _ => {
+                let functions = at_points();
+                let function = functions[usize::from(*what) * 7 % functions.len()];
+                match function.arity() {
+                    1 => Op::Unary(function, a),
+                    _ => Op::Binary(function, a, b),
+                }
+            }
+        });
+    }
+    let last = |count: usize| -> Vec<Value> {
+        (ops.len() - count..ops.len()).map(|index| Value(index as u32)).collect()
+    };
+    let outputs = BTreeMap::from([
+        (quantity(), last(4)),
+        (Output::Expected(0), last(9)),
+        (Output::Expected(1), vec![Value(0), Value(5), Value(6)]),
+    ]);
+    in_stage_order(ops, outputs)
+}
+
+/// The plan as compiled code computes the outputs.
+fn plan_of(program: &Program, outputs: &[Output]) -> Plan {
+    Plan::new(program, outputs, |output| output == Output::TwoLoops)
+}
+
+fn quantity() -> Output {
+    Output::TwoLoops
+}
+
+fn in_stage_order(ops: Vec<Op>, outputs: BTreeMap<Output, Vec<Value>>) -> Program {
+    let mut stages: Vec<Stage> = Vec::new();
+    for op in &ops {
+        let of_operands = op.operands().map(|operand| stages[operand.index()]);
+        stages.push(match op {
+            Op::Input(symbol) => Stage::of(*symbol),
+            _ => of_operands.fold(Stage::Parameter, Stage::join),
+        });
+    }
+    let mut order: Vec<usize> = (0..ops.len()).collect();
+    order.sort_by_key(|index| stages[*index]);
+    let mut renamed = vec![Value(0); ops.len()];
+    order.iter().enumerate().for_each(|(new, old)| renamed[*old] = Value(new as u32));
+    let instr = |old: &usize| {
+        let op = ops[*old].map(|value| renamed[value.index()]);
+        Instr { op, stage: stages[*old] }
+    };
+    let rename = |(output, values): (Output, Vec<Value>)| {
+        (output, values.into_iter().map(|value| renamed[value.index()]).collect())
+    };
+    Program {
+        instrs: order.iter().map(instr).collect(),
+        outputs: outputs.into_iter().map(rename).collect(),
+    }
+}
+
+/// What a point supplies: X, N and H.
+#[derive(Clone, Debug)]
+struct Given<T> {
+    coordinates: [T; DIMENSION],
+    normal: [T; DIMENSION],
+    gradient: [T; DIMENSION * DIMENSION],
+}
+
+impl<T: Blockwise> Given<T> {
+    fn of(&self, symbol: Symbol) -> T {
+        match symbol {
+            Symbol::Coordinate(axis) => self.coordinates[axis],
+            Symbol::Normal(axis) => self.normal[axis],
+            Symbol::Gradient(row, column) => self.gradient[row * DIMENSION + column],
+            _ => unreachable!("no input of a point"),
+        }
+    }
+}
+
+/// Many points, each number of which is one of those of `numbers` in turn.
+fn given<T: Blockwise>(count: usize, numbers: &[f64]) -> Vec<Given<T>> {
+    let mut numbers = numbers.iter().map(|number| T::from_f64(*number)).cycle();
+    let mut next = || numbers.next().expect("a cycle of some numbers");
+    let mut point = || Given {
+        coordinates: std::array::from_fn(|_| next()),
+        normal: std::array::from_fn(|_| next()),
+        gradient: std::array::from_fn(|_| next()),
+    };
+    (0..count).map(|_| point()).collect()
+}
+
+const PARAMETERS: [f64; 2] = [0.7, -1.3];
+const TIME: f64 = 0.37;
+
+/// All components of all outputs, point by point, in blocks.
+fn in_blocks<T: Blockwise>(
+    prepared: &Prepared<T>,
+    room: &mut Room<T>,
+    outputs: usize,
+    points: &[Given<T>],
+) -> Vec<Vec<T>> {
+    let mut found = vec![Vec::new(); points.len()];
+    prepared.run(
+        room,
+        T::from_f64(TIME),
+        points.len(),
+        &mut |start, inputs| {
+            for (symbol, column) in inputs.columns() {
+                let points = &points[start..];
+                column.iter_mut().zip(points).for_each(|(to, point)| *to = point.of(symbol));
+            }
+        },
+        &mut |start, results| {
+            for component in (0..outputs).flat_map(|output| results.components(output)) {
+                (0..results.count()).for_each(|k| found[start + k].push(component.at(k)));
+            }
+        },
+    );
+    found
+}
+
+/// The same by the interpreter of one point.
+fn one_by_one<T: Blockwise>(
+    program: &Program,
+    outputs: &[Output],
+    points: &[Given<T>],
+) -> Vec<Vec<T>> {
+    let mut interpreter = Interpreter::new(program, &PARAMETERS.map(T::from_f64));
+    interpreter.set_time(&T::from_f64(TIME));
+    let plan = interpreter.plan(outputs);
+    let mut at = |point: &Given<T>| {
+        let Given { coordinates, normal, gradient } = point;
+        interpreter.set_point(&plan, Point { coordinates, normal, gradient });
+        outputs.iter().flat_map(|output| interpreter.output(*output)).collect()
+    };
+    points.iter().map(&mut at).collect()
+}
+
+/// Both to the bit; what is not a number has no bits.
+fn agree<T: Blockwise>(found: &[Vec<T>], expected: &[Vec<T>], what: impl std::fmt::Display) {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    for (point, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert_eq!(found.len(), expected.len(), "{what}");
+        for (found, expected) in found.iter().zip(expected) {
+            let none = |number: &T| format!("{number:?}").contains("NaN");
+            let same = found.is_same(*expected) || none(found) && none(expected);
+            assert!(same, "{what}, point {point}: {found:?}, but one by one {expected:?}");
+        }
+    }
+}
+
+fn prepared<T: Blockwise>(plan: &Arc<Plan>, way: Way) -> Prepared<T> {
+    Prepared::new(plan.clone(), way, &PARAMETERS.map(T::from_f64))
+}
+
+/// Holds all ways to run a program to the interpreter, and each other.
+fn hold<T: Blockwise>(program: &Program, numbers: &[f64], count: usize) {
+    let outputs: Vec<Output> = program.outputs.keys().copied().collect();
+    let plan = Arc::new(plan_of(program, &outputs));
+    let points = given::<T>(count, numbers);
+    let expected = one_by_one(program, &outputs, &points);
+    let mut room = Room::default();
+    let mut run = |way: Way| in_blocks(&prepared(&plan, way), &mut room, outputs.len(), &points);
+    let mut fused: Option<(Instructions, Vec<Vec<T>>)> = None;
+    for instructions in Instructions::all() {
+        agree(&run(Way::portable_with(instructions)), &expected, instructions);
+        let found = run(Way::fused_with(instructions));
+        match &fused {
+            // There are no fused products, or all have them.
+            _ if instructions == Instructions::BASELINE && !cfg!(target_arch = "aarch64") => {
+                agree(&found, &expected, instructions);
+            }
+            Some((other, known)) => agree(&found, known, format!("{instructions}, {other}")),
+            None => fused = Some((instructions, found)),
+        }
+    }
+}
+
+/// Numbers within the domain of most functions, where nothing is lost, and others: beyond what the quick functions
+/// know, subnormal, infinite, none.
+const MILD: [f64; 11] = [0.3, 1.25, 0.61, 2.0, 0.875, 1.0, 0.14, 0.5, 1.7, 0.043, 0.99];
+const WILD: [f64; 17] = [
+    0.3,
+    -1.25,
+    0.0,
+    1e9,
+    -0.0,
+    3e-310,
+    0.5,
+    f64::INFINITY,
+    1e17,
+    -1e300,
+    1e-40,
+    f64::NAN,
+    2.0,
+    -700.0,
+    1e-160,
+    f64::NEG_INFINITY,
+    0.7,
+];
+
+fn recipes() -> impl Strategy<Value = Vec<(u8, u16, u16)>> {
+    prop::collection::vec(any::<(u8, u16, u16)>(), 10..80)
+}
+
+proptest! {
+    #[test]
+    fn random_programs_have_the_bits_of_one_point(recipe in recipes(), count in 1_usize..300) {
+        let program = program(&recipe);
+        for numbers in [&MILD[..], &WILD] {
+            hold::<f64>(&program, numbers, count);
+            hold::<f32>(&program, numbers, count);
+            hold::<Double>(&program, numbers, count / 4 + 1);
+        }
+    }
+}
+
+/// The functions that programs have at points.
+fn at_points() -> Vec<Function> {
+    Function::ALL.iter().copied().filter(|function| !function.takes_turns_off()).collect()
+}
+
+/// A program in which each function is called, sums have products, and results are read later.
+fn everything() -> Program {
+    let functions = at_points().len() as u8;
+    let recipe: Vec<_> = (0..2 * u16::from(functions))
+        .map(|k| ((25 + k * 32 / 7) as u8 | 24, k.wrapping_mul(7919) | 0x8000, 0xD000 ^ k))
+        .chain(
+            (0..60_u16)
+                .map(|k| ((k * 5 % 24) as u8, k.wrapping_mul(1031) | 0x4000, 0xFFFF - 17 * k)),
+        )
+        .collect();
+    program(&recipe)
+}
+
+#[test]
+fn every_number_of_points_has_the_bits_of_one_point() {
+    let program = everything();
+    for count in 0..=2 * f64::BLOCK + 1 {
+        hold::<f64>(&program, &MILD, count);
+    }
+    for count in (0..=2 * f32::BLOCK + 1).step_by(3) {
+        hold::<f32>(&program, &MILD, count);
+    }
+    for count in [0, 1, 63, 64, 65, 129] {
+        hold::<Double>(&program, &MILD, count);
+    }
+}
+
+#[test]
+fn every_function_of_wild_numbers_has_the_bits_of_one_point() {
+    for function in at_points() {
+        let x = Op::Input(Symbol::Coordinate(0));
+        let y = Op::Input(Symbol::Coordinate(1));
+        let call = match function.arity() {
+            1 => Op::Unary(function, Value(0)),
+            _ => Op::Binary(function, Value(0), Value(1)),
+        };
+        let outputs = BTreeMap::from([(quantity(), vec![Value(2)])]);
+        let program = in_stage_order(vec![x, y, call], outputs);
+        hold::<f64>(&program, &WILD, 300);
+        hold::<f32>(&program, &WILD, 300);
+        hold::<f64>(&program, &[-0.0, 1e-320, 0.25, -3.0], 9);
+    }
+}
+
+/// The time times 1e13 is an angle of many turns, in either unit.
+#[test]
+fn whole_turns_are_taken_off_as_at_one_point() {
+    for (within, wave) in
+        [(Function::WithinTurns, Function::Sin), (Function::WithinTurnsPi, Function::CosPi)]
+    {
+        let ops = vec![
+            Op::Constant(Rational::from(10_000_000_000_000_i64)),
+            Op::Input(Symbol::Time),
+            Op::Multiply(Value(0), Value(1)),
+            Op::Unary(within, Value(2)),
+            Op::Input(Symbol::Coordinate(0)),
+            Op::Subtract(Value(4), Value(3)),
+            Op::Unary(wave, Value(5)),
+        ];
+        let outputs = BTreeMap::from([(quantity(), vec![Value(6)])]);
+        let program = in_stage_order(ops, outputs);
+        hold::<f64>(&program, &MILD, 130);
+        hold::<f32>(&program, &MILD, 260);
+        hold::<Double>(&program, &MILD, 65);
+    }
+}
+
+/// Of sums of products with one reader, each operand may be the same at all points, and have either sign.
+#[test]
+fn fused_products_round_once_or_twice_as_they_should() {
+    let [x, y] = [0, 1].map(|axis| Op::Input(Symbol::Coordinate(axis)));
+    let [a, b] = [0, 1].map(|index| Op::Input(Symbol::Parameter(index)));
+    let mut kinds = 0;
+    for factors in [[2, 3], [2, 0], [0, 3]] {
+        for term in [0, 1, 2, 3] {
+            let [first, second] = factors.map(Value);
+            let product = Op::Multiply(first, second);
+            for sum in [
+                Op::Add(Value(4), Value(term)),
+                Op::Subtract(Value(4), Value(term)),
+                Op::Subtract(Value(term), Value(4)),
+            ] {
+                let ops = vec![a.clone(), b.clone(), x.clone(), y.clone(), product.clone(), sum];
+                let outputs = BTreeMap::from([(Output::Expected(0), vec![Value(5)])]);
+                let program = in_stage_order(ops, outputs);
+                let plan = plan_of(&program, &[Output::Expected(0)]);
+                assert_eq!(plan.steps.len(), 1, "{:?}", plan.steps);
+                hold::<f64>(&program, &MILD, 40);
+                hold::<f32>(&program, &MILD, 40);
+                hold_to_one_rounding(&program, &Arc::new(plan));
+                kinds += 1;
+            }
+        }
+    }
+    assert_eq!(kinds, 36);
+}
+
+/// Where products are fused, the result is that of the sum in twice the digits: a product of two numbers is exact there.
+fn hold_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
+    let points = given::<f64>(40, &MILD);
+    let wide: Vec<_> = given::<Double>(40, &MILD);
+    let expected = one_by_one(program, &[Output::Expected(0)], &wide);
+    for instructions in Instructions::all().filter(|it| *it != Instructions::BASELINE) {
+        let prepared = prepared(plan, Way::fused_with(instructions));
+        let found = in_blocks(&prepared, &mut Room::default(), 1, &points);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found[0].to_bits(), expected[0].to_f64().to_bits());
+        }
+    }
+}
+
+#[test]
+fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
+    // sin(p0 p1 + t) X + (p0 p1 + t) and t Y.
+    let mut ops = leaves();
+    let place =
+        |leaf: Op| Value(leaves().iter().position(|it| *it == leaf).expect("a leaf") as u32);
+    let [p, q] = [0, 1].map(|index| place(Op::Input(Symbol::Parameter(index))));
+    let [x, y] = [0, 1].map(|axis| place(Op::Input(Symbol::Coordinate(axis))));
+    let mut push = |op: Op| {
+        ops.push(op);
+        Value(ops.len() as u32 - 1)
+    };
+    let product = push(Op::Multiply(p, q));
+    let angle = push(Op::Add(product, place(Op::Input(Symbol::Time))));
+    let sine = push(Op::Unary(Function::Sin, angle));
+    let wave = push(Op::Multiply(sine, x));
+    let results =
+        vec![push(Op::Add(wave, angle)), push(Op::Multiply(y, place(Op::Input(Symbol::Time))))];
+    let outputs = [Output::Expected(0)];
+    let program = in_stage_order(ops, BTreeMap::from([(outputs[0], results)]));
+    let plan = Arc::new(plan_of(&program, &outputs));
+    let points = given::<f64>(70, &MILD);
+    let mut changed = Prepared::new(plan.clone(), Way::portable(), &[0.2, 0.4]);
+    let mut room = Room::default();
+    let before = in_blocks(&changed, &mut room, outputs.len(), &points);
+    changed.set(&PARAMETERS);
+    let after = in_blocks(&changed, &mut room, outputs.len(), &points);
+    assert_ne!(before, after);
+    agree(&after, &one_by_one(&program, &outputs, &points), "parameters set again");
+    let mut at = |time: f64| {
+        let mut found = Vec::new();
+        let point = &points[0];
+        changed.run(
+            &mut room,
+            time,
+            1,
+            &mut |_, inputs| inputs.columns().for_each(|(it, column)| column[0] = point.of(it)),
+            &mut |_, results| found.extend(results.components(0).map(|it| it.at(0).to_bits())),
+        );
+        found
+    };
+    let (first, second) = (at(0.37), at(0.38));
+    assert_ne!(first, second);
+    assert_eq!(first, at(0.37));
+    // A zero of the other sign is another time.
+    let zeros =
+        [at(0.0), at(-0.0), at(0.0)].map(|found| f64::from_bits(found[1]).is_sign_negative());
+    assert_eq!(zeros, [false, true, false]);
+}
+
+#[test]
+fn threads_share_a_plan_and_its_parameters() {
+    let program = everything();
+    let outputs: Vec<Output> = program.outputs.keys().copied().collect();
+    let prepared = prepared::<f64>(&Arc::new(plan_of(&program, &outputs)), Way::fused());
+    let points = given::<f64>(1000, &MILD);
+    let expected = in_blocks(&prepared, &mut Room::default(), outputs.len(), &points);
+    let rooms = Rooms::default();
+    std::thread::scope(|scope| {
+        for thread in 0..8 {
+            let (prepared, rooms, points, expected) = (&prepared, &rooms, &points, &expected);
+            scope.spawn(move || {
+                for round in 0..20 {
+                    // Whole blocks, so that the same ones are computed again.
+                    let from = f64::BLOCK * ((thread + round) % 8);
+                    let found = rooms.lend(|room| in_blocks(prepared, room, 3, &points[from..]));
+                    agree(&found, &expected[from..], thread);
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn an_output_has_the_bits_that_it_has_alone_beside_others() {
+    // Sums and products alone, for a block in which anything is not a number is computed again.
+    let recipe: Vec<_> =
+        (0..60_u16).map(|k| ((k * 5 % 22) as u8, 0x4000 | k << 8, !(17 * k))).collect();
+    let program = program(&recipe);
+    let points = given::<f64>(100, &MILD);
+    let outputs: Vec<Output> = program.outputs.keys().copied().collect();
+    let found = |outputs: &[Output]| {
+        let plan = Arc::new(plan_of(&program, outputs));
+        in_blocks(&prepared(&plan, Way::fused()), &mut Room::default(), outputs.len(), &points)
+    };
+    let together = found(&outputs);
+    let alone: Vec<_> = outputs.iter().map(|output| found(&[*output])).collect();
+    for (point, together) in together.iter().enumerate() {
+        let alone: Vec<f64> = alone.iter().flat_map(|output| output[point].clone()).collect();
+        agree(std::slice::from_ref(together), &[alone], point);
+    }
+}
+
+#[test]
+fn registers_are_used_again() {
+    // A long chain of sums has two at a time.
+    let ops: Vec<Op> = [Op::Input(Symbol::Coordinate(0))]
+        .into_iter()
+        .chain((0..100).map(|k| Op::Unary(Function::Sin, Value(k))))
+        .collect();
+    let outputs = BTreeMap::from([(Output::Expected(0), vec![Value(100)])]);
+    let plan = plan_of(&in_stage_order(ops, outputs), &[Output::Expected(0)]);
+    assert_eq!((plan.steps.len(), plan.registers), (100, 3));
+}

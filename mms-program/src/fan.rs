@@ -1,0 +1,283 @@
+//! A value and its derivatives in several directions, which have the value in common: a [`Dual`] for each direction, to
+//! the same bounds, at the price of the value and what the directions add to it.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use mms_math::Scalar;
+
+use crate::dual::{Dual, lifted};
+use crate::interpret::Number;
+use crate::interval::Interval;
+use mms_symbolic::expr::{Function, Rational};
+
+/// How many directions there are at most: the entries of a gradient.
+const DIRECTIONS: usize = 9;
+
+/// All of them.
+const ALL: u16 = (1 << DIRECTIONS) - 1;
+
+/// Bounds, or bounds with a slope.
+pub trait Bounds: Number<Wide = Self> + Copy {
+    /// Whether it is 0 and nothing else.
+    fn is_zero(self) -> bool;
+}
+
+impl Bounds for Interval {
+    fn is_zero(self) -> bool {
+        self.is_defined() && self.lower() == 0.0 && self.upper() == 0.0
+    }
+}
+
+impl Bounds for Dual<Interval> {
+    fn is_zero(self) -> bool {
+        self.value.is_zero() && self.slope.is_zero()
+    }
+}
+
+/// A value and its derivatives in some directions.
+#[derive(Clone, Copy, Debug)]
+pub struct Fan<T> {
+    /// The value.
+    pub value: T,
+    slopes: [T; DIRECTIONS],
+    /// The directions whose slope may be something else than 0, one bit for each.
+    moved: u16,
+}
+
+impl<T: Bounds> Fan<T> {
+    /// A number that does not change.
+    pub fn constant(value: T) -> Self {
+        Fan { value, slopes: [T::from_f64(0.0); DIRECTIONS], moved: 0 }
+    }
+
+    /// A variable that changes in one direction, as much as that does.
+    pub fn variable(value: T, direction: usize) -> Self {
+        let mut variable = Fan::constant(value);
+        variable.slopes[direction] = T::from_f64(1.0);
+        variable.moved = 1 << direction;
+        variable
+    }
+
+    /// The derivative in a direction.
+    pub fn slope(&self, direction: usize) -> T {
+        self.slopes[direction]
+    }
+
+    /// f(self), given f and f' at the value.
+    fn chain(self, value: T, derivative: T) -> Self {
+        // Where the derivative is not known, 0 times it is not 0.
+        let is_clean = (derivative * T::from_f64(0.0)).is_zero();
+        let mut slopes = self.slopes;
+        let moved = if is_clean { self.moved } else { ALL };
+        for direction in directions(moved) {
+            slopes[direction] = derivative * self.slopes[direction];
+        }
+        Fan { value, slopes, moved }
+    }
+
+    /// f(self, other), given the value, and the slope where one operand moves or both do.
+    fn join(self, other: Self, value: T, slope: impl Fn(Option<T>, Option<T>) -> T) -> Self {
+        let zero = T::from_f64(0.0);
+        let [of_first, of_second] = [slope(Some(zero), None), slope(None, Some(zero))];
+        // Where a factor is not known, 0 times it is not 0.
+        let (mut first, mut second) = (self.moved, other.moved);
+        if !of_first.is_zero() || !of_second.is_zero() {
+            (first, second) = (ALL, ALL);
+        }
+        let mut slopes = [zero; DIRECTIONS];
+        for direction in directions(first | second) {
+            let moved = |by: u16, slope: T| (by >> direction & 1 == 1).then_some(slope);
+            let own = moved(first, self.slopes[direction]);
+            slopes[direction] = slope(own, moved(second, other.slopes[direction]));
+        }
+        Fan { value, slopes, moved: first | second }
+    }
+}
+
+/// The directions of some bits.
+fn directions(moved: u16) -> impl Iterator<Item = usize> {
+    (0..DIRECTIONS).filter(move |direction| moved >> direction & 1 == 1)
+}
+
+impl<T: Bounds> Add for Fan<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let mut sum = self;
+        for direction in directions(other.moved) {
+            sum.slopes[direction] = match self.moved >> direction & 1 {
+                1 => self.slopes[direction] + other.slopes[direction],
+                _ => other.slopes[direction],
+            };
+        }
+        Fan { value: self.value + other.value, moved: self.moved | other.moved, ..sum }
+    }
+}
+
+impl<T: Bounds> Sub for Fan<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl<T: Bounds> Mul for Fan<T> {
+    type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of products")]
+    fn mul(self, other: Self) -> Self {
+        self.join(other, self.value * other.value, |a, b| match (a, b) {
+            (Some(a), Some(b)) => a * other.value + self.value * b,
+            (Some(a), None) => a * other.value,
+            (None, b) => self.value * b.unwrap_or_else(zero),
+        })
+    }
+}
+
+impl<T: Bounds> Div for Fan<T> {
+    type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of quotients")]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        self.join(other, value, |a, b| match (a, b) {
+            (Some(a), None) => a / other.value,
+            (a, b) => {
+                let (a, b) = (a.unwrap_or_else(zero), b.unwrap_or_else(zero));
+                (a - value * b) / other.value
+            }
+        })
+    }
+}
+
+impl<T: Bounds> Neg for Fan<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        let mut negative = self;
+        for direction in directions(self.moved) {
+            negative.slopes[direction] = -self.slopes[direction];
+        }
+        Fan { value: -self.value, ..negative }
+    }
+}
+
+fn zero<T: Scalar>() -> T {
+    T::from_f64(0.0)
+}
+
+impl<T: Bounds> Number for Fan<T> {
+    fn steps(&self, function: Option<Function>) -> u64 {
+        // Of each direction, whose number whoever evaluates knows.
+        2 * self.value.steps(function)
+    }
+
+    fn from_rational(number: &Rational) -> Self {
+        Fan::constant(T::from_rational(number))
+    }
+
+    fn wide_from_rational(number: &Rational) -> Self::Wide {
+        Fan::constant(T::wide_from_rational(number))
+    }
+
+    fn square(self) -> Self {
+        self.chain(self.value.square(), T::from_f64(2.0) * self.value)
+    }
+
+    fn wide_square(wide: Self::Wide) -> Self::Wide {
+        wide.chain(T::wide_square(wide.value), T::from_f64(2.0) * wide.value)
+    }
+}
+
+impl<T: Bounds> Scalar for Fan<T> {
+    type Wide = Self;
+
+    fn widen(self) -> Self {
+        self
+    }
+
+    fn narrow(wide: Self) -> Self {
+        wide
+    }
+
+    lifted!();
+
+    fn atan2(self, x: Self) -> Self {
+        let squares = x.value * x.value + self.value * self.value;
+        self.join(x, self.value.atan2(x.value), |a, b| {
+            let (a, b) = (a.unwrap_or_else(zero), b.unwrap_or_else(zero));
+            (x.value * a - self.value * b) / squares
+        })
+    }
+
+    fn powf(self, exponent: Self) -> Self {
+        let power = self.value.powf(exponent.value);
+        let by_base = exponent.value * self.value.powf(exponent.value - T::from_f64(1.0));
+        let by_exponent = power * self.value.ln();
+        self.join(exponent, power, |a, b| {
+            let (a, b) = (a.unwrap_or_else(zero), b.unwrap_or_else(zero));
+            by_base * a + by_exponent * b
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interpret::{binary, unary};
+
+    /// What is made of two numbers by all operations.
+    fn made<T: Number>(x: T, y: T) -> Vec<T> {
+        let mut made = vec![
+            x.clone() + y.clone(),
+            x.clone() - y.clone(),
+            y.clone() - x.clone(),
+            x.clone() * y.clone(),
+            y.clone() / x.clone(),
+            x.clone() / y.clone(),
+            -x.clone(),
+            x.clone().square(),
+            binary(Function::Atan2, x.clone(), y.clone()),
+            binary(Function::Powf, x.clone(), y.clone()),
+            binary(Function::Powf, y.clone(), x.clone()),
+        ];
+        let functions = Function::ALL.iter().filter(|function| function.arity() == 1);
+        made.extend(functions.map(|function| unary(*function, x.clone() * y.clone())));
+        let whole = made.iter().cloned().reduce(|sum, term| sum + term);
+        made.extend(whole);
+        made
+    }
+
+    /// A direction in which x moves, one in which y does, and one in which nothing does.
+    fn assert_same<T: Bounds>(x: T, y: T, is_same: impl Fn(T, T) -> bool) {
+        let of_fan = made(Fan::variable(x, 1), Fan::variable(y, 4));
+        for (direction, moves) in [(1, [1.0, 0.0]), (4, [0.0, 1.0]), (2, [0.0, 0.0])] {
+            let [a, b] = [0, 1].map(|it: usize| T::from_f64(moves[it]));
+            let of_dual = made(Dual { value: x, slope: a }, Dual { value: y, slope: b });
+            for (index, (fan, dual)) in of_fan.iter().zip(of_dual).enumerate() {
+                assert!(is_same(fan.value, dual.value), "value {index}: {fan:?}, {dual:?}");
+                let slope = fan.slope(direction);
+                assert!(is_same(slope, dual.slope), "slope {index}: {slope:?}, {:?}", dual.slope);
+            }
+        }
+    }
+
+    /// Bounds of boxes where all is defined, where roots and powers end, and where nothing is known.
+    #[test]
+    fn a_fan_has_the_bounds_of_dual_numbers() {
+        let boxes = [
+            [Interval::new(0.25, 0.5), Interval::new(0.125, 0.75)],
+            [Interval::new(0.0, 0.5), Interval::new(0.25, 0.25)],
+            [Interval::new(-0.5, 0.5), Interval::new(0.5, 2.0)],
+            [Interval::UNDEFINED, Interval::new(0.5, 2.0)],
+            [Interval::from_f64(0.0), Interval::from_f64(0.5)],
+        ];
+        for [x, y] in boxes {
+            // The sign of 0 tells nothing of a bound.
+            let is_same = |a: Interval, b: Interval| {
+                (a.is_defined() == b.is_defined())
+                    && (!a.is_defined() || a.lower() == b.lower() && a.upper() == b.upper())
+            };
+            assert_same(x, y, is_same);
+            let [x, y] = [(x, 1.0), (y, -0.5)]
+                .map(|(value, slope)| Dual { value, slope: Interval::from_f64(slope) });
+            assert_same(x, y, |a, b| is_same(a.value, b.value) && is_same(a.slope, b.slope));
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The reference interpreter: runs a program in any scalar, stage by stage.
+
+use mms_math::{Double, Scalar};
+
+use crate::effort;
+use crate::program::{Key, Op, Program, Value};
+use mms_symbolic::expr::{Function, Rational, Stage, Symbol};
+use mms_symbolic::work::Work;
+
+/// A scalar that takes exact constants.
+pub trait Number: Scalar {
+    /// The value nearest to `number`.
+    ///
+    /// The quotient of two integers that the type holds exactly is rounded once, in every
+    /// precision; other numbers go through two `f64`. Emitted code does the same.
+    fn from_rational(number: &Rational) -> Self {
+        nearest(number)
+    }
+
+    /// The same with more digits.
+    fn wide_from_rational(number: &Rational) -> Self::Wide {
+        nearest(number)
+    }
+
+    /// `self * self`; narrower than the product where the type knows that both are one number.
+    fn square(self) -> Self {
+        self.clone() * self
+    }
+
+    /// The same with more digits.
+    fn wide_square(wide: Self::Wide) -> Self::Wide {
+        wide.clone() * wide
+    }
+
+    /// What an operation takes, or a function of this number: see [`mms_symbolic::work`].
+    fn steps(&self, _function: Option<Function>) -> u64 {
+        1
+    }
+}
+
+fn nearest<T: Scalar>(number: &Rational) -> T {
+    match small_ratio(number) {
+        Some((numerator, 1)) => T::from_f64(f64::from(numerator)),
+        Some((numerator, denominator)) => T::ratio(numerator, denominator),
+        None => {
+            let (high, low) = parts(number);
+            T::from_parts(high, low)
+        }
+    }
+}
+
+impl Number for f32 {}
+impl Number for f64 {}
+impl Number for Double {}
+
+/// Numerator and denominator, where both are exact even in `f32`.
+pub fn small_ratio(number: &Rational) -> Option<(i32, i32)> {
+    const EXACT: u32 = 1 << 24;
+    let numerator = i32::try_from(number.numerator()).ok()?;
+    let denominator = i32::try_from(number.denominator()).ok()?;
+    let is_exact = |number: i32| number.unsigned_abs() <= EXACT;
+    (is_exact(numerator) && is_exact(denominator)).then_some((numerator, denominator))
+}
+
+/// The nearest `f64`, and the nearest to what is left.
+pub fn parts(number: &Rational) -> (f64, f64) {
+    let high = number.to_f64().value();
+    let low = Rational::try_from(high).map_or(0.0, |near| (number - near).to_f64().value());
+    (high, low)
+}
+
+/// What a point supplies, beside the time.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<'a, T> {
+    /// X, `dimension` components; empty where no output depends on it.
+    pub coordinates: &'a [T],
+    /// N, `dimension` components; empty where no traction is asked for.
+    pub normal: &'a [T],
+    /// H, row-major; empty where no response is asked for.
+    pub gradient: &'a [T],
+}
+
+impl<'a, T> Point<'a, T> {
+    /// A reference position, and nothing else.
+    pub fn at(coordinates: &'a [T]) -> Self {
+        Point { coordinates, normal: &[], gradient: &[] }
+    }
+}
+
+/// A program prepared for one set of parameters.
+#[derive(Clone, Debug)]
+pub struct Interpreter<'a, T: Number, K> {
+    program: &'a Program<K>,
+    values: Vec<T>,
+    /// The stages Parameter and Time, which are rounded when they are done.
+    once: Vec<T::Wide>,
+    /// What it may take, if that is bounded: beyond, values are not numbers.
+    work: Option<&'a Work>,
+    /// How many times what an operation takes is charged.
+    times: u64,
+}
+
+impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
+    /// Runs the Parameter stage. `parameters` are in the order of the field file.
+    pub fn new(program: &'a Program<K>, parameters: &[T]) -> Self {
+        Self::prepared(program, parameters, None, 1)
+    }
+
+    /// The same within a budget. When that is over, what is computed is not a number.
+    pub fn within(work: &'a Work, program: &'a Program<K>, parameters: &[T]) -> Self {
+        Self::prepared(program, parameters, Some(work), 1)
+    }
+
+    /// The same of a scalar that does the work of so many.
+    pub fn as_many(work: &'a Work, program: &'a Program<K>, parameters: &[T], times: u64) -> Self {
+        Self::prepared(program, parameters, Some(work), times)
+    }
+
+    fn prepared(
+        program: &'a Program<K>,
+        parameters: &[T],
+        work: Option<&'a Work>,
+        times: u64,
+    ) -> Self {
+        let values = vec![T::from_f64(0.0); program.instrs.len()];
+        let once = vec![T::Wide::from_f64(0.0); program.start(Stage::Point)];
+        let mut interpreter = Interpreter { program, values, once, work, times };
+        interpreter.run_once(Stage::Parameter, |symbol| match symbol {
+            Symbol::Parameter(index) => parameters[index].clone(),
+            _ => unreachable!("the Parameter stage reads parameters only"),
+        });
+        interpreter
+    }
+
+    /// From now on it does the work of so many.
+    pub fn charge(&mut self, times: u64) {
+        self.times = times;
+    }
+
+    /// Runs the Time stage.
+    pub fn set_time(&mut self, time: &T) {
+        self.run_once(Stage::Time, |symbol| match symbol {
+            Symbol::Time => time.clone(),
+            _ => unreachable!("the Time stage reads the time only"),
+        });
+    }
+
+    /// The instructions that some outputs need: computed once, and passed to every evaluation.
+    pub fn plan(&self, outputs: &[K]) -> Vec<bool> {
+        self.program.needed(outputs)
+    }
+
+    /// Runs the Point and PointTime stages of a plan.
+    pub fn set_point(&mut self, plan: &[bool], point: Point<'_, T>) {
+        let dimension = point.gradient.len().isqrt();
+        for stage in [Stage::Point, Stage::PointTime] {
+            self.run(stage, plan, |symbol| match symbol {
+                Symbol::Coordinate(axis) => point.coordinates[axis].clone(),
+                Symbol::Normal(axis) => point.normal[axis].clone(),
+                Symbol::Gradient(row, column) => point.gradient[row * dimension + column].clone(),
+                _ => unreachable!("earlier stages have run"),
+            });
+        }
+    }
+
+    /// The components of an output that has been planned and run; a tensor is row-major.
+    pub fn output(&self, output: K) -> Vec<T> {
+        let values = self.program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
+        values.iter().map(|value| self.values[value.index()].clone()).collect()
+    }
+
+    /// Runs a stage that is computed with more digits and then rounded.
+    fn run_once(&mut self, stage: Stage, input: impl Fn(Symbol) -> T) {
+        for index in self.program.range(stage) {
+            if self.is_over(index) {
+                self.once[index] = T::Wide::from_f64(f64::NAN);
+                self.values[index] = T::from_f64(f64::NAN);
+                continue;
+            }
+            let op = &self.program.instrs[index].op;
+            let input = |symbol| input(symbol).widen();
+            self.once[index] = apply(op, &self.once, T::wide_from_rational, T::wide_square, input);
+            self.values[index] = T::narrow(self.once[index].clone());
+        }
+    }
+
+    /// Whether the budget has nothing left for an instruction; else it is charged.
+    fn is_over(&self, index: usize) -> bool {
+        let Some(work) = self.work else { return false };
+        if work.is_over() {
+            return true;
+        }
+        let steps = match &self.program.instrs[index].op {
+            Op::Unary(function, a) | Op::Binary(function, a, _) => {
+                self.values[a.index()].steps(Some(*function))
+            }
+            Op::Constant(number) => self.values[index].steps(None) + effort::of_constant(number),
+            _ => self.values[index].steps(None),
+        };
+        work.spend(self.times * steps);
+        false
+    }
+
+    fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
+        for index in self.program.range(stage).filter(|index| plan[*index]) {
+            if self.is_over(index) {
+                self.values[index] = T::from_f64(f64::NAN);
+                continue;
+            }
+            let op = &self.program.instrs[index].op;
+            self.values[index] = apply(op, &self.values, T::from_rational, T::square, &input);
+        }
+    }
+}
+
+/// One operation on the values before it.
+pub fn apply<T: Scalar>(
+    op: &Op,
+    values: &[T],
+    constant: impl Fn(&Rational) -> T,
+    square: impl Fn(T) -> T,
+    input: impl Fn(Symbol) -> T,
+) -> T {
+    let of = |value: &Value| values[value.index()].clone();
+    match op {
+        Op::Constant(number) => constant(number),
+        Op::Pi => T::pi(),
+        Op::Input(symbol) => input(*symbol),
+        Op::Add(a, b) => of(a) + of(b),
+        Op::Subtract(a, b) => of(a) - of(b),
+        Op::Multiply(a, b) if a == b => square(of(a)),
+        Op::Multiply(a, b) => of(a) * of(b),
+        Op::Divide(a, b) => of(a) / of(b),
+        Op::Negate(a) => -of(a),
+        Op::Unary(function, a) => unary(*function, of(a)),
+        Op::Binary(function, a, b) => binary(*function, of(a), of(b)),
+    }
+}
+
+/// A function of one argument.
+pub fn unary<T: Scalar>(function: Function, x: T) -> T {
+    match function {
+        Function::Sqrt => x.sqrt(),
+        Function::Cbrt => x.cbrt(),
+        Function::Exp => x.exp(),
+        Function::ExpM1 => x.exp_m1(),
+        Function::Ln => x.ln(),
+        Function::Ln1p => x.ln_1p(),
+        Function::Ln1pRest => x.ln_1p_rest(),
+        Function::Sin => x.sin(),
+        Function::Cos => x.cos(),
+        Function::SinNearZero => x.sin_near_zero(),
+        Function::CosNearZero => x.cos_near_zero(),
+        Function::SinWithinOne => x.sin_within_one(),
+        Function::CosWithinOne => x.cos_within_one(),
+        Function::SinPi => x.sin_pi(),
+        Function::CosPi => x.cos_pi(),
+        Function::WithinTurns => x.within_turns(),
+        Function::WithinTurnsPi => x.within_turns_pi(),
+        Function::Tan => x.tan(),
+        Function::Sinh => x.sinh(),
+        Function::Cosh => x.cosh(),
+        Function::Tanh => x.tanh(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Atan2 | Function::Powf | Function::Offset => {
+            unreachable!("a function of two arguments")
+        }
+    }
+}
+
+/// A function of two arguments.
+pub fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
+    match function {
+        Function::Atan2 => a.atan2(b),
+        Function::Powf => a.powf(b),
+        Function::Offset => a - b,
+        _ => unreachable!("a function of one argument"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_single_precision_does_not_hold_is_no_small_ratio() {
+        let exact = 1 << 24;
+        assert_eq!(small_ratio(&Rational::from(-exact)), Some((-exact, 1)));
+        assert_eq!(small_ratio(&Rational::from(exact + 1)), None);
+        assert_eq!(small_ratio(&Rational::from(i32::MIN)), None);
+    }
+}

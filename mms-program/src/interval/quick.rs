@@ -1,0 +1,341 @@
+//! Elementary functions at one number in the sum of two doubles, with a bound of the error: a
+//! hundred times faster than arbitrary precision, which is left with what they cannot decide.
+//!
+//! The arithmetic is that of Joldes, Muller & Popescu (Tight and rigorous error bounds for basic
+//! building blocks of double-word arithmetic, 2017): each operation errs by less than 2^-102 of its
+//! result. What is declared below is some hundred times what all of them, and the series that are
+//! cut off, make together.
+
+/// The declared errors: of an exponential, a power and a root relative to it, of the others in
+/// absolute terms.
+const ERROR: f64 = 1.0 / (1u128 << 88) as f64;
+
+/// Larger angles are reduced elsewhere.
+const LARGEST_ANGLE: f64 = 1e5;
+
+/// An exponential of less is far from the least and the greatest numbers, and so is its opposite's.
+const LARGEST_EXPONENT: f64 = 600.0;
+
+/// ln 2 and pi/2 as sums of doubles that do not overlap.
+const LN_2: [f64; 2] = [core::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
+const QUARTER: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+
+/// 1/n!: those of which all digits count, and of the rest those of one double.
+const EXPONENTIAL: [Double; 14] = [
+    Double(1.0, 0.0),
+    Double(1.0, 0.0),
+    Double(0.5, 0.0),
+    Double(0.166_666_666_666_666_66, 9.251_858_538_542_97e-18),
+    Double(0.041_666_666_666_666_664, 2.312_964_634_635_742_7e-18),
+    Double(0.008_333_333_333_333_333, 1.156_482_317_317_871_4e-19),
+    Double(0.001_388_888_888_888_889, -5.300_543_954_373_577e-20),
+    Double(0.000_198_412_698_412_698_4, 1.720_955_829_342_070_5e-22),
+    Double(2.480_158_730_158_73e-5, 2.151_194_786_677_588_2e-23),
+    Double(2.755_731_922_398_589_3e-6, -1.858_393_274_046_472e-22),
+    Double(2.755_731_922_398_589e-7, 2.376_771_462_225_029_7e-23),
+    Double(2.505_210_838_544_172e-8, -1.448_814_070_935_912e-24),
+    Double(2.087_675_698_786_81e-9, -1.207_345_059_113_26e-25),
+    Double(1.605_904_383_682_161_3e-10, 1.258_529_458_875_209_8e-26),
+];
+const EXPONENTIAL_REST: [f64; 13] = [
+    1.147_074_559_772_972_5e-11,
+    7.647_163_731_819_816e-13,
+    4.779_477_332_387_385e-14,
+    2.811_457_254_345_520_6e-15,
+    1.561_920_696_858_622_5e-16,
+    8.220_635_246_624_33e-18,
+    4.110_317_623_312_165e-19,
+    1.957_294_106_339_126_3e-20,
+    8.896_791_392_450_574e-22,
+    3.868_170_170_630_684e-23,
+    1.611_737_571_096_118_4e-24,
+    6.446_950_284_384_474e-26,
+    2.479_596_263_224_797_6e-27,
+];
+
+/// (-1)^n/(2n + 1)! and (-1)^n/(2n)!, likewise.
+const SINE: [Double; 9] = [
+    Double(1.0, 0.0),
+    Double(-0.166_666_666_666_666_66, -9.251_858_538_542_97e-18),
+    Double(0.008_333_333_333_333_333, 1.156_482_317_317_871_4e-19),
+    Double(-0.000_198_412_698_412_698_4, -1.720_955_829_342_070_5e-22),
+    Double(2.755_731_922_398_589_3e-6, -1.858_393_274_046_472e-22),
+    Double(-2.505_210_838_544_172e-8, 1.448_814_070_935_912e-24),
+    Double(1.605_904_383_682_161_3e-10, 1.258_529_458_875_209_8e-26),
+    Double(-7.647_163_731_819_816e-13, -7.038_728_777_334_53e-30),
+    Double(2.811_457_254_345_520_6e-15, 1.650_884_273_086_143_3e-31),
+];
+const SINE_REST: [f64; 7] = [
+    -8.220_635_246_624_33e-18,
+    1.957_294_106_339_126_3e-20,
+    -3.868_170_170_630_684e-23,
+    6.446_950_284_384_474e-26,
+    -9.183_689_863_795_546e-29,
+    1.130_996_288_644_771_6e-31,
+    -1.216_125_041_553_518e-34,
+];
+
+const COSINE: [Double; 9] = [
+    Double(1.0, 0.0),
+    Double(-0.5, 0.0),
+    Double(0.041_666_666_666_666_664, 2.312_964_634_635_742_7e-18),
+    Double(-0.001_388_888_888_888_889, 5.300_543_954_373_577e-20),
+    Double(2.480_158_730_158_73e-5, 2.151_194_786_677_588_2e-23),
+    Double(-2.755_731_922_398_589e-7, -2.376_771_462_225_029_7e-23),
+    Double(2.087_675_698_786_81e-9, -1.207_345_059_113_26e-25),
+    Double(-1.147_074_559_772_972_5e-11, -2.065_551_275_283_074_5e-28),
+    Double(4.779_477_332_387_385e-14, 4.399_205_485_834_081e-31),
+];
+const COSINE_REST: [f64; 7] = [
+    -1.561_920_696_858_622_5e-16,
+    4.110_317_623_312_165e-19,
+    -8.896_791_392_450_574e-22,
+    1.611_737_571_096_118_4e-24,
+    -2.479_596_263_224_797_6e-27,
+    3.279_889_237_069_838e-30,
+    -3.769_987_628_815_905_4e-33,
+];
+
+/// A number as the sum of two doubles, of which the second is less than the last digit of the first.
+#[derive(Clone, Copy)]
+struct Double(f64, f64);
+
+/// a + b, exactly (Knuth, The Art of Computer Programming 2, section 4.2.2).
+fn sum(a: f64, b: f64) -> Double {
+    let sum = a + b;
+    let rest = sum - a;
+    Double(sum, (a - (sum - rest)) + (b - rest))
+}
+
+/// a b, exactly.
+fn product(a: f64, b: f64) -> Double {
+    let product = a * b;
+    Double(product, a.mul_add(b, -product))
+}
+
+impl Double {
+    fn plus(self, other: Double) -> Double {
+        let Double(high, low) = sum(self.0, other.0);
+        let Double(carry, rest) = sum(self.1, other.1);
+        let Double(high, low) = sum(high, low + carry);
+        sum(high, low + rest)
+    }
+
+    fn minus(self, other: Double) -> Double {
+        self.plus(Double(-other.0, -other.1))
+    }
+
+    fn times(self, other: Double) -> Double {
+        let Double(high, low) = product(self.0, other.0);
+        sum(high, low + (self.0 * other.1 + self.1 * other.0))
+    }
+
+    /// The neighbouring numbers that the value lies between, given the error; `None` where that is
+    /// not certain.
+    fn around(self, error: f64) -> Option<(f64, f64)> {
+        let Double(near, rest) = sum(self.0, self.1);
+        match near.is_finite() && rest.abs() > error {
+            true if rest > 0.0 => Some((near, near.next_up())),
+            true => Some((near.next_down(), near)),
+            false => None,
+        }
+    }
+}
+
+/// The sum of c_n x^n for |x| < 0.7. What is made of the rest is less than 2^-55 of the whole: one double holds enough of
+/// its digits.
+fn polynomial(x: Double, first: &[Double], rest: &[f64]) -> Double {
+    let mut value = 0.0;
+    for coefficient in rest.iter().rev() {
+        value = value * x.0 + coefficient;
+    }
+    let mut value = Double(value, 0.0);
+    for coefficient in first.iter().rev() {
+        value = coefficient.plus(x.times(value));
+    }
+    value
+}
+
+/// e^x for |x| <= 600.
+fn exponential(x: Double) -> Double {
+    let turns = (x.0 / LN_2[0]).round();
+    let [coarse, fine] = LN_2.map(|part| product(turns, part));
+    let rest = x.minus(coarse).minus(fine);
+    // |rest| < 0.35, and 0.35^27/27! < 2^-130.
+    let series = polynomial(rest, &EXPONENTIAL, &EXPONENTIAL_REST);
+    // Two powers of two, since that of 1010 and that of -1010 are no numbers by themselves.
+    let half = (turns / 2.0).trunc();
+    let scale = |value: f64| value * 2f64.powi(half as i32) * 2f64.powi((turns - half) as i32);
+    Double(scale(series.0), scale(series.1))
+}
+
+pub fn exp(x: f64) -> Option<(f64, f64)> {
+    if x.abs() > LARGEST_EXPONENT {
+        return None;
+    }
+    let value = exponential(Double(x, 0.0));
+    value.around(value.0 * ERROR)
+}
+
+/// The logarithm of a positive number, from one that is nearly right: ln z = y + ln(z e^-y).
+fn logarithm(z: Double, y: f64) -> Option<Double> {
+    if y.is_nan() || y.abs() > LARGEST_EXPONENT {
+        return None;
+    }
+    let small = z.times(exponential(Double(-y, 0.0))).minus(Double(1.0, 0.0));
+    // Beyond the square there is less than 10^-36.
+    if small.0.abs() > 1e-12 {
+        return None;
+    }
+    let correction = small.minus(Double(small.0 * small.0 / 2.0, 0.0));
+    Some(Double(y, 0.0).plus(correction))
+}
+
+pub fn ln(x: f64) -> Option<(f64, f64)> {
+    logarithm(Double(x, 0.0), x.ln())?.around(ERROR)
+}
+
+pub fn ln_1p(x: f64) -> Option<(f64, f64)> {
+    if x == 0.0 {
+        return Some((0.0, 0.0));
+    }
+    logarithm(sum(1.0, x), x.ln_1p())?.around(ERROR)
+}
+
+/// base^exponent = e^(exponent ln base) for a positive base.
+pub fn power(base: f64, exponent: f64) -> Option<(f64, f64)> {
+    let power = logarithm(Double(base, 0.0), base.ln())?.times(Double(exponent, 0.0));
+    if power.0.is_nan() || power.0.abs() > LARGEST_EXPONENT || exponent.abs() > LARGEST_EXPONENT {
+        return None;
+    }
+    let value = exponential(power);
+    // The exponent multiplies the error of the logarithm.
+    value.around(value.0 * ERROR * (2.0 + exponent.abs()))
+}
+
+/// Whether no product of three such numbers or their roots leaves the range of normal numbers.
+fn is_moderate(x: f64) -> bool {
+    (1e-200..1e200).contains(&x.abs())
+}
+
+/// The square root: that of hardware is the nearest number, and the sign of x - y^2 tells on which
+/// side it lies.
+pub fn sqrt(x: f64) -> Option<(f64, f64)> {
+    if !is_moderate(x) {
+        return None;
+    }
+    let root = x.sqrt();
+    let Double(square, rest) = product(root, root);
+    // x and the rounded square are neighbours, so that their difference is a number itself.
+    let excess = x - square;
+    Some(match excess > rest {
+        _ if excess == rest => (root, root),
+        true => (root, root.next_up()),
+        false => (root.next_down(), root),
+    })
+}
+
+/// The cube root, from one that is nearly right: y + (x - y^3)/(3 y^2).
+pub fn cbrt(x: f64) -> Option<(f64, f64)> {
+    if !is_moderate(x) {
+        return None;
+    }
+    let root = x.cbrt();
+    let square = product(root, root);
+    let rest = Double(x, 0.0).minus(square.times(Double(root, 0.0)));
+    let correction = rest.0 / (3.0 * square.0);
+    // Beyond the first order there is less than 10^-28 of the root.
+    if correction.abs() > 1e-14 * root.abs() {
+        return None;
+    }
+    sum(root, correction).around(root.abs() * ERROR)
+}
+
+/// An angle less its quarter turns, and how many these are.
+fn reduced(x: f64) -> Option<(Double, i64)> {
+    if x.is_nan() || x.abs() > LARGEST_ANGLE {
+        return None;
+    }
+    let turns = (x / QUARTER[0]).round();
+    let rest = QUARTER.iter().fold(Double(x, 0.0), |rest, part| rest.minus(product(turns, *part)));
+    Some((rest, turns as i64))
+}
+
+/// The greatest number of quarter turns that is at most an angle, and the least that is at least it.
+pub fn quarters(x: f64) -> Option<[i64; 2]> {
+    let (rest, turns) = reduced(x)?;
+    match rest.0 {
+        _ if x == 0.0 => Some([0, 0]),
+        rest if rest > ERROR => Some([turns, turns + 1]),
+        rest if rest < -ERROR => Some([turns - 1, turns]),
+        _ => None,
+    }
+}
+
+/// sin(x) and cos(x) for |x| < 0.8, of which the first term that is cut off is 0.8^32/32! < 2^-127.
+fn sine(x: Double) -> Double {
+    x.times(polynomial(x.times(x), &SINE, &SINE_REST))
+}
+
+fn cosine(x: Double) -> Double {
+    polynomial(x.times(x), &COSINE, &COSINE_REST)
+}
+
+/// sin(x + shift pi/2).
+fn circular(x: f64, shift: i64) -> Option<(f64, f64)> {
+    let (rest, turns) = reduced(x)?;
+    let value = match (turns + shift).rem_euclid(4) {
+        0 => sine(rest),
+        1 => cosine(rest),
+        2 => Double(0.0, 0.0).minus(sine(rest)),
+        _ => Double(0.0, 0.0).minus(cosine(rest)),
+    };
+    value.around(ERROR)
+}
+
+pub fn sin(x: f64) -> Option<(f64, f64)> {
+    if x == 0.0 {
+        return Some((0.0, 0.0));
+    }
+    circular(x, 0)
+}
+
+pub fn cos(x: f64) -> Option<(f64, f64)> {
+    if x == 0.0 {
+        return Some((1.0, 1.0));
+    }
+    circular(x, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::precise::Precise;
+    use mms_math::Scalar as _;
+
+    /// Whether 77 digits agree that a value lies between two neighbours, or is both.
+    fn assert_around(found: Option<(f64, f64)>, value: Precise, what: &str) {
+        let Some((lower, upper)) = found else { panic!("{what} is left undecided") };
+        let (below, above) = (Precise::from_f64(lower), Precise::from_f64(upper));
+        assert!(below.at_most(&value) && value.at_most(&above), "{what}: {lower:e} {upper:e}");
+        assert!(upper == lower || upper == lower.next_up(), "{what}: {lower:e} {upper:e}");
+    }
+
+    #[test]
+    fn roots_and_powers_lie_between_neighbours() {
+        let mut x = 1e-12;
+        while x < 1e12 {
+            let exact = || Precise::from_f64(x);
+            assert_around(sqrt(x), exact().sqrt(), &format!("sqrt({x:e})"));
+            assert_around(cbrt(x), exact().cbrt(), &format!("cbrt({x:e})"));
+            for exponent in [-2.0 / 3.0, 1.0 / 3.0, 0.1, -7.3, 11.9] {
+                let exact = exact().powf(Precise::from_f64(exponent));
+                assert_around(power(x, exponent), exact, &format!("{x:e}^{exponent}"));
+            }
+            x *= 1.37;
+        }
+        assert_eq!(sqrt(6.25), Some((2.5, 2.5)));
+        assert_eq!(sqrt(1e-300), None);
+    }
+}

@@ -1,0 +1,374 @@
+//! From expressions to straight-line code, in four steps: n-ary operations grouped by stage
+//! (`flat`), what they share taken out (`share`), binary operations (`lower`), and fewer changes of sign (`signs`).
+//!
+//! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that
+//! outputs have in common are one value all the same. So an output costs the same beside others as
+//! alone.
+
+mod flat;
+mod lower;
+mod share;
+mod signs;
+
+use std::collections::BTreeMap;
+
+use flat::{Flat, Grouping, Item, Scaling};
+use lower::Builder;
+use share::Scope;
+
+use crate::fusion::Fusion;
+use crate::program::{Instr, Key, Program, Value};
+use mms_symbolic::expr::Stage;
+use mms_symbolic::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
+
+/// What operations cost: those that depend on X first, since they are done at every point, then
+/// all; of two that are alike in both, the one that leaves less to t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Cost {
+    /// Operations of the stages Point and PointTime.
+    pub per_point: usize,
+    /// Operations of all stages.
+    pub total: usize,
+    /// Operations of the stage PointTime: all that is left to whoever keeps what X determines.
+    pub late: usize,
+}
+
+impl Cost {
+    /// Whether `other` is worth taking in place of this, where an operation that needs t counts twice: those who keep what
+    /// X determines do it too. Those who do not shall have about as much to do as before.
+    pub fn is_worth(self, other: Cost) -> bool {
+        let weight = |cost: Cost| cost.per_point + cost.late;
+        self.is_about(other) && weight(other) + 2 * WORTH_APART <= weight(self)
+    }
+
+    /// Whether `other` is no more than this at a point, or about as much.
+    fn is_about(self, other: Cost) -> bool {
+        let more = other.per_point.saturating_sub(self.per_point);
+        ROOM * more <= self.per_point
+    }
+}
+
+/// What an output takes, in one function of a position, where a product that is added takes no step of its own: steps at a
+/// point first, then operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Steps {
+    /// Steps of the stages Point and PointTime.
+    pub per_point: usize,
+    /// Operations.
+    pub cost: Cost,
+    /// Steps of the stage PointTime.
+    pub late: usize,
+}
+
+impl Steps {
+    /// Whether `other` has fewer steps than this, no more of them that need t, about as many operations at a point, and
+    /// no more elsewhere than the steps are worth that it spares.
+    pub fn is_worth(self, other: Steps) -> bool {
+        let spared = self.per_point.saturating_sub(other.per_point);
+        let once = |cost: Cost| cost.total - cost.per_point;
+        spared > 0
+            && other.late <= self.late
+            && self.cost.is_about(other.cost)
+            && once(other.cost) <= once(self.cost) + ONCE_FOR_EVERY_POINT * spared
+    }
+}
+
+/// How many operations at a point must be saved before an output is written in a way of its own: it has less in common
+/// with others then.
+const WORTH_APART: usize = 2;
+
+/// Of how many operations that depend on X one more is about as much.
+const ROOM: usize = 16;
+
+/// The program of `outputs`, without anything that they do not need.
+pub fn schedule<K: Key>(graph: &Graph, outputs: &BTreeMap<K, Vec<Expr>>) -> Program<K> {
+    let mut builder = Builder::default();
+    let outputs = outputs
+        .iter()
+        .map(|(output, components)| {
+            let (flat, roots) = cheapest_of_all(graph, components);
+            (*output, builder.lower(&flat, &roots))
+        })
+        .collect();
+    let program = in_stage_order(Program { instrs: builder.instrs, outputs });
+    in_stage_order(signs::carried(program))
+}
+
+/// The program of `outputs` as their expressions stand: nothing is shared but equal expressions. Where the budget is spent,
+/// what is left has no value.
+pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &BTreeMap<K, Vec<Expr>>) -> Program<K> {
+    let mut builder = Builder::default();
+    let outputs = outputs
+        .iter()
+        .map(|(output, components)| {
+            let (flat, roots) = match graph.work().is_over() {
+                true => Flat::void(components.len()),
+                false => {
+                    let all = (&graph.reachable(components)[..], &components[..]);
+                    Flat::new(graph, all, Grouping::Staged, Scaling::Factors)
+                }
+            };
+            graph.work().spend(STEPS_OF_OPERAND * flat.forms.len() as u64);
+            (*output, builder.lower(&flat, &roots))
+        })
+        .collect();
+    in_stage_order(Program { instrs: builder.instrs, outputs })
+}
+
+/// How many operations that are done once may save one at every point.
+const ONCE_FOR_EVERY_POINT: usize = 8;
+
+/// What the components of one output cost, at most: more ways are tried of what is emitted.
+pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
+    let scopes = [Scope::Made];
+    let ways = written(graph, components, Scaling::Factors, &scopes);
+    let (flat, roots) = cheapest(graph, &ways, &scopes);
+    cost_of(&flat, &roots)
+}
+
+/// What the components of one output take, in steps.
+pub fn steps(graph: &Graph, components: &[Expr]) -> Steps {
+    let (flat, roots) = cheapest_of_all(graph, components);
+    let mut builder = Builder::default();
+    let roots = builder.lower(&flat, &roots);
+    let needed = vec![true; builder.instrs.len()];
+    let steps = |stages: &[Stage]| {
+        let fusion = Fusion::new(&builder.instrs, &roots, &needed, stages);
+        counted(&builder, stages) - fusion.absorbed.iter().filter(|absorbed| **absorbed).count()
+    };
+    Steps {
+        per_point: steps(&AT_POINTS),
+        cost: cost_in(&builder),
+        late: steps(&[Stage::PointTime]),
+    }
+}
+
+/// What it takes to write an operand down and to make an operation with it.
+const STEPS_OF_OPERAND: u64 = 50;
+
+/// A way to write components down, with the items of these.
+type Way = (Flat, Vec<Item>);
+
+/// Components as n-ary operations, with what needs X apart from what needs t too and, where that differs, together.
+fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope]) -> Vec<Way> {
+    let reached = graph.reachable(components);
+    let new = |grouping| Flat::new(graph, (&reached, components), grouping, scaling);
+    let mut ways = vec![new(Grouping::Staged)];
+    let flat = &ways[0].0;
+    let operands = flat.forms.iter().map(|form| 1 + form.size() as u64).sum::<u64>();
+    graph.work().spend(STEPS_OF_OPERAND * (2 + 2 * scopes.len() as u64) * operands);
+    if graph.work().is_over() {
+        return ways;
+    }
+    graph.work().spend(STEPS_OF_NODE * reached.len() as u64);
+    let joint = flat.is_grouped.then(|| new(Grouping::Joint));
+    let joint = joint.filter(|joint| joint.0.forms != flat.forms);
+    ways.extend(joint);
+    ways
+}
+
+/// The cheapest way to compute what was written down; of equals, the first.
+fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> Way {
+    let (plain, work) = (&written[0], graph.work());
+    if work.is_over() {
+        return plain.clone();
+    }
+    let mut best: Option<(Cost, Way)> = None;
+    let mut spent = vec![0; written.len()];
+    for scope in scopes {
+        for (way, spent) in written.iter().zip(&mut spent) {
+            // Where all that was made is needed, both scopes come to the same.
+            if *scope == Scope::Needed && *spent > 0 && is_needed(way) {
+                work.spend(*spent);
+                continue;
+            }
+            let before = work.left();
+            let (mut flat, roots) = way.clone();
+            share::share(&mut flat, &roots, *scope, work);
+            *spent = before - work.left();
+            let cost = cost_of(&flat, &roots);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, (flat, roots)));
+            }
+        }
+    }
+    match best {
+        Some((cost, best)) if cost <= cost_of(&plain.0, &plain.1) => best,
+        _ => plain.clone(),
+    }
+}
+
+/// Whether the roots need all operations.
+fn is_needed((flat, roots): &Way) -> bool {
+    let needed = reachable(roots, Item::index, |item| flat.form(item).operands());
+    needed.len() == flat.forms.len()
+}
+
+/// The cheapest way, numbers moved into sums where that saves operations at a point. It seldom does, so it is tried of
+/// what is emitted and of what comes close to it, and not of all that is compared.
+fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
+    let scopes = [Scope::Made, Scope::Needed];
+    let before = graph.work().left();
+    let unscaled = written(graph, components, Scaling::Factors, &scopes);
+    let plain = cheapest(graph, &unscaled, &scopes);
+    if graph.work().is_over() {
+        return plain;
+    }
+    if unscaled.iter().all(|(flat, _)| !flat.is_scalable) {
+        graph.work().spend(before - graph.work().left());
+        return plain;
+    }
+    let scaled = written(graph, components, Scaling::Sums, &scopes);
+    let scaled = cheapest(graph, &scaled, &scopes);
+    let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
+    let saved = cost.per_point.saturating_sub(other.per_point);
+    let is_worth_it =
+        saved >= WORTH_APART && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
+    if is_worth_it { scaled } else { plain }
+}
+
+fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
+    let mut builder = Builder::default();
+    builder.lower(flat, roots);
+    cost_in(&builder)
+}
+
+/// The stages of what is done at every point.
+const AT_POINTS: [Stage; 2] = [Stage::Point, Stage::PointTime];
+
+/// What all that was lowered costs.
+fn cost_in(builder: &Builder) -> Cost {
+    Cost {
+        per_point: counted(builder, &AT_POINTS),
+        total: counted(builder, &Stage::ALL),
+        late: counted(builder, &[Stage::PointTime]),
+    }
+}
+
+/// How many operations of these stages were lowered.
+fn counted(builder: &Builder, stages: &[Stage]) -> usize {
+    let instrs = builder.instrs.iter();
+    instrs.filter(|instr| instr.op.is_counted() && stages.contains(&instr.stage)).count()
+}
+
+/// Drops what no output needs, and sorts by stage; within a stage the order stays.
+fn in_stage_order<K: Key>(program: Program<K>) -> Program<K> {
+    let all: Vec<K> = program.outputs.keys().copied().collect();
+    let needed = program.needed(&all);
+    let mut order: Vec<usize> = (0..program.instrs.len()).filter(|index| needed[*index]).collect();
+    order.sort_by_key(|index| program.instrs[*index].stage);
+    let mut renamed = vec![Value(0); program.instrs.len()];
+    for (new, old) in order.iter().enumerate() {
+        renamed[*old] = Value(new as u32);
+    }
+    let rename = |value: Value| renamed[value.index()];
+    Program {
+        instrs: order
+            .into_iter()
+            .map(|old| Instr {
+                op: program.instrs[old].op.map(rename),
+                stage: program.instrs[old].stage,
+            })
+            .collect(),
+        outputs: program
+            .outputs
+            .into_iter()
+            .map(|(output, values)| (output, values.into_iter().map(rename).collect()))
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interpret::{Interpreter, Point};
+    use crate::program::Op;
+    use mms_symbolic::expr::{Rational, Symbol};
+
+    /// 256 X (a X + t Y) and 256 Y (a Y + t X); `bare` of them without a.
+    fn components(graph: &mut Graph, bare: bool) -> Vec<Expr> {
+        let a = graph.symbol(Symbol::Parameter(0));
+        let t = graph.symbol(Symbol::Time);
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let mut component = |x: Expr, y: Expr| {
+            let first = if bare { x } else { graph.mul(a, x) };
+            let second = graph.mul(t, y);
+            let sum = graph.add(first, second);
+            let product = graph.mul(x, sum);
+            graph.scale(product, 256)
+        };
+        vec![component(x, y), component(y, x)]
+    }
+
+    fn scheduled(bare: bool) -> (usize, Vec<f64>) {
+        let mut graph = Graph::default();
+        let components = components(&mut graph, bare);
+        let output = 0;
+        let program = schedule(&graph, &BTreeMap::from([(output, components)]));
+        let operations = program.operations(&[output]);
+        let mut interpreter = Interpreter::new(&program, &[0.75]);
+        interpreter.set_time(&0.5);
+        interpreter.set_point(&interpreter.plan(&[output]), Point::at(&[1.5, -0.25]));
+        let at_point = operations[&Stage::Point] + operations[&Stage::PointTime];
+        (at_point, interpreter.output(output))
+    }
+
+    #[test]
+    fn numbers_move_into_sums_where_that_costs_nothing_at_a_point() {
+        // Each: two products, a sum and X times it. What else there is depends on no X.
+        assert_eq!(scheduled(false), (8, vec![384.0, -36.0]));
+        // A term without an early factor leaves 256 at the point.
+        assert_eq!(scheduled(true).0, 8);
+    }
+
+    /// The operations of the one output that is scheduled for an expression, outputs last.
+    fn operations(graph: &Graph, root: Expr) -> Vec<Op> {
+        let program = schedule(graph, &BTreeMap::from([(0, vec![root])]));
+        program.instrs.into_iter().map(|instr| instr.op).collect()
+    }
+
+    #[test]
+    fn products_of_points_are_added_to_constants_and_differences_of_coordinates_are_not() {
+        let mut graph = Graph::default();
+        let a = graph.symbol(Symbol::Parameter(0));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
+        let last_two = |graph: &Graph, root: Expr| {
+            let operations = operations(graph, root);
+            operations[operations.len() - 2..].to_vec()
+        };
+        // (x - y) + a: the difference is exact where x and y are large.
+        let root = graph.sum([(a, one.clone()), (x, one.clone()), (y, minus_one.clone())]);
+        assert!(matches!(last_two(&graph, root)[..], [Op::Subtract(..), Op::Add(..)]));
+        // (a + x^2) - y^2: two multiply-adds.
+        let [x, y] = [x, y].map(|it| graph.mul(it, it));
+        let root = graph.sum([(a, one.clone()), (x, one), (y, minus_one)]);
+        assert!(matches!(last_two(&graph, root)[..], [Op::Add(..), Op::Subtract(..)]));
+    }
+
+    #[test]
+    fn what_x_determines_is_divided_before_it_is_multiplied_by_parameters() {
+        let mut graph = Graph::default();
+        let a = graph.symbol(Symbol::Parameter(0));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let factors = [(a, Rational::ONE), (x, Rational::ONE), (y, Rational::NEG_ONE)];
+        let root = graph.product(factors);
+        let operations = operations(&graph, root);
+        assert!(matches!(operations[3..], [Op::Divide(..), Op::Multiply(..)]), "{operations:?}");
+    }
+
+    #[test]
+    fn fewer_steps_are_not_bought_with_more_at_each_time_or_elsewhere() {
+        let cost = Cost { per_point: 32, total: 40, late: 16 };
+        let before = Steps { per_point: 20, cost, late: 10 };
+        let better = Steps { per_point: 19, ..before };
+        assert!(before.is_worth(better));
+        assert!(!before.is_worth(before));
+        assert!(!before.is_worth(Steps { late: 11, ..better }));
+        let with = |per_point, total| Steps { cost: Cost { per_point, total, late: 16 }, ..better };
+        // A sixteenth more operations, and eight that are done once.
+        assert!(before.is_worth(with(34, 50)));
+        assert!(!before.is_worth(with(35, 51)));
+        assert!(!before.is_worth(with(34, 51)));
+    }
+}

@@ -1,0 +1,112 @@
+//! What follows from P and Div P: the other measures of stress, the body force, what the present
+//! configuration has per volume, the traction.
+
+use super::abbreviate::LINE;
+use super::motion::{Formulas, Quantities, transpose};
+use super::name::Name;
+use super::reading::{Reading, Role};
+use super::stress::{dot, matrix_product};
+use mms_codegen::compile::Compiled;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Expr;
+
+/// rho0, by name where it is long.
+pub(super) fn density(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Expr {
+    let formula = &compiled.field.material.density;
+    let value = formulas.read(reading, formula, compiled.model.density);
+    reading.named(Name::plain("rho0"), value, "material")
+}
+
+/// sigma, tau and P^T. They come after P and before Div P, as everywhere.
+pub(super) fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
+    let dimension = quantities.dimension;
+    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
+    let deformation = quantities.components(reading, Quantity::DeformationGradient);
+    let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
+    let transposed = transpose(&first, dimension);
+    quantities.add(reading, compiled, Quantity::NominalStress, &transposed);
+    let columns = transpose(&deformation, dimension);
+    let kirchhoff = matrix_product(reading, &first, &columns, dimension);
+    let cauchy: Vec<Expr> =
+        kirchhoff.iter().map(|component| reading.graph.div(*component, jacobian)).collect();
+    quantities.add(reading, compiled, Quantity::CauchyStress, &cauchy);
+    quantities.add(reading, compiled, Quantity::KirchhoffStress, &kirchhoff);
+}
+
+/// b = a - Div P/rho0 and rho0 b, written out where that fits on a line.
+pub(super) fn balance(
+    reading: &mut Reading,
+    compiled: &Compiled,
+    quantities: &mut Quantities,
+    density: Expr,
+) {
+    let acceleration = quantities.components(reading, Quantity::Acceleration);
+    let divergence = quantities.components(reading, Quantity::DivP);
+    let specific = |reading: &mut Reading, [acceleration, divergence]: [Expr; 2]| {
+        let part = reading.graph.div(divergence, density);
+        reading.graph.sub(acceleration, part)
+    };
+    let per_volume = |reading: &mut Reading, [acceleration, divergence]: [Expr; 2]| {
+        let inertia = reading.graph.mul(density, acceleration);
+        reading.graph.sub(inertia, divergence)
+    };
+    type Balance<'a> = &'a dyn Fn(&mut Reading, [Expr; 2]) -> Expr;
+    let forms: [(Quantity, Balance<'_>); 2] =
+        [(Quantity::BodyForce, &specific), (Quantity::BodyForceDensity, &per_volume)];
+    for (quantity, form) in forms {
+        let mut values = Vec::new();
+        let mut shown = Vec::new();
+        for (row, pair) in acceleration.iter().zip(&divergence).enumerate() {
+            let value = form(reading, [*pair.0, *pair.1]);
+            values.push(value);
+            let written_out = [Quantity::Acceleration, Quantity::DivP]
+                .map(|quantity| reading.entries[quantities.ids(quantity)[row]].value);
+            let whole = form(reading, written_out);
+            let whole = reading.tidy(whole);
+            shown.push(if reading.length(whole) <= LINE { whole } else { value });
+        }
+        quantities.add(reading, compiled, quantity, &values);
+        quantities.show(reading, quantity, &shown);
+    }
+}
+
+/// rho = rho0/J, div sigma = Div P/J and rho b = rho0 b/J.
+pub(super) fn current(
+    reading: &mut Reading,
+    compiled: &Compiled,
+    quantities: &mut Quantities,
+    density: Expr,
+) {
+    let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
+    let divergence = quantities.components(reading, Quantity::DivP);
+    let force = quantities.components(reading, Quantity::BodyForceDensity);
+    for (quantity, reference) in [
+        (Quantity::MassDensity, vec![density]),
+        (Quantity::DivSigma, divergence),
+        (Quantity::CurrentBodyForceDensity, force),
+    ] {
+        let values: Vec<Expr> =
+            reference.into_iter().map(|value| reading.graph.div(value, jacobian)).collect();
+        quantities.add(reading, compiled, quantity, &values);
+    }
+}
+
+/// T = P N.
+pub(super) fn traction(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
+    let dimension = quantities.dimension;
+    let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
+    let zero = reading.graph.number(0);
+    let normal: Vec<Expr> = (0..dimension)
+        .map(|axis| {
+            let index = if dimension == 1 { String::new() } else { (axis + 1).to_string() };
+            let name = reading.taken.fresh(Name::indexed("N", index), "derived");
+            let id = reading.push(name, zero, Role::Given);
+            reading.leaf(id)
+        })
+        .collect();
+    let traction: Vec<Expr> = first
+        .chunks(dimension)
+        .map(|row| dot(reading, row.iter().copied().zip(normal.iter().copied()).collect()))
+        .collect();
+    quantities.add(reading, compiled, Quantity::Traction, &traction);
+}

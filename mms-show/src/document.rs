@@ -1,0 +1,271 @@
+//! What there is to show of a field, in the order in which a person would write it. It holds
+//! expressions and names; how they look is for the notations to say.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::energy::energy_of_file;
+use super::motion::{Formulas, Quantities};
+use super::name::Name;
+use super::reading::{Id, Reading, Role};
+use super::stress;
+use super::walk::{Notation, write};
+use mms_analysis::visibility::Visibility;
+use mms_codegen::compile::Compiled;
+use mms_mechanics::Output;
+use mms_mechanics::TooLarge;
+use mms_mechanics::invariant::Kind;
+use mms_program::Stage;
+use mms_spec::Formula;
+use mms_spec::foreign::Foreign;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Graph};
+
+/// Names that stand for one value.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// What stands on the left; several where they are equal.
+    pub left: Vec<Name>,
+    /// What stands on the right.
+    pub value: Expr,
+}
+
+/// A quantity and its components.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// How many operations its program has, by stage; stages without any are left out.
+    pub operations: Vec<(Stage, usize)>,
+    /// What its formulas use that has not been listed above.
+    pub whereby: Vec<Line>,
+    /// Its components, equal ones on one line.
+    pub lines: Vec<Line>,
+    /// Its components one by one, row-major.
+    pub components: Vec<Line>,
+}
+
+/// The material of a field.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The stem of its file.
+    pub name: Foreign,
+    /// What it is, in a few words.
+    pub title: Foreign,
+    /// Which invariants W is a function of.
+    pub kind: Kind,
+    /// W in the parameters of the material and in the invariants, after the parts that it is put
+    /// together from.
+    pub energy: Vec<Line>,
+    /// What the arguments and the density use that is no definition of the field.
+    pub whereby: Vec<Line>,
+    /// What the field sets the parameters of the material to.
+    pub arguments: Vec<Line>,
+    /// The density `rho0`.
+    pub density: Vec<Line>,
+}
+
+/// The derivation of a field.
+pub struct Document {
+    /// The name of the field.
+    pub name: Foreign,
+    /// What it is, in a few words.
+    pub title: Foreign,
+    /// Where it comes from.
+    pub reference: Option<Foreign>,
+    /// The dimension of space.
+    pub dimension: usize,
+    /// The material.
+    pub material: Material,
+    /// The definitions of the field file, in order.
+    pub definitions: Vec<Line>,
+    /// The quantities asked for, in the order of derivation.
+    pub sections: Vec<Section>,
+    /// Faces with what is claimed there.
+    pub claims: Vec<(&'static str, &'static str)>,
+    /// What the field can see of the equations, where that is to be shown.
+    pub visibility: Option<Visibility>,
+    reading: Reading,
+}
+
+impl std::fmt::Debug for Document {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Document").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl Document {
+    /// The derivation of a field, as far as the given quantities are concerned. An error where it
+    /// has more terms than a graph may hold.
+    pub fn new(compiled: &Compiled, asked: &[Quantity]) -> Result<Self, TooLarge> {
+        let mut reading = Reading::new(compiled);
+        let formulas = Formulas::new(&mut reading, compiled);
+        let defined = 0..reading.entries.len();
+        let mut quantities = Quantities::motion(&mut reading, compiled, &formulas);
+        stress::derive(&mut reading, compiled, &formulas, &mut quantities);
+        let mut listing = Listing { reading, listed: BTreeSet::new(), fitted: BTreeSet::new() };
+        let mut definitions = Vec::new();
+        for id in defined {
+            definitions.extend(listing.up_to([id].into()));
+        }
+        let material = listing.material(compiled, &formulas);
+        let asked = Quantity::ALL.iter().copied().filter(|quantity| asked.contains(quantity));
+        let sections =
+            asked.map(|quantity| listing.section(compiled, &quantities, quantity)).collect();
+        let reading = listing.reading;
+        if reading.graph.is_exhausted() {
+            return Err(TooLarge("derivation to be shown"));
+        }
+        let field = &compiled.field;
+        let claim =
+            |spec: &mms_spec::BoundarySpec| (spec.face.value.name(), spec.claim.value.name());
+        Ok(Document {
+            name: field.name.clone(),
+            title: field.title.clone(),
+            reference: field.reference.clone(),
+            dimension: field.dimension,
+            material,
+            definitions,
+            sections,
+            claims: field.boundary.iter().map(claim).collect(),
+            visibility: None,
+            reading,
+        })
+    }
+
+    /// The graph of all values.
+    pub fn graph(&self) -> &Graph {
+        &self.reading.graph
+    }
+
+    /// Whether a line says that a name is itself.
+    pub fn is_identity(&self, line: &Line) -> bool {
+        let value = self.reading.identifier(line.value);
+        line.left.iter().all(|name| value.as_deref() == Some(&name.identifier()))
+    }
+
+    /// A value in a notation.
+    pub fn formula(&self, value: Expr, notation: &dyn Notation) -> String {
+        write(&self.reading.graph, value, &self.reading, notation)
+    }
+}
+
+/// Puts down what has been derived, each thing before it is used and only once.
+struct Listing {
+    reading: Reading,
+    listed: BTreeSet<Id>,
+    /// Entries whose formulas fit on a line.
+    fitted: BTreeSet<Id>,
+}
+
+impl Listing {
+    fn material(&mut self, compiled: &Compiled, formulas: &Formulas) -> Material {
+        let spec = &compiled.field.material;
+        let energy = energy_of_file(&mut self.reading, compiled);
+        let mut whereby = Vec::new();
+        let mut line = |listing: &mut Self, name: &str, formula: &Formula| {
+            let value = formulas.read_alone(&mut listing.reading, formula)?;
+            let mut lines = listing.alone(name, value);
+            let last = lines.pop();
+            whereby.extend(lines);
+            last
+        };
+        let arguments = spec.arguments.iter();
+        let arguments =
+            arguments.filter_map(|(name, formula)| line(self, &name.value, formula)).collect();
+        let density = line(self, "rho0", &spec.density).into_iter().collect();
+        Material {
+            name: spec.model.value.clone(),
+            title: compiled.material.title.clone(),
+            kind: compiled.model.kind.clone(),
+            energy: energy.map(|energy| self.alone("W", energy)).unwrap_or_default(),
+            whereby,
+            arguments,
+            density,
+        }
+    }
+
+    /// The line of something that is no entry, after what it uses.
+    fn alone(&mut self, name: &str, value: Expr) -> Vec<Line> {
+        let value = self.reading.abbreviated(&[value])[0];
+        let mut lines = self.up_to(self.reading.entries_in(value));
+        lines.push(Line { left: vec![Name::plain(name)], value });
+        lines
+    }
+
+    fn section(
+        &mut self,
+        compiled: &Compiled,
+        quantities: &Quantities,
+        quantity: Quantity,
+    ) -> Section {
+        let ids = quantities.ids(quantity);
+        self.fit(ids);
+        let used: BTreeSet<Id> = ids
+            .iter()
+            .flat_map(|id| self.reading.entries_in(self.reading.entries[*id].shown))
+            .collect();
+        let whereby = self.up_to(used);
+        self.listed.extend(ids);
+        let components: Vec<Line> = ids.iter().map(|id| self.line(*id)).collect();
+        let counts = compiled.program.operations(&[Output::Quantity(quantity)]);
+        let operations = Stage::ALL.iter().map(|stage| (*stage, counts[stage]));
+        Section {
+            quantity,
+            operations: operations.filter(|(_, count)| *count != 0).collect(),
+            whereby,
+            lines: grouped(&components),
+            components,
+        }
+    }
+
+    /// Shortens the formulas of entries that belong together.
+    fn fit(&mut self, ids: &[Id]) {
+        let new: Vec<Id> = ids.iter().copied().filter(|id| self.fitted.insert(*id)).collect();
+        let shown: Vec<Expr> = new.iter().map(|id| self.reading.entries[*id].shown).collect();
+        let fitting = self.reading.abbreviated(&shown);
+        for (id, shown) in new.into_iter().zip(fitting) {
+            self.reading.entries[id].shown = shown;
+        }
+    }
+
+    /// The lines of these entries and of all that they use, as far as they have not been listed.
+    fn up_to(&mut self, wanted: BTreeSet<Id>) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let mut open: Vec<(Id, bool)> = wanted.into_iter().rev().map(|id| (id, false)).collect();
+        while let Some((id, is_ready)) = open.pop() {
+            if is_ready {
+                lines.push(self.line(id));
+                continue;
+            }
+            if self.reading.entries[id].role == Role::Given || !self.listed.insert(id) {
+                continue;
+            }
+            self.fit(&[id]);
+            open.push((id, true));
+            let used = self.reading.entries_in(self.reading.entries[id].shown);
+            open.extend(used.into_iter().rev().map(|id| (id, false)));
+        }
+        lines
+    }
+
+    fn line(&self, id: Id) -> Line {
+        let entry = &self.reading.entries[id];
+        Line { left: vec![entry.name.clone()], value: entry.shown }
+    }
+}
+
+/// Lines of one value as one line, in the order of the first.
+fn grouped(lines: &[Line]) -> Vec<Line> {
+    let mut places = BTreeMap::<Expr, usize>::new();
+    let mut grouped: Vec<Line> = Vec::new();
+    for line in lines {
+        match places.get(&line.value) {
+            Some(place) => grouped[*place].left.extend(line.left.iter().cloned()),
+            None => {
+                places.insert(line.value, grouped.len());
+                grouped.push(line.clone());
+            }
+        }
+    }
+    grouped
+}

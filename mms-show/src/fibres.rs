@@ -1,0 +1,60 @@
+//! The fibres of a material that is a function of I4, by name.
+
+use super::motion::{Formulas, Quantities};
+use super::name::Name;
+use super::reading::Reading;
+use super::stress::dot;
+use mms_codegen::compile::Compiled;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Expr;
+
+/// A direction in the reference body, and what becomes of it.
+pub(super) struct Fibres {
+    /// a0, along the dimensions that the field has.
+    pub direction: Vec<Expr>,
+    /// F a0, along the same.
+    pub present: Vec<Expr>,
+    /// I4 = F a0 . F a0, in space.
+    pub stretch: Expr,
+}
+
+impl Fibres {
+    /// The fibres of a field; `None` where its material has none.
+    pub fn read(
+        reading: &mut Reading,
+        compiled: &Compiled,
+        formulas: &Formulas,
+        quantities: &Quantities,
+    ) -> Option<Self> {
+        let derived = compiled.model.fibre.as_ref()?;
+        let typed = compiled.field.material.fibre.as_ref()?;
+        let dimension = quantities.dimension;
+        let all: Vec<Expr> = typed
+            .iter()
+            .zip(derived)
+            .enumerate()
+            .map(|(axis, (formula, derived))| {
+                let value = formulas.read(reading, formula, *derived);
+                let name = Name::indexed("fibre", (axis + 1).to_string());
+                reading.named(name, value, "derived")
+            })
+            .collect();
+        let (direction, missing) = all.split_at(dimension);
+        let deformation = quantities.components(reading, Quantity::DeformationGradient);
+        let present: Vec<Expr> = deformation
+            .chunks(dimension)
+            .enumerate()
+            .map(|(axis, row)| {
+                let pairs = row.iter().copied().zip(direction.iter().copied());
+                let value = dot(reading, pairs.collect());
+                let name = Name::indexed("f", (axis + 1).to_string());
+                reading.named(name, value, "derived")
+            })
+            .collect();
+        // Along a dimension that the field lacks, a fibre stays as it is.
+        let squares = present.iter().chain(missing).map(|component| (*component, *component));
+        let stretch = dot(reading, squares.collect());
+        let stretch = reading.named(Name::plain("I4"), stretch, "derived");
+        Some(Fibres { direction: direction.to_vec(), present, stretch })
+    }
+}

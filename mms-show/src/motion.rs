@@ -1,0 +1,256 @@
+//! The formulas of the field file with its own names kept, and the motion that follows from them.
+
+use std::collections::BTreeMap;
+
+use super::name::{Along, Name};
+use super::reading::{Id, Reading, Role};
+use super::rigid::moved;
+use super::stress::matrix_product;
+use mms_codegen::compile::Compiled;
+use mms_mechanics::resolve::Scope;
+use mms_spec::quantity::Quantity;
+use mms_spec::syntax;
+use mms_spec::{Formula, LetSpec};
+use mms_symbolic::expr::{Expr, Rational, Symbol};
+use mms_symbolic::pass::substitute::substitute;
+
+/// The longest formula that is repeated in place of the name of what it says: F_11 is written out
+/// where it is short, and is 1 + H_11 where it is not.
+const REPEATABLE: usize = 60;
+
+/// How the formulas of the field file are read.
+pub(super) struct Formulas {
+    /// Names stand for their entries.
+    typed: Scope,
+    /// Names stand for what they are defined as.
+    expanded: Scope,
+    /// What each entry of a definition stands for.
+    definitions: BTreeMap<Symbol, Expr>,
+}
+
+impl Formulas {
+    /// Reads the definitions of a field.
+    pub fn new(reading: &mut Reading, compiled: &Compiled) -> Self {
+        let (typed, expanded) = (Scope::default(), Scope::default());
+        let mut formulas = Formulas { typed, expanded, definitions: BTreeMap::new() };
+        let pi = reading.graph.pi();
+        formulas.define("pi", pi);
+        formulas.given("t", Symbol::Time, reading);
+        for (axis, name) in ["X", "Y", "Z"].iter().take(compiled.field.dimension).enumerate() {
+            formulas.given(name, Symbol::Coordinate(axis), reading);
+        }
+        for (index, parameter) in compiled.model.parameters.iter().enumerate() {
+            formulas.given(&parameter.name, Symbol::Parameter(index), reading);
+        }
+        for definition in &compiled.field.lets {
+            formulas.definition(reading, definition);
+        }
+        formulas
+    }
+
+    fn define(&mut self, name: &str, value: Expr) {
+        self.typed.define(name, Some(value));
+        self.expanded.define(name, Some(value));
+    }
+
+    fn given(&mut self, name: &str, symbol: Symbol, reading: &mut Reading) {
+        let leaf = reading.graph.symbol(symbol);
+        self.define(name, leaf);
+        // The field compiled: what had to be positive was shown to be.
+        self.typed.assume_positive(symbol);
+        self.expanded.assume_positive(symbol);
+    }
+
+    fn definition(&mut self, reading: &mut Reading, definition: &LetSpec) {
+        let name = &definition.name.value;
+        let expanded = resolved(reading, &self.expanded, &definition.value);
+        self.expanded.define(name, expanded);
+        let Some(expanded) = expanded else { return };
+        let value = resolved(reading, &self.typed, &definition.value).unwrap_or(expanded);
+        let id = reading.push(Name::plain(name.as_str()), value, Role::Definition);
+        let leaf = reading.leaf(id);
+        // A number is folded where it is used: it may be an exponent.
+        let is_number = reading.graph.as_number(expanded).is_some();
+        self.typed.define(name, Some(if is_number { expanded } else { leaf }));
+        self.typed.assume_positive(reading.symbol(id));
+        self.definitions.insert(reading.symbol(id), expanded);
+    }
+
+    /// A formula as it was typed; `derived` is what the model makes of it, and what is taken where
+    /// the two are not the same.
+    pub fn read(&self, reading: &mut Reading, formula: &Formula, derived: Expr) -> Expr {
+        let Some(typed) = resolved(reading, &self.typed, formula) else { return derived };
+        let expanded = substitute(&mut reading.graph, &[typed], &self.definitions)[0];
+        if expanded == derived { typed } else { derived }
+    }
+
+    /// A formula as it was typed, of which the model holds no expression of its own.
+    pub fn read_alone(&self, reading: &mut Reading, formula: &Formula) -> Option<Expr> {
+        resolved(reading, &self.typed, formula)
+            .or_else(|| resolved(reading, &self.expanded, formula))
+    }
+
+    /// The expression with every definition replaced by what it stands for.
+    pub fn expand(&self, reading: &mut Reading, expr: Expr) -> Expr {
+        substitute(&mut reading.graph, &[expr], &self.definitions)[0]
+    }
+}
+
+/// A formula that has been resolved without a mistake before.
+pub(super) fn resolved(reading: &mut Reading, scope: &Scope, formula: &Formula) -> Option<Expr> {
+    let mut diagnostics = Vec::new();
+    let ast = syntax::parse(formula, &mut diagnostics)?;
+    scope.resolve(&mut reading.graph, &ast, &mut diagnostics)
+}
+
+/// The quantities that have been derived: the entries of their components.
+pub(super) struct Quantities {
+    pub dimension: usize,
+    ids: BTreeMap<Quantity, Vec<Id>>,
+}
+
+impl Quantities {
+    /// u, x, v, a, H, F, C, B and E.
+    pub fn motion(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
+        let dimension = compiled.field.dimension;
+        let mut quantities = Quantities { dimension, ids: BTreeMap::new() };
+        let displacement: Vec<Expr> = (compiled.field.displacement.iter())
+            .zip(&compiled.model.displacement)
+            .map(|(formula, derived)| formulas.read(reading, formula, *derived))
+            .collect();
+        let displacement = moved(reading, compiled, formulas, displacement);
+        quantities.add(reading, compiled, Quantity::Displacement, &displacement);
+        let position: Vec<Expr> = (0..dimension)
+            .map(|axis| {
+                let reference = reading.graph.symbol(Symbol::Coordinate(axis));
+                let name = quantities.component(reading, Quantity::Displacement, axis);
+                reading.graph.add(reference, name)
+            })
+            .collect();
+        quantities.add(reading, compiled, Quantity::Position, &position);
+        let velocity = derivatives(reading, &displacement, Along::Time);
+        quantities.add(reading, compiled, Quantity::Velocity, &velocity);
+        let acceleration = derivatives(reading, &velocity, Along::Time);
+        quantities.add(reading, compiled, Quantity::Acceleration, &acceleration);
+        let gradient: Vec<Expr> = (0..dimension * dimension)
+            .map(|k| {
+                let along = Along::Coordinate(k % dimension);
+                let slope = reading.derivative(displacement[k / dimension], along);
+                reading.tidy(slope)
+            })
+            .collect();
+        quantities.add(reading, compiled, Quantity::DisplacementGradient, &gradient);
+        quantities.deformation(reading, compiled, &gradient);
+        quantities.strain(reading, compiled);
+        quantities
+    }
+
+    /// C = F^T F, B = F F^T and E = (C - I)/2, in terms of the names of F and C.
+    fn strain(&mut self, reading: &mut Reading, compiled: &Compiled) {
+        let dimension = self.dimension;
+        let deformation = self.components(reading, Quantity::DeformationGradient);
+        let transposed = transpose(&deformation, dimension);
+        let right = matrix_product(reading, &transposed, &deformation, dimension);
+        self.add(reading, compiled, Quantity::RightCauchyGreen, &right);
+        let left = matrix_product(reading, &deformation, &transposed, dimension);
+        self.add(reading, compiled, Quantity::LeftCauchyGreen, &left);
+        let half = Rational::from_parts(1.into(), 2u8.into());
+        let right = self.symmetric(reading, Quantity::RightCauchyGreen);
+        let lagrange: Vec<Expr> = (right.into_iter().enumerate())
+            .map(|(k, component)| {
+                let identity = reading.graph.number(i32::from(k / dimension == k % dimension));
+                reading.graph.sum([(component, half.clone()), (identity, -half.clone())])
+            })
+            .collect();
+        self.add(reading, compiled, Quantity::GreenLagrange, &lagrange);
+    }
+
+    fn deformation(&mut self, reading: &mut Reading, compiled: &Compiled, gradient: &[Expr]) {
+        let dimension = self.dimension;
+        let mut deformation = Vec::new();
+        let mut shown = Vec::new();
+        for (k, slope) in gradient.iter().enumerate() {
+            let identity = reading.graph.number(i32::from(k / dimension == k % dimension));
+            let value = reading.graph.add(identity, *slope);
+            deformation.push(value);
+            let name = self.component(reading, Quantity::DisplacementGradient, k);
+            let by_name = reading.graph.add(identity, name);
+            let is_short = reading.length(value) <= REPEATABLE;
+            shown.push(if is_short { value } else { by_name });
+        }
+        self.add(reading, compiled, Quantity::DeformationGradient, &deformation);
+        self.show(reading, Quantity::DeformationGradient, &shown);
+    }
+
+    /// Adds a quantity. Where the derivation found a component to be a number, it is one.
+    pub fn add(
+        &mut self,
+        reading: &mut Reading,
+        compiled: &Compiled,
+        quantity: Quantity,
+        values: &[Expr],
+    ) {
+        let derived = compiled.derivation.quantities.get(&quantity);
+        let ids = values.iter().enumerate().map(|(k, value)| {
+            let found = derived.and_then(|components| components.get(k)).copied();
+            let number = found.filter(|found| compiled.graph.as_number(*found).is_some());
+            let name = Name::component(quantity, k, self.dimension);
+            let name = reading.taken.fresh(name, "derived");
+            reading.push(name, number.unwrap_or(*value), Role::Component(quantity))
+        });
+        let ids = ids.collect();
+        self.ids.insert(quantity, ids);
+    }
+
+    /// Sets what a reader is shown of a quantity, where that is not the value itself.
+    pub fn show(&self, reading: &mut Reading, quantity: Quantity, shown: &[Expr]) {
+        for (id, shown) in self.ids(quantity).iter().zip(shown) {
+            let is_number = reading.graph.as_number(reading.entries[*id].value).is_some();
+            if !is_number {
+                reading.entries[*id].shown = *shown;
+            }
+        }
+    }
+
+    /// The entries of a quantity's components, row-major; none before it is derived.
+    pub fn ids(&self, quantity: Quantity) -> &[Id] {
+        self.ids.get(&quantity).map_or(&[], Vec::as_slice)
+    }
+
+    /// The best name of a component: its value where that is a number or a name itself.
+    pub fn component(&self, reading: &mut Reading, quantity: Quantity, component: usize) -> Expr {
+        let id = self.ids(quantity)[component];
+        let value = reading.entries[id].value;
+        if reading.is_leaf(value) { value } else { reading.leaf(id) }
+    }
+
+    /// The names of all components of a symmetric tensor, each above the diagonal also for its
+    /// mirror image.
+    pub fn symmetric(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
+        let names = self.components(reading, quantity);
+        let dimension = self.dimension;
+        let above = |k: usize| {
+            let (row, column) = (k / dimension, k % dimension);
+            row.min(column) * dimension + row.max(column)
+        };
+        (0..names.len()).map(|k| names[above(k)]).collect()
+    }
+
+    /// The names of all components of a quantity.
+    pub fn components(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
+        (0..self.ids(quantity).len()).map(|k| self.component(reading, quantity, k)).collect()
+    }
+}
+
+/// The transpose of a square matrix, row-major.
+pub(super) fn transpose(matrix: &[Expr], dimension: usize) -> Vec<Expr> {
+    (0..matrix.len()).map(|k| matrix[k % dimension * dimension + k / dimension]).collect()
+}
+
+fn derivatives(reading: &mut Reading, values: &[Expr], along: Along) -> Vec<Expr> {
+    let derivative = |value: &Expr| {
+        let slope = reading.derivative(*value, along);
+        reading.tidy(slope)
+    };
+    values.iter().map(derivative).collect()
+}

@@ -1,0 +1,144 @@
+//! The order of a page, which is the same in every notation.
+
+use std::borrow::Cow;
+
+use super::document::{Document, Line};
+use super::name::Name;
+use super::relation::{Part, Setting, relation};
+use super::walk::Notation;
+use mms_analysis::visibility::{NEGLIGIBLE, POINTS, Status, Visibility};
+
+/// A part of a page, from top to bottom.
+pub(super) enum Block<'a> {
+    /// The name of the field, and what it is: as they are shown, as all texts of a page.
+    Title(String),
+    /// A sentence.
+    Note(String),
+    /// What comes next.
+    Heading {
+        /// A word.
+        name: &'a str,
+        /// What a quantity is.
+        relation: Option<&'static [Part]>,
+        /// More about it.
+        note: Option<String>,
+        /// What it costs to compute, which belongs on a screen and not on paper.
+        operations: Option<String>,
+    },
+    /// The word between a heading and what the formulas under it use.
+    Where,
+    /// Formulas.
+    Lines {
+        /// The formulas; never none.
+        lines: Cow<'a, [Line]>,
+        /// Whether they only serve those that follow.
+        is_where: bool,
+    },
+}
+
+/// The page of a document.
+pub(super) fn blocks(document: &Document) -> Vec<Block<'_>> {
+    let mut blocks = vec![Block::Title(title(document))];
+    blocks.extend(document.reference.iter().map(|it| Block::Note(it.shown())));
+    if !document.definitions.is_empty() {
+        blocks.push(heading("with"));
+        blocks.push(formulas(&document.definitions));
+    }
+    let material = &document.material;
+    let note = Some(format!("{}: {}", material.name.shown(), material.title.shown()));
+    blocks.push(Block::Heading { name: "material", relation: None, note, operations: None });
+    blocks.push(formulas(&material.energy));
+    blocks.push(formulas(&material.whereby));
+    // That a parameter of the material is the field's of the same name goes without saying.
+    let arguments = material.arguments.iter().chain(&material.density);
+    let arguments: Vec<Line> =
+        arguments.filter(|line| !document.is_identity(line)).cloned().collect();
+    blocks.push(Block::Lines { lines: arguments.into(), is_where: false });
+    for section in &document.sections {
+        blocks.push(Block::Heading {
+            name: section.quantity.name(),
+            relation: Some(relation(section.quantity, &document.material.kind)),
+            note: None,
+            operations: Some(operations(section)),
+        });
+        if !section.whereby.is_empty() {
+            blocks.push(Block::Where);
+            blocks.push(Block::Lines { lines: (&section.whereby).into(), is_where: true });
+        }
+        blocks.push(formulas(&section.lines));
+    }
+    if !document.claims.is_empty() {
+        blocks.push(heading("boundary claims"));
+        let claims = document.claims.iter();
+        blocks.extend(claims.map(|(face, claim)| Block::Note(format!("{face}: {claim}"))));
+    }
+    blocks.extend(document.visibility.iter().flat_map(visibility));
+    blocks.retain(|block| !matches!(block, Block::Lines { lines, .. } if lines.is_empty()));
+    blocks
+}
+
+/// The name of the field, and what it is.
+pub(super) fn title(document: &Document) -> String {
+    format!("{}: {}", document.name.shown(), document.title.shown())
+}
+
+/// What a field sees, and what it does not, the latter by how that is known.
+fn visibility(visibility: &Visibility) -> Vec<Block<'_>> {
+    let negligible = format!("no more than {NEGLIGIBLE:e} of its size at {POINTS} points");
+    let absent = |status, why: &str| {
+        let found = visibility.telling().filter(move |(_, found)| *found == status);
+        let lines = found.map(|(term, _)| format!("  {}: {}", term.words(), term.absence()));
+        let lines: Vec<_> = lines.collect();
+        let head = (!lines.is_empty()).then(|| format!("not seen, since {why}:"));
+        head.into_iter().chain(lines)
+    };
+    let named = |status, head: &str| {
+        let words: Vec<_> = visibility.with(status).map(|term| term.words()).collect();
+        (!words.is_empty()).then(|| format!("{head}: {}", words.join(", ")))
+    };
+    let notes = (named(Status::Present, "seen").into_iter())
+        .chain(absent(Status::Zero, "it is zero"))
+        .chain(absent(Status::Negligible, &negligible))
+        .chain(named(Status::Undecided, "without a value where it could be seen"));
+    let note = Some("what a field does not see, a solver may do wrong".to_string());
+    let head = Block::Heading { name: "visibility", relation: None, note, operations: None };
+    [head].into_iter().chain(notes.map(Block::Note)).collect()
+}
+
+fn heading(name: &str) -> Block<'_> {
+    Block::Heading { name, relation: None, note: None, operations: None }
+}
+
+fn formulas(lines: &[Line]) -> Block<'_> {
+    Block::Lines { lines: lines.into(), is_where: false }
+}
+
+fn operations(section: &super::Section) -> String {
+    let stages: Vec<_> = section
+        .operations
+        .iter()
+        .map(|(stage, count)| format!("{count} {}", stage.name()))
+        .collect();
+    let stages = if stages.is_empty() { "none".into() } else { stages.join(", ") };
+    format!("operations: {stages}")
+}
+
+/// The left-hand side of a line; that of a derivative says what it is a derivative of.
+pub(super) fn left<N: Notation + Setting>(line: &Line, notation: &N, equals: &str) -> String {
+    let mut sides = Vec::new();
+    for name in &line.left {
+        sides.push(notation.name(name));
+        if let Some((of, along)) = name.as_derivative() {
+            let mut by: Vec<(String, usize)> = Vec::new();
+            for along in along {
+                let variable = notation.name(&Name::plain(along.label()));
+                match by.last_mut().filter(|(last, _)| *last == variable) {
+                    Some((_, times)) => *times += 1,
+                    None => by.push((variable, 1)),
+                }
+            }
+            sides.push(notation.derivative(&notation.name(&of), &by));
+        }
+    }
+    sides.join(equals)
+}

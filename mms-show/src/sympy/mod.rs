@@ -1,0 +1,218 @@
+//! A script for an auditor: Python that derives every quantity once more, with SymPy, from the
+//! formulas of the field and its material as they were typed, and compares the values.
+
+mod python;
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::Output;
+use mms_mechanics::sample::{Sample, samples};
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::foreign::{Foreign, blanked};
+use mms_spec::quantity::Quantity;
+use mms_spec::syntax;
+use mms_spec::{Formula, RigidSpec, Rotation};
+
+use python::{Renamed, python};
+
+/// At how many points the values are compared.
+pub const POINTS: usize = 3;
+
+/// Points that are tried until [`POINTS`] are found where everything is defined.
+const TRIED: usize = 64;
+
+/// A field that is not defined where it should be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Undefined;
+
+/// The script of a field: prints a table of the largest differences, and exits with 1 if one of them
+/// is too large. It needs Python 3.10 and SymPy. An error where there are not enough points at which
+/// all quantities are finite numbers.
+pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
+    let values = values(compiled)?;
+    let mut text = head(compiled);
+    text.push_str(include_str!("head.py"));
+    text.push_str("\n\n");
+    text.push_str(&field(compiled));
+    text.push_str("\n\n");
+    text.push_str(&strain_energy(compiled));
+    text.push_str("\n\n");
+    if compiled.field.rigid.is_some() {
+        text.push_str(include_str!("rigid.py"));
+        text.push_str("\n\n");
+    }
+    text.push_str(include_str!("derive.py"));
+    text.push_str("\n\n");
+    text.push_str(&values);
+    text.push_str("\n\n");
+    text.push_str(include_str!("compare.py"));
+    Ok(text)
+}
+
+fn head(compiled: &Compiled) -> String {
+    let field = &compiled.field;
+    let mut lines = vec![
+        "#!/usr/bin/env python3".to_string(),
+        format!(
+            "# Audit of the field {}: {}",
+            field.name.in_a_comment(),
+            field.title.in_a_comment()
+        ),
+    ];
+    lines.extend(field.reference.iter().map(|reference| format!("# {}", reference.in_a_comment())));
+    lines.push(format!("# Written by {}", compiled.provenance()));
+    lines.push("#\n".into());
+    lines.join("\n")
+}
+
+fn translated(formula: &Formula, names: &Renamed) -> String {
+    // The field compiled: its formulas have been parsed before.
+    let ast = syntax::parse(formula, &mut Vec::new());
+    ast.map(|ast| python(&ast, names)).unwrap_or_default()
+}
+
+/// The formulas of the field file.
+fn field(compiled: &Compiled) -> String {
+    let field = &compiled.field;
+    let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
+    let lets = field.lets.iter().map(|definition| definition.name.value.as_str());
+    let names = Renamed::new(parameters.chain(lets));
+    let axes = ["X", "Y", "Z"][..field.dimension].join(", ");
+    let mut lines = vec![format!("def field({axes}, t):")];
+    lines.push(
+        "    \"\"\"The field file: u, rho0, the parameters of the material, the fibres.\"\"\""
+            .into(),
+    );
+    for parameter in &field.parameters {
+        let (name, value) =
+            (names.name(&parameter.name.value), translated(&parameter.value, &names));
+        let unit = parameter.unit.as_ref().map(|unit| format!("[{}]", unit.value));
+        let doc = parameter.doc.iter().map(Foreign::in_a_comment);
+        let note = blanked(&doc.chain(unit).collect::<Vec<_>>().join(" "));
+        let note = if note.is_empty() { note } else { format!("  # {note}") };
+        lines.push(format!("    {name} = {value}{note}"));
+    }
+    for definition in &field.lets {
+        let value = translated(&definition.value, &names);
+        lines.push(format!("    {} = {value}", names.name(&definition.name.value)));
+    }
+    lines.push("    u = [".into());
+    lines.extend(field.displacement.iter().map(|u| format!("        {},", translated(u, &names))));
+    lines.push("    ]".into());
+    if let Some(rigid) = &field.rigid {
+        lines.push(format!("    u = {}", moved(rigid, &axes, &names)));
+    }
+    lines.push("    return (".into());
+    lines.push("        u,".into());
+    lines.push(format!("        {},", translated(&field.material.density, &names)));
+    lines.push("        {".into());
+    let inner = material_names(compiled);
+    lines.extend(field.material.arguments.iter().map(|(name, value)| {
+        format!("            \"{}\": {},", inner.name(&name.value), translated(value, &names))
+    }));
+    lines.push("        },".into());
+    // A material without fibres does not look at their direction.
+    let fibre = match &field.material.fibre {
+        Some(fibre) => fibre.iter().map(|component| translated(component, &names)).collect(),
+        None => vec!["Integer(0)".to_string(); 3],
+    };
+    lines.push(format!("        [{}],", fibre.join(", ")));
+    lines.push("    )\n".into());
+    lines.join("\n")
+}
+
+/// The displacement u after a rigid motion.
+fn moved(rigid: &RigidSpec, axes: &str, names: &Renamed) -> String {
+    let list = |formulas: &[Formula]| {
+        let entries: Vec<_> = formulas.iter().map(|formula| translated(formula, names)).collect();
+        format!("[{}]", entries.join(", "))
+    };
+    let mut arguments = vec![format!("[{axes}]"), "u".into()];
+    if let Some(angle) = rigid.angle() {
+        arguments.push(format!("angle={}", translated(angle, names)));
+    }
+    if let Some(Rotation::Space { axis, .. }) = &rigid.rotation {
+        arguments.push(format!("axis={}", list(axis)));
+    }
+    if let Some(translation) = &rigid.translation {
+        arguments.push(format!("translation={}", list(translation)));
+    }
+    format!("moved({})", arguments.join(", "))
+}
+
+fn material_names(compiled: &Compiled) -> Renamed {
+    let material = &compiled.material;
+    let parameters = material.parameters.iter().map(|parameter| parameter.name.value.as_str());
+    let lets = material.lets.iter().map(|definition| definition.name.value.as_str());
+    Renamed::new(parameters.chain(lets))
+}
+
+/// The formulas of the material file.
+fn strain_energy(compiled: &Compiled) -> String {
+    let material = &compiled.material;
+    let names = material_names(compiled);
+    let parameters = material.parameters.iter();
+    let parameters: String =
+        parameters.map(|parameter| format!(", {}", names.name(&parameter.name.value))).collect();
+    let invariants = "I1, I2, I3, J, I4, eps_trace, eps_squared";
+    let mut lines = vec![format!("def strain_energy({invariants}{parameters}):")];
+    lines.push(format!(
+        "    # {}: {}",
+        material.name.in_a_comment(),
+        material.title.in_a_comment()
+    ));
+    for definition in &material.lets {
+        let value = translated(&definition.value, &names);
+        lines.push(format!("    {} = {value}", names.name(&definition.name.value)));
+    }
+    lines.push(format!("    return {}\n", translated(&material.strain_energy, &names)));
+    lines.join("\n")
+}
+
+/// A unit vector without equal components.
+fn normal(dimension: usize) -> &'static [f64] {
+    match dimension {
+        1 => &[1.0],
+        2 => &[0.6, 0.8],
+        _ => &[0.48, 0.6, 0.64],
+    }
+}
+
+/// The values that the program has at some points, in double precision.
+fn values(compiled: &Compiled) -> Result<String, Undefined> {
+    let parameters = compiled.parameters::<f64>(&Default::default());
+    let outputs: Vec<_> =
+        Quantity::ALL.iter().map(|quantity| Output::Quantity(*quantity)).collect();
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&outputs);
+    let normal = normal(compiled.field.dimension);
+    let mut points = Vec::new();
+    let tried = samples(&compiled.program, &parameters, TRIED);
+    // The first points of the sequence lie on lines of symmetry.
+    for Sample { coordinates, time } in tried.iter().skip(POINTS) {
+        interpreter.set_time(time);
+        interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
+        let values: Vec<Vec<f64>> =
+            outputs.iter().map(|output| interpreter.output(*output)).collect();
+        if values.iter().flatten().all(|value| value.is_finite()) && points.len() < POINTS {
+            points.push(point(coordinates, *time, &values));
+        }
+    }
+    if points.len() < POINTS {
+        return Err(Undefined);
+    }
+    Ok(format!(
+        "# The values of mms, computed in double precision, at points of the domain.\n\
+         NORMAL = {normal:?}\nPOINTS = [\n{}]\n",
+        points.concat()
+    ))
+}
+
+fn point(coordinates: &[f64], time: f64, values: &[Vec<f64>]) -> String {
+    let values = Quantity::ALL.iter().zip(values).map(|(quantity, components)| {
+        format!("            \"{}\": {components:?},\n", quantity.name())
+    });
+    let values: String = values.collect();
+    format!(
+        "    {{\n        \"X\": {coordinates:?},\n        \"t\": {time:?},\n        \"values\": {{\n{values}        }},\n    }},\n"
+    )
+}

@@ -1,0 +1,259 @@
+//! The field file as a whole.
+
+use crate::check::{CheckSpec, ExtremeSpec, check, extremes};
+use crate::diagnostic::Diagnostic;
+use crate::document::Document;
+use crate::domain::{
+    Body, BoundarySpec, DomainSpec, boundary, domain, one_per_dimension, reported,
+};
+use crate::foreign::Foreign;
+use crate::format::{CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Key, STUDY};
+use crate::formula::Formula;
+use crate::material::{MaterialUse, material_use};
+use crate::names::{Keeper, Names};
+use crate::rigid::{RigidSpec, rigid};
+use crate::source::{SourceId, Sources};
+use crate::study::{StudySpec, studies};
+use crate::symbols::{LetSpec, ParameterSpec, lets, parameters};
+use crate::table::{Entry, Reader, Table};
+
+/// A field file. Vectors have exactly one component per dimension, tensors one per pair; a
+/// component that was missing is [`Formula::is_reported`].
+#[derive(Clone, Debug)]
+pub struct FieldSpec {
+    /// The file's stem.
+    pub name: Foreign,
+    /// What it is, in a few words.
+    pub title: Foreign,
+    /// The dimension of space: 1, 2 or 3.
+    pub dimension: usize,
+    /// Where it comes from.
+    pub reference: Option<Foreign>,
+    /// The parameters, in order.
+    pub parameters: Vec<ParameterSpec>,
+    /// The definitions, in order.
+    pub lets: Vec<LetSpec>,
+    /// The displacement u(X, t).
+    pub displacement: Vec<Formula>,
+    /// The material and its parameters.
+    pub material: MaterialUse,
+    /// The reference body and the time window.
+    pub domain: DomainSpec,
+    /// The claims about faces.
+    pub boundary: Vec<BoundarySpec>,
+    /// The closed forms.
+    pub checks: Vec<CheckSpec>,
+    /// The expected orders.
+    pub studies: Vec<StudySpec>,
+    /// The extreme parameters.
+    pub extremes: Vec<ExtremeSpec>,
+    /// The rigid motion on top.
+    pub rigid: Option<RigidSpec>,
+    /// Formulas that have lost their place to a reported mistake, such as a component too many.
+    /// Nothing follows from them, but their syntax can be checked.
+    pub stray: Vec<Formula>,
+    /// Names of the language that the file would define: what uses them may mean either.
+    pub refused: Vec<String>,
+    /// Whether part of the file could not be read: an unknown name may be a consequence of that.
+    pub incomplete: bool,
+}
+
+impl FieldSpec {
+    /// Every formula of the file.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        let mut all: Vec<&Formula> = Vec::new();
+        for parameter in &self.parameters {
+            all.push(&parameter.value);
+            all.extend(parameter.range.iter().flatten());
+        }
+        all.extend(self.lets.iter().map(|definition| &definition.value));
+        all.extend(&self.displacement);
+        all.push(&self.material.density);
+        all.extend(self.material.arguments.iter().map(|(_, value)| value));
+        all.extend(self.material.fibre.iter().flatten());
+        match &self.domain.body {
+            Body::Box { lower, upper } => all.extend(lower.iter().chain(upper)),
+            Body::Annulus { inner, outer, theta } => {
+                all.extend([inner, outer].into_iter().chain(theta.iter().flatten()));
+            }
+        }
+        all.extend(&self.domain.time);
+        for check in &self.checks {
+            all.extend(check.lets.iter().map(|definition| &definition.value));
+            all.extend(&check.equals);
+        }
+        all.extend(self.extremes.iter().flat_map(|extreme| &extreme.set).map(|(_, value)| value));
+        all.extend(self.rigid.iter().flat_map(RigidSpec::formulas));
+        all.extend(&self.stray);
+        all.into_iter()
+    }
+}
+
+/// Reads a field file. `None` only where not even the dimension can be told, or the file is too
+/// long to be read.
+pub fn read_field(
+    sources: &Sources,
+    id: SourceId,
+    name: &str,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<FieldSpec> {
+    let document = Document::parse(sources, id, diagnostics)?;
+    let mut reader = Reader::new(sources, id, &document, diagnostics);
+    let root = reader.root("a field file", &document.root, FIELD_FILE);
+    let header = header(&root, &mut reader);
+    let mut names = Names::new(Keeper::Field);
+    let parameters = reader
+        .names(&root, "parameters")
+        .map(|table| parameters(&table, &mut names, &mut reader))
+        .unwrap_or_default();
+    let lets = reader
+        .names(&root, "let")
+        .map(|table| lets(&table, &mut names, &mut reader))
+        .unwrap_or_default();
+    let entry = displacement_entry(&root, &mut reader);
+    // A wrong dimension leaves the number of components to tell what was meant.
+    let dimension = header.dimension.or_else(|| entry.as_ref().and_then(components));
+    let material = match reader.required_table(&root, "material") {
+        Some(entry) => material_use(&entry, &mut reader),
+        None => MaterialUse::reported(root.span),
+    };
+    let Some(dimension) = dimension else {
+        // How many bounds the body needs is unknown; that it needs them is not.
+        reader.required_table(&root, "domain");
+        return None;
+    };
+    let displacement = match entry {
+        Some(entry) => reader.formulas(&entry, dimension, &one_per_dimension(dimension)),
+        None => vec![Formula::reported(root.span); dimension],
+    };
+    let place = Place::read(&root, dimension, &mut reader);
+    let known: Vec<&str> =
+        parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
+    let evidence = Evidence::read(&root, dimension, &names, &known, &mut reader);
+    Some(FieldSpec {
+        name: name.into(),
+        title: header.title,
+        dimension,
+        reference: header.reference,
+        parameters,
+        lets,
+        displacement,
+        material,
+        domain: place.domain,
+        boundary: place.boundary,
+        checks: evidence.checks,
+        studies: evidence.studies,
+        extremes: evidence.extremes,
+        rigid: place.rigid,
+        incomplete: reader.lost_names,
+        stray: reader.stray,
+        refused: reader.refused,
+    })
+}
+
+/// `[field]`.
+#[derive(Default)]
+struct Header {
+    title: Foreign,
+    dimension: Option<usize>,
+    reference: Option<Foreign>,
+}
+
+fn header<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Header {
+    let table = reader
+        .required_table(root, "field")
+        .and_then(|entry| reader.table(&entry, "[field]", FIELD));
+    let Some(table) = table else { return Header::default() };
+    Header {
+        title: reader
+            .required_string(&table, "title")
+            .map_or_else(Foreign::default, |title| title.value.into()),
+        dimension: reader.required(&table, "dimension").and_then(|entry| dimension(&entry, reader)),
+        reference: reader.optional_foreign(&table, "reference"),
+    }
+}
+
+fn dimension<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<usize> {
+    let found = entry.value.get_ref().as_integer().map(|digits| digits.as_str());
+    match found {
+        Some("1") => Some(1),
+        Some("2") => Some(2),
+        Some("3") => Some(3),
+        Some(_) if !reader.is_damaged(entry.value) => {
+            let span = reader.span(entry.value);
+            let diagnostic = Diagnostic::error(span, "`dimension` must be 1, 2 or 3");
+            reader.report(diagnostic.label("a field lives on a line, in a plane or in space"));
+            None
+        }
+        _ => {
+            reader.wrong_type("dimension", entry.value, "1, 2 or 3");
+            None
+        }
+    }
+}
+
+fn displacement_entry<'a>(root: &Table<'a>, reader: &mut Reader<'a>) -> Option<Entry<'a>> {
+    let entry = reader.required_table(root, "displacement")?;
+    let table = reader.table(&entry, "[displacement]", DISPLACEMENT)?;
+    reader.required(&table, "u")
+}
+
+fn components(entry: &Entry<'_>) -> Option<usize> {
+    let count = entry.value.get_ref().as_array()?.len();
+    (1..=3).contains(&count).then_some(count)
+}
+
+/// Where and when: `[domain]`, `[boundary]`, `[rigid]`.
+struct Place {
+    domain: DomainSpec,
+    boundary: Vec<BoundarySpec>,
+    rigid: Option<RigidSpec>,
+}
+
+impl Place {
+    fn read<'a>(root: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Self {
+        let entry = reader.required_table(root, "domain");
+        let read = entry.map(|entry| domain(&entry, dimension, reader));
+        let boundary = root
+            .get("boundary")
+            .map(|entry| {
+                let body = read.as_ref().map(|domain| &domain.body);
+                boundary(&entry, body, dimension, reader)
+            })
+            .unwrap_or_default();
+        let rigid = root.get("rigid").and_then(|entry| rigid(&entry, dimension, reader));
+        Place { domain: read.unwrap_or_else(|| reported(dimension, root.span)), boundary, rigid }
+    }
+}
+
+/// What is claimed and tested: `[[check]]`, `[[study]]`, `[[extreme]]`.
+struct Evidence {
+    checks: Vec<CheckSpec>,
+    studies: Vec<StudySpec>,
+    extremes: Vec<ExtremeSpec>,
+}
+
+impl Evidence {
+    fn read<'a>(
+        root: &Table<'a>,
+        dimension: usize,
+        names: &Names,
+        parameters: &[&str],
+        reader: &mut Reader<'a>,
+    ) -> Self {
+        let mut tables = |key: &str, keys: &[Key]| match root.get(key) {
+            Some(entry) => reader.tables(&entry, keys),
+            None => Vec::new(),
+        };
+        let (checks, study, extreme) =
+            (tables("check", CHECK), tables("study", STUDY), tables("extreme", EXTREME));
+        Evidence {
+            checks: checks
+                .iter()
+                .filter_map(|table| check(table, dimension, names, reader))
+                .collect(),
+            studies: studies(&study, reader),
+            extremes: extremes(&extreme, parameters, reader),
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! Format 1 as data: the keys of each table, what each of them holds, and one sentence about it.
+//!
+//! The reader takes from here which keys a table may have, and the JSON Schema that editors use is
+//! made of it, so that neither knows a key that the other does not. What depends on other values
+//! (how many components, which faces) is the reader's, and the schema's own tests hold it to that.
+
+use crate::domain::{BODIES, Claim};
+use crate::names::Keeper;
+use crate::quantity::Quantity;
+use crate::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
+
+/// A key of a table.
+#[derive(Debug)]
+pub struct Key {
+    /// The key.
+    pub name: &'static str,
+    /// Whether every such table must have it.
+    pub required: bool,
+    /// What it holds.
+    pub holds: Holds,
+    /// What it is, in a sentence or two.
+    pub doc: &'static str,
+}
+
+/// What a key holds.
+#[derive(Debug)]
+pub enum Holds {
+    /// A string for people.
+    Text,
+    /// True or false.
+    Flag,
+    /// 1, 2 or 3.
+    Dimension,
+    /// A whole number from 1 on.
+    Count,
+    /// A positive number that is no part of the field's mathematics.
+    Positive,
+    /// The cells of each level, coarse to fine: at least two increasing whole numbers.
+    Levels,
+    /// One of these words.
+    Word(fn() -> Vec<&'static str>),
+    /// A shipped material's name, or the path of a material file.
+    Model,
+    /// An expression as a string, or a bare number.
+    Formula,
+    /// An array of formulas.
+    Formulas(Length),
+    /// A table with these keys.
+    Table(&'static [Key]),
+    /// An array of tables with these keys.
+    Tables(&'static [Key]),
+    /// A table whose keys are names of the file's own.
+    Names(Keeper, &'static Holds),
+    /// A table with these keys, and a formula for each parameter of the material.
+    Material(&'static [Key]),
+    /// A claim for each face of the body.
+    Faces,
+    /// A formula in the plane, a table with these keys in space.
+    Rotation(&'static [Key]),
+}
+
+/// How many formulas an array has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// One per dimension of the field.
+    Dimension,
+    /// One per component of the table's quantity.
+    Quantity,
+    /// So many.
+    Exactly(usize),
+}
+
+const fn required(name: &'static str, holds: Holds, doc: &'static str) -> Key {
+    Key { name, required: true, holds, doc }
+}
+
+const fn optional(name: &'static str, holds: Holds, doc: &'static str) -> Key {
+    Key { name, required: false, holds, doc }
+}
+
+/// The names of keys, in their order.
+pub fn names(keys: &[Key]) -> Vec<&'static str> {
+    keys.iter().map(|key| key.name).collect()
+}
+
+/// The words that a `[[check]]` may name a quantity by: identifiers, then symbols.
+pub fn quantities() -> Vec<&'static str> {
+    let symbols = Quantity::pointwise()
+        .filter(|quantity| Quantity::from_name(quantity.symbol()) == Some(*quantity))
+        .map(Quantity::symbol);
+    let mut words: Vec<_> = Quantity::pointwise().map(Quantity::name).collect();
+    for symbol in symbols {
+        if !words.contains(&symbol) {
+            words.push(symbol);
+        }
+    }
+    words
+}
+
+/// The words for claims.
+pub fn claims() -> Vec<&'static str> {
+    Claim::ALL.iter().map(|claim| claim.name()).collect()
+}
+
+/// A field file.
+pub const FIELD_FILE: &[Key] = &[
+    required("field", Holds::Table(FIELD), "What the field is."),
+    optional(
+        "parameters",
+        Holds::Names(Keeper::Field, &Holds::Table(PARAMETER)),
+        "Numbers that users of the field may change.",
+    ),
+    optional(
+        "let",
+        Holds::Names(Keeper::Field, &Holds::Formula),
+        "Names for formulas, in order: each may use those above it.",
+    ),
+    required("displacement", Holds::Table(DISPLACEMENT), "What is chosen; all else follows."),
+    required(
+        "material",
+        Holds::Material(MATERIAL),
+        "The strain-energy density: a model, a formula for each of its parameters, the density.",
+    ),
+    required(
+        "domain",
+        Holds::Table(DOMAIN),
+        "The reference body, and the time window that all claims are about.",
+    ),
+    optional(
+        "boundary",
+        Holds::Faces,
+        "What holds on each face. A face that is left out claims nothing.",
+    ),
+    optional("check", Holds::Tables(CHECK), "Closed forms that were derived on paper."),
+    optional("study", Holds::Tables(STUDY), "The orders that the solver must show on the field."),
+    optional("extreme", Holds::Tables(EXTREME), "Parameters at their limits."),
+    optional(
+        "rigid",
+        Holds::Table(RIGID),
+        "A rigid motion of the whole on top of the displacement: the rigid twin of the field.",
+    ),
+];
+
+/// `[field]`.
+pub const FIELD: &[Key] = &[
+    required("title", Holds::Text, "What the field is, in a few words."),
+    required("dimension", Holds::Dimension, "The dimension of space: 1, 2 or 3."),
+    optional("reference", Holds::Text, "Who published it, and where."),
+];
+
+/// One of `[parameters]`.
+pub const PARAMETER: &[Key] = &[
+    required(
+        "value",
+        Holds::Formula,
+        "The value by default: a formula of numbers, pi and the parameters above.",
+    ),
+    optional("unit", Holds::Text, "The unit, such as kg/m^3."),
+    optional("doc", Holds::Text, "What it is, in a few words."),
+    optional(
+        "range",
+        Holds::Formulas(Length::Exactly(2)),
+        "The least and the greatest value that it may take.",
+    ),
+];
+
+/// `[displacement]`.
+pub const DISPLACEMENT: &[Key] = &[required(
+    "u",
+    Holds::Formulas(Length::Dimension),
+    "The displacement u(X, t): one formula per dimension.",
+)];
+
+/// `[material]` of a field, without the parameters of the model.
+pub const MATERIAL: &[Key] = &[
+    required(
+        "model",
+        Holds::Model,
+        "A shipped material, or the path of a material file, relative to this file.",
+    ),
+    required("density", Holds::Formula, "The reference density; it may depend on X."),
+    optional(
+        "fibre",
+        Holds::Formulas(Length::Exactly(3)),
+        "The unit reference direction, in space, of the fibres of a material that uses I4.",
+    ),
+];
+
+/// `[domain]`.
+pub const DOMAIN: &[Key] = &[
+    required("shape", Holds::Word(|| BODIES.to_vec()), "The shape of the reference body."),
+    optional(
+        "lower",
+        Holds::Formulas(Length::Dimension),
+        "The least coordinates of a box, one per dimension.",
+    ),
+    optional(
+        "upper",
+        Holds::Formulas(Length::Dimension),
+        "The greatest coordinates of a box, one per dimension.",
+    ),
+    optional("inner", Holds::Formula, "The inner radius of an annulus around the origin."),
+    optional("outer", Holds::Formula, "The outer radius of an annulus around the origin."),
+    optional(
+        "theta",
+        Holds::Formulas(Length::Exactly(2)),
+        "The first and the last angle of a sector of an annulus.",
+    ),
+    required("time", Holds::Formulas(Length::Exactly(2)), "The first and the last time."),
+];
+
+/// `[[check]]`.
+pub const CHECK: &[Key] = &[
+    required("quantity", Holds::Word(quantities), "The quantity that the closed form is of."),
+    required(
+        "equals",
+        Holds::Formulas(Length::Quantity),
+        "Its components, row by row; they must agree to a relative 1e-20.",
+    ),
+    optional(
+        "let",
+        Holds::Names(Keeper::Field, &Holds::Formula),
+        "Names for formulas, for this check alone.",
+    ),
+    optional("source", Holds::Text, "Where the closed form comes from."),
+];
+
+/// `[[study]]`.
+pub const STUDY: &[Key] = &[
+    optional("shape", Holds::Word(|| SHAPES.to_vec()), "The shape function; cpgimp by default."),
+    optional(
+        "integrator",
+        Holds::Word(|| INTEGRATORS.to_vec()),
+        "The time integrator; leapfrog by default.",
+    ),
+    optional(
+        "formulation",
+        Holds::Word(|| FORMULATIONS.to_vec()),
+        "The formulation; updated by default.",
+    ),
+    optional("transfer", Holds::Word(|| TRANSFERS.to_vec()), "The transfer; flip by default."),
+    optional("courant", Holds::Positive, "time_step * c0 / cell_size, c0 the fastest wave speed."),
+    optional("particles_per_cell", Holds::Count, "Particles per cell and direction."),
+    optional(
+        "fill",
+        Holds::Word(|| FILLS.to_vec()),
+        "How the body is filled with particles: on the cells, or fitted to the body.",
+    ),
+    optional("precision", Holds::Word(|| PRECISIONS.to_vec()), "The solver's precision."),
+    optional(
+        "form",
+        Holds::Word(|| FORMS.to_vec()),
+        "How the field's quantities are computed; stable by default.",
+    ),
+    optional(
+        "cells",
+        Holds::Levels,
+        "The levels, coarse to fine: cells along the longest edge of the body.",
+    ),
+    optional("order", Holds::Positive, "The order that the finest pair must show; 2 by default."),
+    optional("tolerance", Holds::Positive, "By how much it may differ; 0.15 by default."),
+    optional("reason", Holds::Text, "Why theory says so."),
+];
+
+/// `[[extreme]]`.
+pub const EXTREME: &[Key] = &[
+    required("name", Holds::Text, "What is extreme, in a few words; each has another name."),
+    required(
+        "set",
+        Holds::Names(Keeper::Field, &Holds::Formula),
+        "The parameters that differ from their defaults.",
+    ),
+];
+
+/// `[rigid]`.
+pub const RIGID: &[Key] = &[
+    optional(
+        "rotation",
+        Holds::Rotation(ROTATION),
+        "The rotation about the origin: an angle in 2-D, an axis and an angle in 3-D.",
+    ),
+    optional(
+        "translation",
+        Holds::Formulas(Length::Dimension),
+        "The translation: one formula per dimension.",
+    ),
+];
+
+/// A text with a rigid motion alone.
+pub(super) const RIGID_ALONE: &[Key] =
+    &[required("rigid", Holds::Table(RIGID), "The rigid motion.")];
+
+/// `rotation` in space.
+pub const ROTATION: &[Key] = &[
+    required(
+        "axis",
+        Holds::Formulas(Length::Exactly(3)),
+        "The axis: three components, of any length.",
+    ),
+    required("angle", Holds::Formula, "The angle, in radians."),
+];
+
+/// A material file.
+pub const MATERIAL_FILE: &[Key] = &[
+    required("material", Holds::Table(MATERIAL_HEADER), "What the material is."),
+    optional(
+        "parameters",
+        Holds::Names(Keeper::Material, &Holds::Table(MATERIAL_PARAMETER)),
+        "The parameters; each field gives a formula for them.",
+    ),
+    optional(
+        "let",
+        Holds::Names(Keeper::Material, &Holds::Formula),
+        "Names for formulas, in order: each may use those above it.",
+    ),
+];
+
+/// `[material]` of a material file.
+pub const MATERIAL_HEADER: &[Key] = &[
+    required("title", Holds::Text, "What the material is, in a few words."),
+    optional("reference", Holds::Text, "Who published it, and where."),
+    required(
+        "strain_energy",
+        Holds::Formula,
+        "W per reference volume, in I1, I2, I3, J and I4, or in eps_trace and eps_squared.",
+    ),
+    optional(
+        "frame_indifferent",
+        Holds::Flag,
+        "Whether W stays the same under rotations; it does by default, unless it is written in the small strain.",
+    ),
+];
+
+/// One of the `[parameters]` of a material.
+pub const MATERIAL_PARAMETER: &[Key] = &[
+    optional("unit", Holds::Text, "The unit, such as Pa."),
+    optional("doc", Holds::Text, "What it is, in a few words."),
+];

@@ -1,0 +1,52 @@
+//! From TOML to [`FieldSpec`] and [`MaterialSpec`]: what a file says, in form only.
+//!
+//! The promise: every key of format 1 is read, every key that is not in it is refused, every
+//! value has its place, and one run reports every mistake of form in a file, each once. Names are
+//! checked where they are defined; what they mean where they are used is for `expr` to resolve,
+//! and nothing here knows calculus.
+//!
+//! A mistake never hides another: what could not be read is replaced by a formula that stands for
+//! it ([`Formula::reported`]), so that the counts are right and later phases can go on without
+//! reporting consequences.
+
+mod brackets;
+mod check;
+pub mod diagnostic;
+mod document;
+mod domain;
+mod field;
+pub mod field_name;
+mod folder;
+pub mod foreign;
+mod form;
+pub mod format;
+mod formula;
+mod material;
+pub mod moduli;
+pub mod names;
+pub mod quantity;
+mod rigid;
+pub mod source;
+mod study;
+pub mod suggest;
+mod symbols;
+pub mod syntax;
+mod table;
+pub mod twin;
+pub mod units;
+mod value;
+
+pub use check::{CheckSpec, ExtremeSpec, REGIMES};
+pub use document::MAX_FILE;
+pub use domain::{BODIES, Body, BoundarySpec, Claim, DomainSpec, Face};
+pub use field::{FieldSpec, read_field};
+pub use folder::{FieldFile, field_files};
+pub use form::Form;
+pub use formula::Formula;
+pub use material::{MaterialSpec, MaterialUse, read_material};
+pub use rigid::{RigidSpec, Rotation, read_rigid};
+pub use study::{
+    FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, StudySpec, TRANSFERS,
+};
+pub use symbols::{LetSpec, MaterialParameter, ParameterSpec};
+pub use value::MAX_COUNT;

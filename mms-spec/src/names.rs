@@ -1,0 +1,157 @@
+//! Which names a file may define: the identifier rule, and the names that the language keeps.
+
+use std::collections::BTreeMap;
+
+use crate::diagnostic::{Diagnostic, quoted};
+use crate::source::{Span, Spanned};
+use crate::table::Reader;
+
+/// The longest name that a file may define.
+pub const MAX_NAME: usize = 100;
+
+/// The names that are given everywhere in a field.
+pub const COORDINATES: &[(&str, &str)] = &[
+    ("X", "the first reference coordinate"),
+    ("Y", "the second reference coordinate"),
+    ("Z", "the third reference coordinate"),
+    ("t", "the time"),
+    ("pi", "the circle's number"),
+];
+
+/// The functions of the language.
+pub const FUNCTIONS: &[&str] = &[
+    "sqrt", "exp", "ln", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asin", "acos", "atan",
+    "atan2", "hypot", "cbrt",
+];
+
+/// The names that a strain-energy density is written in.
+pub const INVARIANTS: &[(&str, &str)] = &[
+    ("I1", "the first invariant, tr C"),
+    ("I2", "the second invariant of C"),
+    ("I3", "the third invariant, det C"),
+    ("I4", "the squared stretch along the fibre"),
+    ("J", "the Jacobian, det F"),
+    ("eps_trace", "the trace of the small strain"),
+    ("eps_squared", "the small strain contracted with itself"),
+];
+
+/// Which names are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeper {
+    /// In a field file.
+    Field,
+    /// In a material file, which also keeps the invariants.
+    Material,
+}
+
+/// Whether a text is a name: a letter or `_`, then letters, digits and `_`, all ASCII.
+pub fn is_identifier(text: &str) -> bool {
+    let mut bytes = text.bytes();
+    bytes.next().is_some_and(|first| first.is_ascii_alphabetic() || first == b'_')
+        && bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+}
+
+/// What a kept name means, or `None` where users may define it.
+pub fn reserved(name: &str, keeper: Keeper) -> Option<&'static str> {
+    let among = |names: &[(&str, &'static str)]| {
+        names.iter().find(|(kept, _)| *kept == name).map(|(_, meaning)| *meaning)
+    };
+    match keeper {
+        _ if FUNCTIONS.contains(&name) => Some("a function"),
+        Keeper::Field => among(COORDINATES),
+        Keeper::Material => among(COORDINATES).or_else(|| among(INVARIANTS)),
+    }
+}
+
+/// The names that one file has defined so far.
+#[derive(Clone)]
+pub(super) struct Names {
+    keeper: Keeper,
+    defined: BTreeMap<String, Span>,
+}
+
+impl Names {
+    /// No names yet.
+    pub fn new(keeper: Keeper) -> Self {
+        Names { keeper, defined: BTreeMap::new() }
+    }
+
+    /// Defines a name. Returns whether it may be: otherwise the reason has been reported.
+    pub fn define(&mut self, name: &Spanned<String>, reader: &mut Reader<'_>) -> bool {
+        match self.refusal(name, reader) {
+            None => {
+                self.defined.insert(name.value.clone(), name.span);
+                true
+            }
+            Some(diagnostic) => {
+                if reserved(&name.value, self.keeper).is_some() {
+                    reader.refused.push(name.value.clone());
+                }
+                reader.report(diagnostic);
+                false
+            }
+        }
+    }
+
+    fn refusal(&self, name: &Spanned<String>, reader: &Reader<'_>) -> Option<Diagnostic> {
+        let shown = quoted(&name.value);
+        if let Some(refusal) = malformed(name) {
+            return Some(refusal);
+        }
+        if let Some(meaning) = reserved(&name.value, self.keeper) {
+            return Some(
+                Diagnostic::error(name.span, format!("the name {shown} is reserved"))
+                    .label(format!("means {meaning}"))
+                    .help("choose another name"),
+            );
+        }
+        let first = *self.defined.get(&name.value)?;
+        let mut diagnostic =
+            Diagnostic::error(name.span, format!("the name {shown} is defined twice"));
+        if !reader.is_full() {
+            let (line, _) = reader.sources.location(first);
+            diagnostic = diagnostic.label(format!("first defined in line {line}"));
+        }
+        Some(diagnostic.help("parameters and definitions share one set of names: rename one"))
+    }
+}
+
+fn malformed(name: &Spanned<String>) -> Option<Diagnostic> {
+    let shown = quoted(&name.value);
+    if !is_identifier(&name.value) {
+        return Some(
+            Diagnostic::error(name.span, format!("{shown} is not a name"))
+                .label("expected a letter or `_`, then letters, digits and `_`")
+                .help("names are ASCII, because they become identifiers in other languages"),
+        );
+    }
+    (name.value.len() > MAX_NAME).then(|| {
+        let length = name.value.len();
+        Diagnostic::error(name.span, format!("the name {shown} has {length} characters"))
+            .label(format!("expected at most {MAX_NAME}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers() {
+        for name in ["A", "_", "rho0", "eps_trace", "fn"] {
+            assert!(is_identifier(name), "{name}");
+        }
+        for name in ["", "2a", "a b", "a\"); evil(", "\u{3bb}", "a-b"] {
+            assert!(!is_identifier(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_field_leaves_the_invariants_free() {
+        assert!(reserved("J", Keeper::Field).is_none());
+        assert!(reserved("J", Keeper::Material).is_some());
+        assert!(reserved("X", Keeper::Material).is_some());
+        assert!(reserved("atan2", Keeper::Field).is_some());
+        assert!(reserved("F", Keeper::Field).is_none());
+    }
+}

@@ -1,0 +1,284 @@
+//! A table that knows where everything in it stands, and a reader that collects what is wrong.
+//!
+//! Every function here reports its own mistakes and then returns the best that can be had, so
+//! that one run shows every mistake of a file. A value whose mistake is already known is passed
+//! over in silence, and a formula in its place is [`Formula::reported`].
+
+use toml::de::{DeTable, DeValue};
+
+use crate::diagnostic::{Diagnostic, quoted};
+use crate::document::Document;
+use crate::format::{self, Key};
+use crate::formula::Formula;
+use crate::source::{SourceId, Sources, Span, Spanned};
+use crate::suggest::{advice, did_you_mean};
+
+/// One file never gives more diagnostics than this.
+const MAX_DIAGNOSTICS: usize = 1000;
+
+/// A TOML value with its place.
+pub(super) type Value<'a> = toml::Spanned<DeValue<'a>>;
+
+/// A key and its value.
+#[derive(Clone)]
+pub(super) struct Entry<'a> {
+    /// The key, without quotes.
+    pub key: Spanned<String>,
+    /// What it is set to.
+    pub value: &'a Value<'a>,
+}
+
+/// The entries of a table, in the order of the file.
+pub(super) struct Table<'a> {
+    /// How messages call it, such as `[domain]`.
+    pub name: String,
+    /// Its header, or the whole of an inline table.
+    pub span: Span,
+    /// The entries.
+    pub entries: Vec<Entry<'a>>,
+    /// Keys that are missing only because they are misspelt: reported as such.
+    misspelt: Vec<&'static str>,
+}
+
+impl<'a> Table<'a> {
+    /// The entry of that key.
+    pub fn get(&self, key: &str) -> Option<Entry<'a>> {
+        self.entries.iter().find(|entry| entry.key.value == key).cloned()
+    }
+}
+
+/// Reads one file.
+pub(super) struct Reader<'a> {
+    /// All texts.
+    pub sources: &'a Sources,
+    /// The text that is read.
+    pub id: SourceId,
+    /// Formulas that have lost their place in the file's meaning to a reported mistake, such as a
+    /// component too many. Their own syntax is still worth checking.
+    pub stray: Vec<Formula>,
+    /// Whether a table of names could not be read as one: a name may be defined in it.
+    pub lost_names: bool,
+    /// Names of the language that the file would define as well.
+    pub refused: Vec<String>,
+    damage: &'a [std::ops::Range<usize>],
+    incomplete: bool,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    reported: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader for a parsed file.
+    pub fn new(
+        sources: &'a Sources,
+        id: SourceId,
+        document: &'a Document<'_>,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Self {
+        let (damage, incomplete) = (document.damage.as_slice(), document.incomplete);
+        Reader {
+            sources,
+            id,
+            stray: Vec::new(),
+            lost_names: incomplete,
+            refused: Vec::new(),
+            damage,
+            incomplete,
+            diagnostics,
+            reported: 0,
+        }
+    }
+
+    /// Adds a diagnostic.
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        if !self.is_full() {
+            self.reported += 1;
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Whether definitions of the file may be missing from its tree.
+    pub fn is_incomplete(&self) -> bool {
+        self.incomplete
+    }
+
+    /// Whether further diagnostics would be dropped.
+    pub fn is_full(&self) -> bool {
+        self.reported >= MAX_DIAGNOSTICS
+    }
+
+    /// The place of a value.
+    pub fn span(&self, value: &Value<'_>) -> Span {
+        let range = value.span();
+        self.sources.span(self.id, range.start, range.end)
+    }
+
+    /// Whether TOML could not read a value, and has said so.
+    pub fn is_damaged(&self, value: &Value<'_>) -> bool {
+        let place = value.span();
+        // TOML gives an empty place to a value that is missing.
+        place.is_empty()
+            || self
+                .damage
+                .iter()
+                .any(|damage| damage.start <= place.end && place.start <= damage.end)
+    }
+
+    /// The file's outermost table.
+    pub fn root(&mut self, name: &str, root: &'a DeTable<'a>, keys: &[Key]) -> Table<'a> {
+        let span = self.sources.span(self.id, 0, 0);
+        let mut table = self.entries(name, span, root);
+        self.check_keys(&mut table, keys);
+        table
+    }
+
+    /// A table in which only these keys make sense.
+    pub fn table(&mut self, entry: &Entry<'a>, name: &str, keys: &[Key]) -> Option<Table<'a>> {
+        let mut table = self.open_table(entry, name)?;
+        self.check_keys(&mut table, keys);
+        Some(table)
+    }
+
+    /// A table whose keys are the user's own.
+    pub fn open_table(&mut self, entry: &Entry<'a>, name: &str) -> Option<Table<'a>> {
+        match entry.value.get_ref() {
+            DeValue::Table(table) => {
+                let span = self.span(entry.value);
+                Some(self.entries(name, span, table))
+            }
+            _ => {
+                self.wrong_type(&entry.key.value, entry.value, "a table");
+                None
+            }
+        }
+    }
+
+    /// A table of the user's own names, where there is one.
+    pub fn names(&mut self, root: &Table<'a>, key: &str) -> Option<Table<'a>> {
+        let entry = root.get(key)?;
+        let table = self.open_table(&entry, &format!("[{key}]"));
+        self.lost_names |= table.is_none();
+        table
+    }
+
+    /// The tables under `[[name]]`.
+    pub fn tables(&mut self, entry: &Entry<'a>, keys: &[Key]) -> Vec<Table<'a>> {
+        let name = format!("[[{}]]", entry.key.value);
+        let DeValue::Array(items) = entry.value.get_ref() else {
+            self.wrong_type(&entry.key.value, entry.value, &format!("an array of tables, {name}"));
+            return Vec::new();
+        };
+        let entries = items.iter().map(|value| Entry { key: entry.key.clone(), value });
+        entries.filter_map(|entry| self.table(&entry, &name, keys)).collect()
+    }
+
+    fn entries(&self, name: &str, span: Span, table: &'a DeTable<'a>) -> Table<'a> {
+        let mut entries: Vec<_> = table
+            .iter()
+            .map(|(key, value)| {
+                let place = key.span();
+                let span = self.sources.span(self.id, place.start, place.end);
+                Entry { key: Spanned { value: key.get_ref().to_string(), span }, value }
+            })
+            .collect();
+        // TOML sorts by name; the order of definitions is that of the file.
+        entries.sort_by_key(|entry| entry.key.span.start);
+        Table { name: name.into(), span, entries, misspelt: Vec::new() }
+    }
+
+    /// Reports every key that is not one of these.
+    fn check_keys(&mut self, table: &mut Table<'a>, keys: &[Key]) {
+        let keys = format::names(keys);
+        let absent: Vec<_> = keys.iter().copied().filter(|key| table.get(key).is_none()).collect();
+        for entry in &table.entries {
+            let key = entry.key.value.as_str();
+            // A key that lost its header to a syntax error may be right where it was written.
+            if keys.contains(&key) || self.incomplete || self.is_full() {
+                continue;
+            }
+            let absent = absent.iter().copied();
+            table.misspelt.extend(did_you_mean(key, absent.clone()));
+            let all = |_: &str| format!("its keys are {}", list(&keys));
+            self.report(
+                Diagnostic::error(entry.key.span, format!("unknown key {}", quoted(key)))
+                    .label(format!("not a key of {}", table.name))
+                    .help(advice(key, absent, all)),
+            );
+        }
+    }
+
+    /// Reports a key that belongs elsewhere; returns whether it is there.
+    pub fn refuse(&mut self, table: &Table<'a>, key: &str, reason: &str) -> bool {
+        let Some(entry) = table.get(key) else { return false };
+        let message = format!("`{key}` has no meaning here");
+        self.report(Diagnostic::error(entry.key.span, message).label(reason));
+        true
+    }
+
+    /// The entry of a key that must be there.
+    pub fn required(&mut self, table: &Table<'a>, key: &str) -> Option<Entry<'a>> {
+        let message = format!("missing key `{key}`");
+        self.needed(table, key, message, format!("{} needs `{key}`", table.name))
+    }
+
+    /// The entry of a table that must be there.
+    pub fn required_table(&mut self, root: &Table<'a>, key: &str) -> Option<Entry<'a>> {
+        let message = format!("missing table [{key}]");
+        self.needed(root, key, message, format!("{} needs [{key}]", root.name))
+    }
+
+    fn needed(
+        &mut self,
+        table: &Table<'a>,
+        key: &str,
+        message: String,
+        label: String,
+    ) -> Option<Entry<'a>> {
+        let entry = table.get(key);
+        if entry.is_none() && !self.incomplete && !table.misspelt.contains(&key) {
+            self.report(Diagnostic::error(table.span, message).label(label));
+        }
+        entry
+    }
+
+    /// Reports a value of the wrong type.
+    pub fn wrong_type(&mut self, key: &str, value: &Value<'_>, expected: &str) {
+        self.wrong_type_because(key, value, expected, None);
+    }
+
+    /// Reports a value of the wrong type, and says what to write instead.
+    pub fn wrong_type_because(
+        &mut self,
+        key: &str,
+        value: &Value<'_>,
+        expected: &str,
+        instead: Option<String>,
+    ) {
+        if self.is_damaged(value) {
+            return;
+        }
+        let found = describe(value.get_ref());
+        let mut diagnostic =
+            Diagnostic::error(self.span(value), format!("{} must be {expected}", quoted(key)))
+                .label(format!("this is {found}"));
+        diagnostic.help.extend(instead);
+        self.report(diagnostic);
+    }
+}
+
+/// Names for a sentence: `` `a`, `b`, `c` ``.
+pub(super) fn list(names: &[&str]) -> String {
+    let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+fn describe(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a string",
+        DeValue::Integer(_) => "an integer",
+        DeValue::Float(_) => "a decimal number",
+        DeValue::Boolean(_) => "a boolean",
+        DeValue::Datetime(_) => "a date or time",
+        DeValue::Array(_) => "an array",
+        DeValue::Table(_) => "a table",
+    }
+}

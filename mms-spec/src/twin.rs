@@ -1,0 +1,108 @@
+//! The rigid twin of a field, on demand: a motion that the field's file does not hold.
+//!
+//! A twin is a different solution of the same equations. Faces keep what a rigid motion keeps: one
+//! that is free stays free, while one that was at rest moves, and its displacement is prescribed.
+//! Closed forms are those of the field at rest, and are left out.
+
+use crate::diagnostic::Diagnostic;
+use crate::domain::{Body, Claim};
+use crate::field::FieldSpec;
+use crate::formula::Formula;
+use crate::rigid::read_rigid;
+use crate::source::Sources;
+
+/// A rigid motion that is put on top of a field.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Twin {
+    /// None.
+    #[default]
+    Nothing,
+    /// One that is large and accelerated in every way: in the time window of the field it turns by
+    /// two radians, and moves the body by some times its size. See [`Twin::text`].
+    Standard,
+    /// The keys of `[rigid]`, as in `rotation = "pi*t", translation = ["t", "0"]`.
+    Given(String),
+}
+
+impl Twin {
+    /// The keys of `[rigid]` that the motion of a field stands for, s being the fraction of the time
+    /// window that has passed, and L the length of the body along X, or its outer radius:
+    ///
+    /// - in one dimension the translation 3 L s^2,
+    /// - in two the angle s + s^2 and the translation 3 L s, -2 L s^2,
+    /// - in three the same about the axis 2, -1, 2, and L s (2 - s) along Z.
+    ///
+    /// None where there is no motion, or where the body or the window of the field could not be read.
+    pub fn text(&self, field: &FieldSpec) -> Option<String> {
+        let keys = match self {
+            Twin::Nothing => return None,
+            Twin::Given(keys) => keys.clone(),
+            Twin::Standard => standard(field)?,
+        };
+        Some(keys)
+    }
+
+    /// Puts the motion on top of a field. Its text becomes a source of its own.
+    pub fn apply(
+        &self,
+        sources: &mut Sources,
+        field: &mut FieldSpec,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        let Some(keys) = self.text(field) else { return };
+        let source = sources.add("rigid", format!("rigid = {{ {keys} }}"));
+        if let Some(rigid) = &field.rigid {
+            diagnostics.push(
+                Diagnostic::error(rigid.span, "the field has a rigid motion already")
+                    .label("its own")
+                    .help("remove [rigid], or ask for the field as it is"),
+            );
+            return;
+        }
+        let Some(rigid) = read_rigid(sources, source, field.dimension, diagnostics) else { return };
+        field.rigid = Some(rigid);
+        for boundary in &mut field.boundary {
+            if matches!(boundary.claim.value, Claim::Fixed | Claim::Roller) {
+                boundary.claim.value = Claim::Prescribed;
+            }
+        }
+        field.checks.clear();
+    }
+}
+
+fn standard(field: &FieldSpec) -> Option<String> {
+    let [first, last] = field.domain.time.each_ref().map(term);
+    let (first, last) = (first?, last?);
+    let s = match first.as_str() {
+        "0" => format!("t/{last}"),
+        _ => format!("(t - {first})/({last} - {first})"),
+    };
+    let size = match &field.domain.body {
+        Body::Box { lower, upper } => {
+            let [lower, upper] = [lower, upper].map(|corner| corner.first().and_then(term));
+            let (lower, upper) = (lower?, upper?);
+            if lower == "0" { upper } else { format!("({upper} - {lower})") }
+        }
+        Body::Annulus { outer, .. } => term(outer)?,
+    };
+    Some(match field.dimension {
+        1 => format!(r#"translation = ["3*{size}*({s})^2"]"#),
+        2 => format!(
+            r#"rotation = "{s} + ({s})^2", translation = ["3*{size}*{s}", "-2*{size}*({s})^2"]"#
+        ),
+        _ => format!(
+            r#"rotation = {{ axis = ["2", "-1", "2"], angle = "{s} + ({s})^2" }}, translation = ["3*{size}*{s}", "-2*{size}*({s})^2", "{size}*{s}*(2 - {s})"]"#
+        ),
+    })
+}
+
+/// A formula as an operand, on one line: a name or a number stands for itself. None if a mistake in it has been reported.
+fn term(formula: &Formula) -> Option<String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let words = || formula.text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let operand = || match formula.text.chars().all(plain) {
+        true => formula.text.clone(),
+        false => format!("({})", words()),
+    };
+    (!formula.is_reported()).then(operand)
+}

@@ -1,0 +1,260 @@
+//! Which formula of a file must measure what.
+
+use std::collections::BTreeMap;
+
+use super::dimension::Dimension;
+use super::infer::{Expected, Formulas, Measure};
+use super::parse::Unit;
+use super::system;
+use crate::check::CheckSpec;
+use crate::diagnostic::Diagnostic;
+use crate::domain::{Body, DomainSpec};
+use crate::field::FieldSpec;
+use crate::formula::Formula;
+use crate::material::MaterialSpec;
+use crate::names::{COORDINATES, INVARIANTS};
+use crate::rigid::RigidSpec;
+use crate::source::{Sources, Spanned};
+use crate::symbols::{LetSpec, ParameterSpec};
+use crate::syntax::{self, Ast, Kind};
+
+/// What a wrong density or modulus would lead to.
+const FORCING: Option<&str> = Some("b = a - Div P/rho0 would not be an acceleration");
+
+/// Checks the units of a field file and of its material file: each unit by itself, and, in a file
+/// whose parameters all have one, the system that they form and the dimensions of all formulas.
+///
+/// Mistakes of any other kind are left to whoever finds them, and nothing is said about what
+/// follows from them.
+pub fn check(
+    sources: &Sources,
+    field: &FieldSpec,
+    material: Option<&MaterialSpec>,
+) -> Vec<Diagnostic> {
+    let mut checker = Checker { sources, formulas: Formulas::default(), diagnostics: Vec::new() };
+    let arguments = material.map(|material| checker.material(material)).unwrap_or_default();
+    checker.field(field, &arguments);
+    checker.diagnostics
+}
+
+/// The units of a file's parameters, as far as they could be read.
+struct Units {
+    /// In the order of the file.
+    units: Vec<Option<Unit>>,
+    /// Whether there are parameters, and all have a unit.
+    complete: bool,
+}
+
+struct Checker<'a> {
+    sources: &'a Sources,
+    formulas: Formulas,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Checker<'_> {
+    /// Reads the units of a file's parameters; `lost` says whether part of the file is missing.
+    fn units<'a>(
+        &mut self,
+        texts: impl Iterator<Item = Option<&'a Spanned<String>>>,
+        lost: bool,
+    ) -> Units {
+        let mut complete = !lost;
+        let units: Vec<_> = texts
+            .map(|text| {
+                complete &= text.is_some();
+                Unit::parse(self.sources, text?, &mut self.diagnostics)
+            })
+            .collect();
+        complete &= !units.is_empty();
+        if complete {
+            self.diagnostics.extend(system::consistent(units.iter().flatten()));
+        }
+        Units { units, complete }
+    }
+
+    /// Checks a material file. Returns the dimensions of its parameters, where they are known.
+    fn material(&mut self, material: &MaterialSpec) -> BTreeMap<String, Dimension> {
+        let texts = material.parameters.iter().map(|parameter| parameter.unit.as_ref());
+        let Units { units, complete } = self.units(texts, material.incomplete);
+        let named = material.parameters.iter().zip(units);
+        let known: BTreeMap<_, _> = named
+            .filter_map(|(parameter, unit)| Some((parameter.name.value.clone(), unit?.dimension)))
+            .collect();
+        if complete {
+            self.formulas = Formulas::default();
+            self.constants();
+            for (name, _) in INVARIANTS {
+                self.formulas.define(name, Some(Measure::of(Dimension::NONE)));
+            }
+            for (name, dimension) in &known {
+                self.formulas.define(name, Some(Measure::of(dimension.clone())));
+            }
+            self.refuse(&material.refused);
+            self.definitions(&material.lets);
+            let energy = [&material.strain_energy];
+            let message = "the strain-energy density must be an energy per volume";
+            self.expect(energy, Dimension::stress(), message, FORCING);
+        }
+        known
+    }
+
+    fn field(&mut self, field: &FieldSpec, arguments: &BTreeMap<String, Dimension>) {
+        let texts = field.parameters.iter().map(|parameter| parameter.unit.as_ref());
+        let Units { units, complete } = self.units(texts, field.incomplete);
+        if !complete {
+            return;
+        }
+        self.formulas = Formulas::default();
+        self.constants();
+        for (parameter, unit) in field.parameters.iter().zip(&units) {
+            self.parameter(parameter, unit.as_ref());
+        }
+        self.coordinates(field.dimension);
+        self.refuse(&field.refused);
+        self.definitions(&field.lets);
+        let message = "the displacement must be a length";
+        self.expect(&field.displacement, Dimension::length(), message, None);
+        self.material_use(field, arguments);
+        self.domain(&field.domain);
+        for check in &field.checks {
+            self.closed_form(check);
+        }
+        self.extremes(field, &units);
+        if let Some(rigid) = &field.rigid {
+            self.rigid(rigid);
+        }
+    }
+
+    fn constants(&mut self) {
+        self.formulas.define("pi", Some(Measure::of(Dimension::NONE)));
+    }
+
+    fn coordinates(&mut self, dimension: usize) {
+        for (name, _) in COORDINATES.iter().take(dimension) {
+            self.formulas.define(name, Some(Measure::of(Dimension::length())));
+        }
+        self.formulas.define("t", Some(Measure::of(Dimension::time())));
+    }
+
+    /// Names that a file would define and may not: nothing is known of what they measure.
+    fn refuse(&mut self, names: &[String]) {
+        names.iter().for_each(|name| self.formulas.define(name, None));
+    }
+
+    /// A formula as parsed; its mistakes of syntax are reported elsewhere.
+    fn parsed(&self, formula: &Formula) -> Option<Ast> {
+        syntax::parse(formula, &mut Vec::new())
+    }
+
+    fn expect<'a>(
+        &mut self,
+        formulas: impl IntoIterator<Item = &'a Formula>,
+        dimension: Dimension,
+        message: impl Into<String>,
+        consequence: Option<&str>,
+    ) {
+        let expected = Expected { dimension, message: message.into(), consequence };
+        for formula in formulas {
+            let Some(ast) = self.parsed(formula) else { continue };
+            self.formulas.expect(&ast, &expected, &mut self.diagnostics);
+        }
+    }
+
+    fn parameter(&mut self, parameter: &ParameterSpec, unit: Option<&Unit>) {
+        let name = &parameter.name.value;
+        if let Some(unit) = unit {
+            let message = format!("the value of `{name}` does not have its unit");
+            self.value(&parameter.value, &unit.dimension, message);
+            for bound in parameter.range.iter().flatten() {
+                let message = format!("the range of `{name}` does not have its unit");
+                self.value(bound, &unit.dimension, message);
+            }
+        }
+        self.formulas.define(name, unit.map(|unit| Measure::of(unit.dimension.clone())));
+    }
+
+    /// The value of a parameter: a number that has the unit, or a formula that amounts to it.
+    fn value(&mut self, formula: &Formula, dimension: &Dimension, message: String) {
+        let Some(ast) = self.parsed(formula) else { return };
+        if !is_numeric(&ast) {
+            let expected = Expected { dimension: dimension.clone(), message, consequence: None };
+            self.formulas.expect(&ast, &expected, &mut self.diagnostics);
+        }
+    }
+
+    fn definitions(&mut self, definitions: &[LetSpec]) {
+        for definition in definitions {
+            let ast = self.parsed(&definition.value);
+            let measure = ast.and_then(|ast| self.formulas.infer(&ast, &mut self.diagnostics));
+            self.formulas.define(&definition.name.value, measure);
+        }
+    }
+
+    fn material_use(&mut self, field: &FieldSpec, arguments: &BTreeMap<String, Dimension>) {
+        let material = &field.material;
+        let message = "the density must be a mass per volume";
+        self.expect([&material.density], Dimension::density(), message, FORCING);
+        for (name, formula) in &material.arguments {
+            let Some(dimension) = arguments.get(&name.value) else { continue };
+            let message = format!(
+                "`{}` of `{}` must be in {dimension}",
+                name.value,
+                material.model.value.shown()
+            );
+            self.expect([formula], dimension.clone(), message, FORCING);
+        }
+        let direction = material.fibre.iter().flatten();
+        let message = "the direction of the fibres must be numbers without unit";
+        self.expect(direction, Dimension::NONE, message, None);
+    }
+
+    fn domain(&mut self, domain: &DomainSpec) {
+        match &domain.body {
+            Body::Box { lower, upper } => {
+                let message = "the corners of the box must be lengths";
+                self.expect(lower.iter().chain(upper), Dimension::length(), message, None);
+            }
+            Body::Annulus { inner, outer, theta } => {
+                let message = "the radii of the annulus must be lengths";
+                self.expect([inner, outer], Dimension::length(), message, None);
+                let message = "an angle must be a number without unit";
+                self.expect(theta.iter().flatten(), Dimension::NONE, message, None);
+            }
+        }
+        let message = "the ends of the time window must be times";
+        self.expect(&domain.time, Dimension::time(), message, None);
+    }
+
+    fn closed_form(&mut self, check: &CheckSpec) {
+        let outer = self.formulas.clone();
+        self.definitions(&check.lets);
+        let quantity = check.quantity.value;
+        let message = format!("the closed form of `{}` must have its unit", quantity.name());
+        if let Some(unit) = Unit::known(quantity.unit()) {
+            self.expect(&check.equals, unit.dimension, message, None);
+        }
+        self.formulas = outer;
+    }
+
+    fn extremes(&mut self, field: &FieldSpec, units: &[Option<Unit>]) {
+        for (name, formula) in field.extremes.iter().flat_map(|extreme| &extreme.set) {
+            let parameter =
+                field.parameters.iter().position(|known| known.name.value == name.value);
+            let Some(unit) = parameter.and_then(|index| units[index].as_ref()) else { continue };
+            let message = format!("the value of `{}` does not have its unit", name.value);
+            self.value(formula, &unit.dimension, message);
+        }
+    }
+
+    fn rigid(&mut self, rigid: &RigidSpec) {
+        let message = "an angle must be a number without unit";
+        self.expect(rigid.angle(), Dimension::NONE, message, None);
+        let message = "the translation must be a length";
+        self.expect(rigid.translation.iter().flatten(), Dimension::length(), message, None);
+    }
+}
+
+/// Whether a formula has no names but pi: a number, however it is written.
+fn is_numeric(ast: &Ast) -> bool {
+    ast.nodes.iter().all(|node| !matches!(&node.kind, Kind::Name(name) if name != "pi"))
+}

@@ -1,0 +1,468 @@
+//! The expression graph: exact, hash-consed, canonical.
+//!
+//! Every sum and product is n-ary with collected terms, so that equal expressions written in
+//! different order are one node. Nodes are created children first and never change; an [`Expr`]
+//! therefore orders topologically, and every pass is a loop over ids rather than a recursion.
+
+mod build;
+mod function;
+pub mod print;
+mod stage;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::BuildHasher;
+
+pub use build::steps_of_length;
+use dashu_int::Sign;
+pub use dashu_ratio::RBig as Rational;
+pub use function::Function;
+use hashbrown::HashTable;
+use rustc_hash::{FxBuildHasher, FxHashMap};
+pub use stage::Stage;
+
+use crate::work::{Stop, Work};
+
+/// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Expr(u32);
+
+impl Expr {
+    /// The position of the node in its graph.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What an expression depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Symbol {
+    /// The parameter of that position in the field file.
+    Parameter(usize),
+    /// The time t.
+    Time,
+    /// The reference coordinate X_J.
+    Coordinate(usize),
+    /// The component N_J of a reference unit normal.
+    Normal(usize),
+    /// The component H_iJ of a displacement gradient that the caller supplies.
+    Gradient(usize, usize),
+    /// A strain invariant less its value at F = I; only inside a material's density.
+    Invariant(usize),
+}
+
+/// An operation and its operands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// An exact rational number.
+    Number(Rational),
+    /// The circle's half circumference over its radius.
+    Pi,
+    /// A leaf.
+    Symbol(Symbol),
+    /// A constant plus terms with non-zero coefficients, in order of their handles. No term is a
+    /// number or a sum.
+    Sum(Rational, Vec<(Expr, Rational)>),
+    /// Bases with non-zero exponents, in order of their handles. No base is a product under an
+    /// integer exponent, and none is a number unless its power is irrational.
+    Product(Vec<(Expr, Rational)>),
+    /// An elementary function.
+    Call(Function, Vec<Expr>),
+}
+
+/// |number|.
+pub fn magnitude(number: &Rational) -> Rational {
+    if is_negative(number) { -number.clone() } else { number.clone() }
+}
+
+/// Whether a number is 1 or -1.
+pub fn is_unit(number: &Rational) -> bool {
+    number.is_one() || *number == Rational::NEG_ONE
+}
+
+/// Whether a number is below 0; a comparison would multiply.
+pub fn is_negative(number: &Rational) -> bool {
+    number.sign() == Sign::Negative
+}
+
+impl Node {
+    /// The operands.
+    pub fn children(&self) -> impl Iterator<Item = Expr> + '_ {
+        let (weighted, plain): (&[(Expr, Rational)], &[Expr]) = match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => (&[], &[]),
+            Node::Sum(_, terms) => (terms, &[]),
+            Node::Product(factors) => (factors, &[]),
+            Node::Call(_, arguments) => (&[], arguments),
+        };
+        weighted.iter().map(|(child, _)| *child).chain(plain.iter().copied())
+    }
+}
+
+impl Node {
+    /// Replaces every operand.
+    pub fn map_children(&mut self, mut replace: impl FnMut(Expr) -> Expr) {
+        match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(_, weighted) | Node::Product(weighted) => {
+                weighted.iter_mut().for_each(|(child, _)| *child = replace(*child));
+            }
+            Node::Call(_, arguments) => {
+                arguments.iter_mut().for_each(|child| *child = replace(*child));
+            }
+        }
+    }
+}
+
+/// How large a graph may become: nodes and operands together. A rotating 3-D field needs some
+/// thousands.
+pub const DEFAULT_MAX_NODES: usize = 200_000;
+
+/// What it takes to make a node or to find it, and so much more for each operand.
+pub const STEPS_OF_NODE: u64 = 20;
+const STEPS_OF_OPERAND: u64 = 10;
+
+/// An arena of hash-consed nodes, of bounded size.
+///
+/// Beyond the bound every operation returns at once what has no value, and [`Graph::is_exhausted`] tells; what was
+/// computed is then void. So no text makes a compilation long or large.
+#[derive(Clone, Debug)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    /// When the value of each node is known.
+    stages: Vec<Stage>,
+    /// The nodes by their hashes. Only ever looked up, never iterated: hash order cannot be observed.
+    index: HashTable<Expr>,
+    /// What sums were split into by [`Graph::split_content`], as far as that was asked.
+    contents: FxHashMap<Expr, (Rational, Expr)>,
+    /// Nodes and operands so far.
+    size: usize,
+    limit: usize,
+    exhausted: bool,
+    /// Nodes that were made before the graph was exhausted.
+    made: usize,
+    /// What may still be done.
+    work: Work,
+}
+
+/// What a node is found by.
+fn hash(node: &Node) -> u64 {
+    FxBuildHasher.hash_one(node)
+}
+
+/// How much a graph held at some time.
+struct Mark {
+    nodes: usize,
+    size: usize,
+    exhausted: bool,
+}
+
+impl Default for Graph {
+    fn default() -> Self {
+        Self::with_limit(DEFAULT_MAX_NODES)
+    }
+}
+
+impl Graph {
+    /// An empty graph of at most `limit` nodes and operands.
+    pub fn with_limit(limit: usize) -> Self {
+        let (nodes, stages, index) = (Vec::new(), Vec::new(), HashTable::new());
+        let mut graph = Graph {
+            nodes,
+            stages,
+            index,
+            contents: FxHashMap::default(),
+            size: 0,
+            limit,
+            exhausted: false,
+            made: 0,
+            work: Work::new(Stop::default()),
+        };
+        graph.intern(Node::Number(Rational::ZERO));
+        graph
+    }
+
+    /// Whether the bound was passed: then nothing in the graph means anything.
+    pub fn is_exhausted(&self) -> bool {
+        self.exhausted
+    }
+
+    /// The bound on nodes and operands.
+    pub fn limit(&self) -> usize {
+        self.limit
+    }
+
+    /// Changes the bound on nodes and operands.
+    pub fn set_limit(&mut self, limit: usize) {
+        self.limit = limit;
+    }
+
+    /// What may still be done with the graph: nothing can be made in it when that is over.
+    pub fn work(&self) -> &Work {
+        &self.work
+    }
+
+    /// With a budget that somebody may end.
+    pub fn stopped_by(mut self, stop: &Stop) -> Self {
+        self.work = Work::new(stop.clone());
+        self
+    }
+
+    /// Nodes and operands so far.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// What filled the graph, and what to do about it: help for a message.
+    pub fn exhaustion(&self) -> Vec<String> {
+        if self.work.is_over() {
+            return vec![
+                "it takes more steps than the bound allows: write it in a shorter form, with fewer functions within each other".into(),
+                "`mms ... --max-nodes N` raises that bound too; `field!` keeps the default".into(),
+            ];
+        }
+        if self.size <= self.limit {
+            return vec![
+                "exact numbers become too long in it: use fewer digits or lower powers".into(),
+            ];
+        }
+        let (nodes, operands) = (self.made, self.size - self.made);
+        vec![
+            format!(
+                "{nodes} nodes with {operands} operands were made; the bound is {} of both",
+                self.limit
+            ),
+            "very many terms come of it: write it in a shorter form".into(),
+            "`mms ... --max-nodes N` raises the bound; `field!` keeps the default".into(),
+        ]
+    }
+
+    /// Leaves room for as many nodes again, and the usual number: for a few more in a graph that was within its bound.
+    pub fn make_room(&mut self) {
+        self.limit += self.size + DEFAULT_MAX_NODES;
+    }
+
+    /// What `make` returns, or `None`, and the graph as it was, where it reaches the bound.
+    pub fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
+        let before = self.mark();
+        if self.work.is_over() && !before.exhausted {
+            return None;
+        }
+        let made = make(self);
+        if before.exhausted || !self.exhausted {
+            return Some(made);
+        }
+        self.back_to(before);
+        None
+    }
+
+    /// What `work` finds, and the graph as it was where it reaches the bound: what was found then has to say so.
+    pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+        let before = self.mark();
+        let found = work(self);
+        if self.exhausted && !before.exhausted {
+            self.back_to(before);
+        }
+        found
+    }
+
+    /// What `work` finds out with a few more nodes, none of which stays.
+    pub fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+        let (before, limit) = (self.mark(), self.limit);
+        self.make_room();
+        let found = work(self);
+        self.limit = limit;
+        self.back_to(before);
+        found
+    }
+
+    fn mark(&self) -> Mark {
+        Mark { nodes: self.nodes.len(), size: self.size, exhausted: self.exhausted }
+    }
+
+    /// Forgets what was made since.
+    fn back_to(&mut self, Mark { nodes, size, exhausted }: Mark) {
+        for (place, node) in self.nodes.iter().enumerate().skip(nodes) {
+            if let Ok(entry) = self.index.find_entry(hash(node), |expr| expr.index() == place) {
+                entry.remove();
+            }
+        }
+        self.nodes.truncate(nodes);
+        self.stages.truncate(nodes);
+        self.contents.clear();
+        (self.size, self.exhausted) = (size, exhausted);
+    }
+
+    /// The handle of a canonical node that was made already.
+    pub fn find(&self, node: &Node) -> Option<Expr> {
+        self.find_hashed(node, hash(node))
+    }
+
+    fn find_hashed(&self, node: &Node, hash: u64) -> Option<Expr> {
+        self.index.find(hash, |expr| self.node(*expr) == node).copied()
+    }
+
+    /// What stands for everything in an exhausted graph: ln(-1), which has no value in any arithmetic. So whoever
+    /// evaluates it learns nothing, and takes nothing for 0.
+    fn exhaust(&mut self) -> Expr {
+        if !self.exhausted {
+            (self.exhausted, self.made) = (true, self.nodes.len());
+        }
+        let number = self.enter(Node::Number(Rational::NEG_ONE));
+        self.enter(Node::Call(Function::Ln, vec![number]))
+    }
+
+    /// The node behind a handle.
+    pub fn node(&self, expr: Expr) -> &Node {
+        &self.nodes[expr.index()]
+    }
+
+    /// When the value of an expression is known.
+    pub fn stage(&self, expr: Expr) -> Stage {
+        self.stages[expr.index()]
+    }
+
+    /// How many nodes were made so far.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing was made yet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The one handle of a node that is canonical already.
+    fn intern(&mut self, node: Node) -> Expr {
+        self.work.spend(STEPS_OF_NODE + STEPS_OF_OPERAND * node.children().count() as u64);
+        if self.work.is_over() {
+            return self.exhaust();
+        }
+        let own_hash = hash(&node);
+        if let Some(expr) = self.find_hashed(&node, own_hash) {
+            return expr;
+        }
+        self.size += 1 + node.children().count();
+        // Handles are 32 bits wide; two are left for what stands for everything.
+        let is_full = self.size > self.limit.min(u32::MAX as usize - 2);
+        if is_full && !self.nodes.is_empty() {
+            return self.exhaust();
+        }
+        self.enter_new(node, own_hash)
+    }
+
+    /// The handle of a node, which is made if there is none, whatever the bound.
+    fn enter(&mut self, node: Node) -> Expr {
+        let own_hash = hash(&node);
+        self.find_hashed(&node, own_hash).unwrap_or_else(|| self.enter_new(node, own_hash))
+    }
+
+    /// The handle of a node that was not there.
+    fn enter_new(&mut self, node: Node, own_hash: u64) -> Expr {
+        let expr = Expr(self.nodes.len() as u32);
+        let own = match node {
+            Node::Symbol(symbol) => Stage::of(symbol),
+            _ => Stage::Parameter,
+        };
+        self.stages.push(node.children().fold(own, |stage, child| stage.join(self.stage(child))));
+        self.nodes.push(node);
+        let nodes = &self.nodes;
+        self.index.insert_unique(own_hash, expr, |expr| hash(&nodes[expr.index()]));
+        expr
+    }
+
+    /// The number, where the expression is one.
+    pub fn as_number(&self, expr: Expr) -> Option<&Rational> {
+        match self.node(expr) {
+            Node::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// Whether the expression is the number 0.
+    pub fn is_zero(&self, expr: Expr) -> bool {
+        self.as_number(expr).is_some_and(Rational::is_zero)
+    }
+
+    /// Everything that `roots` depend on, themselves included, operands before users.
+    pub fn reachable(&self, roots: &[Expr]) -> Vec<Expr> {
+        let reached = reachable(roots, Expr::index, |expr| self.node(expr).children());
+        self.work.spend(STEPS_OF_NODE * reached.len() as u64);
+        reached
+    }
+
+    /// How many of the expressions that are `among`, and of the roots, read an expression.
+    pub fn readers(&self, roots: &[Expr], among: impl Fn(Expr) -> bool) -> BTreeMap<Expr, usize> {
+        let mut readers = BTreeMap::new();
+        let reachable = self.reachable(roots);
+        let among = reachable.iter().filter(|expr| among(**expr));
+        let read = among.flat_map(|expr| self.node(*expr).children());
+        for read in read.chain(roots.iter().copied()) {
+            *readers.entry(read).or_default() += 1;
+        }
+        readers
+    }
+
+    /// The symbols that `root` depends on.
+    pub fn symbols(&self, root: Expr) -> BTreeSet<Symbol> {
+        let symbol = |expr: Expr| match self.node(expr) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        self.reachable(&[root]).into_iter().filter_map(symbol).collect()
+    }
+}
+
+/// Everything that `roots` are made of, themselves included, in order, where these are the `operands` of each and `place`
+/// is its position, which none of its operands is behind.
+pub fn reachable<N, O>(roots: &[N], place: impl Fn(N) -> usize, operands: impl Fn(N) -> O) -> Vec<N>
+where
+    N: Copy + Ord,
+    O: IntoIterator<Item = N>,
+{
+    let size = roots.iter().map(|root| place(*root) + 1).max().unwrap_or(0);
+    let mut seen = vec![false; size];
+    let (mut open, mut reached) = (roots.to_vec(), Vec::new());
+    while let Some(next) = open.pop() {
+        if !std::mem::replace(&mut seen[place(next)], true) {
+            reached.push(next);
+            open.extend(operands(next));
+        }
+    }
+    reached.sort_unstable();
+    reached
+}
+
+/// Something for each of some expressions.
+#[derive(Clone, Debug)]
+pub struct ByExpr<T> {
+    /// One more than the place of what there is; 0 for nothing.
+    places: Vec<u32>,
+    values: Vec<T>,
+}
+
+impl<T> ByExpr<T> {
+    /// Room for what `roots` are made of.
+    pub fn of(roots: &[Expr]) -> Self {
+        let size = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
+        ByExpr { places: vec![0; size], values: Vec::new() }
+    }
+
+    /// Puts something there, once.
+    pub fn set(&mut self, expr: Expr, value: T) {
+        self.values.push(value);
+        self.places[expr.index()] = self.values.len() as u32;
+    }
+
+    /// What is there, if there is something.
+    pub fn get(&self, expr: Expr) -> Option<&T> {
+        let place = *self.places.get(expr.index())?;
+        self.values.get((place as usize).wrapping_sub(1))
+    }
+}
+
+impl<T> std::ops::Index<Expr> for ByExpr<T> {
+    type Output = T;
+
+    fn index(&self, expr: Expr) -> &T {
+        self.get(expr).expect("operands come before their users")
+    }
+}

@@ -1,0 +1,54 @@
+//! Binding times: when a value is known.
+
+use super::Symbol;
+
+/// When a value is known: which of {parameters, t, X} it needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Parameters only: once.
+    Parameter,
+    /// Parameters and t: once per time.
+    Time,
+    /// Parameters and X: once per point, and then for all times.
+    Point,
+    /// X and t, or what a caller supplies at a point: every evaluation.
+    PointTime,
+}
+
+impl Stage {
+    /// Every stage, in the order of evaluation.
+    pub const ALL: [Stage; 4] = [Stage::Parameter, Stage::Time, Stage::Point, Stage::PointTime];
+
+    /// The stage of a value that needs values of both.
+    pub fn join(self, other: Stage) -> Stage {
+        match (self, other) {
+            (Stage::Time, Stage::Point) | (Stage::Point, Stage::Time) => Stage::PointTime,
+            _ => self.max(other),
+        }
+    }
+
+    /// Whether X is needed, or what a caller supplies at a point.
+    pub fn needs_point(self) -> bool {
+        matches!(self, Stage::Point | Stage::PointTime)
+    }
+
+    /// The stage of a leaf.
+    pub fn of(symbol: Symbol) -> Stage {
+        match symbol {
+            Symbol::Parameter(_) => Stage::Parameter,
+            Symbol::Time => Stage::Time,
+            Symbol::Coordinate(_) => Stage::Point,
+            Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => Stage::PointTime,
+        }
+    }
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Parameter => "parameter",
+            Stage::Time => "time",
+            Stage::Point => "point",
+            Stage::PointTime => "point_time",
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Rebuilding expressions with other leaves.
+
+use std::collections::BTreeMap;
+
+use crate::expr::{ByExpr, Expr, Graph, Node, Symbol};
+
+/// `roots` with every symbol that `values` names replaced by its value.
+pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, Expr>) -> Vec<Expr> {
+    rebuild(graph, roots, |graph, node| match node {
+        Node::Symbol(symbol) => match values.get(&symbol) {
+            Some(value) => *value,
+            None => graph.symbol(symbol),
+        },
+        other => graph.remake(other),
+    })
+}
+
+/// For [`substitute`]: what is made of each of these coordinates and of the place that stands beside its axis.
+pub fn coordinates(
+    graph: &mut Graph,
+    places: impl IntoIterator<Item = (usize, Expr)>,
+    made: impl Fn(&mut Graph, Expr, Expr) -> Expr,
+) -> BTreeMap<Symbol, Expr> {
+    let made = |(axis, place)| {
+        let symbol = Symbol::Coordinate(axis);
+        let coordinate = graph.symbol(symbol);
+        (symbol, made(graph, coordinate, place))
+    };
+    places.into_iter().map(made).collect()
+}
+
+/// `roots` with whole sub-expressions replaced, wherever they stand as operands.
+pub fn replace(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Expr, Expr>) -> Vec<Expr> {
+    let mut replaced = ByExpr::of(roots);
+    for expr in graph.reachable(roots) {
+        let made = match values.get(&expr) {
+            Some(value) => *value,
+            None => {
+                let mut node = graph.node(expr).clone();
+                node.map_children(|child| replaced[child]);
+                graph.remake(node)
+            }
+        };
+        replaced.set(expr, made);
+    }
+    roots.iter().map(|root| replaced[*root]).collect()
+}
+
+/// Rebuilds `roots` from their leaves up; `make` receives each node with rebuilt operands.
+pub fn rebuild(
+    graph: &mut Graph,
+    roots: &[Expr],
+    mut make: impl FnMut(&mut Graph, Node) -> Expr,
+) -> Vec<Expr> {
+    let mut rebuilt = ByExpr::of(roots);
+    for expr in graph.reachable(roots) {
+        let mut node = graph.node(expr).clone();
+        node.map_children(|child| rebuilt[child]);
+        let made = make(graph, node);
+        rebuilt.set(expr, made);
+    }
+    roots.iter().map(|root| rebuilt[*root]).collect()
+}
+
+impl Graph {
+    /// The canonical expression of a node whose operands are any expressions.
+    pub fn remake(&mut self, node: Node) -> Expr {
+        match node {
+            Node::Number(number) => self.number(number),
+            Node::Pi => self.pi(),
+            Node::Symbol(symbol) => self.symbol(symbol),
+            Node::Sum(constant, mut terms) => {
+                let one = self.number(1);
+                terms.push((one, constant));
+                self.sum(terms)
+            }
+            Node::Product(factors) => self.product(factors),
+            Node::Call(function, arguments) => self.call(function, &arguments),
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Whole turns off what is known of an angle before X is: in sin(k X - c t) the rounding of c t would err by eps times c
+//! t. So that becomes sin(k X - r), where r is c t less whole turns, taken off with the digits of the stage Time. While
+//! there are only a few turns, r is c t itself ([`mms_math::Scalar::within_turns`]).
+
+use super::substitute::rebuild;
+use crate::expr::{Expr, Function, Graph, Node, Rational, Stage};
+
+/// How many products and sums within each other are multiplied out.
+const NESTED: usize = 8;
+
+/// `roots` with whole turns off those parts of the angles of sines and cosines that need t and no X.
+pub fn whole_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
+    rebuild(graph, roots, |graph, node| {
+        let reduced = match &node {
+            Node::Call(function, angle) => reduced(graph, *function, angle[0]),
+            _ => None,
+        };
+        match (node, reduced) {
+            (Node::Call(function, _), Some(angle)) => graph.call(function, &[angle]),
+            (node, _) => graph.remake(node),
+        }
+    })
+}
+
+/// The angle of a sine or a cosine with whole turns off a part of it, if there is such a part beside one that needs X.
+fn reduced(graph: &mut Graph, function: Function, angle: Expr) -> Option<Expr> {
+    let within = match function.of_any_argument() {
+        Function::Sin | Function::Cos => Function::WithinTurns,
+        Function::SinPi | Function::CosPi => Function::WithinTurnsPi,
+        _ => return None,
+    };
+    if graph.stage(angle) != Stage::PointTime {
+        return None;
+    }
+    let [late, early] = parts(graph, angle, NESTED)?;
+    // The part that is subtracted as a whole stays so.
+    let sign = if graph.leads_with_minus(early) { -1 } else { 1 };
+    let early = graph.scale(early, sign);
+    let early = graph.call(within, &[early]);
+    Some(graph.sum([(late, Rational::ONE), (early, sign.into())]))
+}
+
+/// What of an angle needs X, and what needs t and no X, if it is the sum of both, perhaps times what needs no X.
+fn parts(graph: &mut Graph, angle: Expr, nested: usize) -> Option<[Expr; 2]> {
+    let nested = nested.checked_sub(1)?;
+    match graph.node(angle).clone() {
+        Node::Sum(constant, terms) => {
+            let one = graph.number(1);
+            let [mut late, mut early] = [vec![], vec![(one, constant)]];
+            for (term, coefficient) in terms {
+                if !graph.stage(term).needs_point() {
+                    early.push((term, coefficient));
+                } else if let Some(parts) = parts(graph, term, nested) {
+                    late.push((parts[0], coefficient.clone()));
+                    early.push((parts[1], coefficient));
+                } else {
+                    late.push((term, coefficient));
+                }
+            }
+            let parts = [late, early].map(|terms| graph.sum(terms));
+            (graph.stage(parts[1]) == Stage::Time).then_some(parts)
+        }
+        Node::Product(mut factors) => {
+            let needs_point = |(base, _): &(Expr, Rational)| graph.stage(*base).needs_point();
+            let place = factors.iter().position(needs_point)?;
+            let (sum, power) = factors.remove(place);
+            if !power.is_one() || factors.iter().any(needs_point) {
+                return None;
+            }
+            let parts = parts(graph, sum, nested)?;
+            Some(parts.map(|part| {
+                let part = (part, Rational::ONE);
+                graph.product(factors.iter().cloned().chain([part]))
+            }))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Symbol;
+
+    #[test]
+    fn turns_are_taken_off_what_is_known_before_x_is() {
+        let mut graph = Graph::default();
+        let [k, c] = [0, 1].map(|index| graph.symbol(Symbol::Parameter(index)));
+        let [x, y] = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
+        let t = graph.symbol(Symbol::Time);
+        let ct = graph.mul(c, t);
+        let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
+        // k (X + Y - c t)
+        let sum = graph.sum([(x, one.clone()), (y, one.clone()), (ct, minus_one.clone())]);
+        let angle = graph.mul(k, sum);
+        let places = graph.add(x, y);
+        let late = graph.mul(k, places);
+        let early = graph.mul(k, ct);
+        for (function, within) in [
+            (Function::Sin, Function::WithinTurns),
+            (Function::CosNearZero, Function::WithinTurns),
+            (Function::SinPi, Function::WithinTurnsPi),
+        ] {
+            let root = graph.call(function, &[angle]);
+            let reduced = graph.call(within, &[early]);
+            let reduced = graph.sum([(late, one.clone()), (reduced, minus_one.clone())]);
+            let expected = graph.call(function, &[reduced]);
+            assert_eq!(whole_turns(&mut graph, &[root]), [expected]);
+        }
+    }
+
+    #[test]
+    fn other_angles_and_other_functions_stay_as_they_are() {
+        let mut graph = Graph::default();
+        let (c, t) = (graph.symbol(Symbol::Parameter(0)), graph.symbol(Symbol::Time));
+        let x = graph.symbol(Symbol::Coordinate(0));
+        let [with_c, with_t] = [c, t].map(|it| graph.add(x, it));
+        let product = graph.mul(x, with_t);
+        let sum = graph.add(c, t);
+        let angles = [x, t, with_c, product, sum];
+        let mut roots: Vec<Expr> =
+            angles.iter().map(|angle| graph.call(Function::Sin, &[*angle])).collect();
+        roots.push(graph.call(Function::Tan, &[with_t]));
+        assert_eq!(whole_turns(&mut graph, &roots), roots);
+    }
+}
