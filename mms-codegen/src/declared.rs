@@ -9,9 +9,9 @@ use std::f64::consts::TAU;
 
 use mms_math::Scalar as _;
 
+use mms_mechanics::extent::Extent;
 use mms_mechanics::model::parameter_values;
 use mms_mechanics::model::{Body, Model};
-use mms_mechanics::sample::Extent;
 use mms_program::interpret::Interpreter;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;

@@ -3,7 +3,8 @@
 use mms_codegen::{Compiled, compile};
 use mms_math::Scalar as _;
 use mms_mechanics::boundary::Datum;
-use mms_mechanics::sample::{Sample, halton};
+use mms_mechanics::extent::halton;
+use mms_mechanics::sample::Sample;
 use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number as _, Point};
 use mms_program::precise::Precise;

@@ -13,6 +13,7 @@ pub mod defect;
 mod defect;
 pub mod derivation;
 mod expansion;
+pub mod extent;
 pub mod face;
 mod finite;
 pub mod invariant;

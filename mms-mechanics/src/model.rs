@@ -1,14 +1,16 @@
 //! A field file with its names resolved: expressions instead of text.
 
 pub mod energy;
+mod superposed;
 mod written;
 
 use std::collections::BTreeMap;
 
+pub use superposed::{RigidMotion, Rotation};
+
 use crate::invariant::Kind;
 use crate::meanings::Meanings;
 use crate::resolve::Scope;
-use crate::rigid::{RigidMotion, Rotation};
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;

@@ -2,8 +2,8 @@
 
 use mms_math::{Double, Scalar as _};
 
+use crate::extent::{Extent, halton, spread};
 use crate::model::{Body, Model};
-use crate::sample::{Extent, halton, spread};
 use mms_program::interpret::{Number as _, binary, unary};
 use mms_symbolic::expr::{ByExpr, Expr, Function, Graph, Node, Rational, Symbol};
 

@@ -13,36 +13,11 @@
 use crate::defect::{Defect, on};
 use crate::derivation::{Derivation, Response};
 use crate::kinematics::total;
+use crate::model::{RigidMotion, Rotation};
 use crate::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
-
-/// A rotation by an angle.
-#[derive(Clone, Debug)]
-pub enum Rotation {
-    /// In the plane.
-    Plane {
-        /// The angle.
-        angle: Expr,
-    },
-    /// In space, about an axis of any length but 0.
-    Space {
-        /// The components of the axis.
-        axis: [Expr; 3],
-        /// The angle.
-        angle: Expr,
-    },
-}
-
-/// x -> Q x + d.
-#[derive(Clone, Debug)]
-pub struct RigidMotion {
-    /// Q, if there is a rotation.
-    pub rotation: Option<Rotation>,
-    /// d.
-    pub translation: Vec<Expr>,
-}
 
 impl Rotation {
     /// The square of the length of the axis, in space.

@@ -10,7 +10,7 @@ use crate::derivation::derive_settled;
 use crate::derivation::{Derivation, derive};
 use crate::kinematics::Route;
 use crate::model::Model;
-use crate::rigid::RigidMotion;
+use crate::model::RigidMotion;
 use crate::rounding::Rounding;
 use mms_program::schedule::{Cost, cost, steps};
 use mms_spec::Form;

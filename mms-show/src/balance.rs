@@ -2,10 +2,11 @@
 //! configuration has per volume, the traction.
 
 use super::abbreviate::LINE;
-use super::motion::{Formulas, Quantities, transpose};
+use super::matrix::transpose;
+use super::matrix::{dot, matrix_product};
+use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::{Reading, Role};
-use super::stress::{dot, matrix_product};
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;

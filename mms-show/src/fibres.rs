@@ -1,9 +1,9 @@
 //! The fibres of a material that is a function of I4, by name.
 
+use super::matrix::dot;
 use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::Reading;
-use super::stress::dot;
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;

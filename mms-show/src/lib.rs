@@ -15,6 +15,7 @@ mod balance;
 mod document;
 mod energy;
 mod fibres;
+mod matrix;
 mod motion;
 mod page;
 mod reading;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use super::matrix::{matrix_product, transpose};
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
 use super::rigid::moved;
-use super::stress::matrix_product;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::resolve::Scope;
 use mms_spec::quantity::Quantity;
@@ -240,11 +240,6 @@ impl Quantities {
     pub fn components(&self, reading: &mut Reading, quantity: Quantity) -> Vec<Expr> {
         (0..self.ids(quantity).len()).map(|k| self.component(reading, quantity, k)).collect()
     }
-}
-
-/// The transpose of a square matrix, row-major.
-pub(super) fn transpose(matrix: &[Expr], dimension: usize) -> Vec<Expr> {
-    (0..matrix.len()).map(|k| matrix[k % dimension * dimension + k / dimension]).collect()
 }
 
 fn derivatives(reading: &mut Reading, values: &[Expr], along: Along) -> Vec<Expr> {

@@ -4,7 +4,7 @@ use super::motion::Formulas;
 use super::name::Name;
 use super::reading::Reading;
 use mms_codegen::compile::Compiled;
-use mms_mechanics::rigid::Rotation;
+use mms_mechanics::model::Rotation;
 use mms_mechanics::tensor::Tensor;
 use mms_spec::RigidSpec;
 use mms_symbolic::expr::{Expr, Function, Rational, Symbol};

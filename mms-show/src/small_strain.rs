@@ -2,10 +2,11 @@
 //! derivatives of W by tr eps and by eps:eps.
 
 use super::energy::Energy;
+use super::matrix::dot;
 use super::motion::Quantities;
 use super::name::{Along, Name};
 use super::reading::Reading;
-use super::stress::{dot, slope, volume};
+use super::stress::{slope, volume};
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Rational};

@@ -13,6 +13,7 @@
 use super::balance::{balance, current, density, measures, traction};
 use super::energy::Energy;
 use super::fibres::Fibres;
+use super::matrix::{dot, matrix_product};
 use super::motion::{Formulas, Quantities};
 use super::name::{Along, Name};
 use super::reading::Reading;
@@ -287,29 +288,4 @@ fn invariants(
     let second = graph.sum([(square, half.clone()), (contracted, -half)]);
     let second = reading.named(Name::plain("I2"), second, "derived");
     vec![(I1, first), (I2, second), (J, jacobian)]
-}
-
-/// The sum of products.
-pub(super) fn dot(reading: &mut Reading, pairs: Vec<(Expr, Expr)>) -> Expr {
-    let graph = &mut reading.graph;
-    let terms: Vec<_> = pairs.into_iter().map(|(a, b)| (graph.mul(a, b), Rational::ONE)).collect();
-    graph.sum(terms)
-}
-
-/// The product of two square matrices, row-major.
-pub(super) fn matrix_product(
-    reading: &mut Reading,
-    left: &[Expr],
-    right: &[Expr],
-    dimension: usize,
-) -> Vec<Expr> {
-    (0..dimension * dimension)
-        .map(|k| {
-            let (row, column) = (k / dimension, k % dimension);
-            let pairs = (0..dimension)
-                .map(|j| (left[row * dimension + j], right[j * dimension + column]))
-                .collect();
-            dot(reading, pairs)
-        })
-        .collect()
 }

@@ -3,7 +3,8 @@
 //! They are random, and the same in every run. One in four lies on a face or close to one.
 
 use mms_codegen::compile::Compiled;
-use mms_mechanics::sample::{Extent, domain};
+use mms_mechanics::extent::Extent;
+use mms_mechanics::sample::domain;
 use mms_program::precision::Digits;
 use mms_symbolic::expr::Rational;
 

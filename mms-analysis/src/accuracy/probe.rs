@@ -7,7 +7,8 @@ use mms_math::Scalar as _;
 
 use super::points::{Input, Place, exact, inputs};
 use mms_codegen::compile::Compiled;
-use mms_mechanics::sample::{Extent, domain, spread};
+use mms_mechanics::extent::{Extent, spread};
+use mms_mechanics::sample::domain;
 use mms_mechanics::{Bound, Output};
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;

@@ -11,7 +11,7 @@ use crate::bounds::chart::Chart;
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
 use mms_mechanics::Response;
-use mms_mechanics::sample::spread;
+use mms_mechanics::extent::spread;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
 use mms_spec::diagnostic::Diagnostic;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use super::{AXES, Declared, digits};
+use mms_mechanics::extent::{Extent, halton};
 use mms_mechanics::model::energy::{INCOMPRESSIBLE, POISSON};
-use mms_mechanics::sample::{Extent, halton};
 use mms_mechanics::tensor::dot;
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;

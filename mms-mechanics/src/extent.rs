@@ -1,0 +1,106 @@
+//! A body in numbers, and points spread evenly over it.
+
+use std::f64::consts::TAU;
+
+use mms_program::interpret::Number;
+use mms_symbolic::expr::Rational;
+
+/// What rounding makes of a bound, relative to the larger one.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// A body in numbers.
+#[derive(Clone, Debug)]
+pub enum Extent<T> {
+    /// A box: its least and its greatest coordinates.
+    Box([Vec<T>; 2]),
+    /// A ring or a sector of it: inner and outer radius, first and last angle.
+    Annulus([T; 2], [T; 2]),
+}
+
+impl<T: Number> Extent<T> {
+    /// The point at these fractions of the way from one end to the other: of each edge of a box;
+    /// of the angle and of the radius of an annulus.
+    pub fn point(&self, fractions: &[T]) -> Vec<T> {
+        match self {
+            Extent::Box([lower, upper]) => {
+                let edges = lower.iter().zip(upper).zip(fractions);
+                edges.map(|((lower, upper), fraction)| between(lower, upper, fraction)).collect()
+            }
+            Extent::Annulus([inner, outer], [first, last]) => {
+                let angle = between(first, last, &fractions[0]);
+                let radius = between(inner, outer, &fractions[1]);
+                vec![radius.clone() * angle.clone().cos(), radius * angle.sin()]
+            }
+        }
+    }
+
+    /// How many fractions a point has.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Extent::Box([lower, _]) => lower.len(),
+            Extent::Annulus(..) => 2,
+        }
+    }
+}
+
+impl Extent<f64> {
+    /// Whether a point is in the body or on its boundary, or within rounding of it.
+    pub fn contains(&self, point: &[f64]) -> bool {
+        match (self, point) {
+            (Extent::Box([lower, upper]), _) => lower
+                .iter()
+                .zip(upper)
+                .zip(point)
+                .all(|((lower, upper), coordinate)| is_between(*lower, *upper, *coordinate)),
+            (Extent::Annulus([inner, outer], [first, last]), [x, y]) => {
+                let turns = (y.atan2(*x) - first).rem_euclid(TAU);
+                // A little before the first angle is nearly a turn behind it.
+                let angle = if TAU - turns <= ROUNDING * TAU { 0.0 } else { turns };
+                is_between(*inner, *outer, x.hypot(*y)) && is_between(0.0, last - first, angle)
+            }
+            (Extent::Annulus(..), _) => false,
+        }
+    }
+}
+
+/// Whether a number lies between two others, or within rounding of them.
+pub fn is_between(lower: f64, upper: f64, value: f64) -> bool {
+    let rounding = ROUNDING * f64::max(lower.abs(), upper.abs());
+    (lower - rounding..=upper + rounding).contains(&value)
+}
+
+pub(crate) fn between<T: Number>(from: &T, to: &T, fraction: &T) -> T {
+    from.clone() + (to.clone() - from.clone()) * fraction.clone()
+}
+
+/// The point of that index, from 1 on, of the Halton sequence (Halton, Numer. Math. 2, 1960) in
+/// the unit cube of four dimensions.
+pub fn halton<T: Number>(index: usize) -> [T; 4] {
+    [2, 3, 5, 7].map(|base| T::from_rational(&radical_inverse(index, base)))
+}
+
+/// The point of that index, from 1 on, of the Halton sequence in the unit cube of any dimension.
+pub fn spread(index: usize, dimension: usize) -> Vec<Rational> {
+    let mut primes: Vec<usize> = Vec::with_capacity(dimension);
+    for n in 2.. {
+        if primes.len() == dimension {
+            break;
+        }
+        let mut divisors = primes.iter().take_while(|prime| *prime * *prime <= n);
+        if divisors.all(|prime| !n.is_multiple_of(*prime)) {
+            primes.push(n);
+        }
+    }
+    primes.into_iter().map(|base| radical_inverse(index, base)).collect()
+}
+
+/// The digits of `index` in `base`, mirrored at the radix point.
+fn radical_inverse(mut index: usize, base: usize) -> Rational {
+    let (mut numerator, mut denominator) = (0usize, 1usize);
+    while index > 0 {
+        numerator = numerator * base + index % base;
+        denominator *= base;
+        index /= base;
+    }
+    Rational::from_parts(numerator.into(), denominator.into())
+}

@@ -1,0 +1,29 @@
+//! A rigid motion on top of a field.
+
+use mms_symbolic::expr::Expr;
+
+/// A rotation by an angle.
+#[derive(Clone, Debug)]
+pub enum Rotation {
+    /// In the plane.
+    Plane {
+        /// The angle.
+        angle: Expr,
+    },
+    /// In space, about an axis of any length but 0.
+    Space {
+        /// The components of the axis.
+        axis: [Expr; 3],
+        /// The angle.
+        angle: Expr,
+    },
+}
+
+/// x -> Q x + d.
+#[derive(Clone, Debug)]
+pub struct RigidMotion {
+    /// Q, if there is a rotation.
+    pub rotation: Option<Rotation>,
+    /// d.
+    pub translation: Vec<Expr>,
+}
