@@ -1,4 +1,4 @@
-//! What quantities cost, before and after simplification.
+//! Operation counts of quantities, before and after simplification.
 
 use std::collections::BTreeMap;
 

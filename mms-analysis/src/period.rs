@@ -1,8 +1,8 @@
-//! The time after which a motion repeats itself, for good.
+//! The period of a motion: the time after which u repeats itself.
 //!
-//! u repeats itself if it depends on t through sines and cosines alone whose angles grow evenly, at rates that
-//! are multiples of one. That is read off the formula, so that a period is proved; it may be a multiple of
-//! the least one, as in sin(w t)^2.
+//! u repeats itself if it depends on t through sines and cosines alone, whose angles grow evenly at rates that are
+//! rational multiples of one. That is read off the formula, so a period is proved. It may be a multiple of the
+//! least one, as in sin(w t)^2.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

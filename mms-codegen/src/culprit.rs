@@ -1,9 +1,10 @@
-//! Which part of a field file makes a derivation too large: where the caret of that message goes.
+//! Finds the part of a field file that makes a derivation too large. The caret of that message points at it.
 //!
-//! The sizes that count are those of derivatives, up to the second, since all else is made of them.
-//! Trials in graphs of their own start at the largest component of u and go down, to a definition
-//! that it uses or to an operand, for as long as that part alone makes most of what the whole does.
-//! Trials are bounded in size and number.
+//! A graph that is full answers nothing: what was computed in it is refused. The message names the quantity, the
+//! part of the file that makes most of the nodes, how many were made, and the way out. The sizes that count are
+//! those of derivatives, up to the second, since all else is made of them. Trials in graphs of their own start at
+//! the largest component of u and go down, to a definition that it uses or to an operand, for as long as that part
+//! alone makes most of what the whole does. Trials are bounded in size and number.
 
 use std::collections::BTreeSet;
 

@@ -1,9 +1,14 @@
-//! What of a field is wanted: which quantities, with which values, and which parameters become
-//! constants.
+//! Which quantities of a field are wanted, with which values, and which parameters become constants.
 //!
-//! A selection is applied to the field as it was read, before any name is resolved. So a constant
-//! folds wherever the formulas let it, a formula that it leaves undefined is reported where it
-//! stands, and nothing that only unwanted quantities need reaches the program.
+//! A selection is applied to the field as it was read, before any name is resolved. A set value takes the place of
+//! the file's formula, and the name of a frozen parameter stands for its value at the defaults, not for a leaf. So
+//! everything from name resolution on sees a number: the graph folds it (0 ln J vanishes, and the derivation with
+//! it), what was assumed of its sign holds, and a division by zero is reported in the formula where it happens,
+//! with the frozen values. A value that becomes undefined only by the derivation (F = 0, then 1/J) is found in the
+//! scheduled program, whose constants are evaluated in arbitrary precision.
+//!
+//! With `quantities` given, only these are scheduled and emitted: no domain, no material, no contract of the
+//! runtime. Messages about the selection itself point into it: `set:1:8`, or the macro's token.
 
 use std::collections::{BTreeMap, BTreeSet};
 

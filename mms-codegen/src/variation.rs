@@ -1,7 +1,9 @@
-//! Another field that is made of one: to evaluate at extremes that its own parameters do not reach.
+//! Variations of a field: another field that is made of it, to be evaluated at extremes that its own parameters do
+//! not reach.
 //!
-//! A variation is made before anything is differentiated, so that what follows from the varied field
-//! is derived as that of any other. Nothing that it claims is looked at: its boundary may be another.
+//! A variation is made before anything is differentiated, so what follows from the varied field is derived as that
+//! of any other: s u(X, t) where there is no amplitude, u(X - s, t) for a body off the origin, another lambda/mu
+//! in the material. What the field claims is not looked at: its boundary may be another.
 
 use mms_mechanics::model::{Body, Model};
 use mms_spec::source::{Sources, Spanned};

@@ -1,7 +1,15 @@
-//! The parameter with which a motion vanishes, and which expressions lose digits where it is small.
+//! Finds the parameter with which a motion vanishes (its amplitude, at the defaults of the others), and the
+//! expressions that lose digits where it is small.
 //!
-//! An expression that vanishes with the amplitude keeps its digits if no part of it is a difference
-//! of what does not: see [`Amplitude::keeps`]. What does not is replaced by [`difference`].
+//! An expression that vanishes with the amplitude keeps its digits if no sum in it vanishes while its terms do
+//! not: see [`Amplitude::keeps`]. An expression that does not is replaced by its remainder ([`difference`]), order
+//! by order: u, H, C - I, B - I and J - 1, and for Div P and what is made of it also v, a and the second gradient,
+//! for a map such as r(R, a) - R has small ones too. The test is numerical, at a few places, and only chooses a
+//! candidate: each form is exact, whatever the values are.
+//!
+//! The part without an amplitude is left out where it is 0 for any signs of X and of the parameters, in 31 digits
+//! at 24 places; elsewhere it stays. A quotient that has no value at a corner or in the middle of the body, where
+//! the whole has one, is not taken.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,8 @@
-//! What a solver is given on the faces of a body.
+//! What a solver is given on the faces of a body: u where the field claims `prescribed` or nothing, N and P N
+//! where it claims `traction`. They become functions of their own, such as `x_max_traction`.
+//!
+//! Normals are exact (`face`), and on a face of a box the coordinate that is constant there is put in before the
+//! code is made, so that nothing is computed which a face does not need.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! W about F = I, with a remainder that is exact: what cancels at small strains does so in exact
-//! numbers, and what is left is as small as W itself.
+//! W about F = I, with a remainder that is exact: what cancels at small strains does so in exact numbers, and what
+//! is left is as small as W itself.
 //!
 //! With A = C - I, i1 = tr A, q the sum of the principal minors of A of two rows, and j = J - 1,
 //!
@@ -7,9 +7,11 @@
 //! i1 = 2 j + k      i2 = 4 j + 2 k + q
 //! ```
 //!
-//! where k and q are of second order in the strain. Each part of W is a value at F = I, slopes by j
-//! and i4, and a rest of second order; sums, products, powers and logarithms keep that form. Since
-//! W and P vanish at F = I, the values and the slopes of all W add up to 0.
+//! where k and q are of second order in the strain. k comes from H as |H|^2 - 2 q(H) - 2 det H, or, where a
+//! rotation is to cancel, from A as (i1 j - 2 (q + det A))/(2 + j): both hold at small strains and at large
+//! changes of volume. Each part of W is a value at F = I, slopes by j and i4, and a rest of second order; sums,
+//! products, powers and logarithms keep that form. Since W and P vanish at F = I, the values and the slopes of all
+//! W add up to 0.
 
 use std::collections::BTreeMap;
 

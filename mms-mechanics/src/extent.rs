@@ -1,4 +1,4 @@
-//! A body in numbers, and points spread evenly over it.
+//! A body in numbers, and points spread evenly (a low-discrepancy sequence) over it.
 
 use std::f64::consts::TAU;
 

@@ -1,16 +1,38 @@
 //! Stress and its divergence from a strain-energy density W(I1, I2, J, I4).
 //!
-//! With C = F^T F, the 3-D invariants I1 = tr C, I2 = ((tr C)^2 - tr C^2)/2, J = det F, and the
-//! squared stretch I4 = a0.C a0 of fibres in the unit reference direction a0,
+//! With C = F^T F, the 3-D invariants I1 = tr C, I2 = ((tr C)^2 - tr C^2)/2, J = det F, and the squared stretch I4
+//! = a0.C a0 of fibres in the unit reference direction a0,
 //!
 //! ```text
 //! P = dW/dF = alpha F + beta F C + gamma F^-T + delta (F a0) x a0,
 //! alpha = 2 (W_1 + I1 W_2),  beta = -2 W_2,  gamma = J W_J,  delta = 2 W_4
 //! ```
 //!
-//! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6;
-//! Holzapfel, Nonlinear Solid Mechanics, 2000, section 6.7). W is held as a function of i1 = I1 - 3,
-//! i2 = I2 - 3, j = J - 1 and i4 = I4 - 1, which are formed from H without cancellation.
+//! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6; Holzapfel, Nonlinear
+//! Solid Mechanics, 2000, section 6.7). W is held as a function of i1 = I1 - 3, i2 = I2 - 3, j = J - 1 and i4 = I4
+//! - 1, which are formed from H without cancellation, and of X, where a material parameter depends on it. P is
+//! rearranged in powers of the strain, with s0 = alpha + beta + gamma, s1 = alpha + 2 beta, s2 = beta:
+//!
+//! ```text
+//! P   = F^-T (s0 I + s1 (C - I) + s2 (C - I)^2)
+//! tau = s0 I + s1 (B - I) + s2 (B - I)^2
+//! ```
+//!
+//! s0 and s1 are multiplied out in the invariants: terms of the size of the modulus that cancel at F = I do so in
+//! exact numbers, however W is typed.
+//!
+//! The divergence is not the derivative of these components: that would make expressions grow with the material.
+//! It is tensor algebra, linear in the second derivatives u_i,JK:
+//!
+//! ```text
+//! (Div P)_i = alpha Lap u_i + F_iJ alpha,J + beta (F C)_iJ,J + (F C)_iJ beta,J + (gamma,J - gamma g_J) F^-1_Ji
+//!             + f_i (a0_J delta,J + delta a0_J,J) + delta (a0_K a0_J u_i,KJ + F_iK a0_J a0_K,J)
+//! g_J = F^-1_Kk u_k,KJ = (ln J),J          f = F a0
+//! ```
+//!
+//! alpha,J and its like follow from the derivatives by i1, i2, j, i4 and from explicit dependence on X. So b needs
+//! no second derivative of W by F, and u is differentiated twice at most. a0 has three components; those along
+//! dimensions that a field lacks stretch nothing.
 
 use crate::defect::{Defect, on};
 use crate::invariant::{FIBRE, FIRST, SECOND, VOLUME};

@@ -1,4 +1,9 @@
 //! Kinematics: what follows from a displacement, or from its gradient alone.
+//!
+//! Where tr H is 0 whatever the parameters are, but not as it is written (sin 2X in one component, 2 sin X cos X
+//! in the other), a component of the diagonal is written as minus the others, for a large bulk modulus would
+//! multiply what rounding leaves. What is 0 so is seen by its values (`place.rs`). Then I : F,J is left out of the
+//! gradients of the invariants as well.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,11 @@
-//! Fields about a place far from the origin, in coordinates less that place.
+//! Derives fields about a place far from the origin in coordinates less that place.
 //!
-//! k (X - s) - w t is one sum, k X - k s - w t, and what multiplies out squares has X^2 and s^2 apart: where X is a million
-//! times larger than the body, six digits are gone. So X - s becomes a value of its own, [`Function::Offset`], as exact as
-//! X is, and all that follows is derived from that.
+//! Of a body a million times as far from the origin as it is large, X has six digits less to tell its points
+//! apart, and no formula must lose them once more: k (X - s) - w t is one sum in the graph, k X - k s - w t, and k
+//! s - w t would be rounded first; what multiplies out squares has X^2 and s^2 apart. So parameters that a field
+//! has nothing of but coordinates less them, and the corner of a box that is far from the origin, are taken from
+//! the coordinates before anything is derived. X - s becomes a value of its own, [`Function::Offset`]: to every
+//! pass it is a leaf as exact as X is, with the slope 1, and in the program a difference.
 
 use std::collections::{BTreeMap, BTreeSet};
 

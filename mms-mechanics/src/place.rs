@@ -1,4 +1,5 @@
-//! Values of expressions at a few places, in double-double: what is 0, and what is so whatever the parameters are.
+//! Evaluates expressions at a few places of the body, in double-double: which are 0 there, and which are 0
+//! whatever the parameters are.
 
 use mms_math::{Double, Scalar as _};
 

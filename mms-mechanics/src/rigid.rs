@@ -1,14 +1,15 @@
-//! The rigid twin of a field: its motion, followed by a rotation Q(t) about the origin and a
-//! translation d(t).
+//! The rigid twin of a field: its motion, followed by a rotation Q(t) about the origin and a translation d(t).
 //!
 //! ```text
 //! x* = Q x + d     F* = Q F     P* = Q P     sigma* = Q sigma Q^T     Div P* = Q Div P
 //! b* = Q b + Q'' x + 2 Q' v + d''
 //! ```
 //!
-//! (Truesdell & Noll, The Non-Linear Field Theories of Mechanics, 1965, sections 17 and 19.) The
-//! stress of a twin is that of the field, rotated: it is exact, whatever the rotation, for a
-//! material that does not see it.
+//! (Truesdell & Noll, The Non-Linear Field Theories of Mechanics, 1965, sections 17 and 19.) The motion is put on
+//! top of a derivation that is already simplified. So a twin carries the stress of its field, in which no rotation
+//! has to cancel, and costs the field plus the turning. Q - I is made of sine and cosine of half the angle, so
+//! that small angles keep their digits. That holds for materials that are frame-indifferent. The others are
+//! refused a rotation: those whose W is written in the small strain, and those whose file claims no more.
 
 use crate::defect::{Defect, on};
 use crate::derivation::{Derivation, Response};

@@ -1,5 +1,5 @@
-//! What rounding makes of expressions as they are written, at places of the body: a bound of first order, after Wilkinson
-//! (Rounding Errors in Algebraic Processes, 1963).
+//! A first-order bound of the rounding error of expressions as they are written, at places of the body, after
+//! Wilkinson (Rounding Errors in Algebraic Processes, 1963).
 
 use mms_math::{Double, Scalar as _};
 

@@ -1,7 +1,46 @@
-//! Simplification: of several expressions of the same value, the cheapest to compute.
+//! Simplification: of several candidates for a quantity, all of the same exact value, choose the cheapest to
+//! compute among those that are accurate. No candidate is best for all quantities.
 //!
-//! No way of writing a quantity is best for all. So several are made, each by passes that keep the
-//! value, and every quantity takes the one that costs least, of those that are exact.
+//! # Candidates
+//!
+//! The derivation is made once without relations and, if the displacement has some, once more with the motion
+//! reduced by them, so that det F = 1 of a rotation is 1 from the start. Of every quantity each form is made that
+//! the passes give; all are scheduled. A pass that outgrows the graph is undone.
+//!
+//! # Cost
+//!
+//! Operations that depend on X count first, then all. Div P and b, which a solver asks for at every step, are also
+//! written with what X determines apart from what t does (`separate`). That candidate is taken where it leaves
+//! less to be done at each time, an operation that needs t counted twice, and at most a sixteenth more from a
+//! position. Of these two quantities it is also asked what they cost where a product that is added takes no step
+//! of its own, as in loops over points on processors with fused multiply-add: then one number can serve in place
+//! of two that differ by a constant (`shift`), and constants are added up (`gather`), where that is fewer steps
+//! and no more of those that need t. But for Div P and b, no chosen program costs more than the plain one; these
+//! may take at most a sixteenth more operations at a point, and some more that are done once.
+//!
+//! # Accuracy
+//!
+//! Which candidates are open is the `Form`. The fast form takes the cheapest of all, and loses eps/e where a
+//! strain e is small, in W eps/e^2. What the solver asks a material is the same in both.
+//!
+//! In the stable form, the default, every quantity is within 64 eps of its largest magnitude over the declared
+//! body and time window, at any amplitude down to 1e-12 of the size (`tests/stable/`). Quantities that vanish with
+//! the strain (u, H, E, W, stress) are made of H after cancellation rewriting (`settle`), and of C - I and J - 1
+//! that are reduced in half of the angles that the field turns by: cos a = 1 - 2 h^2 with h = sin(a/2), so that a
+//! normal form is a polynomial in what is small with the angle, and a rotation of order one leaves nothing. All
+//! others are of the size of 1, of X or of a second derivative; errors of eps do them no harm, and they may be
+//! made of F = I + H, with ln J of a product. Where moduli depend on X, so does a part of Div P that is as small
+//! as the stress is: then Div P and b too are made of the rewritten H.
+//!
+//! A first-order bound of the rounding error (`mechanics/rounding.rs`), at places of the body, holds candidates to
+//! digits. The separated and shifted forms of Div P and b are taken only if that bound grows by half at most. In
+//! the stable form it is asked for every quantity: a candidate beyond 64 roundings of the largest value, and 16
+//! times the least bound, gives place to another one of at most twice the operations at a point. So rewritten
+//! forms, which may lose digits at large strains that H itself keeps, give place there to what is 16 times as
+//! exact. `mechanics/amplitude.rs` says which candidates keep their digits at a small amplitude; these go before
+//! cheap ones.
+//!
+//! `tests/operations.rs` holds operation counts to bounds.
 
 use std::collections::BTreeMap;
 

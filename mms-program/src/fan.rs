@@ -1,5 +1,5 @@
-//! A value and its derivatives in several directions, which have the value in common: a [`Dual`] for each direction, to
-//! the same bounds, at the price of the value and what the directions add to it.
+//! Dual numbers of several directions that share one value. They have the bounds of a [`Dual`] for each direction,
+//! at the price of the value and what the directions add to it.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

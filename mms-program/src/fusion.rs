@@ -1,5 +1,8 @@
-//! Products that are added to something: one instruction on processors that multiply and add in one
-//! step.
+//! Which products are fused with the sum that they are added to: one instruction on processors that multiply and
+//! add in one step.
+//!
+//! A fused product is `mul_add`: a product and a sum in `f64`, to the interpreter's bits, and one instruction
+//! where a loop over points is compiled for a processor that has it.
 
 use crate::program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;

@@ -1,8 +1,12 @@
 //! Messages to a user, and how they look.
 //!
-//! A phase collects every mistake it finds as a [`Diagnostic`] and goes on where that makes sense;
-//! [`render`] prints them all at the end, in the order of their places, each with its own
-//! `path:line:column` and a caret under the exact text.
+//! A phase collects every mistake that it finds as a [`Diagnostic`] (message, span, label, help) and goes on where
+//! that makes sense. [`render`] prints them all at the end, in the order of their places, each with its own
+//! `path:line:column` and a caret under the exact text. The same text comes from `mms check` and, as one compile
+//! error, from `field!`.
+//!
+//! A mistake hides no other: what could not be read is replaced by a formula that stands for it, and a name whose
+//! definition failed is not reported where it is used.
 
 use std::collections::BTreeSet;
 use std::ops::Range;

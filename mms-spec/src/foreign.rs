@@ -1,5 +1,11 @@
-//! Texts that came from outside: from files, and names of files. What they hold may steer a terminal, or look like lines
-//! of ours, so they are shown in one way only.
+//! Texts from outside: names and titles of fields and materials, references, sources of closed forms,
+//! descriptions, names of extremes, paths, and formats and commands in checkpoints.
+//!
+//! Such a text may steer a terminal, or look like a line of the program's own. A `Foreign` therefore has no
+//! `Display`: who prints it must say how. On a terminal, `shown()` escapes every character that cannot be seen, as
+//! Rust does, and keeps to one line of a thousand characters. In emitted code, `in_a_comment()` puts blanks in
+//! their place. `raw()` is for what escapes by itself, and for comparisons. `path` shows a path, and `markup`
+//! leaves out what HTML and XML forbid. Diagnostics and their source lines are shown in the same way.
 
 use std::path::Path;
 

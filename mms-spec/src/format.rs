@@ -1,8 +1,9 @@
 //! Format 1 as data: the keys of each table, what each of them holds, and one sentence about it.
 //!
-//! The reader takes from here which keys a table may have, and the JSON Schema that editors use is
-//! made of it, so that neither knows a key that the other does not. What depends on other values
-//! (how many components, which faces) is the reader's, and the schema's own tests hold it to that.
+//! The reader takes its keys from here, and the JSON Schema for editors is made of it, so neither knows a key that
+//! the other does not. A schema sees form, not meaning: it refuses what the reader refuses, except where one place
+//! speaks of names that another one defines, and where numbers must increase. What depends on other values (how
+//! many components, which faces) is the reader's, and the schema's own tests hold it to that.
 
 use crate::domain::{BODIES, Claim};
 use crate::names::Keeper;

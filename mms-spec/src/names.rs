@@ -1,4 +1,7 @@
-//! Which names a file may define: the identifier rule, and the names that the language keeps.
+//! Which names a file may define.
+//!
+//! Names are ASCII identifiers, and emitters rename what a target reserves. The language reserves `X Y Z t pi` and
+//! the functions; in a material also the invariants. Everything else is free, `F` and `fn` included.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,9 @@
-//! The rigid twin of a field, on demand: a motion that the field's file does not hold.
+//! The rigid twin of a field, on demand: the field under a superposed rigid motion x* = Q x + d, which its file
+//! does not hold. It is a test of objectivity.
 //!
-//! A twin is a different solution of the same equations. Faces keep what a rigid motion keeps: one
-//! that is free stays free, while one that was at rest moves, and its displacement is prescribed.
-//! Closed forms are those of the field at rest, and are left out.
+//! A twin is a different solution of the same equations. Faces keep what a rigid motion keeps: one that is free
+//! stays free, while one that was at rest moves, and its displacement is prescribed. Closed forms are those of the
+//! field at rest, and are left out.
 
 use crate::diagnostic::Diagnostic;
 use crate::domain::{Body, Claim};

@@ -1,5 +1,15 @@
-//! How much may be done for a text: counted in steps and never in seconds, so that the same text ends at the same
-//! place everywhere; and whether somebody asked to stop.
+//! A budget of steps for the work that a text may cause.
+//!
+//! Work is counted in steps of about ten nanoseconds, and never in seconds, so that the same text ends at the same
+//! place on every machine. A graph has one budget. Who makes nodes, counts pairs to share, or runs a program
+//! within it is charged for what that takes; `program/effort.rs` says what an operation takes in intervals and in
+//! 77 digits. In a proof, what there is no budget left for is not a number, so it proves nothing and refutes
+//! nothing. Comparisons in 77 digits are then made at fewer points, or at none, which is no pass. So `mms check`
+//! ends within ten seconds of processor time, whatever the text is, and says what it left out. The fields of the
+//! gallery take a tenth of each budget or less, except for some of the rates.
+//!
+//! A `Stop` that another thread has asked to stop leaves every budget empty. A compilation then ends with one
+//! diagnostic that says so, a proof with less proved. Who holds a compiled field after that compiles it anew.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -1,8 +1,9 @@
-//! What a field can see of the equations, and what it cannot.
+//! Term coverage: which terms of the equations a field can see, and which it cannot.
 //!
-//! A solver may do wrong what vanishes in a field, and still agree with it. A term is called absent
-//! where its expressions are 0, or where they are so small at points spread over the domain that
-//! 77 digits tell nothing else; which of the two is part of the answer, and the latter is no proof.
+//! A solver may do wrong what vanishes in a field, and still agree with it. A term is called absent where its
+//! expressions are 0 (for all parameters), or where they are below 1e-60 of their natural size at 32 points with
+//! 77 digits, for the defaults; which of the two is part of the answer, and the latter is no proof. The gallery as
+//! a whole leaves no term unseen; a test lists those that it does.
 
 mod scale;
 mod term;

@@ -1,4 +1,5 @@
-//! Natural sizes, which tell a number that is 0 but for rounding from one that is small.
+//! Natural sizes, which tell a number that is 0 but for rounding from one that is small: products of the length of
+//! the body, the time window, rho0 c0^2 and rho0.
 
 use mms_math::Scalar as _;
 

@@ -1,4 +1,15 @@
-//! For each term, the expressions that vanish where it is absent.
+//! For each term, the expressions that are 0 where it is absent:
+//!
+//! | term | expressions |
+//! |---|---|
+//! | motion, its start and its end | v, a, da/dt; u, v, a with t replaced by the ends of the time window |
+//! | shear, rotation, volume change | off-diagonal E, F - F^T, J - 1 |
+//! | shape functions that hold u | u_i,JK; u_i,JJ; u_i,JKL |
+//! | cross terms | the part of dP_iJ/dH_kL u_k,LJ with kL other than iJ |
+//! | transposed stress | Div P - Div P^T |
+//! | graded moduli, density | dP_iJ/dX_J at fixed H, drho0/dX |
+//! | parameter p of the material | p d(Div P)/dp, of a second derivation with p exp(s) for p |
+//! | traction on a face | P N, with X replaced by its projection to the face |
 
 use std::collections::BTreeMap;
 

@@ -1,9 +1,11 @@
-//! Sines and cosines whose angle is proved to be less than a quarter turn: nothing need be taken off it; and where it is
-//! at most 1, or a little more, fewer terms are enough.
+//! Finds the sines and cosines whose angle is proved to be less than a quarter turn, so that they need no range
+//! reduction (`sin_near_zero`, `cos_near_zero`), and those whose angle is at most 1, or a little more, so that
+//! fewer terms are enough (`sin_within_one`, `cos_within_one`).
 //!
-//! The proof is for the body, the time window and the ranges of parameters. Elsewhere the functions are right
-//! too, only slower (`mms_math::batch`), so an angle that depends on a parameter without a range, which may be
-//! set to anything, is left as it is.
+//! The proof is for the body, the time window and the ranges of parameters, with the box, the bounds and the
+//! search of certificates, in at most 128 cells and 50,000 operations. Elsewhere the functions are right too, only
+//! slower (`mms_math::batch`). So an angle that depends on a parameter without a range, which may be set to
+//! anything, is left as it is; `freeze` makes a number of such a parameter. Ports call the plain functions.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,9 +1,15 @@
-//! Whether a field stays within one analytic branch of every function that it uses.
+//! Proves that a field stays within one analytic branch of every function that it uses.
 //!
-//! A derivative knows of no cut: where u jumps, all that follows from it may be finite and J positive. So each limit of the
-//! table in `limits.rs` is proved over the body, the time window and the ranges of parameters, for the formulas of the
-//! field in canonical form, and for W at the strain of the field. What all else is made of is then analytic, and so is all
-//! else where it is finite. What canonical form has cancelled must have a value as it is written.
+//! Derivatives do not know of a cut: where u jumps, all that is derived may be finite and J positive. So the
+//! formulas of a file are kept as they are written (`mechanics/model/written.rs`), and for each node of their
+//! canonical form the limit of its function (`limits.rs`) is proved over the body, the time window and the ranges
+//! of parameters. The same is done for W at the strain of the field, the density, the moduli, the fibres and a
+//! rigid motion. What canonical form has cancelled, such as one of `sqrt(X)*sqrt(X)`, needs a value and no more;
+//! what no variable moves does, too. All else is made of these formulas by derivatives and whole powers, and is
+//! analytic where it is finite.
+//!
+//! A sign that differs at two points of a cell is followed to where it changes, in 77 digits: that point is named,
+//! at the place of the call. What is neither proved nor refuted is refused as unproved.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,5 +1,8 @@
-//! What a file claims on the faces of its body: proved as an identity where that is possible, else
-//! enclosed, or refuted at a point.
+//! The claims of a file on the faces of its body: proved as an identity where that is possible, else enclosed, or
+//! refuted at a point.
+//!
+//! The scale is the size of the body for u, and the longitudinal modulus at F = I for P N. `prescribed` and
+//! `traction` claim only that u and P N are finite.
 
 use mms_math::Scalar as _;
 

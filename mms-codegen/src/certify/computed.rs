@@ -1,5 +1,20 @@
-//! Whether what is finite is finite as computed: the program itself, with all that it makes on the way, in the precision
-//! that it runs in.
+//! Proves that what is finite is finite as computed, too: by the scheduled program, with every intermediate value,
+//! in the precision that it runs in.
+//!
+//! Each value is a pair (`program/computed.rs`): bounds of the exact value, and of how far a computed one may be
+//! from it, which every operation passes on by the mean-value theorem and adds its rounding and the least
+//! subnormal number to. The exact part can take what is known of it: what the program divides by and takes roots
+//! and logarithms of is written as a formula in the variables of the box once more, where it is a multiple of J,
+//! or is bounded by its mean-value form. A divisor, a root or a logarithm must be of the right sign with the
+//! error. What overflows has no value, and neither has a sine in twice the digits of more than 2^50. Numbers that
+//! vary are those of the precision; the first two stages have the wider one.
+//!
+//! `f64` decides with the verdict that all is finite. `f32` is a line of its own, and an error of `mms run` and
+//! `mms study` only, where it fails at a corner or in the middle.
+//!
+//! The errors of the angles of sines, cosines and tangents tell how many digits are left of them. Where whole
+//! turns are taken off c t, the exact value is what is left when as many are taken off as are taken off what is
+//! computed: of angles that may be more than a few turns only the size is known then.
 
 use std::collections::BTreeSet;
 

@@ -1,20 +1,22 @@
 //! Where the functions of the language are analytic, and where they have a value.
 //!
-//! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are so everywhere. The others have limits:
+//! Sums, products, whole powers, exp, sinh, cosh, tanh, sin, cos and atan are so everywhere. The others have
+//! limits, each of which `branches` proves as a sign; `tests/branches.rs` has a test for each:
 //!
-//! | | is analytic | has a value |
-//! |---|---|---|
-//! | 1/x, x^-n | x is not 0 | there |
-//! | sqrt(x), hypot, x^(p/q) | x > 0 | x >= 0, for a positive power |
-//! | x^y | x > 0 | there |
-//! | cbrt(x) | x is not 0 | everywhere |
-//! | ln(x) | x > 0 | there |
-//! | tan(x) | cos(x) is not 0 | there |
-//! | asin(x), acos(x) | -1 < x < 1 | -1 <= x <= 1 |
-//! | atan2(y, x) | y is not 0, or x > 0 | everywhere |
+//! | | is analytic | has a value | proved by |
+//! |---|---|---|---|
+//! | 1/x, x^-n | x is not 0 | there | all quantities are finite; where it cancels, the sign of x |
+//! | sqrt(x), x^(p/q) | x > 0 | x >= 0, for a positive power | x > 0 |
+//! | hypot(x, y) | not both are 0 | everywhere | x^2 + y^2 > 0; on an annulus it is the radius |
+//! | x^y | x > 0 | there | the form of x is one of what is positive, or the file is refused when it is read; then x > 0 |
+//! | cbrt(x) | x is not 0 | everywhere | the sign of x |
+//! | ln(x), in W ln(J) | x > 0 | there | x > 0; J > 0 is proved already |
+//! | tan(x) | cos(x) is not 0 | there | the sign of cos(x) |
+//! | asin(x), acos(x) | -1 < x < 1 | -1 <= x <= 1 | 1 + x > 0, 1 - x > 0 |
+//! | atan2(y, x) | y is not 0, or x > 0 | everywhere | the sign of y, or x > 0 |
 //!
-//! An angle that only sines and cosines of whole multiples of it read, and tangents of half of such, may pass its cut: all
-//! that it needs is that y and x are not both 0.
+//! An angle `atan2(y, x)` that only sines and cosines of whole multiples of it read, and tangents of half of such,
+//! may pass its cut, since a turn more changes nothing: all that it needs is that y and x are not both 0.
 
 use std::collections::{BTreeMap, BTreeSet};
 

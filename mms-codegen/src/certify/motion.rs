@@ -1,5 +1,5 @@
-//! What proofs are about, in the variables of a chart: H, C - I and its rate, J, the density, and
-//! the stress as a function of H.
+//! The motion of a field in the variables of a chart, which proofs bound: H, C - I and its rate, J, the density,
+//! and the stress as a function of H.
 
 use std::collections::BTreeMap;
 

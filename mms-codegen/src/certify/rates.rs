@@ -1,5 +1,15 @@
-//! How far, how fast and how stiffly a field deforms: bounds of the principal stretch, of the strain
-//! rate and of the wave speed over the domain.
+//! Bounds of the principal stretch, of the strain rate and of the wave speed over the domain: how far, how fast
+//! and how stiffly a field deforms.
+//!
+//! Strains are bounded by C = F^T F in the basis of the coordinates, so that rotations cost no sharpness, and by F
+//! beside it, whose entries are shorter where nothing rotates; the least of the bounds counts. Eigenvalues of C
+//! are bounded by Hertz and Weyl, singular values of F by Weyl. The strain rate D comes from C as D : D = tr (C^-1
+//! dC/dt)^2/4, in two dimensions as (2 (dJ/dt)^2 - det dC/dt)/(2 J^2), and from F as sym(dF/dt F^-1).
+//!
+//! The wave speed is that of the acoustic tensor on a grid of directions, whose gaps are bounded, over the least
+//! rho0; for isotropic materials in principal axes. In the deformed body it is made of F_pJ F_qL A_iJkL instead of
+//! A_iJkL. The stable time step is the cell size over the larger of the two wave speeds; it knows nothing of the
+//! speed of particles.
 
 use std::ops::Range;
 

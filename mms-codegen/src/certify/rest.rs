@@ -1,5 +1,8 @@
-//! The stress of the undeformed body: P at F = I. A material without a stress at rest has none, and a file that forgot a
-//! term of W has one which no proof and no study of its own sees.
+//! The stress of the undeformed body, P at F = I: whether it is 0, symbolically, or at 16 points for the defaults
+//! and 16 within the ranges.
+//!
+//! A material without a stress at rest has none. A file that forgot a term of W has one, which no proof and no
+//! study of its own sees. It may be meant, so it is a warning.
 
 use std::collections::BTreeMap;
 

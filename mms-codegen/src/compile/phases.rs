@@ -1,4 +1,7 @@
-//! The phases of a compilation: a text is read, derived from and scheduled.
+//! The phases of a compilation: read a text, transform it, derive from it, simplify, and schedule.
+//!
+//! Each phase has its own budget of steps ([`crate::work`]). Reading and deriving are refused beyond theirs.
+//! Simplifying and scheduling keep the shortest form that they have found when theirs ends.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,8 @@
-//! Whether a material is an elastic solid in the undeformed body: W is smooth at F = I, and no
-//! wave grows there. Looked at in points of the body, which is no proof.
+//! Whether a material is an elastic solid in the undeformed body: W is smooth at F = I, and no wave grows there.
+//!
+//! The acoustic tensor Q_ik = A_iJkL n_J n_L must have no negative eigenvalue, and not be 0: along one direction
+//! of an isotropic solid, which says all, and along some tens with fibres. Points of the body are sampled, which
+//! is no proof.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,9 @@
 //! What check programs have in common: what they say of themselves, and what they run.
+//!
+//! A check program calls a function at all points of one set of parameters, compares the results in one call, and
+//! accepts 64 eps of their largest magnitude. Where the formulas lose more than half of that in the interpreter's
+//! double precision, a set of parameters other than the defaults is left out, and with the defaults four times
+//! that loss is accepted: a port is to be right, not better than its formulas.
 
 use super::Port;
 use super::callable::Callable;

@@ -1,5 +1,11 @@
-//! Functions that a language lacks, in those that it has: without a branch, and without a difference
-//! that algebra takes for 0, since some languages rearrange what they read.
+//! Legalises a program for a language: functions that it lacks are written out in those that it has, without a
+//! branch, and without a difference that algebra takes for 0.
+//!
+//! Some languages rearrange what they read: the parser of MOOSE makes (1 + x) - 1 to x, and with it every
+//! compensated logarithm to one of the rounded 1 + x. So ln(1 + x) is 2^4 ln(1 + y), where x is halved four times
+//! as x/(1 + sqrt(1 + x)), and then a series; x - ln(1 + x) follows the same way back as y^2 + 2 (y - ln(1 + y)),
+//! a sum of positive terms; exp(x) - 1 is 2 exp(x/2) sinh(x/2), or a series of x/64 squared up. The lowered
+//! program is run by the interpreter in one precision, and its own errors decide what a check program accepts.
 
 use std::borrow::Cow;
 

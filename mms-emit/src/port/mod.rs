@@ -1,10 +1,22 @@
-//! What ports to other languages have in common: which functions a field has, what each stage
-//! keeps, and how names, numbers, instructions and test vectors are printed.
+//! What ports to other languages have in common.
 //!
-//! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages
-//! Parameter and Time are computed with twice the digits of a double, as in Rust, from support text
-//! that stands in each language's folder. Languages of expressions have nothing to do that with: they
-//! compute everything once, and functions that they lack are written out in those that they have.
+//! | module | holds |
+//! |---|---|
+//! | `callable` | the functions of a field, one list for all |
+//! | `body` | the one printer of instructions, over what a `Dialect` says of a language |
+//! | `names` | a user's names under the rules of a language: words, case, length |
+//! | `number` | literals, in decimal and hexadecimal |
+//! | `support` | functions that a language lacks: of its support text, those that are called |
+//! | `lower` | a program in which functions that a language lacks are written out in those that it has |
+//! | `once` | numbers that are computed with no more digits than they have |
+//! | `vectors` | test vectors |
+//! | `check` | what check programs say of themselves, and which functions they call |
+//!
+//! A port is flat: one statement per instruction, no shared divisions, no fused products. The stages Parameter and
+//! Time are computed in pairs of doubles, as in Rust, by support text in the language itself, in Julia in its own
+//! numbers of 512 bits. Languages of expressions (UFL, MOOSE, Karamelo) have one precision, in which an angle has
+//! no more digits without its turns, and few functions; those that they lack are written out. SymPy gets exact
+//! numbers.
 
 pub mod body;
 pub mod callable;

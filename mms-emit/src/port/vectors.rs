@@ -1,7 +1,10 @@
 //! Test vectors: inputs of a port's functions, and what they must give.
 //!
-//! Inputs are numbers of single precision, so that ports in either precision get the same. Expected
-//! values are the program in 77 digits at these very numbers, rounded to double precision.
+//! Inputs are 16 points of the body, and its corners at the first and the last time, for the default parameters,
+//! for others, for an amplitude smaller by 2^-30, and for the field's own extremes. Each set of parameters has as
+//! many points as any other: where a function has no value another point stands twice, and a set without one is
+//! left out. Inputs are exact in single precision, so that both precisions get the same. Expected values are the
+//! program in 77 digits at these very numbers, rounded to double precision.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,14 @@
-//! Programs over many points: every operation is a loop over a block of them.
+//! A block interpreter: programs over many points, in which every operation is a loop over a block of them
+//! (structure of arrays).
 //!
-//! A [`Plan`] says what is to be done, once for all; [`Prepared`] has the numbers of one set of parameters; a [`Room`] has
-//! those of a time and of a block, and belongs to one thread at a time. So setting a parameter runs the stage Parameter,
-//! another time the stage Time, and nothing is allocated once a room has been used.
+//! A [`Plan`] says what is to be done, and is made once for some outputs; all threads, parameters and precisions
+//! share it. [`Prepared`] has the stage Parameter of one set of parameters. A [`Room`] has the stage Time, as long
+//! as the time stays the same, and the registers, and belongs to one thread at a time. So setting a parameter runs
+//! the stage Parameter, another time the stage Time, and nothing is allocated once a room has been used.
+//!
+//! Results have the bits of compiled loops, or, with products rounded, those of one point and of the reference
+//! interpreter, alike on all processors. Each output has the bits that it has alone. The reference interpreter
+//! takes one operation of one number at a time: tests hold this one to it, and it serves scalars without blocks.
 
 mod column;
 mod plan;

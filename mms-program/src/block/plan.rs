@@ -1,7 +1,14 @@
-//! From a program to steps over blocks of points: operations on columns of numbers and on scalars, and a register for
-//! each column as long as it is needed.
+//! From a program to steps over blocks of points.
 //!
-//! What is fused, and what two loops of compiled code compute apart, is so here too: hence the same bits.
+//! A step is an operation, the register of its result, and operands that are registers or scalars. A register is a
+//! column of a block, 512 bytes in the first cache, and is used again when its value is read no more: liveness by
+//! a linear scan in the order of the program. What a point supplies keeps its register, as a block may be computed
+//! again. Scalars are what is the same at all points, constants and the stages Parameter and Time, and are
+//! broadcast from one number. So there are steps for a b + c with every mixture of both, and signs of scalars are
+//! turned beforehand.
+//!
+//! Which products are fused, which stages are loops of their own and what is found twice there is decided by what
+//! emission asks too (`fusion`, `loops`): hence the same bits.
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,5 +1,9 @@
-//! Binary operations in order: values are numbered, so that an operation on the same operands is
-//! one value.
+//! Lowering to binary operations, in order. Values are numbered, so an operation on the same operands is one
+//! value.
+//!
+//! Operands of one stage are combined first. But where parameters determine c, and all that X adds to it are
+//! products p and q, it is (c + p) + q and not c + (p + q), so that each goes into it in one fused step; and a
+//! quotient of what X determines comes before its product with what parameters do.
 
 use std::hash::BuildHasher as _;
 

@@ -1,9 +1,17 @@
-//! From expressions to straight-line code, in four steps: n-ary operations grouped by stage
-//! (`flat`), what they share taken out (`share`), binary operations (`lower`), and fewer changes of sign (`signs`).
+//! From expressions to straight-line code, in four steps.
 //!
-//! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that
-//! outputs have in common are one value all the same. So an output costs the same beside others as
-//! alone.
+//! * `flat`: sums and products, of any number of operands, are grouped by stage, so that nothing is computed later
+//!   than it is known.
+//! * `share`: common subexpressions. The pair of operands that most of them have in common becomes an operation of
+//!   its own, and so on, until no pair occurs twice.
+//! * `lower`: what is left becomes binary operations, those of one stage first, and equal ones one value.
+//! * `signs`: -((a - b) c) becomes (b - a) c, where nothing else reads that.
+//!
+//! Every output is scheduled for itself, in several ways, and the cheapest is kept; values that outputs have in
+//! common are one value all the same. So an output costs the same beside others as alone. Ways that come to the
+//! same operations are tried once, and charged as often as they are named. Where that saves operations at a point,
+//! numbers move into sums whose terms all have a factor that is known earlier: 256 X (a Y + b), a and b of the
+//! stage Time, becomes X ((256 a) Y + 256 b).
 
 mod flat;
 mod lower;

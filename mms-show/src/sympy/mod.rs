@@ -1,5 +1,8 @@
-//! A script for an auditor: Python that derives every quantity once more, with SymPy, from the
-//! formulas of the field and its material as they were typed, and compares the values.
+//! A script for an auditor: Python that derives every quantity once more, with SymPy, from the formulas of the
+//! field and its material as they were typed, and compares the values.
+//!
+//! It is made from the trees of the typed formulas. It shares the parser with the rest, and nothing after it: no
+//! graph, no derivative, no material law. Its fixed parts are Python files beside the code.
 
 mod python;
 

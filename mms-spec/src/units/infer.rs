@@ -1,7 +1,16 @@
-//! Dimensions through every operation of a formula, on its text as parsed.
+//! Infers dimensions through every operation of a formula, on its text as parsed.
 //!
-//! Numbers have no dimension, but the number 0 fits any. What is unknown, because a mistake in it
-//! has been reported, is unknown in silence wherever it is used.
+//! On the tree each operation still has its place, and nothing has been cancelled or collected. What a formula
+//! must measure is compared with each term of its outermost sum. The number 0 fits any dimension, other numbers
+//! have none. What contains a mistake that has been reported is unknown, and is not reported again wherever it is
+//! used.
+//!
+//! | rule | |
+//! |---|---|
+//! | a + b, a - b, hypot(a, b), atan2(a, b) | one dimension; that of an angle is none |
+//! | a^n, sqrt, cbrt | exponents times the number n |
+//! | a^b with b not a number | both without dimension |
+//! | every other function | argument without dimension |
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,20 @@
 //! Canonical construction: the only way to make a node.
 //!
-//! Each rule here is sound wherever its left-hand side is defined, and none adds operations.
+//! The constructors fold what is exact, and expand no product. Each rule is sound wherever its left-hand side is
+//! defined, none rounds, and none adds operations. Rules that would need to know more, such as exp(ln x) = x, are
+//! left out: they would make a domain larger.
+//!
+//! | rule | where |
+//! |---|---|
+//! | terms of a sum with one base are collected; a sum in a sum is opened | always |
+//! | x^a x^b = x^(a+b) | where the left side is defined; the right side may be defined at more points, so `mms check` evaluates u as it is written, too |
+//! | (x^a)^n = x^(a n), (x y)^n = x^n y^n | n an integer |
+//! | (c x)^e = c^e x^e | c a positive number, and c^e rational |
+//! | a number to a rational power is that number | it is rational, and no longer than 16 kbit |
+//! | sqrt x = x^(1/2) | always |
+//! | f(0) is a number, ln 1 = 0, sin and cos at multiples of pi/2 | the value is rational |
+//! | ln(1 + x) = ln_1p(x) | always |
+//! | sin(-x) = -sin x, cos(-x) = cos x | always; the sign is that of the leading coefficient |
 
 use std::collections::BTreeMap;
 

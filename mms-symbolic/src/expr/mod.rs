@@ -1,8 +1,22 @@
 //! The expression graph: exact, hash-consed, canonical.
 //!
-//! Every sum and product is n-ary with collected terms, so that equal expressions written in
-//! different order are one node. Nodes are created children first and never change; an [`Expr`]
-//! therefore orders topologically, and every pass is a loop over ids rather than a recursion.
+//! An arena holds the nodes. A structure exists once, and its handle [`Expr`] is a number. Operands are made
+//! before their users and nodes never change, so handles order topologically, and every pass is a loop over
+//! handles rather than a recursion. The hash index is only looked up, never iterated. A graph that is full answers
+//! nothing: what was computed in it is refused.
+//!
+//! | node | canonical form |
+//! |---|---|
+//! | `Number` | an exact rational |
+//! | `Pi`, `Symbol` | a leaf: parameter, t, X_J, N_J, H_iJ, invariant |
+//! | `Sum` | a constant plus terms with non-zero coefficients, in order of handles; no term is a number or a sum |
+//! | `Product` | bases with non-zero exact exponents, in order of handles; nested products are opened, numbers folded where the power is rational |
+//! | `Call` | an elementary function |
+//!
+//! Sums and products have any number of operands, so that equal expressions written in different order are one
+//! node. Subtraction is a coefficient, division an exponent, a square root the exponent 1/2. As a factor beside
+//! others, a sum is normalised: a rational number goes to the coefficient, so that its first coefficient is
+//! positive and as many as possible are 1 or -1. So 2 a - 2 b and b - a share a node.
 
 mod build;
 mod function;

@@ -1,7 +1,8 @@
-//! Multiplies what parameters determine into sums whose terms have such factors already: with a, b
-//! and c of parameters, a (b + c s) becomes a b + (a c) s, whose products are formed once and not at
-//! every point. What t determines is left where it is: it tells components apart, which then share
-//! less.
+//! Distributes constant factors: multiplies what parameters determine into sums whose terms have such factors
+//! already.
+//!
+//! With a, b and c of parameters, a (b + c s) becomes a b + (a c) s, whose products are formed once and not at
+//! every point. What t determines is left where it is: it tells components apart, which then share less.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};

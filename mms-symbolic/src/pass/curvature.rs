@@ -1,7 +1,7 @@
-//! What an expression is more than its linear part in a symbol e, such that nothing cancels: of
-//! f = f0 + e f1 + f2 the rest f2, of second order in e.
+//! The second-order remainder of an expression: f less its linear part in a symbol e, such that nothing cancels.
+//! Of f = f0 + e f1 + f2 it is f2.
 //!
-//! The calculus of [`difference`](super::difference), one order further. With r = f - f0:
+//! The calculus is that of [`difference`](super::difference), one order further. With r = f - f0:
 //!
 //! ```text
 //! f g       f0 g2 + e f1 (g - g0) + f2 g            ln      f2/f0 - ln_1p_rest(r/f0)
@@ -9,8 +9,14 @@
 //! y = f^(1/n)   (f2 - h^2 s)/(n y0^(n-1)),  h = y - y0,  s = sum of (j + 1) y0^j y^(n-2-j)
 //! ```
 //!
-//! for exp_m1 r - r is h - ln_1p h with h = exp_m1 r, and y^n = y0^n + n y0^(n-1) h + h^2 s. Of a cosine, or a hyperbolic
-//! one, at 0 it is -2 sin(r/2)^2, or 2 sinh(r/2)^2.
+//! for exp_m1 r - r is h - ln_1p h with h = exp_m1 r, and y^n = y0^n + n y0^(n-1) h + h^2 s. Of a cosine, or a
+//! hyperbolic one, at 0 it is -2 sin(r/2)^2, or 2 sinh(r/2)^2.
+//!
+//! It is needed where Div P or b are of second order in the amplitude, Div P of a harmonic motion as b of a wave
+//! at the material's own speed: half of a small amplitude makes a quarter of them, and all that is of first order
+//! would cancel in rounded numbers. The linear part is left out where it is 0 for any parameters; where it is so
+//! at their defaults alone, it is kept beside the rest, factored, so that what cancels in it does so in the
+//! parameters, which have twice the digits.
 
 use std::collections::BTreeMap;
 

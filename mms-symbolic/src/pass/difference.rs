@@ -1,8 +1,8 @@
-//! What an expression is more than at the value 0 of a symbol, such that nothing cancels:
-//! sin(c + q) - sin c becomes 2 cos(c + q/2) sin(q/2).
+//! The zeroth-order remainder of an expression: f - f0, with f0 its value where a symbol is 0, such that nothing
+//! cancels. sin(c + q) - sin c becomes 2 cos(c + q/2) sin(q/2).
 //!
-//! The calculus of finite differences, exact at any size of the difference. With f - f0 for what an
-//! operand is more than at 0, and F for the operation:
+//! The calculus of finite differences is exact at any size of the difference. With f - f0 for the remainder of an
+//! operand, each operation has a rule:
 //!
 //! ```text
 //! f g       (f - f0) g + f0 (g - g0)               exp     exp f0 exp_m1(f - f0)
@@ -13,9 +13,9 @@
 //! atan      atan2(f - f0, 1 + f f0)                tanh    tanh(f - f0) (1 - tanh f tanh f0)
 //! ```
 //!
-//! asin f - asin f0 is the angle whose sine is f c0 - f0 c and whose cosine is c c0 + f f0, with c^2 =
-//! 1 - f^2; acos is pi/2 less that. (Boole, A Treatise on the Calculus of Finite Differences, 1860, has
-//! the rules of products and functions.)
+//! asin f - asin f0 is the angle whose sine is f c0 - f0 c and whose cosine is c c0 + f f0, with c^2 = 1 - f^2;
+//! acos is pi/2 less that. (Boole, A Treatise on the Calculus of Finite Differences, 1860, has the rules of
+//! products and functions.)
 
 use std::collections::BTreeMap;
 

@@ -1,6 +1,8 @@
-//! Adds constants where there is one already: with a and b of parameters or of t and a number c, a + b (c + x) becomes
-//! (a + b c) + b x, which leaves one addition less to every point. It does so where nothing else reads c + x. A parameter c
-//! stays with x: it may be as large as x, and set to anything.
+//! Reassociates constants: with a and b of parameters or of t and a number c, a + b (c + x) becomes (a + b c) + b
+//! x, which leaves one addition less to every point.
+//!
+//! It does so where nothing else reads c + x. A parameter c stays with x: it may be as large as x, and set to
+//! anything.
 
 use std::collections::BTreeMap;
 

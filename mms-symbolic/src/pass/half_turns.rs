@@ -1,5 +1,6 @@
-//! Angles in half turns: sin(pi x) takes whole turns off x without error, and saves a product, where
-//! the sine of a rounded pi x would err by eps times the angle.
+//! Writes sines and cosines of multiples of pi as functions of the multiple (sinpi, cospi): sin(pi x) takes whole
+//! turns off x without error, and saves a product, where the sine of a rounded pi x would err by eps times the
+//! angle. So t after many periods is as good as t in the first.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, Node, Rational};

@@ -1,5 +1,5 @@
-//! Nesting: a x + a y + b = a (x + y) + b, after Horner. The factor that most terms have is taken
-//! out first. A sum that is a square is written as one.
+//! Nesting, the multivariate Horner scheme: a x + a y + b = a (x + y) + b. The factor that most terms have is
+//! taken out first. A sum that is a square is written as one.
 
 use std::collections::BTreeMap;
 

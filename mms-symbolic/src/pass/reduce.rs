@@ -1,4 +1,7 @@
-//! Reduction: expressions multiplied out modulo relations, so that what cancels is gone.
+//! Reduction to normal form: expressions multiplied out modulo the relations, so that what cancels is gone.
+//!
+//! Sums without anything that a relation knows, and functions of one root alone, stay in one piece; what would
+//! have more than 200 terms does too. Reduction is therefore bounded, and need not pay.
 
 use std::collections::BTreeMap;
 

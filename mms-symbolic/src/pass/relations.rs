@@ -1,11 +1,10 @@
-//! Algebraic relations between sub-expressions: s^2 + c^2 = 1 for the sine and cosine of an angle,
-//! and R^2 = X^2 + Y^2 for a root.
+//! Polynomial identities between subexpressions: s^2 + c^2 = 1 for the sine and cosine of an angle, sinh^2 =
+//! cosh^2 - 1, and R^2 = X^2 + Y^2 for a root of a sum of squares, as `sqrt` or `hypot` in the file.
 //!
-//! Each relation replaces the square of one expression, no two the same one. The leading terms are
-//! thus coprime, the relations are a Groebner basis as they stand, and replacing until nothing can
-//! be replaced gives one normal form (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 2015,
-//! section 2.9). It ends: what replaces a square has neither that square nor one that an earlier relation
-//! replaces.
+//! Each relation replaces the square of one expression, no two the same one. The leading terms are thus coprime,
+//! the relations are a Groebner basis as they stand, and replacing until nothing can be replaced gives one normal
+//! form (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 2015, section 2.9). It ends: what replaces a
+//! square has neither that square nor one that an earlier relation replaces.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,8 +1,8 @@
-//! Parts what X determines from what t does: X (a + t (Y + t Z)) becomes a X + t (X Y) + t^2 (X Z), so that whoever keeps what
-//! X determines has less to do at every time.
+//! Splits expressions by binding time: separates what X determines from what t does. X (a + t (Y + t Z)) becomes a
+//! X + t (X Y) + t^2 (X Z), so a caller that keeps what X determines has less to do at every time.
 //!
-//! A factor goes into the only sum of a product that needs both, where nothing else reads that sum. Sums of one kind stay as
-//! they are written, and two sums are never multiplied out: what cancels in one goes on to do so.
+//! A factor goes into the only sum of a product that needs both, where nothing else reads that sum. Sums of one
+//! kind stay as they are written, and two sums are never multiplied out: what cancels in one goes on to do so.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! Settles what cancels where arguments are small: k cos a - k becomes -2 k sin(a/2)^2, and
-//! (1 + e)^2 - 1 becomes 2 e + e^2.
+//! Cancellation rewriting: replaces sums that cancel where arguments are small by forms that do not. k cos a - k
+//! becomes -2 k sin(a/2)^2, and (1 + e)^2 - 1 becomes 2 e + e^2.
 //!
 //! A sum is a polynomial in atoms. Some atoms are a number and what vanishes with their argument:
 //!
@@ -8,9 +8,9 @@
 //! cosh a = 1 + 2 sinh^2(a/2)    (1 + q)^p = 1 + exp_m1(p ln_1p q)     1/(c + q) = 1/c - q/(c (c + q))
 //! ```
 //!
-//! (Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic, 1991,
-//! section 1.4, and Kahan, Branch Cuts, 1987, have their like.) Those are put in which make terms
-//! cancel in exact numbers, and no others.
+//! (Goldberg, What Every Computer Scientist Should Know About Floating-Point Arithmetic, 1991, section 1.4, and
+//! Kahan, Branch Cuts, 1987, have their like.) Those rewritings are made after which terms cancel in exact
+//! numbers, and no others.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,8 +1,8 @@
-//! Makes one number serve where two were needed that differ by a constant: where x^2 - 1/16 occurs as a factor or as an
-//! operand, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader and is fused
-//! with it; what is added elsewhere needs no X.
+//! Reuses a subexpression that differs by a constant from another one: where x^2 - 1/16 occurs as a factor or as
+//! an operand, a x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader
+//! and is fused with it; the constant that is added elsewhere needs no X.
 //!
-//! Beside a constant that is large x^2 loses its digits. Whoever takes the result asks `mechanics::rounding` before.
+//! Beside a constant that is large x^2 loses its digits. Who takes the result asks `mechanics::rounding` before.
 
 use std::collections::{BTreeMap, BTreeSet};
 

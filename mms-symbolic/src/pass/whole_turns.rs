@@ -1,6 +1,9 @@
-//! Whole turns off what is known of an angle before X is: in sin(k X - c t) the rounding of c t would err by eps times c
-//! t. So that becomes sin(k X - r), where r is c t less whole turns, taken off with the digits of the stage Time. While
-//! there are only a few turns, r is c t itself ([`mms_math::Scalar::within_turns`]).
+//! Takes whole turns off the part of an angle that is known before X is.
+//!
+//! In sin(k X - c t) the rounding of c t would err by eps times c t. So that becomes sin(k X - r), where r is c t
+//! less whole turns, taken off with the digits of the stage Time. An angle of four turns or fewer is left as it
+//! is, and with it the bits of what is evaluated there ([`mms_math::Scalar::within_turns`]); in radians, so is one
+//! beyond 2^50.
 
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, Node, Rational, Stage};
