@@ -1,5 +1,10 @@
 //! Finds the field files, and lists them for the command and for the tests; and the sources of `mms-math` for the
-//! workbench. A mistake in one of them breaks the build at its place; what derivatives say of it, `mms-gallery` finds.
+//! workbench.
+//!
+//! The lists go to `OUT_DIR`: the texts for `src/gallery.rs`, and one set of tests per file for `tests/fields.rs`.
+//! Names that no module can have are refused (`spec/field_name.rs`), and so are files that are no fields: a
+//! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
+//! runs this again when the folder or a file in it changes: `fields/` is its own list.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

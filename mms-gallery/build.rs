@@ -1,5 +1,7 @@
-//! Compiles the field files into Rust modules: with the feature `all` every one, otherwise the bar alone. A module is
-//! written again only where its file or the compiler is another one, and those are compiled side by side.
+//! Compiles the field files into Rust modules: with the feature `all` every one, otherwise the bar alone.
+//!
+//! Each becomes a Rust file of its own, which is written again only where its field or the compiler is another
+//! one: a new field costs no other one anything. Those that are written are compiled side by side.
 
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};

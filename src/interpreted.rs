@@ -1,5 +1,9 @@
-//! A field that was never compiled, behind the solver's contract: its program, run in blocks of points to the bits that
-//! compiled code has.
+//! A field that was never compiled, behind the solver's contract: its program, run in blocks of points to the bits
+//! that compiled code has.
+//!
+//! A file takes the data path in one of two ways. In `fields/`, or behind `field!`, it is compiled. Named by its
+//! path on the command line, it is interpreted. `mms eval` interprets in both cases; `mms study` runs compiled
+//! code where there is some.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};

@@ -1,4 +1,11 @@
 //! How files are read: plain ones alone, and none beyond what a file of its kind may hold.
+//!
+//! Every file of the command is read here. A `Kind` says how many bytes one may have: 1 MiB of a field, a material
+//! or a study, 16 MiB of a document, a result in a store or a list of states, 256 MiB of a state. No more than
+//! that and one byte is read. A checkpoint may have as many as there is memory; its first line 64 MiB; of a
+//! history as many are read as its checkpoint says. A FIFO, a device, a socket or a folder is not opened: it is
+//! named, and left out where others are read as well (`mms report`, stores). A pipe without a name may be given,
+//! as `/dev/stdin`. `mms-macros` does the same for `field!`.
 
 use std::fmt;
 use std::fs::{self, File, FileType, Metadata};

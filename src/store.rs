@@ -1,10 +1,13 @@
-//! Results of runs, kept in a folder as they finish.
+//! A cache of results of runs, kept in a folder as they finish.
 //!
-//! One file per result, named by the digest of its key: everything that the result depends on, the program
-//! included. A file appears whole or not at all, and is trusted only if its checksum, its key and its name
-//! agree. One that is not what it should be is renamed, and neither read again nor deleted. Processes may
-//! share a folder: each claims a result before it computes it, and a claim ends with its process, however
-//! that ends.
+//! A result depends on its key: what tells this program from any other (its version, its length and when it was
+//! built), the field's text, method, precision and form, cells, parameters and motion, the deliberate mistake if
+//! there is one, and of what errors are measured. There is one file per result, named by a digest of the key, with
+//! the key and a checksum in it. A file appears whole or not at all, and is trusted only if its checksum, its key
+//! and its name agree. Opening a store checks every file in it: one that is cut off, changed, of another format,
+//! or not what its name says is renamed to `.aside1` and so on, said to be, and neither read again nor deleted.
+//! Processes may share a folder: each locks a file beside a result while it computes it. Locks end with their
+//! process, however that ends; others make what is left and then wait.
 
 use std::fs::{self, File};
 use std::io;

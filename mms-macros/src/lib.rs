@@ -1,4 +1,8 @@
-//! Doorways from Rust code into the field compiler.
+//! Doorways from Rust code into the field compiler: `field!` reads the file, calls the compiler and returns.
+//!
+//! The module that `field!` makes includes the bytes of its file, so that a change in any crate that uses it is
+//! seen. Procedural macros run unoptimised by default, even in a release build; the workspace's profiles raise
+//! that, since the derivation runs in one.
 
 mod request;
 

@@ -1,12 +1,34 @@
-//! Evaluation at many points: a kernel in one scalar, and a loop that the compiler turns into vector
-//! instructions.
+//! Evaluation at many points: a kernel in one scalar, and a loop that the compiler turns into vector instructions.
 //!
-//! Points go through in blocks of fixed length, so that the loop over a block has no branch and no
-//! remainder; the last block is filled up with copies of its first point. What the processor can do
-//! is asked at run time: nothing depends on how the program was compiled.
+//! Points go through in blocks of fixed length, 64 in double precision and 128 in single, which is 512 bytes a
+//! number in both. So the loop over a block has no branch and no remainder; the last block is filled up with
+//! copies of its first point. A [`Lane`] stands for the number. There is one loop for AVX-512 (but not with debug
+//! assertions, where nothing need be fast and everything would be compiled once more), one for AVX2 with fused
+//! multiply-add and one for everything else. [`crate::dispatch`] asks the processor when the program runs: nothing
+//! depends on how it was compiled.
 //!
-//! The quick functions of [`Lane`] answer not-a-number where they do not know. A block with such a
-//! value is computed again, number by number, with the careful functions of the scalar itself.
+//! # Vector path and scalar fallback
+//!
+//! The quick functions of [`Lane`] return either a correct result or NaN; they have neither branch nor call. NaN
+//! stands for what they do not handle: angles beyond 2^20, or beyond 1.57 where they were proved near zero,
+//! subnormal arguments of logarithms, and what is outside a domain. A block with a NaN result is computed again,
+//! number by number, with the careful functions of the scalar itself, so that nothing is lost but time. Whether an
+//! argument is within range is seen by comparing integers, as the multipliers are busy.
+//!
+//! # What keeps the loop fast
+//!
+//! Everything between the dispatched function and a lane is inlined always: one call would end all vectors.
+//! Nothing is called between two blocks either, neither what copies nor `map` of an array, which is not inlined
+//! from another unit of the compilation: after a call the constants of a kernel are loaded one by one where they
+//! are used.
+//!
+//! How long operations wait for each other decides the speed, and how often numbers are copied. So what needs X
+//! alone and what needs t as well are two loops over a block (`Points::each_then`). Where the first one divides or
+//! takes roots, and calls no function, both are one loop, in which it is a block ahead: a division of eight
+//! numbers takes as long as ten products of as many, and is done beside those of the second. With functions there
+//! would be more coefficients than registers. Divisions and square roots are the processor's: beside
+//! multiplications they take less time than the products that would stand in for them, and are rounded once.
+//! `docs/speed.md` has what these decisions gain.
 
 use crate::dispatch::{Work, best};
 use crate::machine::{self, Machine};

@@ -1,4 +1,8 @@
-//! Deliberate mistakes, to prove that a verification finds them.
+//! Deliberate mistakes (fault injection), to prove that a verification finds them.
+//!
+//! `defects!` makes the list of a crate's mistakes, and a place that can be wrong asks `on(Defect::Name)`. Without
+//! the feature `defects` that is the constant `false`, and nothing of it is in a program. With it, one mistake at
+//! a time is selected for the whole process.
 
 /// Makes the list of a crate's deliberate mistakes: `Variant, "name", "what is wrong";` for each.
 ///

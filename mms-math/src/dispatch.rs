@@ -1,4 +1,8 @@
-//! Compiles work for several instruction sets, and takes the best one that the processor has.
+//! Compiles work for several instruction sets, and dispatches to the best one that the processor has.
+//!
+//! A function is called that was compiled for what was just found to be there. That is `unsafe`, as the
+//! instructions in `machine/registers/` are. The environment variable `MMS_INSTRUCTIONS` limits what is found:
+//! `baseline`, `avx2` or `avx512`.
 
 use core::fmt;
 use core::sync::atomic::{AtomicU8, Ordering};

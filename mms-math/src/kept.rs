@@ -1,4 +1,8 @@
-//! What is kept of many points, to be read again and again: a column for each number, in whole lines of the cache.
+//! Values that are kept of many points, to be read again and again: a column for each number, in whole lines of
+//! the cache.
+//!
+//! From slices that begin anywhere every vector would be read in two pieces. Slices of whole blocks are read where
+//! they are.
 
 use std::vec;
 use std::vec::Vec;

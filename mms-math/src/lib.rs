@@ -1,11 +1,19 @@
 //! The scalar trait that generated functions, the interpreter and the solver compute with.
 //!
-//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, twice the
-//! digits of `f64` ([`Double`]), dual numbers or arbitrary precision. The crate has no dependencies
-//! and needs no standard library unless the feature `std` (on by default) supplies the elementary
-//! functions of `f32` and `f64`, and with them evaluation at many points ([`batch`]).
-//! These are quick ones that vectorise, alone those of [`Lane`], and where they do not know, those
-//! of the standard library.
+//! Generated code is written once, generic over [`Scalar`], and evaluated in `f32`, `f64`, twice the digits of
+//! `f64` ([`Double`]), dual numbers or arbitrary precision. The crate has no dependencies and needs no standard
+//! library unless the feature `std` (on by default) supplies the elementary functions of `f32` and `f64`, and with
+//! them evaluation at many points ([`batch`]).
+//!
+//! | module | holds |
+//! |---|---|
+//! | `quick` | elementary functions without branches, for both formats; bounds in the tests |
+//! | `lane` | the scalar of a loop: a number, and whether products are fused with sums |
+//! | `float` | `f32` and `f64`: the quick answer, or the standard library's where there is none |
+//! | `double` | twice the digits of `f64` (double-double), without the standard library |
+//! | `batch`, `dispatch` | many points, block by block, and which instructions may be used |
+//! | `block` | the numbers of a block, and the loops over it |
+//! | `machine` | eight numbers as one value, in registers where there are such (SIMD pack) |
 #![no_std]
 
 #[cfg(feature = "std")]

@@ -1,7 +1,7 @@
-//! Eight numbers at a time, in one register where the processor has such.
+//! Eight numbers at a time (a SIMD pack), in one register where the processor has such.
 //!
-//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); what it
-//! does to eight numbers that go through long code together is luck. Here they are one value.
+//! The compiler turns a loop over many numbers into vector instructions by itself ([`crate::batch`]); whether it
+//! does so with eight numbers that go through long code together is not certain. Here they are one value.
 //!
 //! Eight numbers are two halves of four. What moves numbers from place to place moves them within their half, for
 //! that is what registers do at once: so the two halves may belong to different things.

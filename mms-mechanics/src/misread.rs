@@ -1,4 +1,5 @@
-//! What a defect derives in place of what is right. Without the feature `defects` each is what it is.
+//! Fault injection: what a defect derives in place of the right expression. Without the feature `defects` each
+//! function returns the right one.
 
 use crate::defect::{Defect, on};
 use mms_symbolic::expr::{Expr, Graph};

@@ -1,12 +1,13 @@
 //! What holds the grid's nodes at the body's faces.
 //!
-//! * `fixed` and `roller` on a box: a wall on a plane of nodes, by the method of images ([`wall`]).
-//! * `free`: nothing.
-//! * `prescribed`, faces without a claim, and `fixed` on an annulus: nodes follow the field
-//!   ([`prescribed`]).
-//! * `traction`: the field's P N on the pieces of the face, or the same stress on the face as it lies now where
-//!   the body moves ([`traction`]).
-//! * An axis may be periodic instead ([`period`]).
+//! | claim on a face | the solver |
+//! |---|---|
+//! | `fixed` (u = 0) | on a box a wall at rest on a plane of nodes, by images: all components reflected ([`wall`]) |
+//! | `roller` (u.N = 0, no tangential traction) | the same, the normal component reflected; boxes only |
+//! | `free` (P N = 0) | does nothing |
+//! | `prescribed`, no claim, or `fixed` on a curved face | nodes follow the field ([`prescribed`]) |
+//! | `traction` | the field's stress on the pieces of the face ([`traction`]) |
+//! | none, with `--periodic` | nodes a period apart are one ([`period`]) |
 
 mod images;
 pub mod period;

@@ -1,7 +1,7 @@
-//! Deliberate mistakes in the solver, of the kind that people make.
+//! Deliberate mistakes in the solver (fault injection), of the kind that people make.
 //!
-//! With the feature `defects`, [`select`] makes the process make one of them, and a verification that is worth
-//! its name fails; see `mms verify --defects`. Without the feature none of it is there.
+//! With the feature `defects`, [`select`] makes the process make one of them, and a verification that is worth its
+//! name fails; see `mms verify --defects`. Without the feature none of it is there.
 
 mms_math::defects! {
     ForceLate, "force_late", "b at t - dt in place of t";

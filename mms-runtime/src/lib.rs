@@ -1,22 +1,35 @@
-//! The contract that a manufactured field fulfils, and an explicit MPM/GIMP solver that shows its
-//! own observed order of accuracy on any such field.
+//! The contract that a manufactured field fulfils, and an explicit MPM/GIMP solver that shows its own observed
+//! order of accuracy on any such field.
 //!
-//! * [`ManufacturedField`] and [`Material`] are what generated code implements; they are evaluated
-//!   over slices of particles and are object-safe.
-//! * [`Solver`] advances a body of particles through a background grid. It is written once for one
-//!   to three dimensions and for `f32` and `f64`; one is compiled per dimension, precision and shape
-//!   function, and none per field. Formulation and transfer are values, looked at once per pass, and a
-//!   time integrator is compiled once per precision. [`AnySolver`] is one for the names of a [`Method`]
-//!   ([`Solve::solver`]), compiled here.
-//! * [`study`] runs a method over levels of refinement, measures the errors against the field, and
-//!   judges the observed orders.
+//! * [`ManufacturedField`] and [`Material`] are what generated code implements; they are evaluated over slices of
+//!   particles and are object-safe.
+//! * [`Solver`] advances a body of particles through a background grid. It is written once for one to three
+//!   dimensions and for `f32` and `f64`.
+//! * [`AnySolver`] is one for the names of a [`Method`] ([`Solve::solver`]), compiled here.
+//! * [`study`] runs a method over levels of refinement, measures the errors against the field, and judges the
+//!   observed orders.
 //!
-//! The crate knows no particular field. To add a shape function or a time integrator, see [`shape`]
-//! and [`integrator`]: each is one file and one word in a list.
+//! The crate knows no particular field. To add a shape function or a time integrator, see [`shape`] and
+//! [`integrator`]: each is one file and one word in a list.
 //!
-//! Names follow one glossary: `reference_position` X, `position` x = X + u, `displacement_gradient`
-//! H = du/dX, F = I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any
-//! consistent system works.
+//! | module | holds |
+//! |---|---|
+//! | `body` | bodies full of particles: boxes, annuli and sectors, Cartesian or fitted; the pieces of faces that particles carry; jitter |
+//! | `lattice` | where nodes are: cells of any edge lengths, offset, period, knots |
+//! | `stencil`, `shape` | the nodes of a bunch with w and grad w; the sums between them |
+//! | `particle`, `column` | the particles' arrays; an array bunch by bunch, and number by number |
+//! | `lanes` | vectors and tensors of a bunch, a particle in each lane |
+//! | `spline`, `gimp` | B-splines of any degree on knots that may end; averages of hat functions |
+//! | `nodal`, `grid` | four numbers of a node, windows of nodes; the nodes |
+//! | `formulation` | updated: tau, weights that follow x, dF/dt = L F. Total: P, weights at X |
+//! | `transfer` | FLIP, PIC, APIC, XPIC |
+//! | `solver` | P2G and G2P, weights, order of the particles, threads, state |
+//! | `boundary` | walls by images, periods, nodes that follow the field, tractions |
+//! | `integrator` | the order of a step |
+//! | `study` | a run, who follows it, its errors, orders, verdicts |
+//!
+//! Names follow one glossary: `reference_position` X, `position` x = X + u, `displacement_gradient` H = du/dX, F =
+//! I + H, J = det F, `kirchhoff_stress` tau = P F^T. Units are the field's own; any consistent system works.
 
 #[cfg(feature = "defects")]
 pub mod defect;

@@ -1,4 +1,5 @@
-//! What a node of the grid carries: four numbers that go through the processor as one.
+//! What a node of the grid carries: four numbers that go through the processor as one, a vector, and the mass
+//! beside the momentum.
 
 use std::ops::{Add, AddAssign, Mul};
 

@@ -1,8 +1,52 @@
-//! The explicit MPM/GIMP solver.
+//! The explicit MPM/GIMP solver, for `const D` of 1 to 3 and for `f32` and `f64`.
 //!
-//! The solver owns particles and grid; `p2g` and `g2p` compute the sums between them, each in one pass
-//! over the particles, and the [`Integrator`] says in which order, through
-//! [`Operations`](crate::integrator::Operations). A step allocates nothing.
+//! All state is in [`Solver`]: particles (structure of arrays), grid, boundary, clock. A step allocates nothing,
+//! and is two passes over the particles, in an order that the [`Integrator`] says through
+//! [`Operations`](crate::integrator::Operations): P2G (`p2g`: stress, weights, mass, momentum, force) and G2P
+//! (`g2p`: weights, v, d, H).
+//!
+//! # What is a type and what is a value
+//!
+//! What decides the code of the inner loops is a type: dimension, precision, and the number of nodes along an
+//! axis. What does not is a value: an integrator is the order in which a step calls `Operations`, compiled once
+//! for each precision, and a transfer is looked at once per bunch. A shape function is asked for weights and for
+//! nothing else (`weights`). [`crate::study::Solve`] goes from the names of a method to the types; its solvers are
+//! compiled in this crate, once, and are `dyn AnySolver` to those who take the steps themselves.
+//!
+//! # What is stored
+//!
+//! Particles store the displacement, not the position, and H, not F, so that single precision loses nothing to x -
+//! X and F - I. X is stored and never recovered. Stress is a function of H, computed for 256 particles at a time
+//! where it is needed, and not stored. So is b, at X and t^n, for 2048 particles at a time: a batch begins with
+//! what the time determines. One in eight of those is asked where its time goes, for the processor stops to look
+//! at the clock. Times are computed from the step number, never accumulated. Initial u, v and H are the field's.
+//! What particles read of the nodes decides what is computed for them (`transfer::Reads`): with PIC and APIC
+//! nothing but v_i after its kick, and then momentum and dt times force are one sum; with FLIP also a_i, and then
+//! v_i and a_i come of two sums in one pass over the nodes; with XPIC v_i before the kick too.
+//!
+//! # Memory and caches
+//!
+//! Both passes over the particles compute weights, for that is less work than reading them; where an integrator
+//! needs them after the particles have changed (`KEEPS_WEIGHTS`), what they follow is kept. What a pass reads of a
+//! large body has left the caches since the last pass, and is prefetched some bunches ahead; H, which stress needs
+//! first, a part ahead. What a step changes of a bunch (d, v, H, and C with APIC) is kept number by number, those
+//! of its particles beside each other, as registers take it (`column`); the material takes H, and gives stresses,
+//! in the same way. X, m and V0 are slices, as fields take and give them.
+//!
+//! # Threads
+//!
+//! Particles stand in the order of the nodes that they reach, in slabs along the last axis (`slabs`). Sums have
+//! one order whatever the number of threads is: results are the same bits. A particle may drift by a cell or more;
+//! when one has nodes outside its slab's window, all are sorted, slabs are cut anew and the sums begin again.
+//! Every 16 steps it is counted how many bunches and halves are of one cell, and how many could be: particles are
+//! sorted if a twentieth is missing. That follows from the state alone, so that a run that is resumed does the
+//! same. Small bodies, and stencils without a bound (`cpdi`), have one slab.
+//!
+//! # Failures
+//!
+//! A run never returns a number that is not one. J <= 0, a value that is not finite, a lost particle, a domain too
+//! wide for its stencil or flat, a node without reference position: each stops the run with the step, the time,
+//! the particle or node, the cause and advice.
 
 mod any;
 mod clock;

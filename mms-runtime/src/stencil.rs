@@ -1,15 +1,25 @@
 //! The nodes of a bunch of particles, with their weights w_ip and weight gradients grad w_ip; the sums between
 //! them and their nodes.
 //!
-//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each axis a: Q_a
-//! times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns sum_i w q_i,
-//! sum_i (grad w)_a q_i, and slopes that come of the moments. Mass, momentum and forces, interpolated velocities and
-//! their gradients are all of that kind; moments are for the linear velocity of APIC.
+//! There are two sums, each the transpose of the other: [`Stencil::scatter`] (P2G) adds w q, and more along each
+//! axis a: Q_a times (grad w)_a, and M_a times the moment w (x_i - x_p)_a; and [`Stencil::gather`] (G2P) returns
+//! sum_i w q_i, sum_i (grad w)_a q_i, and slopes that come of the moments. Mass, momentum and forces, interpolated
+//! velocities and their gradients are all of that kind; moments are for the linear velocity of APIC. Sums over
+//! three and four nodes along an axis are functions of their own, one for all passes and shape functions.
 //!
-//! A bunch is eight particles that stand beside each other, in two halves of four. What is said of particles has one of
-//! them in each lane of a register; what is said of nodes has in each half one of their four numbers in each lane, those
-//! that particle k of the first half sees and those that particle k of the second one sees. In most bunches those of a
-//! half share their nodes, for particles stand in the order of their cells: then a node is looked up once for all four.
+//! A bunch is eight particles that stand beside each other, in two halves of four (an AoSoA tile). A quantity of
+//! particles has one of them in each lane of a register. A quantity of nodes has in each half one of their four
+//! numbers in each lane: those of the node that particle k of the first half sees, and those that particle k of
+//! the second one sees. What moves numbers within a register moves them within their half, which takes one
+//! instruction, so the halves of a bunch may be in different cells: with four particles in a cell, they are.
+//!
+//! In most bunches those of a half share their nodes, for particles stand in the order of their cells: then a node
+//! is looked up once for all four. Where they do not, sums over nodes go through the nodes of those that share
+//! them with the weights of the others 0, and sums onto nodes take one particle of each half after the other. No
+//! sum is in a closure, and none goes through a method that takes one, as `map` of arrays does: they are not
+//! always inlined under the dispatch, and what is not is compiled without the processor's instructions. Bunches
+//! begin at every eighth particle whatever the slabs and the threads are; a slab adds only its own particles of a
+//! bunch. The last bunch is full: the last particle stands in for those that there are not.
 
 mod gather;
 mod scatter;

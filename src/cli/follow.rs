@@ -1,4 +1,8 @@
-//! Who follows a run of `mms run`: its progress, what it writes, and where it goes on from.
+//! The observers of a run of `mms run`: its progress, what it writes (`--vtk`, `--history`, `--checkpoint`), and
+//! where it goes on from.
+//!
+//! What an observer cannot do stops the run, with exit code 3. Files appear under their names when they are whole.
+//! The first Ctrl-C ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
 
 use std::io::Read;
 use std::path::PathBuf;

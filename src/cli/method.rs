@@ -1,4 +1,9 @@
 //! The options of a method, the same in every command that runs one.
+//!
+//! Precision and form are one value, `Arithmetic`, beside the runtime's `Method`, which knows neither: its numbers
+//! are a type, and its field is whatever it is given. Wherever a method is written, in words, as keys, or in the
+//! key of a result or a checkpoint, `Arithmetic` is written with it. A document that lacks one of the two is of an
+//! older version, and `mms report` sets it aside.
 
 use std::fmt;
 use std::str::FromStr;

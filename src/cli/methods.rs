@@ -1,4 +1,7 @@
 //! Several methods at once: the options of one, some of which take a list.
+//!
+//! Every combination is a study of its own, with one command and one document. It is named by the words that not
+//! all of them share.
 
 use clap::error::ErrorKind;
 use clap::{ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};

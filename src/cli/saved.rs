@@ -1,4 +1,5 @@
-//! A saved scene: `mms study --study FILE.toml`, whose keys are the options of the command.
+//! A saved scene: `mms study --study FILE.toml`, whose keys are the options of the command. They are put into the
+//! command line before it is read, so that there is one list of options.
 
 use std::ffi::OsString;
 

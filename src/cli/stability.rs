@@ -1,4 +1,8 @@
 //! The fastest wave of a field, which the time step of a run is held to.
+//!
+//! Where a wave that the field is proved to have may cross an edge of a cell in a step, the run stops before it
+//! begins, unless `--allow-unstable` is given. The certificate is asked for the wave speed in the frame of the
+//! grid, for the parameters of the run, and no sharper than it takes to decide; compiled fields and others alike.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! The largest stable Courant number, measured: by bisection, on a small motion, over so many steps that an unstable
-//! mode outgrows it.
+//! The largest stable Courant number, measured: 400 steps on a motion of 1e-8 of the body, where an unstable mode
+//! outgrows the motion, and ten bisections.
 
 use mms_runtime::{Division, Method};
 

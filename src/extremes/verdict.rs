@@ -1,4 +1,11 @@
-//! What is seen of a row, and whether it is what is expected.
+//! The verdict of a row: what is seen of it, and whether it is what is expected.
+//!
+//! A bound is a factor on l2 of the declared field, both over the largest displacement, times h^2 where the grid
+//! is coarser, plus five times what round-off is predicted to leave. A run that ends beyond its bound, or stops
+//! for a reason that the row does not name, is what the command looks for. Where J is small, a cell of a grid in
+//! space holds 1/J times the material, as a cell of h/J would with J = 1; times (1/J)^2 the bound is more than the
+//! motion itself, and says nothing: a run beyond it is `unresolved`. The same motion in the total formulation, in
+//! a stable step, is followed in second order.
 
 use mms_runtime::{Cause, Refusal};
 use serde::Deserialize;

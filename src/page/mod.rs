@@ -1,6 +1,12 @@
 //! All results of a folder on one page of HTML: complete in itself, readable without a script, and well-formed
 //! XML.
 //!
+//! `mms report` reads documents, and runs nothing. What of a document the page says, it says with all digits
+//! behind the shown ones, `<data value="...">`, and tests compare every cell of every table with the document.
+//! Pictures are drawn from the documents anew, in colours that the style sheet owns, so that they are right on
+//! dark screens, light ones and paper; nothing is told by colour alone. Formulas and motions are those of the
+//! fields whose text is still the one of the hash.
+//!
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
 mod accuracy;

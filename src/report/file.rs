@@ -1,4 +1,11 @@
 //! How files are written: whole or not at all, without a change to what else is at their place.
+//!
+//! All files of the command are written here. A link stays, a file that is replaced keeps its permissions, and a
+//! device or a FIFO is written to, once. What is no plain file, in a folder that was named, is not written to: who
+//! named the folder named neither what is behind a link, nor a FIFO that may have no reader. Until it is whole, a
+//! file is called `.NAME.mms-unfinished0` (or 1, 2, ...) beside its place, and is locked. One that nobody has
+//! locked was left by a process that was killed: the next process that writes the same file removes it, and
+//! nothing else.
 
 use std::ffi::OsString;
 use std::fs::{self, File, Metadata, OpenOptions};

@@ -7,8 +7,9 @@
 //! | reach | what is then predicted to be best, on finer and coarser grids, until the goal is met with little to spare |
 //! | surround | the choice on two coarser grids, and the default on the one that it needs |
 //!
-//! A prediction follows a power law in the number of cells n: the error is of the observed order, memory grows with
-//! n^D, particle-steps and time with n^(D+1).
+//! A prediction follows a power law in the number of cells n: the error is of the observed order, memory grows
+//! with n^D, particle-steps and time with n^(D+1). It decides what is run next, and nothing else: what is chosen
+//! was run, and meets the goal. `docs/reference/study.md` has the numbers.
 
 use anyhow::Context as _;
 

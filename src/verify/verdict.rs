@@ -1,4 +1,18 @@
-//! What the levels of a row say.
+//! The verdict of a row of the matrix, from its levels.
+//!
+//! Where time alone is refined (`halvings`), the field must leave no error in space, or the order would be that of
+//! the rest: a body without strain that b(t) carries along is such a field. The verdict is the first that holds:
+//!
+//! 1. `fail`: a level was not started; or the row expects an exact solution, and an error exceeds 5e-12.
+//! 2. `does not converge`: a level stopped, or the order of `l2` on the finest pair is below 1/2. Some rows expect
+//!    this.
+//! 3. `fail`: `l2` or `linf` is below the order expected of it by more than the tolerance, or the error constant
+//!    is not within one percent of the one in the row.
+//! 4. `not asymptotic`: as in a study.
+//! 5. `pass`.
+//!
+//! The constant is l2 over h^order, at the finest level of `--quick`, so that both matrices hold it to the same
+//! number. Runs differ by rounding alone from machine to machine, and one percent is far more.
 
 use std::fmt;
 

@@ -1,11 +1,11 @@
 //! Nodes at a face where the field prescribes the motion: they take the field's velocity and acceleration.
 //!
-//! Held are the nodes on and beyond the face, and those nearer to it than their weights are wide: the
-//! balance of momentum of such a node misses the traction on the part of the face inside its support.
-//! Where the face runs along a plane of nodes at which splines end, these are just the nodes on it.
-//! A node's reference position comes from inverting x = X + u(X, t) by Newton's method; in the total
-//! formulation it is where it is. Beyond a face at rest a node moves opposite to its mirror image inside, for
-//! the field may be wild beyond its body.
+//! Held are the nodes on and beyond the face, and those nearer to it than their weights are wide: the balance of
+//! momentum of such a node misses the traction on the part of the face inside its support. Where the face runs
+//! along a plane of nodes at which splines end, these are just the nodes on it. A node's reference position comes
+//! from inverting x = X + u(X, t) by Newton's method, from the nearest sample of the face; in the total
+//! formulation it is where it is. Beyond a face at rest a node moves opposite to its mirror image inside, for the
+//! field may be wild beyond its body.
 
 use super::surface::Surface;
 use crate::defect::{Defect, on};

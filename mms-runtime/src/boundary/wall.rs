@@ -1,8 +1,9 @@
 //! A wall at rest on a plane of grid nodes, by the method of images.
 //!
-//! Particle domains reach past the wall. The body is continued there by its mirror image, moving
-//! antisymmetrically, so nodes inside receive what their images (ghost nodes) got, and ghost nodes move
-//! opposite to the nodes inside, in velocity and acceleration alike.
+//! Particle domains and weights reach past the wall. The body is continued there by its mirror image, moving
+//! antisymmetrically. What ghost nodes receive is folded, reflected, onto the nodes inside, for mass, momentum and
+//! force alike; then ghost nodes get the reflected velocity and acceleration of the nodes inside. Splines that end
+//! at the wall have no ghost nodes.
 
 use super::images::Images;
 use crate::defect::{Defect, on};

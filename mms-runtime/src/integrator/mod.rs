@@ -1,12 +1,16 @@
 //! Explicit time integrators: the order in which one step does its sums and updates.
 //!
-//! To add one, write `integrator/name.rs` with a type that implements [`Integrator`] in terms of
-//! [`Operations`], and its source, and add `name::Type` to the list below. The property tests and the
-//! `mms` command then find it by itself.
+//! To add one, write `integrator/name.rs` with a type that implements [`Integrator`] in terms of [`Operations`],
+//! and its source, and add `name::Type` to the list below. The property tests and the `mms` command then find it
+//! by itself.
 //!
-//! All map mass m_i = sum w m and momentum (mv)_i = sum w m v to the grid, and evaluate the body force
-//! at the beginning of the step, b(X, t^n). They differ in when the deformation follows, and from which
-//! velocity.
+//! All map mass m_i = sum w m and momentum (mv)_i = sum w m v to the grid, and evaluate the body force at the
+//! beginning of the step, b(X, t^n). They differ in when the deformation follows, and from which velocity.
+//!
+//! | integrator | order in time | |
+//! |---|---|---|
+//! | `usl`, `usf`, `musl` | 1 | start from the exact initial velocity, half a step off where they are centred |
+//! | `leapfrog` | 2 | USL whose first kick is half a step |
 
 use crate::extension::extension_list;
 use crate::{Failure, Real};

@@ -1,8 +1,19 @@
 //! Shape functions: the weights w_ip and weight gradients that tie a particle to its nodes.
 //!
-//! To add one, write `shape/name.rs` with a type that implements [`Shape`] (the weights, their source,
-//! and what of a particle's domain they need), and add `name::Type` to the list below. The property
-//! tests and the `mms` command then find it by itself.
+//! | shape function | domain of a particle |
+//! |---|---|
+//! | `linear`, `quadratic_bspline`, `cubic_bspline` | a point |
+//! | `ugimp` | a box of its initial size |
+//! | `cpgimp` | a box that follows the diagonal of U, F = R U, so that neighbours keep touching if nothing shears |
+//! | `cpdi` | a parallelepiped that follows F |
+//!
+//! Splines of degree p have p more nodes than cells along an axis, each at the mean of its inner knots, so that
+//! sum w x_i = x. Where a body's face rests on a knot, at a wall or in the total formulation, knots end there with
+//! full multiplicity: then one spline alone is not 0 on the face, and a wall holds its node.
+//!
+//! To add one, write `shape/name.rs` with a type that implements [`Shape`] (the weights, their source, and what of
+//! a particle's domain they need), and add `name::Type` to the list below. The property tests and the `mms`
+//! command then find it by itself.
 
 use mms_math::machine::{Machine, Plain};
 

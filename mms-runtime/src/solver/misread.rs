@@ -1,4 +1,5 @@
-//! What a defect takes for a quantity of a step. Without the feature `defects` each is what it is.
+//! Fault injection: what a defect takes for a quantity of a step. Without the feature `defects` each function
+//! returns the right one.
 
 use mms_math::machine::Machine;
 

@@ -1,4 +1,5 @@
-//! What a run takes of memory, about: refused before it is taken.
+//! An estimate of the memory that a run takes: it is refused before its particles or nodes are allocated. The
+//! command sets the bound to what is free.
 
 use crate::column::{Matrices, Vectors};
 use crate::nodal::Nodal;

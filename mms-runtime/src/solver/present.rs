@@ -1,5 +1,5 @@
-//! A solver's state as measurements see it, whatever the shape function and the formulation: so they are
-//! compiled once per dimension and precision.
+//! A solver's state as measurements see it. It knows neither shape function nor formulation, so measurements are
+//! compiled once per dimension and precision, however many solvers there are.
 
 use crate::particle::Particles;
 use crate::tensor::components;

@@ -1,10 +1,11 @@
-//! The order of the particles, and which of them may be added to the nodes at the same time.
+//! Slabs: the order of the particles, and which of them may be added to the nodes at the same time.
 //!
-//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the last axis
-//! are cut into slabs with about as many particles each, also within a layer; they stand together, and the nodes that they
-//! can reach are a window of the grid's arrays. Windows of every other slab do not overlap, and so those are worked on at
-//! the same time: first the even ones, then the odd ones, of which there are as many. Sums onto nodes have one order
-//! whatever the number of threads is.
+//! Particles stand in the order of the cells they were in when they were sorted. The layers of cells along the
+//! last axis are cut into slabs with about as many particles each, also within a layer; they stand together, and
+//! the nodes that they can reach are a window of the grid's arrays. Windows of every other slab do not overlap,
+//! and so those are worked on at the same time: first the even ones, then the odd ones, of which there are as
+//! many. Nodes and particles that are updated are cut into parts. Sums onto nodes have one order whatever the
+//! number of threads is.
 
 use std::ops::Range;
 

@@ -1,7 +1,8 @@
-//! The state of a solver: what it goes on from, to the bit.
+//! The state of a solver, from which a run goes on with the bits of one that never stopped.
 //!
-//! Particles stand in the order in which they are added to the nodes, for sums depend on it. What follows from
-//! the scene alone, or from the state at the beginning of every step, is left out.
+//! It holds what changes and does not follow from the scene: the particles' state in the order in which they are
+//! added to the nodes (sums depend on it), where slabs end, the step, how far velocities are behind. What follows
+//! from the scene alone, or from the state at the beginning of every step, is left out, and made anew.
 
 use std::borrow::Cow;
 

@@ -1,7 +1,8 @@
-//! The weights of the particles, whatever their shape function is: it is known here, and nowhere else in a solver.
+//! The weights of the particles: the only place in a solver that knows the shape function.
 //!
-//! A pass over the particles is compiled once for stencils that are products, and once for those of corners. It asks a
-//! shape function for the weights of some bunches at a time.
+//! The weights of four bunches are found before their sums are done, so that there is something to do while
+//! numbers are awaited. A pass over the particles is compiled once for stencils that are products of weights along
+//! the axes, whatever the weights, and once for the corners of `cpdi`.
 
 use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;

@@ -1,11 +1,13 @@
-//! The sums of a bunch onto its nodes.
+//! The sums of a bunch onto its nodes (P2G, scatter).
 //!
-//! A node takes w0 w1 w2 q, and of what goes along the axes A0 w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a
-//! node is all that stands in place of the weight along axis a: Q_a times the slope of the weight, M_a times its moment.
-//! So there is one sum, whatever asides are made of.
+//! A node takes w0 w1 w2 q. Of the terms along the axes (slopes of the weights for forces, moments for APIC) it
+//! takes A0 w1 w2 + w0 A1 w2 + w0 w1 A2, where the aside A_a of a node is all that stands in place of the weight
+//! along axis a: Q_a times the slope of the weight, M_a times its moment. So there is one sum, whatever asides are
+//! made of.
 //!
-//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the largest
-//! weight. So the sum over all three takes no product, and what the outer two leave of it is for the middle one.
+//! Along an axis with three nodes one cell apart, weights sum to 1 and asides to 0, and the middle node has the
+//! largest weight. So the sum over all three takes no product, and the middle node gets what the outer two leave
+//! of it: a third fewer multiply-adds.
 
 use mms_math::machine::Machine;
 

@@ -1,9 +1,12 @@
-//! Deliberate mistakes, and the rows that must catch them.
+//! Deliberate mistakes (fault injection), and the rows that must catch them.
 //!
 //! A suite that does not fail for a seeded defect is no verification suite. Each defect is switched on for the
-//! whole process, some rows are run, and at least one of their verdicts must not be the expected one. Which rows
-//! catch what is data: the key `catches` of a row. Beside it, each run is looked at as people look at runs
-//! ([`pseudo`](super::pseudo)).
+//! whole process and shown to the quick levels of the rows that list it under `catches`; to all rows, if none
+//! does, or with `--all-rows`. First the rows are run without any, in the same way: a verdict that is not the
+//! expected one ends the command. It expects that every defect is caught, by each row that says so, and, if all
+//! rows were shown all defects, that each row catches one of those that at most six rows catch, or has a
+//! `witness`: what no other row looks at. Results are kept in a folder of their own in the store. Beside the
+//! verdicts, each run is looked at as people look at runs ([`pseudo`](super::pseudo)).
 
 mod eyes;
 pub mod report;
