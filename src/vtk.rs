@@ -1,8 +1,8 @@
 //! States of a run for ParaView: one `.vtu` file each, and a `.pvd` file that says when they were.
 //!
-//! The XML formats of "VTK File Formats" (Kitware, 2023), particles as vertices, numbers in base64. A file
-//! appears under its name when it is whole, and the list is written anew with each state: so whatever stops a
-//! run, what is there can be opened.
+//! The XML formats of "VTK File Formats" (Kitware, 2023), particles as vertices, numbers in base64. A file appears
+//! under its name when it is whole, and the list is written anew with each state: so whatever stops a run, what is
+//! there can be opened. `.ci/states.py` reads them with meshio.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

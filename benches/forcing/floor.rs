@@ -1,7 +1,10 @@
-//! The least that a loop over points can take on this machine: the additions, multiplications and
-//! fused multiply-adds of the emitted code, times what one of them takes where none waits for
-//! another. A division and a square root count as one of them, although they take longer; loads
-//! and stores, integers and selections are free.
+//! The least that a loop over points can take on this machine: the additions, multiplications and fused
+//! multiply-adds of the emitted code, fused as they are emitted and with those of its functions, times what one of
+//! them takes in the same run where none waits for another. A division and a square root count as one of them,
+//! although they take longer; loads and stores, integers and selections are free.
+//!
+//! Operations are counted with a scalar of its own, from a table of the operations in `quick/` of `mms-math`: who
+//! changes a function there counts it again.
 
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;

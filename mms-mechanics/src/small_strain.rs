@@ -1,12 +1,12 @@
-//! Stress and its divergence from a density W(tr eps, eps:eps) of the small strain
-//! eps = (H + H^T)/2:
+//! Stress and its divergence from a density W(tr eps, eps:eps) of the small strain eps = (H + H^T)/2:
 //!
 //! ```text
 //! P = dW/dF = p I + s eps,   p = W_t,  s = 2 W_s
 //! ```
 //!
-//! with W_t the derivative by tr eps and W_s that by eps:eps. W is taken as it is at any H, though
-//! it stands for an elastic solid at small ones only: it changes under rotations.
+//! with W_t the derivative by tr eps and W_s that by eps:eps. Such a density may not use the other invariants too.
+//! W is taken as it is at any H, though it stands for an elastic solid at small ones only: it changes under
+//! rotations.
 
 use crate::defect::{Defect, on};
 use crate::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
