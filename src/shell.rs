@@ -1,4 +1,4 @@
-//! Command lines, as a shell takes them apart again.
+//! Quotes command lines, so that a shell splits them into the same words again.
 
 use std::ffi::OsString;
 

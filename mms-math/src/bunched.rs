@@ -1,4 +1,4 @@
-//! Points in bunches of eight, whose numbers are kept number by number.
+//! Points in bunches of eight, whose numbers are kept number by number (array of structures of arrays).
 
 use crate::batch::{Block, Columns, Copied, Float, Sink, Source};
 use crate::machine::Machine;

@@ -1,4 +1,5 @@
-//! Numbers that are computed with many at a time.
+//! The scalar of a vectorised loop: a number whose functions have neither branch nor call, and which says whether
+//! products are fused with sums.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

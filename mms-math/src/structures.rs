@@ -1,6 +1,7 @@
-//! Arrays of structures: the same number of eight structures together, in one register, and back.
+//! Transposes arrays of structures: the same number of eight structures goes into one register, and back.
 //!
-//! Four numbers of each of the eight go at a time. The compiler would take them one by one, from all over the memory.
+//! Four numbers of each of the eight go at a time. The compiler would take them one by one, from all over the
+//! memory.
 
 use crate::machine::Machine;
 

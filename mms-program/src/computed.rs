@@ -1,10 +1,11 @@
-//! What a precision computes: bounds of the exact value over a box, and of how far a computed value is from it.
+//! Values as a precision computes them: bounds of the exact value over a box, and of how far a computed value is
+//! from it.
 //!
-//! Each operation passes on the errors of its operands, by the mean-value theorem over what they may be computed as, and
-//! adds its own: some units of the last digit, and the least number where digits fade (Higham, Accuracy and Stability of
-//! Numerical Algorithms, 2002, chapter 2). What overflows, leaves a domain or is beyond what a function is made for has no
-//! value, and neither has what is made of it. The exact value keeps its own bounds, so that what is known of it, such as
-//! J > 0, can be put in.
+//! Each operation passes on the errors of its operands, by the mean-value theorem over what they may be computed
+//! as, and adds its own: some units of the last digit, and the least number where digits fade (Higham, Accuracy
+//! and Stability of Numerical Algorithms, 2002, chapter 2). What overflows, leaves a domain or is beyond what a
+//! function is made for has no value, and neither has what is made of it. The exact value keeps its own bounds, so
+//! that what is known of it, such as J > 0, can be put in.
 
 use core::marker::PhantomData;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,10 +1,11 @@
-//! How a quantity at many points is shared out between two loops over a block of them, and what is taken from memory at
-//! a point: decided once, for compiled code and for programs that are run in blocks.
+//! Splits the computation of a quantity at many points into two loops over a block of them, and decides which
+//! numbers of a point are kept in memory. The decision is made once, for compiled code and for programs that are
+//! run in blocks.
 //!
-//! What needs X alone and what needs t as well are two loops where both have something to do. A number that the first
-//! one hands on, or that is kept of a point, is written once and read every time. So sums and products of numbers that are
-//! there anyway are computed where they are read; and where several can be made of one number, that is handed on in their
-//! place.
+//! What needs X alone and what needs t as well are two loops where both have something to do. A number that the
+//! first one hands on, or that is kept of a point, is written once and read every time. So sums and products of
+//! numbers that are there anyway are computed where they are read; and where several can be made of one number,
+//! that is handed on in their place.
 
 use std::collections::BTreeSet;
 

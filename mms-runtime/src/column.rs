@@ -1,4 +1,4 @@
-//! Arrays of particles, bunch by bunch.
+//! Arrays of particles, bunch by bunch and number by number (array of structures of arrays).
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};

@@ -1,7 +1,8 @@
-//! Two things at once, if there are threads for it.
+//! Fork and join: runs two things at once, if there are threads for it.
 //!
-//! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Results do not depend on their
-//! number: what is joined is cut into the same parts whatever it is, and other parts have nothing to do with each other.
+//! Threads are those of the pool that the caller is in ([`crate::study::run`] makes one). Results do not depend on
+//! their number: what is joined is cut into the same parts whatever it is, and other parts have nothing to do with
+//! each other.
 
 /// Nodes that are worked on by one thread at a time.
 const NODES: usize = 2048;

@@ -1,4 +1,4 @@
-//! No formula is a wall: what would be too long for a line is put together from named parts.
+//! Abbreviates formulas: one that would be too long for a line is put together from named parts.
 
 use std::collections::BTreeMap;
 

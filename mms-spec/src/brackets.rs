@@ -1,7 +1,7 @@
-//! The bracket that was never closed.
+//! Finds the bracket that was never closed.
 //!
-//! Without its end an array takes in all that follows, and TOML complains at each of those places
-//! but not where the end is missing. This looks for the place that a person would point at.
+//! Without its end an array takes in all that follows, and TOML complains at each of those places but not where
+//! the end is missing. This looks for the place that a person would point at.
 
 /// The `[` or `{` of a value that is never closed, in a text where one is.
 pub(super) fn unclosed(text: &str) -> Option<usize> {

@@ -1,4 +1,4 @@
-//! Where something was found: a point of the domain that a message can name.
+//! Counterexamples: a point of the domain where something was found, which a message can name.
 
 use super::chart::{Chart, Spot};
 use mms_math::Scalar as _;

@@ -1,5 +1,7 @@
-//! Values that a field surely allows, told in microseconds: what [`Compiled::accepts`] looks at, evaluated once in
-//! intervals that hold for the whole body. Where that does not decide, or something is wrong, nothing is said.
+//! A quick test, in microseconds, whether a field surely allows the values that a user sets.
+//!
+//! It evaluates what [`Compiled::accepts`] looks at once, in intervals that hold for the whole body. Where that does
+//! not decide, or something is wrong, it says nothing.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,8 @@
-//! Expressions as n-ary operations grouped by stage: what sharing works on.
+//! The n-ary normal form that sharing works on: expressions as operations of any number of operands, grouped by
+//! stage.
 //!
-//! Unlike the graph, a sum may contain a sum here and a product a product. So the terms of one
-//! stage can stand apart, and what several operations share can be an operation of its own.
+//! Unlike the graph, a sum may contain a sum here and a product a product. So the terms of one stage can stand
+//! apart, and what several operations share can be an operation of its own.
 
 use std::hash::BuildHasher as _;
 use std::ops::AddAssign;

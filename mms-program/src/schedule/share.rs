@@ -1,11 +1,10 @@
-//! Sharing: pairs of operands that several sums or products have in common become operations of
-//! their own, the most frequent pair first (Hosangadi, Fallah & Kastner, Optimizing Polynomial
-//! Expressions by Algebraic Factorization and Common Subexpression Elimination, 2006, uses the same
-//! greedy rule).
+//! Common subexpressions: pairs of operands that several sums or products have in common become operations of
+//! their own, the most frequent pair first (Hosangadi, Fallah & Kastner, Optimizing Polynomial Expressions by
+//! Algebraic Factorization and Common Subexpression Elimination, 2006, uses the same greedy rule).
 //!
-//! In a sum a pair is two terms and the ratio of their coefficients, in a product two factors of
-//! which either both multiply, or one divides; a power is a pair of equal factors. Every
-//! occurrence but the first saves an operation.
+//! In a sum a pair is two terms and the ratio of their coefficients, in a product two factors of which either both
+//! multiply, or one divides; a power is a pair of equal factors. Every occurrence but the first saves an
+//! operation.
 
 use std::cmp::Reverse;
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! Time: that of the run, and what it takes.
+//! The clock of a run: its time, computed from the step number, and the processor time that its parts take.
 
 use std::time::Instant;
 

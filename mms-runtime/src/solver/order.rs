@@ -1,5 +1,5 @@
-//! The order in which particles stand: that of the cells they were in when it was found, and in a slab first those that
-//! make a bunch with others of their cell, then those that make half of one, then the others.
+//! Sorts particles by the cells that they are in. In a slab those come first that make a bunch with others of
+//! their cell, then those that make half of one, then the others.
 
 use mms_math::machine::{Machine as _, Plain};
 

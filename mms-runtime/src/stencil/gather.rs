@@ -1,4 +1,5 @@
-//! The sums over the nodes of a bunch: of all its particles together, all components of a node after each other.
+//! The sums over the nodes of a bunch (G2P, gather): of all its particles together, all components of a node after
+//! each other.
 
 use mms_math::dispatch::Work;
 use mms_math::machine::Machine;

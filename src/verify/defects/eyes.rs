@@ -1,4 +1,4 @@
-//! Runs that are looked at.
+//! Runs a row once more and looks at the result as people do: the observers of pseudo verification.
 
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Frame, Observer, Watch};
