@@ -1,0 +1,191 @@
+//! docs/reference/json.md lists the keys of all documents. Here documents are made, and compared with its tables, key by
+//! key and type by type; and each key of a table must occur in one of them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::Value;
+
+use super::mms::Folder;
+
+const PAGE: &str = include_str!("../../docs/reference/json.md");
+
+/// Tables that only a program with the feature `defects` fills.
+const OF_DEFECTS: [&str; 3] = ["verify-defects", "shown-defect", "shown-row"];
+
+/// A key of a table, and what the page says that it holds.
+struct Key {
+    name: &'static str,
+    holds: &'static str,
+}
+
+/// The tables of the page by their headings.
+struct Tables(BTreeMap<&'static str, Vec<Key>>);
+
+impl Tables {
+    fn read() -> Self {
+        let mut tables = BTreeMap::<_, Vec<Key>>::new();
+        let mut heading = "";
+        for line in PAGE.lines() {
+            if line.starts_with("##") {
+                heading = line.trim_start_matches('#').trim();
+            }
+            let cells: Vec<_> = line.split('|').map(str::trim).collect();
+            if let ["", key, holds, ..] = cells[..]
+                && let Some(name) = key.strip_prefix('`').and_then(|key| key.strip_suffix('`'))
+                && !heading.is_empty()
+            {
+                tables.entry(heading).or_default().push(Key { name, holds });
+            }
+        }
+        Tables(tables)
+    }
+
+    fn table(&self, heading: &str) -> &[Key] {
+        self.0
+            .get(heading)
+            .unwrap_or_else(|| panic!("docs/reference/json.md has no table `{heading}`"))
+    }
+}
+
+/// Compares documents with the tables, and notes which keys it met.
+struct Reader<'a> {
+    tables: &'a Tables,
+    met: BTreeSet<(String, &'static str)>,
+}
+
+impl Reader<'_> {
+    /// Asserts that a value is of one of the types in `holds`.
+    fn value(&mut self, value: &Value, holds: &str, place: &str) {
+        let holds = holds.strip_prefix("optional ").unwrap_or(holds);
+        let Some(kind) = holds.split(" or ").find(|kind| fits(value, kind)) else {
+            panic!("{place}: the page says `{holds}`, the document has {value}");
+        };
+        if let Some(heading) = heading(kind) {
+            self.object(value, heading, place);
+        } else if let Some(kind) = kind.strip_prefix("list of ") {
+            for item in value.as_array().expect("a list") {
+                self.value(item, kind, &format!("{place}[]"));
+            }
+        } else if let Some(kind) = holds.strip_prefix("names to ") {
+            for (name, item) in value.as_object().expect("an object") {
+                self.value(item, kind, &format!("{place}.{name}"));
+            }
+        }
+    }
+
+    /// Asserts that an object has the keys of a table, in their order, and no others.
+    fn object(&mut self, value: &Value, heading: &str, place: &str) {
+        let mut own = value.as_object().expect("an object").iter().peekable();
+        for key in self.tables.table(heading) {
+            match own.next_if(|(name, _)| *name == key.name) {
+                Some((name, item)) => {
+                    self.met.insert((heading.to_owned(), key.name));
+                    self.value(item, key.holds, &format!("{place}.{name}"));
+                }
+                None => assert!(
+                    key.holds.starts_with("optional "),
+                    "{place}: the page has `{}` in `{heading}`; the document has {:?} there",
+                    key.name,
+                    own.peek()
+                ),
+            }
+        }
+        assert_eq!(own.next(), None, "{place}: not in the table `{heading}`, or in another order");
+    }
+
+    /// Runs a command, and compares its document with a table.
+    fn document(&mut self, folder: &Folder, heading: &str, arguments: &str, code: i32) {
+        let document = folder.mms(&format!("{arguments} --json")).exits(code).json();
+        self.object(&document, heading, arguments);
+    }
+}
+
+/// The table that a type names, as in `[level](#level)`.
+fn heading(kind: &str) -> Option<&str> {
+    kind.strip_prefix('[')?.split_once(']').map(|(heading, _)| heading)
+}
+
+/// Whether a value is of the outermost type.
+fn fits(value: &Value, kind: &str) -> bool {
+    match value {
+        Value::Null => kind == "null",
+        Value::Bool(_) => kind == "boolean",
+        Value::Number(_) => kind == "number",
+        Value::String(_) => kind == "text",
+        Value::Array(_) => kind.starts_with("list of "),
+        Value::Object(_) => kind.starts_with("names to ") || heading(kind).is_some(),
+    }
+}
+
+/// A file with much that `mms check` may find: a claim that is refuted, one that is enclosed, a closed form that differs, and
+/// a formula that has no value as it is written.
+const FAULTY: &str = r#"
+[field]
+title = "Faulty"
+dimension = 1
+[displacement]
+u = ["0.1*(1 - X)*cos(t) + exp(2*ln(1 + X)) - (1 + X)^2 + 0*sqrt(X - 2)"]
+[material]
+model = "neo_hookean"
+lambda = 1
+mu = 1
+density = 1
+[domain]
+shape = "box"
+lower = [0]
+upper = [1]
+time = [0, 1]
+[boundary]
+x_min = "fixed"
+x_max = "fixed"
+[[check]]
+quantity = "jacobian"
+equals = ["1"]
+"#;
+
+#[test]
+fn documents_have_the_keys_of_the_page() {
+    let tables = Tables::read();
+    let mut reader = Reader { tables: &tables, met: BTreeSet::new() };
+    let folder = Folder::with_bar("bar.toml");
+    folder.write("faulty.toml", FAULTY);
+    folder.write("broken.toml", "[field]\ntitle = 1\n");
+    for (heading, arguments, code) in [
+        ("list", "list", 0),
+        ("show", "show bar.toml", 0),
+        ("check", "check bar.toml faulty.toml broken.toml", 2),
+        ("eval", "eval bar.toml --at 0.5 --at 7 --time 99", 0),
+        ("emit", "emit bar.toml --target c --quantity u", 0),
+        ("emit", "emit bar.toml --target c --quantity u -o emitted --check", 1),
+        ("emit-all", "emit --all --target julia --quantity u --check -o emitted", 1),
+        ("accuracy", "accuracy bar.toml --quantity u --points 2", 0),
+        ("accuracy", "accuracy axis_aligned_1d --quantity u --regime jacobian_1e3 --points 2", 1),
+        ("run", "run bar.toml --cells 4", 0),
+        ("run", "run bar.toml --cells 8 --courant 3 --allow-unstable", 3),
+        ("study", "study bar.toml --cells 4,8,16 --fit", 0),
+        ("study", "study bar.toml --cells 8 --refine time --levels 2", 1),
+        ("study", "study bar.toml --cells 8,16 --periods 1", 0),
+        ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
+        ("verify", "verify --quick --row startup/usl", 0),
+        ("verify-list", "verify --list", 0),
+        ("tradeoff", "tradeoff bar.toml --target-linf 5e-2 --cost memory", 0),
+        ("tradeoff", "tradeoff bar.toml --target-linf 1e-9 --most-work 1e5", 1),
+        ("extremes", "extremes bar.toml --quick --row units/soft --row stability", 0),
+    ] {
+        reader.document(&folder, heading, arguments, code);
+    }
+    #[cfg(feature = "defects")]
+    reader.document(
+        &folder,
+        "verify-defects",
+        "verify --quick --defects=force_late --row time/force_level",
+        0,
+    );
+    for (heading, keys) in &tables.0 {
+        let is_possible = cfg!(feature = "defects") || !OF_DEFECTS.contains(heading);
+        for key in keys.iter().filter(|_| is_possible) {
+            let is_met = reader.met.contains(&(heading.to_string(), key.name));
+            assert!(is_met, "no document has `{}` of the table `{heading}`", key.name);
+        }
+    }
+}
