@@ -13,7 +13,7 @@ pub fn compile(name: &str, path: &str, text: &str, load: Loader<'_>) -> Result<C
 
 /// Compiles a part of a field, the field with some parameters fixed, or within other limits.
 ///
-/// Mistakes of the selection are in the failure too; [`Selection::entry`] tells them apart. So is
+/// Mistakes of the selection are in the failure too; [`Selection::entry`](crate::Selection::entry) tells them apart. So is
 /// what a short search finds to contradict the field: see [`contradictions`].
 pub fn compile_with(
     name: &str,

@@ -30,7 +30,7 @@ impl FieldFile {
         [format!("include_str!({:?})", self.path), material.unwrap_or("None".into())]
     }
 
-    /// The text of the material's file, for [`crate::compile::Loader`].
+    /// The text of the material's file, for the `Loader` of the compiler.
     pub fn load_material(&self) -> Result<String, String> {
         let path = self.material.as_ref().ok_or("the field has no material of its own")?;
         fs::read_to_string(path).map_err(|error| error.to_string())

@@ -3,7 +3,7 @@
 //! How each is made follows from the field alone: from the units of its parameters (moduli and lengths are those
 //! with that unit), from what they do to u and J (`probe`: the amplitude is the first parameter with which all of
 //! u vanishes while body and time window stay, and J near 0 is found by raising it), or from a variation of the
-//! field ([`crate::variation`]). A regime that a field cannot be put in is left out with the reason.
+//! field ([`mms_codegen::variation`]). A regime that a field cannot be put in is left out with the reason.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Taking out what every term of a sum has in common: a x + a y = a (x + y).
 //!
 //! The rule saves multiplications, unless it takes apart a product that is needed elsewhere as it
-//! is; [`crate::simplify`] keeps its result only where that is no dearer. It also brings the terms
+//! is; `simplify`, in mechanics, keeps its result only where that is no dearer. It also brings the terms
 //! that are left together, so that (1 + j) (m/(1 + j) + l/(1 + j)) becomes m + l.
 
 use std::collections::BTreeMap;

@@ -2,7 +2,7 @@
 //!
 //! In sin(k X - c t) the rounding of c t would err by eps times c t. So that becomes sin(k X - r), where r is c t
 //! less whole turns, taken off with the digits of the stage Time. An angle of four turns or fewer is left as it
-//! is, and with it the bits of what is evaluated there ([`mms_math::Scalar::within_turns`]); in radians, so is one
+//! is, and with it the bits of what is evaluated there (`Scalar::within_turns` of `mms-math`); in radians, so is one
 //! beyond 2^50.
 
 use super::substitute::rebuild;
