@@ -1,0 +1,124 @@
+//! The observed order of a few levels, and the interval in which it lies.
+
+use crate::OUTSIDE;
+use crate::sequence::Level;
+use crate::student::{quantile, tail_of_ratio};
+
+/// An order, and where it lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The best guess.
+    pub order: f64,
+    /// From where to where it may be; none of two levels.
+    pub interval: Option<[f64; 2]>,
+    /// What the interval rests on.
+    pub basis: Basis,
+}
+
+/// What the interval of an order rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// The scatter of levels, or of replicates, about a power law: 95 % by Student's t.
+    Scatter,
+    /// The drift between two pairs of levels, which have no scatter.
+    Drift,
+    /// Nothing: two levels have an order, and no second one to compare it with.
+    Nothing,
+}
+
+/// By how much more than Richardson's extrapolation says orders may still drift (Roache 1998; Eca & Hoekstra 2014).
+const SAFETY: f64 = 1.25;
+
+impl Estimate {
+    /// Of two levels or more, whose errors are positive. No interval is less than `resolution` to either side.
+    pub(crate) fn of(levels: &[Level], resolution: f64) -> Option<Self> {
+        let first = *pairs(levels)?.last()?;
+        let (order, reach, basis) = match levels {
+            [_, _] => return Some(Self { order: first, interval: None, basis: Basis::Nothing }),
+            _ => match scatter(levels) {
+                Some((order, reach)) => (order, [order - reach, order + reach], Basis::Scatter),
+                None => (first, drift(levels)?, Basis::Drift),
+            },
+        };
+        let interval = [reach[0].min(order - resolution), reach[1].max(order + resolution)];
+        Some(Self { order, interval: Some(interval), basis })
+    }
+
+    /// Whether an order lies in the interval.
+    pub fn holds(&self, order: f64) -> bool {
+        self.interval.is_some_and(|[low, high]| (low..=high).contains(&order))
+    }
+
+    /// Half the width of the interval; infinite where there is none.
+    pub fn reach(&self) -> f64 {
+        self.interval.map_or(f64::INFINITY, |[low, high]| (high - low) / 2.0)
+    }
+}
+
+/// The orders between neighbours; `None` if one has none.
+pub(crate) fn pairs(levels: &[Level]) -> Option<Vec<f64>> {
+    levels.windows(2).map(|pair| pair[1].order_from(&pair[0])).collect()
+}
+
+/// Of three levels: the two orders, and where the second may still go if orders approach their limit as h does.
+fn drift(levels: &[Level]) -> Option<[f64; 2]> {
+    let [first, second] = pairs(levels)?[..] else { return None };
+    let ratio = levels[1].length / levels[2].length;
+    let further = second + SAFETY * (second - first) / (ratio - 1.0);
+    Some([first.min(second).min(further), first.max(second).max(further)])
+}
+
+/// ln e = ln C + p ln h by least squares, and half the interval of p. With replicates the scatter is theirs together
+/// with that of levels, unless levels scatter more than replicates do (lack of fit, by Fisher's F; Draper & Smith,
+/// Applied Regression Analysis, 1998, section 2.1). `None` of three levels whose scatter is not that of replicates.
+fn scatter(levels: &[Level]) -> Option<(f64, f64)> {
+    let all = || levels.iter().flat_map(|level| level.errors.iter().map(|e| [level.length, *e]));
+    let means: Vec<_> = levels.iter().map(|level| [level.length, level.error()]).collect();
+    let of_all = Line::through(&all().collect::<Vec<_>>());
+    let within: f64 = levels
+        .iter()
+        .flat_map(|level| level.errors.iter().map(|e| (e / level.error()).ln().powi(2)))
+        .sum();
+    let (runs, between) = (all().count(), levels.len() - 2);
+    let replicates = runs - levels.len();
+    let is_pooled = replicates > 0 && {
+        let lack = (of_all.left - within).max(0.0) / between as f64;
+        tail_of_ratio(lack / (within / replicates as f64), [between, replicates]) > OUTSIDE
+    };
+    if is_pooled {
+        return Some((of_all.slope, of_all.reach(runs - 2)));
+    }
+    let of_means = Line::through(&means);
+    (levels.len() > 3).then(|| (of_means.slope, of_means.reach(between)))
+}
+
+/// A straight line through logarithms.
+struct Line {
+    slope: f64,
+    left: f64,
+    spread: f64,
+}
+
+impl Line {
+    fn through(points: &[[f64; 2]]) -> Self {
+        let points: Vec<_> = points.iter().map(|point| point.map(f64::ln)).collect();
+        let mean =
+            |which: usize| points.iter().map(|p| p[which]).sum::<f64>() / points.len() as f64;
+        let centre = [mean(0), mean(1)];
+        let sum = |i: usize, j: usize| {
+            points.iter().map(|p| (p[i] - centre[i]) * (p[j] - centre[j])).sum::<f64>()
+        };
+        let (spread, slope) = (sum(0, 0), sum(0, 1) / sum(0, 0));
+        let residual = |p: &[f64; 2]| (p[1] - centre[1] - slope * (p[0] - centre[0])).powi(2);
+        Self { slope, left: points.iter().map(residual).sum(), spread }
+    }
+
+    fn reach(&self, freedom: usize) -> f64 {
+        quantile(OUTSIDE, freedom) * (self.left / freedom as f64 / self.spread).sqrt()
+    }
+}
+
+/// How far levels are from a power law of an order of their own: the sum of squares of logarithms.
+pub(crate) fn misfit(levels: &[Level]) -> f64 {
+    Line::through(&levels.iter().map(|it| [it.length, it.error()]).collect::<Vec<_>>()).left
+}

@@ -1,0 +1,152 @@
+//! The errors of one norm on levels of refinement.
+
+/// ln(e1/e2) / ln(h1/h2).
+///
+/// `None` where there is none: an error or a length that is not positive and finite, or h1 = h2. An
+/// error of exactly zero has no order: a method that represents the field exactly proves nothing.
+pub fn observed_order(errors: [f64; 2], lengths: [f64; 2]) -> Option<f64> {
+    let usable = |value: f64| value > 0.0 && value.is_finite();
+    let all_usable = errors.into_iter().chain(lengths).all(usable);
+    let order = (errors[0] / errors[1]).ln() / (lengths[0] / lengths[1]).ln();
+    (all_usable && order.is_finite()).then_some(order)
+}
+
+/// The error of one run in one norm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// What is refined: h or dt.
+    pub length: f64,
+    /// The error; none of a run that stopped.
+    pub error: Option<f64>,
+    /// Whether the error may be nothing but round-off.
+    pub is_noise: bool,
+}
+
+impl Sample {
+    /// Of a run that ended, well above round-off.
+    pub fn new(length: f64, error: f64) -> Self {
+        Self { length, error: Some(error), is_noise: false }
+    }
+}
+
+/// Lengths that differ by less than this, relative to them, are one.
+const SAME: f64 = 1e-6;
+
+/// The runs of one length. Several are replicates: of other grid offsets, other seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// h or dt.
+    pub length: f64,
+    /// The errors of its runs, in the sequence in which they were given.
+    pub errors: Vec<f64>,
+    has_stopped: bool,
+    is_noise: bool,
+}
+
+impl Level {
+    /// The error: of replicates the geometric mean, since orders are differences of logarithms.
+    pub fn error(&self) -> f64 {
+        match self.errors.as_slice() {
+            [alone] => *alone,
+            several => (several.iter().map(|e| e.ln()).sum::<f64>() / several.len() as f64).exp(),
+        }
+    }
+
+    /// The observed order from a coarser level to this.
+    pub fn order_from(&self, coarse: &Level) -> Option<f64> {
+        observed_order([coarse.error(), self.error()], [coarse.length, self.length])
+    }
+
+    fn join(&mut self, sample: Sample) {
+        self.errors.extend(sample.error);
+        self.has_stopped |= sample.error.is_none();
+        self.is_noise |= sample.is_noise;
+    }
+}
+
+/// The levels of a study in one norm, from coarse to fine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sequence {
+    levels: Vec<Level>,
+}
+
+impl Sequence {
+    /// Of samples in any sequence.
+    pub fn new(samples: impl IntoIterator<Item = Sample>) -> Self {
+        let mut samples: Vec<Sample> = samples.into_iter().collect();
+        samples.sort_by(|a, b| b.length.total_cmp(&a.length));
+        let mut levels: Vec<Level> = Vec::new();
+        for sample in samples {
+            let (has_stopped, is_noise) = (false, false);
+            let own = Level { length: sample.length, errors: Vec::new(), has_stopped, is_noise };
+            match levels.last_mut() {
+                Some(level) if level.length <= sample.length * (1.0 + SAME) => level.join(sample),
+                _ => {
+                    levels.push(own);
+                    levels.iter_mut().last().into_iter().for_each(|level| level.join(sample));
+                }
+            }
+        }
+        Self { levels }
+    }
+
+    /// The levels, from coarse to fine.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// Whether a run stopped.
+    pub fn has_stopped(&self) -> bool {
+        self.levels.iter().any(|level| level.has_stopped)
+    }
+
+    /// The levels before the first that may be nothing but round-off.
+    pub fn sound(&self) -> &[Level] {
+        let sound = self.levels.iter().take_while(|level| !level.is_noise).count();
+        &self.levels[..sound]
+    }
+
+    /// C of e = C h^p on the finest sound level, p being the expected order.
+    pub fn error_constant(&self, expected_order: f64) -> Option<f64> {
+        let finest = self.sound().last().filter(|level| !level.errors.is_empty())?;
+        let constant = finest.error() / finest.length.powf(expected_order);
+        (constant > 0.0 && constant.is_finite()).then_some(constant)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_of_a_power_law_is_its_exponent() {
+        let order = observed_order([9e-3, 1e-3], [0.3, 0.1]).expect("an order");
+        assert!((order - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_useless_has_an_order() {
+        for errors in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [f64::NAN, 1.0], [f64::INFINITY, 1.0]] {
+            assert_eq!(observed_order(errors, [0.2, 0.1]), None);
+        }
+        assert_eq!(observed_order([2.0, 1.0], [0.1, 0.1]), None);
+    }
+
+    #[test]
+    fn levels_are_sorted_and_runs_of_one_length_are_replicates() {
+        let samples = [(0.25, 1.0), (0.5, 2.0), (0.25 + 1e-9, 4.0), (1.0, 16.0)];
+        let sequence = Sequence::new(samples.map(|(h, e)| Sample::new(h, e)));
+        let levels = sequence.levels();
+        assert_eq!(levels.iter().map(|it| it.errors.len()).collect::<Vec<_>>(), [1, 1, 2]);
+        assert!((levels[2].error() - 2.0).abs() < 1e-12, "the geometric mean of 1 and 4");
+        assert!((levels[1].order_from(&levels[0]).expect("an order") - 3.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn levels_from_the_first_that_may_be_round_off_are_left_out() {
+        let noise = Sample { is_noise: true, ..Sample::new(0.25, 1.0) };
+        let sequence = Sequence::new([Sample::new(1.0, 16.0), noise, Sample::new(0.125, 1.0)]);
+        assert_eq!(sequence.sound().len(), 1);
+        assert_eq!(sequence.error_constant(2.0), Some(16.0));
+    }
+}

@@ -1,0 +1,87 @@
+//! A second term beside that of the expected order: e = C h^p + D h^q.
+
+use crate::OUTSIDE;
+use crate::least::solve;
+use crate::sequence::Level;
+
+/// What a second term is, and so what a drift of the orders shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// q = 0: errors level off.
+    Plateau,
+    /// q = p - 1: an error of lower order, which takes over on finer levels.
+    LowerOrder,
+    /// q = p + 1, or p + 2 where symmetry leaves no odd powers: an error of higher order, which goes away on finer levels.
+    PreAsymptotic,
+}
+
+/// A second term in the errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    /// What it is.
+    pub kind: Kind,
+    /// q.
+    pub order: f64,
+    /// D h^q over the error on the finest level; negative where it takes away from it.
+    pub share: f64,
+    /// From where to where that may be.
+    pub interval: [f64; 2],
+    /// The length at which both terms are as large: a lower order takes over below it, a higher one above.
+    pub takes_over: f64,
+}
+
+impl Term {
+    /// Whether it is there, and not nothing but scatter.
+    pub fn is_shown(&self) -> bool {
+        self.interval[0] > 0.0 || self.interval[1] < 0.0
+    }
+
+    /// By how much it moves the order of the finest level away from p.
+    pub fn moves(&self, expected: f64) -> f64 {
+        ((self.order - expected) * self.share).abs()
+    }
+}
+
+/// Each with its q.
+fn kinds(expected: f64) -> impl Iterator<Item = (Kind, f64)> {
+    let lower = (expected - 1.0 > 1e-9).then_some((Kind::LowerOrder, expected - 1.0));
+    let higher = [1.0, 2.0].map(|more| (Kind::PreAsymptotic, expected + more));
+    std::iter::once((Kind::Plateau, 0.0)).chain(lower).chain(higher)
+}
+
+/// A power law that leaves no more than this is exact but for rounding.
+const EXACT: f64 = 1e-20;
+
+/// The second term that explains the errors of three levels or more best, if one explains them better than a power law
+/// of another order does, which leaves `misfit`.
+///
+/// Each error counts relative to itself. Intervals are Student's for one of four terms that were looked at
+/// (Bonferroni), so that scatter alone shows one in 5 % of all cases at most.
+pub(crate) fn second_term(levels: &[Level], expected: f64, misfit: f64) -> Option<Term> {
+    if misfit < EXACT {
+        return None;
+    }
+    let fits = kinds(expected).filter_map(|kind| fit(levels, expected, kind));
+    let best = fits.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (best.1 < misfit).then_some(best.0)
+}
+
+/// One of them, and its misfit.
+fn fit(levels: &[Level], p: f64, (kind, q): (Kind, f64)) -> Option<(Term, f64)> {
+    let finest = levels.last()?.length;
+    let row = |level: &Level| {
+        let (x, e) = (level.length / finest, level.error());
+        ([x.powf(p) / e, x.powf(q) / e], 1.0)
+    };
+    let rows: Vec<_> = levels.iter().map(row).collect();
+    let found = solve(&rows)?;
+    let [c, d] = found.unknowns;
+    let distance = |([a, b], _): &([f64; 2], f64)| (c * a + d * b).ln().powi(2);
+    let misfit: f64 = rows.iter().map(distance).sum();
+    let error = c + d;
+    let reach = found.reach(1, OUTSIDE / 4.0) / error;
+    let share = d / error;
+    let takes_over = finest * (d / c).abs().powf(1.0 / (p - q));
+    let term = Term { kind, order: q, share, interval: [share - reach, share + reach], takes_over };
+    (misfit.is_finite() && error > 0.0).then_some((term, misfit))
+}

@@ -1,0 +1,36 @@
+//! What a study ends with.
+
+use std::fmt;
+
+/// How narrow the interval of an order must be for a `pass`, by default: half its width.
+pub const TOLERANCE: f64 = 0.15;
+
+/// How far an error constant may be from the expected one, relative to it: runs are the same on every machine but for
+/// rounding, and what levels lose by not being asymptotic is the same as well.
+pub const CONSTANT_TOLERANCE: f64 = 0.01;
+
+/// The outcome of a study; the worse, the later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The levels show the expected order.
+    Pass,
+    /// They do not tell, or show a higher one.
+    NotAsymptotic,
+    /// They show a lower one or another error constant, or a run stopped.
+    Fail,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Pass => "pass",
+            Verdict::NotAsymptotic => "not asymptotic",
+            Verdict::Fail => "fail",
+        })
+    }
+}
+
+/// Whether an error constant is the expected one, to within [`CONSTANT_TOLERANCE`].
+pub fn is_near(constant: f64, expected: f64) -> bool {
+    (constant / expected - 1.0).abs() <= CONSTANT_TOLERANCE
+}

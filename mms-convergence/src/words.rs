@@ -1,0 +1,141 @@
+//! Verdicts in words.
+
+use crate::finding::{Expected, Finding, Reason};
+use crate::judgement::{Judged, Judgement};
+use crate::order::Basis;
+use crate::term::{Kind, Term};
+use crate::verdict::Verdict;
+
+/// How levels are called: by what is refined, or as who asks likes it.
+pub type Name<'a> = &'a dyn Fn(f64) -> String;
+
+/// Why an order may be above that of theory.
+const ABOVE: &str = "an order above theory comes from an error that changes its sign between the levels, from errors of \
+     space and time that cancel, from places where the method is more accurate than elsewhere (nodes, Gauss points), \
+     from coarse levels that are not asymptotic, or from a theory that says too little";
+
+impl Judgement {
+    /// The verdict with the norm and the levels that decided it, and then what is behind it, a sentence a line.
+    pub fn sentences(&self, name: Name<'_>) -> Vec<String> {
+        let Judged { norm, expected, finding } = self.deciding();
+        let mut lines =
+            vec![format!("{}: {}", finding.verdict, finding.says(norm, *expected, name))];
+        lines.extend(finding.explanations(*expected, name));
+        lines.extend(self.layer().map(|q| {
+            format!(
+                "the orders of l1, l2 and linf are those of a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
+                 and q; look at the boundary conditions"
+            )
+        }));
+        lines
+    }
+}
+
+impl Finding {
+    /// The order, its interval, norm and levels, and what was expected.
+    fn says(&self, norm: &str, expected: Expected, name: Name<'_>) -> String {
+        let levels = match self.lengths.as_slice() {
+            [] => "no level".into(),
+            [alone] => name(*alone),
+            [first, .., last] => {
+                format!("{} levels, {} to {}", self.lengths.len(), name(*first), name(*last))
+            }
+        };
+        let observed = match self.estimate {
+            None => format!("no observed order ({norm}; {levels})"),
+            Some(it) => match it.interval {
+                None => format!("observed order {:.2} ({norm}; {levels})", it.order),
+                Some([low, high]) => format!(
+                    "observed order {:.2}, between {low:.2} and {high:.2} ({norm}; {levels})",
+                    it.order
+                ),
+            },
+        };
+        format!("{observed}, expected {}{}", expected.order, self.because(expected))
+    }
+
+    fn because(&self, expected: Expected) -> String {
+        let p = expected.order;
+        match self.reason {
+            Reason::Settled | Reason::Below | Reason::Above => String::new(),
+            Reason::Stopped => "; a run stopped".into(),
+            Reason::NoOrder => "; an error is exactly zero, or levels are alike".into(),
+            Reason::TooFewLevels => match self.lengths.len() {
+                2 => "; two levels have an order, and cannot show that it is settled: give a third"
+                    .into(),
+                _ => "; three levels above round-off are needed".into(),
+            },
+            Reason::Approaching => format!("; orders approach {p}, but are not near it yet"),
+            Reason::Wide => format!(
+                "; the interval is wider than +-{}: the orders are not settled",
+                expected.tolerance
+            ),
+            Reason::HiddenTerm => format!("; orders leave {p} on finer levels"),
+        }
+    }
+
+    /// What the fits say, in words.
+    pub fn explanations(&self, expected: Expected, name: Name<'_>) -> Vec<String> {
+        let mut lines = Vec::new();
+        lines.extend(self.estimate.and_then(|it| match it.basis {
+            Basis::Scatter => Some("the interval is that of 95 %, from the scatter about a power law".into()),
+            Basis::Drift => Some(
+                "the interval is from the drift of two orders: three levels have no scatter to judge by".into(),
+            ),
+            Basis::Nothing => None,
+        }));
+        lines.extend(self.material_term(expected).map(|term| term.sentence(expected.order, name)));
+        lines.extend(self.inconsistency(expected).map(|it| {
+            format!(
+                "not consistent: e0 + C h^{:.2} fits with e0 = {:.2e}, between {:.2e} and {:.2e}",
+                it.order, it.error, it.interval[0], it.interval[1]
+            )
+        }));
+        if self.reason == Reason::Above {
+            lines.push(ABOVE.into());
+        }
+        if self.verdict == Verdict::Pass {
+            lines.extend(self.left_open(expected, name));
+        }
+        lines
+    }
+
+    /// What a pass does not exclude.
+    fn left_open(&self, expected: Expected, name: Name<'_>) -> Option<String> {
+        let ([low, _], finest) = (self.estimate?.interval?, self.lengths.last()?);
+        let share = (expected.order - low).max(expected.resolution());
+        let lower = expected.order - 1.0;
+        (lower > 0.0).then(|| {
+            format!(
+                "an error of order {lower} that makes up less than {:.0} % at {} is not excluded",
+                100.0 * share.min(1.0),
+                name(*finest)
+            )
+        })
+    }
+}
+
+impl Term {
+    fn sentence(&self, p: f64, name: Name<'_>) -> String {
+        let (q, at) = (self.order, name(self.takes_over));
+        let what = match self.kind {
+            Kind::Plateau => "a plateau".into(),
+            Kind::LowerOrder => format!("a hidden error of order {q}"),
+            Kind::PreAsymptotic => format!("an error of order {q} besides, which goes away"),
+        };
+        let percent = format!(
+            "{:.1} % of the finest error ({:.1} to {:.1} %)",
+            100.0 * self.share,
+            100.0 * self.interval[0],
+            100.0 * self.interval[1]
+        );
+        let fits = format!("C h^{p} + D h^{q} fits the drift of the orders: {what}, {percent}");
+        match self.kind {
+            _ if self.share < 0.0 && self.kind != Kind::PreAsymptotic => {
+                format!("{fits}, of the other sign: both cancel near {at}")
+            }
+            Kind::PreAsymptotic => format!("{fits}; the expected order leads below {at}"),
+            _ => format!("{fits}; it takes over below {at}"),
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Errors whose law is known, and the verdict that is true of them.
+
+use mms_convergence::{
+    Basis, Expected, Finding, Judgement, Kind, Reason, Sample, Sequence, Verdict,
+};
+
+const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
+
+/// Levels of sizes n, n/2, .. 1 times the finest, with the errors that a law makes of these sizes.
+fn levels(count: i32, law: impl Fn(f64) -> f64) -> Sequence {
+    let sizes = (0..count).map(|k| 2f64.powi(k));
+    Sequence::new(sizes.map(|x| Sample::new(x * 1e-2, 1e-4 * law(x))))
+}
+
+fn finding(count: i32, law: impl Fn(f64) -> f64) -> Finding {
+    Finding::of(&levels(count, law), SECOND)
+}
+
+/// Levels between which errors have these orders.
+fn with_orders(orders: &[f64]) -> Finding {
+    let mut errors = vec![1.0];
+    for order in orders {
+        errors.push(errors[errors.len() - 1] * 0.5f64.powf(*order));
+    }
+    errors.reverse();
+    finding(errors.len() as i32, |x| errors[x.log2().round() as usize])
+}
+
+fn assert_near(found: f64, expected: f64, within: f64) {
+    assert!((found - expected).abs() < within, "{found}, {expected}");
+}
+
+#[test]
+fn a_power_law_of_the_expected_order_passes() {
+    for count in 3..7 {
+        let found = finding(count, |x| 3.0 * x * x);
+        assert_eq!((found.verdict, found.reason), (Verdict::Pass, Reason::Settled), "{found:?}");
+        assert_eq!((found.term, found.lengths.len()), (None, count as usize));
+        let estimate = found.estimate.expect("an order");
+        assert_near(estimate.order, 2.0, 1e-9);
+        // Not narrower than a tenth of the tolerance.
+        assert_near(estimate.reach(), 0.015, 1e-9);
+    }
+}
+
+#[test]
+fn a_lower_order_fails_and_a_higher_one_is_not_asymptotic() {
+    for count in 3..7 {
+        for order in [-1.0, 0.0, 1.0, 1.5, 1.9] {
+            let found = finding(count, |x| x.powf(order));
+            assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Below), "{order}");
+        }
+        for order in [2.1, 3.0, 4.0] {
+            let found = finding(count, |x| x.powf(order));
+            let seen = (found.verdict, found.reason);
+            assert_eq!(seen, (Verdict::NotAsymptotic, Reason::Above), "{order}");
+        }
+    }
+}
+
+/// The rule of the finest pair within 0.15 passed the first three, and called the limit of the third 1.96 +- 0.02.
+#[test]
+fn a_hidden_lower_order_is_found_with_its_share_and_where_it_takes_over() {
+    for count in 3..7 {
+        for share in [0.19, 0.1, 0.05, 0.5] {
+            let found = finding(count, |x| (1.0 - share) * x * x + share * x);
+            assert_ne!(found.verdict, Verdict::Pass, "{share}: {found:?}");
+            let term = found.material_term(SECOND).expect("a term");
+            assert_eq!((term.kind, term.order), (Kind::LowerOrder, 1.0));
+            assert_near(term.share, share, 1e-6);
+            assert_near(term.takes_over, 1e-2 * share / (1.0 - share), 1e-6);
+        }
+    }
+}
+
+#[test]
+fn a_plateau_is_found_as_what_errors_level_off_at() {
+    for count in 3..7 {
+        for share in [0.02, 0.1, 0.3] {
+            let found = finding(count, |x| (1.0 - share) * x * x + share);
+            assert_ne!(found.verdict, Verdict::Pass, "{share}: {found:?}");
+            let term = found.material_term(SECOND).expect("a term");
+            assert_eq!(term.kind, Kind::Plateau);
+            assert_near(term.share, share, 1e-6);
+        }
+    }
+    let limit = finding(5, |x| 0.9 * x * x + 0.1).limit.expect("a limit");
+    assert!(!limit.is_consistent());
+    assert_near(limit.error, 1e-5, 1e-9);
+    assert_near(limit.order, 2.0, 1e-3);
+    assert!(finding(5, |x| x.powf(1.5)).limit.expect("a limit").error.abs() < 1e-10);
+}
+
+/// A plateau beside an order that is not the expected one is no second term of that, and yet is no limit of 0.
+#[test]
+fn errors_that_level_off_are_not_consistent_whatever_their_order() {
+    let found = finding(6, |x| 0.99 * x.powf(2.3) + 0.01 * x.sin().abs() + 0.08);
+    assert_ne!(found.verdict, Verdict::Pass, "{found:?}");
+    let limit = found.limit.expect("a limit");
+    assert!(limit.interval[0] > 0.0 && !limit.is_consistent(), "{limit:?}");
+}
+
+/// What moves the order by less than a tenth of the tolerance is said, and decides nothing.
+#[test]
+fn a_term_that_nobody_sees_decides_nothing() {
+    let found = finding(4, |x| 0.995 * x * x + 0.005 * x);
+    assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+    assert!(found.term.is_some_and(|it| it.kind == Kind::LowerOrder && it.is_shown()));
+    assert_eq!(found.material_term(SECOND), None);
+}
+
+#[test]
+fn coarse_levels_that_are_not_asymptotic_yet_are_left_out() {
+    let found = finding(5, |x| x * x + 0.008 * x.powi(4));
+    assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+    assert_eq!(found.lengths, [4e-2, 2e-2, 1e-2]);
+    let term = found.term.expect("a term");
+    assert_eq!((term.kind, term.order), (Kind::PreAsymptotic, 4.0));
+    // Of three levels none is left out.
+    let found = finding(3, |x| x * x + 0.13 * x.powi(3));
+    let seen = (found.verdict, found.reason, found.lengths.len());
+    assert_eq!(seen, (Verdict::NotAsymptotic, Reason::Approaching, 3), "{found:?}");
+}
+
+#[test]
+fn three_levels_are_judged_by_their_drift() {
+    let pass = with_orders(&[1.90, 1.97]);
+    let [low, high] = pass.estimate.and_then(|it| it.interval).expect("an interval");
+    assert_eq!(
+        (pass.verdict, pass.estimate.map(|it| it.basis)),
+        (Verdict::Pass, Some(Basis::Drift))
+    );
+    assert_near(low, 1.90, 1e-9);
+    assert_near(high, 1.97 + 1.25 * 0.07, 1e-9);
+    // Small drifts are what digits leave.
+    assert_eq!(with_orders(&[1.999, 1.998]).verdict, Verdict::Pass);
+    assert_eq!(with_orders(&[2.05, 1.97]).verdict, Verdict::Pass);
+    assert_eq!(with_orders(&[1.7, 1.9]).reason, Reason::Wide);
+    assert_eq!(with_orders(&[1.88, 1.93]).reason, Reason::Approaching);
+    assert_eq!(with_orders(&[1.98, 1.96]).reason, Reason::Below);
+}
+
+#[test]
+fn two_levels_have_an_order_and_prove_nothing() {
+    for order in [2.0, 1.0, 0.0] {
+        let found = with_orders(&[order]);
+        assert_eq!((found.verdict, found.reason), (Verdict::NotAsymptotic, Reason::TooFewLevels));
+        let estimate = found.estimate.expect("an order");
+        assert_eq!(estimate.interval, None);
+        assert_near(estimate.order, order, 1e-12);
+    }
+    assert_eq!(finding(1, |x| x).reason, Reason::TooFewLevels);
+    assert_eq!(finding(0, |x| x).verdict, Verdict::NotAsymptotic);
+}
+
+#[test]
+fn errors_of_zero_have_no_order_and_runs_that_stop_fail() {
+    let zero = finding(4, |x| if x > 1.0 { x * x } else { 0.0 });
+    assert_eq!((zero.verdict, zero.reason), (Verdict::NotAsymptotic, Reason::NoOrder));
+    let stopped = Sample { error: None, ..Sample::new(1.0, 0.0) };
+    let others = [0.5, 0.25, 0.125].map(|h| Sample::new(h, h * h));
+    let found = Finding::of(&Sequence::new([stopped].into_iter().chain(others)), SECOND);
+    assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
+}
+
+/// Errors that stall at round-off fail without the floor, and pass above it.
+#[test]
+fn what_may_be_round_off_is_not_judged() {
+    let with = |knows_the_floor: bool| {
+        let sample = |k: i32| {
+            let h = 0.5f64.powi(k);
+            let error = (h * h).max(1e-3);
+            Sample { is_noise: knows_the_floor && error < 1.1e-3, ..Sample::new(h, error) }
+        };
+        Finding::of(&Sequence::new((0..8).map(sample)), SECOND)
+    };
+    assert_ne!(with(false).verdict, Verdict::Pass);
+    let found = with(true);
+    assert_eq!((found.verdict, found.lengths.len()), (Verdict::Pass, 5));
+}
+
+fn three(errors: [fn(f64) -> f64; 3]) -> Judgement {
+    let sequences = errors.map(|law| levels(4, law));
+    let norms = ["l1", "l2", "linf"].into_iter().zip(&sequences);
+    Judgement::of(norms.map(|(norm, sequence)| (norm, sequence, SECOND))).expect("norms")
+}
+
+#[test]
+fn the_worst_norm_decides_and_a_layer_is_told_by_its_orders() {
+    let square: fn(f64) -> f64 = |x| x * x;
+    let of_largest = three([square, square, |x| x.powf(1.6)]);
+    assert_eq!(
+        (of_largest.verdict(), of_largest.deciding().norm.as_str()),
+        (Verdict::Fail, "linf")
+    );
+    assert_eq!(of_largest.layer(), None, "l2 does not show it");
+    assert_eq!(three([square; 3]).deciding().norm, "l2");
+    let layer = three([square, |x| x.powf(1.5), |x| x]);
+    assert_eq!(layer.deciding().norm, "l2");
+    assert_near(layer.layer().expect("a layer"), 1.0, 1e-6);
+    // Of order 1/2 at the face, all three are lower.
+    let layer = three([|x| x.powf(1.5), |x| x, |x| x.sqrt()]);
+    assert_near(layer.layer().expect("a layer"), 0.5, 1e-6);
+    assert_eq!(three([|x| x, |x| x, |x| x]).layer(), None, "a lower order everywhere is no layer");
+}
+
+#[test]
+fn words_name_the_norm_the_levels_and_the_reason() {
+    let says = |judgement: &Judgement| judgement.sentences(&|h| format!("h = {h:.4}")).join("\n");
+    let square: fn(f64) -> f64 = |x| x * x;
+    let layer = says(&three([square, |x| x.powf(1.5), |x| x]));
+    assert!(layer.starts_with("fail: observed order 1.50, between 1.4"), "{layer}");
+    let decided = "(l2; 4 levels, h = 0.0800 to h = 0.0100), expected 2\n";
+    assert!(layer.contains(decided), "{layer}");
+    assert!(layer.contains("a layer at a face where the order is 1.0"), "{layer}");
+    assert!(says(&three([|x| x.powi(3); 3])).contains("an error that changes its sign"));
+    let hidden = says(&three([|x| 0.8 * x * x + 0.2 * x; 3]));
+    assert!(hidden.contains("a hidden error of order 1, 20.0 % of the finest error"), "{hidden}");
+    assert!(hidden.contains("it takes over below h = 0.0025"), "{hidden}");
+    assert!(
+        says(&three([square; 3])).contains("of order 1 that makes up less than 2 % at h = 0.01")
+    );
+}
