@@ -14,6 +14,7 @@ mod extremes;
 pub mod gallery;
 mod history;
 pub mod interpreted;
+mod judge;
 mod page;
 mod read;
 pub mod report;

@@ -24,6 +24,8 @@ pub enum Kind {
     Field,
     /// A saved study.
     Study,
+    /// A table of errors.
+    Errors,
     /// A document that a command wrote.
     Result,
     /// The result of one run in a store.
@@ -42,6 +44,7 @@ impl Kind {
         match self {
             Kind::Field => "a field or material file",
             Kind::Study => "a study file",
+            Kind::Errors => "a table of errors",
             Kind::Result => "a result",
             Kind::Stored => "a stored result",
             Kind::States => "a list of states",
@@ -53,7 +56,7 @@ impl Kind {
     /// How many bytes it may have.
     pub fn most(self) -> u64 {
         match self {
-            Kind::Field | Kind::Study => MAX_FILE as u64,
+            Kind::Field | Kind::Study | Kind::Errors => MAX_FILE as u64,
             Kind::Result | Kind::Stored | Kind::States => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
         }
@@ -66,6 +69,7 @@ impl Kind {
                 "is it the file that was meant? then write its formulas shorter, with [let]"
             }
             Kind::Study => "is it the file that was meant? its keys are the options of `mms study`",
+            Kind::Errors => "is it the file that was meant? it has a row for each run",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
             Kind::Stored => "remove it, and the run is made again",
             Kind::States => "write fewer states, with `--frames`",

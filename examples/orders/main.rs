@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 use mms::gallery::{self, Entry};
 use mms_codegen::{Options, Selection};
+use mms_runtime::convergence::{Expected, TOLERANCE};
 use mms_runtime::scene::Scene;
-use mms_runtime::study::{TOLERANCE, Watch, differences, judge, orders};
+use mms_runtime::study::{Watch, differences, judge, orders};
 use mms_spec::twin::Twin;
 use rows::{GROUPS, IN_TIME, InTime, Row, STANDARD};
 
@@ -73,7 +74,8 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     for &cells in row.levels {
         levels.push(scene.run_level(&row.method()?, &cells.into(), &mut ())?);
     }
-    let judgement = judge(&levels, 2.0, TOLERANCE.max(row.tolerance));
+    let judgement =
+        judge(&levels, Expected { order: 2.0, tolerance: TOLERANCE.max(row.tolerance) });
     let finest = levels.last().and_then(|level| level.errors.as_ref().ok());
     let observed = |norm: fn(&mms_runtime::study::Orders) -> Option<f64>| {
         words(levels.windows(2).map(|pair| norm(&orders(&pair[0], &pair[1]))))
@@ -88,7 +90,7 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
         finest.map_or("stopped".into(), |errors| format!("{:.1e}", errors.l2)),
         observed(|orders| orders.l2),
         observed(|orders| orders.linf),
-        judgement.verdict,
+        judgement.verdict(),
         row.reason
     ))
 }

@@ -1,7 +1,7 @@
 //! What the levels of one norm say of the expected order.
 
 use crate::limit::{Limit, limit};
-use crate::order::{Estimate, misfit, pairs};
+use crate::order::{Basis, Estimate, misfit, pairs};
 use crate::sequence::{Level, Sequence};
 use crate::term::{Kind, Term, second_term};
 use crate::verdict::Verdict;
@@ -16,10 +16,15 @@ pub struct Expected {
 }
 
 impl Expected {
-    /// An order is not told from another that is nearer than this, a tenth of the tolerance: so much the digits of
-    /// tables and terms of higher order make. A term that moves the order by less is said, and decides nothing.
+    /// An order is not told from another that is nearer than this, a quarter of the tolerance: so much the digits of
+    /// tables and terms of higher order make. A term that moves the order by less decides nothing.
     pub fn resolution(&self) -> f64 {
-        self.tolerance / 10.0
+        self.tolerance / 4.0
+    }
+
+    /// Whether an order is off by the tolerance at most.
+    fn is_near(&self, order: f64) -> bool {
+        (order - self.order).abs() <= self.tolerance
     }
 }
 
@@ -28,7 +33,7 @@ impl Expected {
 pub enum Reason {
     /// A run stopped.
     Stopped,
-    /// An error is exactly zero or not finite: there is no order.
+    /// An error is exactly zero or not finite, or nothing fits: there is no order.
     NoOrder,
     /// There are two levels or fewer above round-off.
     TooFewLevels,
@@ -36,6 +41,8 @@ pub enum Reason {
     Below,
     /// It does, but orders approach the expected one.
     Approaching,
+    /// It does, by less than the tolerance, and three levels cannot tell noise from a lower order.
+    Near,
     /// The whole interval lies above the expected order.
     Above,
     /// The interval holds the expected order, and much else.
@@ -77,6 +84,19 @@ impl Finding {
         if sequence.has_stopped() {
             (finding.verdict, finding.reason) = (Verdict::Fail, Reason::Stopped);
         }
+        finding
+    }
+
+    /// Judges an order that a fit of more than one length has, by half its interval; `None` where nothing fits.
+    pub(crate) fn of_fit(order: Option<[f64; 2]>, lengths: Vec<f64>, expected: Expected) -> Self {
+        let estimate = order.map(|[order, reach]| {
+            let reach = reach.max(expected.resolution());
+            let interval = Some([order - reach, order + reach]);
+            Estimate { order, interval, basis: Basis::Scatter }
+        });
+        let (verdict, reason) = (Verdict::NotAsymptotic, Reason::NoOrder);
+        let mut finding = Self { verdict, reason, estimate, term: None, limit: None, lengths };
+        (finding.verdict, finding.reason) = finding.decide(&[], expected);
         finding
     }
 
@@ -130,6 +150,9 @@ impl Finding {
             _ if is_outside && approaches => (Verdict::NotAsymptotic, Reason::Approaching),
             it if is_outside && it.order > expected.order => {
                 (Verdict::NotAsymptotic, Reason::Above)
+            }
+            it if is_outside && it.basis == Basis::Drift && expected.is_near(it.order) => {
+                (Verdict::NotAsymptotic, Reason::Near)
             }
             _ if is_outside => (Verdict::Fail, Reason::Below),
             _ if is_hidden => (Verdict::NotAsymptotic, Reason::HiddenTerm),

@@ -1,15 +1,20 @@
 //! The norms of one quantity together.
 
 use crate::finding::{Expected, Finding};
+use crate::grid::Fit;
 use crate::sequence::Sequence;
 use crate::verdict::Verdict;
 
 /// Judged norms, each under its name: mean, root mean square and maximum under `l1`, `l2` and `linf`.
+///
+/// The worst decides. Beside `l2`, `l1` and `linf` do so only where they fail by more than the tolerance: what is of a
+/// lower order at a few points shows so, and the maximum of errors at particles, which come nearer to a face with every
+/// level, is not a pure power of h otherwise either.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The findings, one at least, in the sequence in which the norms were given.
     pub norms: Vec<Judged>,
-    /// Which of them decided: the worst, and of those `l2` first.
+    /// Which of them decided; `l2` first, where it is as bad as others.
     deciding: usize,
 }
 
@@ -24,11 +29,21 @@ pub struct Judged {
     pub finding: Finding,
 }
 
+impl Judged {
+    /// Whether a norm beside l2 is of a lower order by more than the tolerance, or has no order because a run stopped.
+    fn fails_by_far(&self) -> bool {
+        let interval = self.finding.estimate.and_then(|it| it.interval);
+        let least = self.expected.order - self.expected.tolerance;
+        let is_far = interval.is_none_or(|[_, high]| high < least);
+        self.finding.verdict == Verdict::Fail && is_far
+    }
+}
+
 /// How far an order may be from that of a layer.
 const NEAR: f64 = 0.15;
 
 impl Judgement {
-    /// Judges each norm, the worst deciding. `None` without a norm.
+    /// Judges each norm. `None` without a norm.
     pub fn of<'a>(
         norms: impl IntoIterator<Item = (&'a str, &'a Sequence, Expected)>,
     ) -> Option<Self> {
@@ -37,9 +52,32 @@ impl Judgement {
             expected,
             finding: Finding::of(sequence, expected),
         };
-        let norms: Vec<_> = norms.into_iter().map(judged).collect();
-        let worst = norms.iter().map(|it| it.finding.verdict).max()?;
-        let is_worst = |it: &Judged| it.finding.verdict == worst;
+        Self::worst(norms.into_iter().map(judged).collect())
+    }
+
+    /// Judges the orders in space and in time of norms whose errors were fitted over runs of [h, dt].
+    pub fn of_fits<'a>(
+        runs: &[[f64; 2]],
+        norms: impl IntoIterator<Item = (&'a str, Option<Fit>, [Expected; 2])>,
+    ) -> Option<Self> {
+        let judged = |(norm, fit, expected): (&'a str, Option<Fit>, [Expected; 2])| {
+            let orders = fit.map(|it| [it.space_order, it.time_order]);
+            ["h", "dt"].into_iter().enumerate().map(move |(which, length)| {
+                let order = orders.zip(fit).map(|(orders, it)| [orders[which], it.reach[which]]);
+                let expected = expected[which];
+                let finding = Finding::of_fit(order, lengths(runs, which), expected);
+                Judged { norm: format!("{norm} in {length}"), expected, finding }
+            })
+        };
+        Self::worst(norms.into_iter().flat_map(judged).collect())
+    }
+
+    fn worst(norms: Vec<Judged>) -> Option<Self> {
+        let has_l2 = norms.iter().any(|it| it.norm == "l2");
+        let is_beside = |it: &Judged| has_l2 && ["l1", "linf"].contains(&it.norm.as_str());
+        let decides = |it: &Judged| !is_beside(it) || it.fails_by_far();
+        let worst = norms.iter().filter(|it| decides(it)).map(|it| it.finding.verdict).max()?;
+        let is_worst = |it: &Judged| decides(it) && it.finding.verdict == worst;
         let of_l2 = norms.iter().position(|it| it.norm == "l2" && is_worst(it));
         let deciding = of_l2.or_else(|| norms.iter().position(is_worst))?;
         Some(Self { norms, deciding })
@@ -60,6 +98,12 @@ impl Judgement {
         self.norms.iter().find(|it| it.norm == name)
     }
 
+    /// The order of l2, or where there is none of the norm that decided.
+    pub fn observed_order(&self) -> Option<f64> {
+        let judged = self.norm("l2").unwrap_or(self.deciding());
+        judged.finding.estimate.map(|it| it.order)
+    }
+
     /// The order q of a layer of one cell at a face, whose errors are of order q there: it covers a part h of the body,
     /// so that l1, l2 and linf show q + 1, q + 1/2 and q, or the expected order where that is lower. Told where l2
     /// shows it too.
@@ -75,4 +119,12 @@ impl Judgement {
         let is_seen = linf + 0.5 + NEAR < l2.1;
         (is_seen && follows(l1, 1.0) && follows(l2, 0.5)).then_some(linf)
     }
+}
+
+/// The lengths that there are, from coarse to fine.
+fn lengths(runs: &[[f64; 2]], which: usize) -> Vec<f64> {
+    let mut lengths: Vec<f64> = runs.iter().map(|run| run[which]).collect();
+    lengths.sort_by(|a, b| b.total_cmp(a));
+    lengths.dedup();
+    lengths
 }

@@ -19,7 +19,7 @@
 //!
 //! * `pass`: the interval holds the expected order, half its width is the tolerance at most, and no lower term is
 //!   shown.
-//! * `fail`: the interval lies below it, or a run stopped.
+//! * `fail`: the interval lies below it, of three levels by more than the tolerance; or a run stopped.
 //! * `not asymptotic`: else; so too where the interval lies above.
 //!
 //! ```

@@ -1,6 +1,7 @@
 //! Verdicts in words.
 
 use crate::finding::{Expected, Finding, Reason};
+use crate::grid::Fit;
 use crate::judgement::{Judged, Judgement};
 use crate::order::Basis;
 use crate::term::{Kind, Term};
@@ -15,12 +16,22 @@ const ABOVE: &str = "an order above theory comes from an error that changes its 
      from coarse levels that are not asymptotic, or from a theory that says too little";
 
 impl Judgement {
-    /// The verdict with the norm and the levels that decided it, and then what is behind it, a sentence a line.
+    /// The verdict with what decided it, and then what is behind it, a sentence a line.
     pub fn sentences(&self, name: Name<'_>) -> Vec<String> {
+        let first = format!("{}: {}", self.verdict(), self.headline(name));
+        std::iter::once(first).chain(self.explanations(name)).collect()
+    }
+
+    /// The order with its interval, the norm and the levels that decided, and what was expected.
+    pub fn headline(&self, name: Name<'_>) -> String {
         let Judged { norm, expected, finding } = self.deciding();
-        let mut lines =
-            vec![format!("{}: {}", finding.verdict, finding.says(norm, *expected, name))];
-        lines.extend(finding.explanations(*expected, name));
+        finding.says(norm, *expected, name)
+    }
+
+    /// What is behind the verdict, a sentence a line.
+    pub fn explanations(&self, name: Name<'_>) -> Vec<String> {
+        let Judged { expected, finding, .. } = self.deciding();
+        let mut lines = finding.explanations(*expected, name);
         lines.extend(self.layer().map(|q| {
             format!(
                 "the orders of l1, l2 and linf are those of a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
@@ -59,13 +70,17 @@ impl Finding {
         match self.reason {
             Reason::Settled | Reason::Below | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
-            Reason::NoOrder => "; an error is exactly zero, or levels are alike".into(),
+            Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
             Reason::TooFewLevels => match self.lengths.len() {
                 2 => "; two levels have an order, and cannot show that it is settled: give a third"
                     .into(),
                 _ => "; three levels above round-off are needed".into(),
             },
             Reason::Approaching => format!("; orders approach {p}, but are not near it yet"),
+            Reason::Near => {
+                "; near it, and three levels cannot tell noise from a lower order: give a fourth"
+                    .into()
+            }
             Reason::Wide => format!(
                 "; the interval is wider than +-{}: the orders are not settled",
                 expected.tolerance
@@ -75,10 +90,13 @@ impl Finding {
     }
 
     /// What the fits say, in words.
-    pub fn explanations(&self, expected: Expected, name: Name<'_>) -> Vec<String> {
+    fn explanations(&self, expected: Expected, name: Name<'_>) -> Vec<String> {
         let mut lines = Vec::new();
         lines.extend(self.estimate.and_then(|it| match it.basis {
-            Basis::Scatter => Some("the interval is that of 95 %, from the scatter about a power law".into()),
+            Basis::Scatter => Some(format!(
+                "the interval is that of 95 % by the scatter about a power law, and no less than +-{:.2}",
+                expected.resolution()
+            )),
             Basis::Drift => Some(
                 "the interval is from the drift of two orders: three levels have no scatter to judge by".into(),
             ),
@@ -112,6 +130,20 @@ impl Finding {
                 name(*finest)
             )
         })
+    }
+}
+
+impl Fit {
+    /// The formula, and how far errors are from it.
+    pub fn sentence(&self, norm: &str) -> String {
+        format!(
+            "{norm} = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",
+            self.space_constant,
+            self.space_order,
+            self.time_constant,
+            self.time_order,
+            100.0 * self.residual
+        )
     }
 }
 

@@ -38,19 +38,23 @@ fn a_power_law_of_the_expected_order_passes() {
         assert_eq!((found.term, found.lengths.len()), (None, count as usize));
         let estimate = found.estimate.expect("an order");
         assert_near(estimate.order, 2.0, 1e-9);
-        // Not narrower than a tenth of the tolerance.
-        assert_near(estimate.reach(), 0.015, 1e-9);
+        // Not narrower than a quarter of the tolerance.
+        assert_near(estimate.reach(), 0.0375, 1e-9);
     }
 }
 
 #[test]
 fn a_lower_order_fails_and_a_higher_one_is_not_asymptotic() {
     for count in 3..7 {
-        for order in [-1.0, 0.0, 1.0, 1.5, 1.9] {
+        for order in [-1.0, 0.0, 1.0, 1.5, 1.8] {
             let found = finding(count, |x| x.powf(order));
             assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Below), "{order}");
         }
-        for order in [2.1, 3.0, 4.0] {
+        let near = finding(count, |x| x.powf(1.9));
+        let seen = (near.verdict, near.reason);
+        let three = (Verdict::NotAsymptotic, Reason::Near);
+        assert_eq!(seen, if count == 3 { three } else { (Verdict::Fail, Reason::Below) });
+        for order in [2.05, 3.0, 4.0] {
             let found = finding(count, |x| x.powf(order));
             let seen = (found.verdict, found.reason);
             assert_eq!(seen, (Verdict::NotAsymptotic, Reason::Above), "{order}");
@@ -100,7 +104,7 @@ fn errors_that_level_off_are_not_consistent_whatever_their_order() {
     assert!(limit.interval[0] > 0.0 && !limit.is_consistent(), "{limit:?}");
 }
 
-/// What moves the order by less than a tenth of the tolerance is said, and decides nothing.
+/// What moves the order by less than a quarter of the tolerance decides nothing.
 #[test]
 fn a_term_that_nobody_sees_decides_nothing() {
     let found = finding(4, |x| 0.995 * x * x + 0.005 * x);
@@ -136,8 +140,9 @@ fn three_levels_are_judged_by_their_drift() {
     assert_eq!(with_orders(&[1.999, 1.998]).verdict, Verdict::Pass);
     assert_eq!(with_orders(&[2.05, 1.97]).verdict, Verdict::Pass);
     assert_eq!(with_orders(&[1.7, 1.9]).reason, Reason::Wide);
-    assert_eq!(with_orders(&[1.88, 1.93]).reason, Reason::Approaching);
-    assert_eq!(with_orders(&[1.98, 1.96]).reason, Reason::Below);
+    assert_eq!(with_orders(&[1.83, 1.89]).reason, Reason::Approaching);
+    assert_eq!(with_orders(&[1.96, 1.95]).reason, Reason::Near);
+    assert_eq!(with_orders(&[1.82, 1.81]).reason, Reason::Below);
 }
 
 #[test]
@@ -195,6 +200,9 @@ fn the_worst_norm_decides_and_a_layer_is_told_by_its_orders() {
     );
     assert_eq!(of_largest.layer(), None, "l2 does not show it");
     assert_eq!(three([square; 3]).deciding().norm, "l2");
+    let slightly = three([square, square, |x| x.powf(1.9)]);
+    assert_eq!(slightly.verdict(), Verdict::Pass, "the maximum is near");
+    assert_eq!(slightly.norms[2].finding.verdict, Verdict::Fail);
     let layer = three([square, |x| x.powf(1.5), |x| x]);
     assert_eq!(layer.deciding().norm, "l2");
     assert_near(layer.layer().expect("a layer"), 1.0, 1e-6);
@@ -209,7 +217,7 @@ fn words_name_the_norm_the_levels_and_the_reason() {
     let says = |judgement: &Judgement| judgement.sentences(&|h| format!("h = {h:.4}")).join("\n");
     let square: fn(f64) -> f64 = |x| x * x;
     let layer = says(&three([square, |x| x.powf(1.5), |x| x]));
-    assert!(layer.starts_with("fail: observed order 1.50, between 1.4"), "{layer}");
+    assert!(layer.starts_with("fail: observed order 1.50, between 1.46"), "{layer}");
     let decided = "(l2; 4 levels, h = 0.0800 to h = 0.0100), expected 2\n";
     assert!(layer.contains(decided), "{layer}");
     assert!(layer.contains("a layer at a face where the order is 1.0"), "{layer}");
@@ -218,6 +226,6 @@ fn words_name_the_norm_the_levels_and_the_reason() {
     assert!(hidden.contains("a hidden error of order 1, 20.0 % of the finest error"), "{hidden}");
     assert!(hidden.contains("it takes over below h = 0.0025"), "{hidden}");
     assert!(
-        says(&three([square; 3])).contains("of order 1 that makes up less than 2 % at h = 0.01")
+        says(&three([square; 3])).contains("of order 1 that makes up less than 4 % at h = 0.01")
     );
 }

@@ -62,6 +62,7 @@ pub mod tensor;
 mod threads;
 pub mod transfer;
 
+pub use mms_convergence as convergence;
 pub use mms_math as math;
 pub use nalgebra;
 
@@ -77,7 +78,7 @@ pub use material::Material;
 pub use method::{Division, Method, Setup};
 pub use shape::ShapeName;
 pub use solver::{AnySolver, Solver};
-pub use study::{Errors, Judgement, Level, Run, Solve, Verdict, run_level};
+pub use study::{Errors, Level, Run, Solve, run_level};
 pub use transfer::Transfer;
 
 /// A vector with `D` components.

@@ -5,7 +5,8 @@ mod common;
 use FormulationName::{Total, Updated};
 use ShapeName::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Ugimp};
 use common::{AxisAligned, Bar, method, wave::Wave};
-use mms_runtime::study::{Level, Solve, observed_order, run_level};
+use mms_runtime::convergence::observed_order;
+use mms_runtime::study::{Level, Solve, run_level};
 use mms_runtime::{
     Body, Condition, Errors, Face, FormulationName, IntegratorName, ManufacturedField, Method,
     Setup, ShapeName, Vector,

@@ -3,8 +3,9 @@
 mod common;
 
 use common::{Bar, levels, method};
-use mms_runtime::study::{Level, TOLERANCE, judge, orders};
-use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName, Verdict};
+use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
+use mms_runtime::study::{Level, judge, orders};
+use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName};
 
 const CELLS: [usize; 5] = [8, 16, 32, 64, 128];
 
@@ -25,7 +26,7 @@ fn finest_orders(levels: &[Level]) -> [f64; 2] {
 }
 
 fn verdict(levels: &[Level]) -> Verdict {
-    judge(levels, 2.0, TOLERANCE).verdict
+    judge(levels, Expected { order: 2.0, tolerance: TOLERANCE }).verdict()
 }
 
 /// Aligned contiguous particles are of order 2 in space, leapfrog is in time.

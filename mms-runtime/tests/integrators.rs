@@ -4,8 +4,8 @@
 mod common;
 
 use common::{Affine, Bar, levels, method, methods, wave::Wave};
+use mms_runtime::convergence::observed_order;
 use mms_runtime::integrator::{Integrator, IntegratorVisitor};
-use mms_runtime::study::observed_order;
 use mms_runtime::{
     AnySolver, Condition, Division, Face, FormulationName, IntegratorName, ManufacturedField,
     Method, Setup, ShapeName, Solve, Transfer,

@@ -4,6 +4,7 @@
 mod common;
 
 use common::{AxisAligned, Bar, method};
+use mms_runtime::convergence::Expected;
 use mms_runtime::study::{Balance, Refinement, Run, Series, Snapshots, Solve, Watch, differences};
 use mms_runtime::{
     Cause, Division, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName,
@@ -19,6 +20,8 @@ fn run<T: Solve<D>, const D: usize>(
 ) -> Run {
     T::run(field, method, &Division::Uniform(cells), Watch::Parts(PARTS), &mut ()).unwrap()
 }
+
+const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
 
 fn total(shape: ShapeName, integrator: IntegratorName) -> Method {
     Method { formulation: FormulationName::Total, ..method(shape, integrator) }
@@ -41,7 +44,7 @@ fn in_time(method: &Method, levels: u32) -> Series {
 fn differences_show_the_order_in_time() {
     let order = |integrator: IntegratorName| {
         let series = in_time(&total(ShapeName::Linear, integrator), 4);
-        series.judge(2.0, 0.1).observed_order.unwrap()
+        series.judge(SECOND).observed_order().unwrap()
     };
     let leapfrog = order(IntegratorName::Leapfrog);
     assert!((leapfrog - 2.0).abs() < 0.05, "{leapfrog}");
@@ -50,7 +53,7 @@ fn differences_show_the_order_in_time() {
         assert!((first - 1.0).abs() < 0.05, "{integrator}: {first}");
     }
     let moving = in_time(&method(ShapeName::Cpgimp, IntegratorName::Usl), 4);
-    let first = moving.judge(2.0, 0.1).observed_order.unwrap();
+    let first = moving.judge(SECOND).observed_order().unwrap();
     assert!((first - 1.0).abs() < 0.05, "{first}");
 }
 
@@ -129,7 +132,7 @@ fn a_study_in_single_precision_stops_at_its_floor() {
     let points = runs.each_ref().map(|run| Refinement::Both.displacement(run));
     let noise = points.map(|point| point.is_noise());
     assert_eq!(noise, [false, false, false, true], "{points:?}");
-    let judged = Series::new(points).judge(2.0, 0.15).observed_order.unwrap();
+    let judged = Series::new(points).judge(SECOND).observed_order().unwrap();
     assert!((judged - 2.0).abs() < 0.06, "{judged}");
 }
 

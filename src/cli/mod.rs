@@ -19,6 +19,7 @@ mod eval;
 mod extremes;
 mod follow;
 pub(crate) mod input;
+mod judge;
 mod list;
 pub(crate) mod method;
 mod methods;
@@ -76,6 +77,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Run(run::Run),
     Study(study::Study),
+    Judge(judge::Judge),
     Verify(verify::Verify),
     Report(report::Report),
     Tradeoff(tradeoff::Tradeoff),
@@ -134,6 +136,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(&words(arguments)),
+        Some(Command::Judge(judge)) => judge.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),

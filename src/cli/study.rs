@@ -8,10 +8,9 @@ use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_mechanics::sample::domain;
-use mms_runtime::study::{
-    Fit, Phase, Phases, Refinement, Series, TOLERANCE, Watch, differences, fit,
-};
-use mms_runtime::{Division, Method, Real, Run, Verdict};
+use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
+use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
+use mms_runtime::{Division, Method, Real, Run};
 
 use super::input::{Input, Motion};
 use super::method::{MethodOptions, Precision, finite, hold_division, positive};
@@ -247,27 +246,29 @@ impl Study {
             levels: phases,
         });
         let started: Vec<_> = levels.iter().flatten().collect();
-        let (expected_order, tolerance) = self.expectation(input, options);
+        let expected = self.expectation(input, options);
         let differences = (self.refine == Refinement::Time).then(|| differences(&started));
         let series = differences.clone().unwrap_or_else(|| {
             Series::new(started.iter().map(|run| self.refine.displacement(run)))
         });
-        let mut judgement = series.judge(expected_order, tolerance);
-        let error_constant = series.error_constant(expected_order);
-        if let Some(expected) = self.expected_constant {
-            judgement = judgement.with_constant(error_constant, expected);
-        }
-        let stopped = started.iter().any(|run| run.level.errors.is_err());
-        if stopped || started.len() < levels.len() {
-            judgement.verdict = Verdict::Fail;
-        }
+        let judgement = series.judge(expected);
+        let error_constant = series.error_constant(expected.order);
+        let is_off = |it| !error_constant.is_some_and(|found| is_near(found, it));
+        let has_stopped = started.iter().any(|run| run.level.errors.is_err());
+        let is_refused = started.len() < levels.len();
+        let verdict = match judgement.verdict() {
+            _ if has_stopped || is_refused || self.expected_constant.is_some_and(is_off) => {
+                Verdict::Fail
+            }
+            verdict => verdict,
+        };
         Ok(Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
             arithmetic: options.arithmetic,
             refinement: self.refine,
             judgement,
-            uncertainty: series.uncertainty(),
+            verdict,
             error_constant,
             expected_error_constant: self.expected_constant,
             fit,
@@ -275,8 +276,7 @@ impl Study {
             differences,
             method,
             levels,
-            expected_order,
-            tolerance,
+            expected,
             provenance,
         })
     }
@@ -409,12 +409,12 @@ impl Study {
     }
 
     /// The order to judge against, and how far from it is still as expected.
-    fn expectation(&self, input: &Input, method: &MethodOptions) -> (f64, f64) {
+    fn expectation(&self, input: &Input, method: &MethodOptions) -> Expected {
         let entry = input.compiled.field.studies.iter().find(|entry| {
             let (shape, integrator) = (method.shape.name(), method.integrator.name());
             entry.is_of(shape, integrator, method.formulation.name())
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
-        (order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))
+        Expected { order, tolerance: entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE) }
     }
 }

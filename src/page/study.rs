@@ -25,7 +25,7 @@ pub struct Study {
     differences: Option<Vec<Difference>>,
     expected_order: f64,
     observed_order: Option<f64>,
-    order_uncertainty: Option<f64>,
+    order_interval: Option<[f64; 2]>,
     error_constant: Option<f64>,
     expected_error_constant: Option<f64>,
     fit: Option<Fit>,
@@ -122,16 +122,16 @@ impl Section for Study {
             p {
                 @match self.observed_order {
                     Some(observed) => {
-                        "On the finest pair the order is " (order(Some(observed))) " in l2"
-                        @if let Some(largest) = self.norms().last().and_then(|(_, norms)| norms.order_linf) {
-                            " and " (order(Some(largest))) " in linf"
+                        "The observed order is " (order(Some(observed))) " in l2"
+                        @if let Some([low, high]) = self.order_interval {
+                            ", between " (order(Some(low))) " and " (order(Some(high)))
                         }
                         "; expected is " (self.expected_order) "."
+                        @if let Some(largest) = self.norms().last().and_then(|(_, norms)| norms.order_linf) {
+                            " On the finest pair it is " (order(Some(largest))) " in linf."
+                        }
                     }
                     None => { "No observed order; expected " (self.expected_order) "." }
-                }
-                @if let Some(away) = self.order_uncertainty {
-                    " The order of the limit is within " (order(Some(away))) " of it, by Richardson's extrapolation."
                 }
                 @if let Some(constant) = self.error_constant {
                     " On the finest level l2 = " (small(Some(constant))) " " i { (self.length()) } sup { (self.expected_order) }
@@ -181,7 +181,7 @@ impl Study {
         self.expected_order
     }
 
-    /// The order on the finest pair.
+    /// The order of l2.
     pub fn observed_order(&self) -> Option<f64> {
         self.observed_order
     }

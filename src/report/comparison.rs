@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
-use mms_runtime::Verdict;
+use mms_convergence::Verdict;
 use serde_json::{Value, json};
 
 use super::provenance::Provenance;
@@ -22,7 +22,7 @@ pub struct Comparison {
 impl Comparison {
     /// How many studies pass.
     fn passed(&self) -> usize {
-        let passes = |study: &&Study| study.judgement.verdict == Verdict::Pass;
+        let passes = |study: &&Study| study.verdict == Verdict::Pass;
         self.studies.iter().filter(passes).count()
     }
 
@@ -77,7 +77,7 @@ impl Comparison {
             format!("{}: {}", first.field.shown(), first.title.shown()),
             self.errors().to_string(),
         ];
-        let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.verdict());
+        let verdict = |(name, study): (String, &Study)| format!("{name}: {}", study.conclusion());
         let conclusions: Vec<_> = self.named().map(verdict).collect();
         parts.push(conclusions.join("\n"));
         for (name, study) in self.named() {
@@ -99,9 +99,9 @@ impl Comparison {
             let mut cells = vec![name];
             cells.extend(study.errors_of_levels());
             cells.extend([
-                study.judgement.observed_order.map_or("-".into(), |order| format!("{order:.2}")),
+                study.judgement.observed_order().map_or("-".into(), |order| format!("{order:.2}")),
                 study.error_constant.map_or("-".into(), |constant| format!("{constant:.2e}")),
-                study.judgement.verdict.to_string(),
+                study.verdict.to_string(),
             ]);
             table.add_row(cells);
         }

@@ -5,6 +5,7 @@ mod comparison;
 pub(crate) mod extremes;
 pub(crate) mod file;
 pub(crate) mod front;
+mod judge;
 pub(crate) mod method;
 mod phase;
 pub(crate) mod picture;
@@ -14,6 +15,7 @@ mod study;
 pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
+pub(crate) use judge::Judgements;
 pub use phase::Phases;
 pub use study::{Refused, Study};
 

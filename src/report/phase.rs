@@ -1,7 +1,8 @@
 //! Amplitude and phase of the levels of a study, in some periods of the motion.
 
 use comfy_table::Table;
-use mms_runtime::study::{Phase, Refinement, observed_order};
+use mms_convergence::observed_order;
+use mms_runtime::study::{Phase, Refinement};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -25,19 +25,18 @@ const TEXT: (&str, u32) = ("sans-serif", 15);
 const SLOPE: RGBColor = RGBColor(90, 90, 90);
 
 /// A name, and points of a length and an error.
-type Line = (String, Vec<(f64, f64)>);
+pub(super) type Line = (String, Vec<(f64, f64)>);
 
 /// Lines over h or dt.
-struct Picture {
-    caption: String,
-    refinement: Refinement,
-    /// Whether errors are differences to the next level.
-    is_of_differences: bool,
-    lines: Vec<Line>,
+pub(super) struct Picture {
+    pub caption: String,
+    /// What is along the axes.
+    pub axes: [&'static str; 2],
+    pub lines: Vec<Line>,
     /// h or dt of all levels.
-    lengths: Vec<f64>,
+    pub lengths: Vec<f64>,
     /// The slope that is expected.
-    order: f64,
+    pub order: f64,
 }
 
 /// The picture of a study as SVG text: a line for each norm.
@@ -70,21 +69,31 @@ fn points(study: &Study, norm: fn(&Errors) -> f64) -> Vec<(f64, f64)> {
     points.collect()
 }
 
+/// What a refinement is drawn over.
+fn over(refinement: Refinement) -> &'static str {
+    if refinement == Refinement::Time { "time step dt" } else { "cell size h" }
+}
+
 impl Picture {
     fn of(studies: &[&Study], caption: String, lines: Vec<Line>) -> Self {
         let runs = studies.iter().flat_map(|study| study.started());
         let refinement = studies[0].refinement;
         Self {
             caption,
-            refinement,
-            is_of_differences: studies[0].differences.is_some(),
+            axes: [
+                over(refinement),
+                match studies[0].differences {
+                    Some(_) => "largest difference of displacements to the next level",
+                    None => "largest displacement error over time",
+                },
+            ],
             lines,
             lengths: runs.map(|run| refinement.length(&run.level)).collect(),
-            order: studies[0].expected_order,
+            order: studies[0].expected.order,
         }
     }
 
-    fn svg(&self) -> anyhow::Result<String> {
+    pub fn svg(&self) -> anyhow::Result<String> {
         let mut svg = String::new();
         draw_into(self, &mut svg).map_err(|error| anyhow!("cannot draw the picture: {error}"))?;
         Ok(svg)
@@ -117,11 +126,8 @@ fn draw_into(picture: &Picture, svg: &mut String) -> Result<(), Box<dyn std::err
         .configure_mesh()
         .label_style(TEXT)
         .axis_desc_style(TEXT)
-        .x_desc(if picture.refinement == Refinement::Time { "time step dt" } else { "cell size h" })
-        .y_desc(match picture.is_of_differences {
-            true => "largest difference of displacements to the next level",
-            false => "largest displacement error over time",
-        })
+        .x_desc(picture.axes[0])
+        .y_desc(picture.axes[1])
         .x_label_formatter(&|h| format!("{h:.2e}"))
         .y_label_formatter(&|error| format!("{error:.0e}"))
         .bold_line_style(RGBColor(210, 210, 210))

@@ -4,15 +4,14 @@ use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_runtime::study::{
-    CONSTANT_TOLERANCE, Deviations, Fit, Judgement, Orders, Point, Reason, Refinement, Series,
-    is_near,
-};
-use mms_runtime::{Division, Errors, Level, Method, Refusal, Run, Verdict};
+use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, Verdict, is_near};
+use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
+use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::judge::norms_judged;
 use super::provenance::Provenance;
 use super::run::quantities;
 use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
@@ -34,14 +33,12 @@ pub struct Study {
     pub levels: Vec<Result<Run, Refused>>,
     /// In a study in time, how far each level is from the next.
     pub differences: Option<Series>,
-    /// The order that theory says.
-    pub expected_order: f64,
-    /// How far from it is still as expected.
-    pub tolerance: f64,
-    /// The observed order and the verdict.
+    /// The order that theory says, and how narrow its interval must be.
+    pub expected: Expected,
+    /// What the errors say of it.
     pub judgement: Judgement,
-    /// How far the observed order may be from that of the limit.
-    pub uncertainty: Option<f64>,
+    /// The outcome: `fail` also where a level was not started, or the error constant is another one.
+    pub verdict: Verdict,
     /// C of l2 = C h^p, or C dt^p in time, with the expected order.
     pub error_constant: Option<f64>,
     /// What it should be, where that is known.
@@ -129,6 +126,10 @@ impl Row {
 fn orders(point: &Point, before: Option<Point>) -> Orders {
     before.map_or_else(Orders::default, |before| point.orders_from(&before))
 }
+
+/// What the verdict of a study in time is about.
+const IN_TIME: &str = "differences between runs show that these converge, and not to what: that is for a study against the \
+                       exact solution, without `--refine time`";
 
 /// The errors of a level, if it ended, and the orders that led to them.
 type Judged = (Option<Errors>, Orders);
@@ -271,9 +272,11 @@ impl Study {
             "noise": self.rows().iter().map(Row::is_noise).collect::<Vec<_>>(),
             "quantities": Value::Object(quantities.collect::<Map<_, _>>()),
             "differences": differences,
-            "expected_order": self.expected_order,
-            "observed_order": self.judgement.observed_order,
-            "order_uncertainty": self.uncertainty,
+            "expected_order": self.expected.order,
+            "observed_order": self.judgement.observed_order(),
+            "order_interval": self.order_interval(),
+            "norm": self.judgement.deciding().norm,
+            "norms": norms_judged(&self.judgement),
             "error_constant": self.error_constant,
             "expected_error_constant": self.expected_error_constant,
             "fit": self.fit.map(|fit| json!({
@@ -284,7 +287,7 @@ impl Study {
                 "residual": fit.residual,
             })),
             "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
-            "verdict": self.judgement.verdict.to_string(),
+            "verdict": self.verdict.to_string(),
         })
     }
 
@@ -300,7 +303,7 @@ impl Study {
             self.levels_table().to_string(),
         ];
         parts.extend(self.steps().map(|steps| self.differences_table(&steps).to_string()));
-        parts.push(self.conclusion());
+        parts.push(self.conclusions());
         if self.differences.is_none() {
             parts.push(self.quantities_table().to_string());
         }
@@ -383,59 +386,38 @@ impl Study {
         to_the_right(table)
     }
 
-    /// The verdict, and the orders that it rests on.
-    pub(super) fn verdict(&self) -> String {
-        let observed = match self.judgement.observed_order {
-            Some(order) => format!("observed order {order:.2} (l2, finest pair)"),
-            None => "no observed order".into(),
-        };
-        let (order, tolerance) = (self.expected_order, self.tolerance);
-        let reason = self.reason().map(|reason| format!("; {reason}")).unwrap_or_default();
-        format!(
-            "{}: {observed}, expected {order} within {tolerance}{reason}",
-            self.judgement.verdict
-        )
+    /// The verdict, with the norm and the levels that decided it.
+    pub(super) fn conclusion(&self) -> String {
+        let name = |length| self.name_of_level(length);
+        let refused = self.levels.len() - self.started().count();
+        let refused = if refused > 0 { "; a level was not started" } else { "" };
+        format!("{}: {}{refused}", self.verdict, self.judgement.headline(&name))
     }
 
-    /// The norm and the levels that decided, unless it was l2 on the finest pair alone.
-    fn reason(&self) -> Option<String> {
-        let Reason { norm, order, levels: [coarse, fine] } =
-            Series::new(self.points()).reason(self.expected_order, self.tolerance)?;
-        let started = self.levels.iter().zip(self.names_of_levels());
-        let names: Vec<_> = started.filter(|(level, _)| level.is_ok()).map(|(_, it)| it).collect();
-        let (from, to) = (names.get(coarse)?, names.get(fine)?);
-        match order {
-            None => Some(format!("{norm} has no order from {from} to {to}")),
-            Some(_) if norm == "l2" && self.judgement.verdict == Verdict::Fail => None,
-            order @ Some(_) if order == self.judgement.observed_order => {
-                Some(format!("it is too high from {from} to {to}"))
-            }
-            Some(order) if norm == "l2" => {
-                Some(format!("not settled, since it was {order:.2} from {from} to {to}"))
-            }
-            Some(order) => Some(format!("{norm} decides, of order {order:.2} from {from} to {to}")),
+    /// How a level is called; a length between levels is itself.
+    fn name_of_level(&self, length: f64) -> String {
+        let is_it = |run: &&Run| self.refinement.length(&run.level) == length;
+        match (self.started().find(is_it), self.refinement) {
+            (_, Refinement::Time) => format!("dt {length:.2e}"),
+            (Some(run), _) => format!("{} cells", run.level.cells),
+            (None, _) => format!("h {length:.2e}"),
         }
     }
 
+    /// The interval of the observed order.
+    fn order_interval(&self) -> Option<[f64; 2]> {
+        self.judgement.norm("l2")?.finding.estimate?.interval
+    }
+
     /// The verdict, and all that it rests on.
-    fn conclusion(&self) -> String {
-        let mut lines = vec![self.verdict()];
-        lines.extend(self.uncertainty.map(|away| {
-            format!(
-                "the order of the limit is within {away:.2} of it, by Richardson's extrapolation"
-            )
-        }));
+    fn conclusions(&self) -> String {
+        let mut lines = vec![self.conclusion()];
+        lines.extend(self.judgement.explanations(&|length| self.name_of_level(length)));
         lines.push(self.constant());
-        lines.extend(self.fit.map(|fit| {
-            format!(
-                "l2 = {:.3e} h^{:.2} {:+.3e} dt^{:.2} in all runs, within {:.1} %",
-                fit.space_constant,
-                fit.space_order,
-                fit.time_constant,
-                fit.time_order,
-                100.0 * fit.residual
-            )
-        }));
+        lines.extend(self.fit.map(|fit| fit.sentence("l2")));
+        if self.refinement == Refinement::Time {
+            lines.push(IN_TIME.into());
+        }
         if self.rows().iter().any(Row::is_noise) {
             lines.push("~ an error that may be nothing but round-off, and is not judged".into());
         }
@@ -447,7 +429,7 @@ impl Study {
         let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
         let found = match self.error_constant {
             Some(found) => {
-                format!("l2 = {found:.3e} {length}^{} on the finest level", self.expected_order)
+                format!("l2 = {found:.3e} {length}^{} on the finest level", self.expected.order)
             }
             None => "no error constant".into(),
         };

@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, bail, ensure};
 use clap::Parser;
-use mms_runtime::study::TOLERANCE;
+use mms_convergence::TOLERANCE;
 use mms_runtime::{Division, Setup};
 use serde::Deserialize;
 

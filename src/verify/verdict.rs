@@ -16,7 +16,7 @@
 
 use std::fmt;
 
-use mms_runtime::study::{is_near, observed_order};
+use mms_convergence::{is_near, observed_order};
 
 use super::matrix::{Expected, Row, Word};
 use super::work::Outcome;

@@ -11,6 +11,7 @@ mod extremes;
 mod files;
 mod foreign;
 mod form;
+mod judge;
 mod main_job;
 mod material;
 mod mms;

@@ -4,7 +4,6 @@ mod balance;
 mod course;
 mod deviations;
 mod errors;
-mod fit;
 mod observer;
 mod order;
 mod phase;
@@ -13,20 +12,17 @@ mod refinement;
 mod run;
 mod series;
 mod snapshots;
-mod verdict;
 
 pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
-pub use fit::{Fit, fit};
 pub use observer::{Checkpoint, Frame, Observer, Record};
-pub use order::{Orders, observed_order, orders};
+pub use order::{Orders, orders};
 pub use phase::{Phase, Phases};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
-pub use series::{Point, Reason, Series};
+pub use series::{NORMS, Point, Series, judge};
 pub use snapshots::Snapshots;
-pub use verdict::{CONSTANT_TOLERANCE, Judgement, TOLERANCE, Verdict, is_near, judge};
 
 use crate::{Division, Failure, ManufacturedField, Method, Refusal};
 

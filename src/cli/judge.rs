@@ -1,0 +1,104 @@
+//! `mms judge`: the observed order of any solver, from errors that somebody measured.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use anyhow::Context as _;
+use clap::Args;
+use mms_spec::foreign;
+use mms_convergence::{TOLERANCE, Verdict};
+
+use super::method::{finite, positive};
+use super::{Outcome, hold_output, print, print_json, this_command};
+use crate::judge::table::{self, Orders};
+use crate::read::{self, Kind};
+use crate::report::Judgements;
+use crate::report::provenance::Input;
+use crate::store::digest;
+
+/// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
+///
+/// The table has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
+/// rows of one h are replicates, of other grid offsets or seeds. l1, l2, linf, H1, and what people call them (mean, rms,
+/// max), alone or with the name of a quantity, as in u_l2, are norms; another column is judged by itself. The worst of
+/// all decides. An empty field is a run that stopped; `round_off` is a column of floors below which errors are left out;
+/// counts, orders and times are passed over, so that the CSV file of `mms study` can be judged as it is.
+///
+/// pass: the interval of the order holds the expected one, half its width is the tolerance at most, and no lower order is
+/// shown. fail: it lies below. not asymptotic: else. Fewer than three levels never pass.
+///
+/// Exit codes: 0 pass; 1 another verdict; 2 bad usage, or a bad table.
+#[derive(Args)]
+pub struct Judge {
+    /// The table: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.
+    #[arg(long, value_name = "FILE")]
+    errors: PathBuf,
+    /// The order to judge against; that of H1 is one less, if it is not given by NAME. NAME is a norm, a quantity or a
+    /// column; `time` is the order in dt where h and dt are refined each by itself.
+    #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',', default_value = "2")]
+    expected_order: Vec<Order>,
+    /// Half the width that the interval of the order may have.
+    #[arg(long, value_name = "W", value_parser = positive, default_value_t = TOLERANCE)]
+    tolerance: f64,
+    /// Write convergence.svg, .csv and .json there.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+/// An order, and of what.
+#[derive(Clone, Debug)]
+struct Order {
+    name: Option<String>,
+    order: f64,
+}
+
+impl FromStr for Order {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, &'static str> {
+        Ok(match text.rsplit_once('=') {
+            Some((name, order)) => Self { name: Some(name.to_owned()), order: finite(order)? },
+            None => Self { name: None, order: finite(text)? },
+        })
+    }
+}
+
+impl Judge {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        let text = read::text(&self.errors, Kind::Errors)?;
+        let measured = table::read(&self.errors, &text, &self.orders())?;
+        let source = foreign::path(&self.errors);
+        let input = Input { field: None, rigid: None, set: Vec::new(), hash: digest([text]) };
+        let provenance = this_command("judge", input);
+        let report = Judgements::of(source.clone(), measured, provenance).context(source)?;
+        if self.json {
+            print_json(&report.document())?;
+        } else {
+            print(&report.table())?;
+        }
+        if let Some(folder) = &self.output {
+            let written = report.write(folder)?;
+            if !self.json {
+                print(&format!("\nwrote {}", written.join(", ")))?;
+            }
+        }
+        Ok(match report.verdict() {
+            Verdict::Pass => Outcome::AsExpected,
+            Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
+        })
+    }
+
+    fn orders(&self) -> Orders {
+        let usual = self.expected_order.iter().rev().find(|it| it.name.is_none());
+        let named = self.expected_order.iter().rev();
+        Orders {
+            usual: usual.map_or(2.0, |it| it.order),
+            named: named.filter_map(|it| Some((it.name.clone()?, it.order))).collect(),
+            tolerance: self.tolerance,
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! What the columns of a table of errors are called.
+
+/// What a column holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// h.
+    CellSize,
+    /// dt.
+    TimeStep,
+    /// What round-off alone leaves of the errors of a run.
+    Floor,
+    /// What is no error: counts, orders, times, remarks.
+    Other,
+    /// Errors of a quantity in a norm.
+    Error {
+        /// The quantity; empty where the column is called by its norm alone.
+        quantity: String,
+        /// The norm; that of a column that names none is the column's name.
+        norm: String,
+    },
+}
+
+/// The norms that are known, and how people call them.
+const NORMS: [(&str, &[&str]); 4] = [
+    ("l1", &["l1", "mean", "average", "avg", "mae"]),
+    ("l2", &["l2", "rms", "rmse"]),
+    ("linf", &["linf", "loo", "inf", "max", "maximum"]),
+    ("h1", &["h1"]),
+];
+
+/// Words that tell nothing.
+const FILLERS: [&str; 7] = ["error", "errors", "err", "e", "norm", "of", "in"];
+
+/// Columns that stand in tables of errors and are none, as in the CSV file of `mms study`.
+const OTHERS: [&str; 16] = [
+    "cells",
+    "n",
+    "nx",
+    "elements",
+    "dofs",
+    "ndofs",
+    "particles",
+    "steps",
+    "level",
+    "order",
+    "rate",
+    "eoc",
+    "seconds",
+    "time",
+    "failure",
+    "run",
+];
+
+impl Column {
+    /// By the name of a column.
+    pub fn named(name: &str) -> Self {
+        let lower = name.to_lowercase();
+        match lower.as_str() {
+            "h" | "dx" | "cell_size" => return Column::CellSize,
+            "dt" | "time_step" => return Column::TimeStep,
+            "round_off" | "floor" => return Column::Floor,
+            _ => {}
+        }
+        let joined = ["1", "2", "inf"]
+            .iter()
+            .fold(lower, |name, which| name.replace(&format!("l_{which}"), &format!("l{which}")));
+        let joined = joined.replace("h_1", "h1");
+        let words: Vec<&str> =
+            joined.split(|c: char| !c.is_alphanumeric()).filter(|it| !it.is_empty()).collect();
+        if words.first().is_some_and(|word| OTHERS.contains(word)) {
+            return Column::Other;
+        }
+        let norm_of = |word: &str| NORMS.iter().find(|(_, all)| all.contains(&word)).map(|it| it.0);
+        let mut norms = words.iter().filter_map(|word| norm_of(word));
+        match (norms.next(), norms.next()) {
+            (Some(norm), None) => {
+                let is_told = |word: &&&str| norm_of(word).is_none() && !FILLERS.contains(word);
+                let rest: Vec<&str> = words.iter().filter(is_told).copied().collect();
+                Column::Error { quantity: rest.join("_"), norm: norm.to_owned() }
+            }
+            _ => Column::Error { quantity: name.to_owned(), norm: name.to_owned() },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_are_told_by_their_names() {
+        let of = |name: &str| match Column::named(name) {
+            Column::Error { quantity, norm } => (quantity, norm),
+            other => panic!("{name}: {other:?}"),
+        };
+        for (name, quantity, norm) in [
+            ("l2", "", "l2"),
+            ("L2", "", "l2"),
+            ("RMS error", "", "l2"),
+            ("L_inf", "", "linf"),
+            ("max", "", "linf"),
+            ("mean", "", "l1"),
+            ("H1", "", "h1"),
+            ("u_l2", "u", "l2"),
+            ("L2(velocity)", "velocity", "l2"),
+            ("err_sigma_xx_max", "sigma_xx", "linf"),
+            ("Kirchhoff stress", "Kirchhoff stress", "Kirchhoff stress"),
+            ("e", "e", "e"),
+            ("max_l2", "max_l2", "max_l2"),
+        ] {
+            assert_eq!(of(name), (quantity.into(), norm.into()), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_error_is_told_too() {
+        assert_eq!(Column::named("h"), Column::CellSize);
+        assert_eq!(Column::named("cell_size"), Column::CellSize);
+        assert_eq!(Column::named("DT"), Column::TimeStep);
+        assert_eq!(Column::named("round_off"), Column::Floor);
+        for name in ["order_l2", "cells", "particles", "seconds", "failure", "N"] {
+            assert_eq!(Column::named(name), Column::Other, "{name}");
+        }
+    }
+}

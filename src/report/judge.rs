@@ -1,0 +1,379 @@
+//! Judged errors as tables, a JSON document, a CSV file and a picture.
+
+use std::path::Path;
+
+use comfy_table::Table;
+use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
+use serde_json::{Map, Value, json};
+
+use super::picture::{Line, Picture};
+use super::provenance::Provenance;
+use super::{plain, pretty, to_the_right, write_files};
+use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
+
+/// Errors with what they say.
+pub struct Judgements {
+    /// Where the errors are from, in a word or two.
+    pub source: String,
+    /// The errors.
+    pub measured: Measured,
+    /// What differs between the runs.
+    pub refined: Refined,
+    /// What is said of each quantity.
+    pub judged: Vec<Judged>,
+    /// Where the verdicts are from.
+    pub provenance: Provenance,
+}
+
+/// The norms that levels have in the document of a study.
+const NORMS: [&str; 3] = ["l1", "l2", "linf"];
+
+/// An order with two digits, or that there is none.
+fn order(order: Option<f64>) -> String {
+    order.map_or("-".into(), |order| format!("{order:.2}"))
+}
+
+impl Judgements {
+    /// Judges what was measured.
+    ///
+    /// # Errors
+    /// Runs that cannot be compared.
+    pub fn of(source: String, measured: Measured, provenance: Provenance) -> anyhow::Result<Self> {
+        let refined = measured.refined()?;
+        let judge = |quantity| measured.judge(refined, quantity);
+        let judged = measured.quantities.iter().filter_map(judge).collect();
+        Ok(Self { source, refined, judged, measured, provenance })
+    }
+
+    /// The quantity that decides, its position and the verdict.
+    fn decided(&self) -> (usize, Verdict) {
+        worst(&self.judged).unwrap_or((0, Verdict::NotAsymptotic))
+    }
+
+    /// The worst verdict.
+    pub fn verdict(&self) -> Verdict {
+        self.decided().1
+    }
+
+    fn each(&self) -> impl Iterator<Item = (&Quantity, &Judged)> {
+        self.measured.quantities.iter().zip(&self.judged)
+    }
+
+    /// How a level is called.
+    fn name(&self, length: f64) -> String {
+        match self.refined {
+            Refined::Space => format!("h {length:.3e}"),
+            Refined::Time => format!("dt {length:.3e}"),
+            Refined::Grid => format!("{length:.3e}"),
+        }
+    }
+
+    /// The levels of a norm, each with the order that led to it; none of a grid of h and dt.
+    fn levels(&self, norm: &Norm) -> Vec<(Level, Option<f64>)> {
+        if self.refined == Refined::Grid {
+            return Vec::new();
+        }
+        let levels = self.measured.sequence(self.refined, norm).levels().to_vec();
+        let orders: Vec<_> = levels.windows(2).map(|pair| pair[1].order_from(&pair[0])).collect();
+        levels.into_iter().zip(std::iter::once(None).chain(orders)).collect()
+    }
+
+    /// The tables for a terminal, with the verdicts.
+    pub fn table(&self) -> String {
+        let mut parts = vec![format!("{}: {} runs", self.source, self.measured.runs.len())];
+        let several = self.judged.len() > 1;
+        for (quantity, judged) in self.each() {
+            let mut lines = Vec::new();
+            lines.extend(several.then(|| quantity.name.shown()));
+            lines.push(match self.refined {
+                Refined::Grid => self.grid_table(quantity).to_string(),
+                _ => self.levels_table(quantity).to_string(),
+            });
+            parts.push(lines.join("\n"));
+            parts.push(self.says(quantity, judged).join("\n"));
+        }
+        if several {
+            let passed = self.judged.iter().filter(|it| it.judgement.verdict() == Verdict::Pass);
+            let (count, all) = (passed.count(), self.judged.len());
+            parts.push(format!("{}: {count} of {all} quantities pass", self.verdict()));
+        }
+        parts.join("\n\n")
+    }
+
+    /// The verdict of a quantity in words.
+    fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
+        let fits = quantity.norms.iter().zip(&judged.fits);
+        let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
+        let mut lines = judged.judgement.sentences(&|length| self.name(length));
+        lines.extend(fits);
+        lines
+    }
+
+    fn levels_table(&self, quantity: &Quantity) -> Table {
+        let mut table = plain([if self.refined == Refined::Time { "dt" } else { "h" }, "runs"]);
+        let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
+        let norms: Vec<_> = quantity.norms.iter().map(|norm| self.levels(norm)).collect();
+        header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), "order".into()]));
+        table.set_header(header);
+        for at in 0..norms.first().map_or(0, Vec::len) {
+            let (level, _) = &norms[0][at];
+            let mut row = vec![format!("{:.3e}", level.length), level.errors.len().to_string()];
+            for (level, observed) in norms.iter().map(|levels| &levels[at]) {
+                let is_there = !level.errors.is_empty();
+                let error = is_there.then(|| format!("{:.2e}", level.error()));
+                row.extend([error.unwrap_or("stopped".into()), order(*observed)]);
+            }
+            table.add_row(row);
+        }
+        to_the_right(table)
+    }
+
+    fn grid_table(&self, quantity: &Quantity) -> Table {
+        let mut table = plain(["h", "dt"]);
+        let mut header: Vec<String> = table.header().map(cells).unwrap_or_default();
+        header.extend(quantity.norms.iter().map(|it| it.name.shown()));
+        table.set_header(header);
+        for (at, run) in self.measured.runs.iter().enumerate() {
+            let number = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.3e}"));
+            let mut row = vec![number(Some(run.cell_size)), number(run.time_step)];
+            row.extend(quantity.norms.iter().map(|norm| number(norm.errors[at])));
+            table.add_row(row);
+        }
+        to_the_right(table)
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        let (at, verdict) = self.decided();
+        let quantities: Vec<_> =
+            self.each().map(|(quantity, judged)| self.quantity(quantity, judged)).collect();
+        let deciding = self.judged.get(at).map(|it| it.judgement.deciding());
+        let finding = deciding.map(|it| &it.finding);
+        self.provenance.sign(json!({
+            "source": self.source,
+            "refinement": self.refined.name(),
+            "levels": self.rows(),
+            "quantity": self.measured.quantities.get(at).map(|it| &it.name),
+            "norm": deciding.map(|it| &it.norm),
+            "expected_order": deciding.map(|it| it.expected.order),
+            "tolerance": deciding.map(|it| it.expected.tolerance),
+            "observed_order": finding.and_then(observed),
+            "order_interval": finding.and_then(interval),
+            "quantities": quantities,
+            "verdict": verdict.to_string(),
+        }))
+    }
+
+    /// The levels of the first quantity, as a study writes them; of a grid its runs.
+    fn rows(&self) -> Vec<Value> {
+        let Some(first) = self.measured.quantities.first() else { return Vec::new() };
+        let norm = |name: &str| first.norms.iter().find(|it| it.name == *name);
+        if self.refined == Refined::Grid {
+            let runs = self.measured.runs.iter().enumerate();
+            return runs
+                .map(|(at, run)| {
+                    let error = |name| norm(name).and_then(|it| it.errors[at]);
+                    let errors = NORMS.map(|name| (error(name), None));
+                    row(Some(run.cell_size), run.time_step, 1, errors)
+                })
+                .collect();
+        }
+        let norms = NORMS.map(|name| norm(name).map(|it| self.levels(it)));
+        let all = first.norms.first().map(|it| self.levels(it)).unwrap_or_default();
+        let level = |(at, (level, _)): (usize, &(Level, Option<f64>))| {
+            let errors = norms.each_ref().map(|levels| {
+                let found = levels.as_ref().map(|it| &it[at]);
+                let error = found.filter(|(it, _)| !it.errors.is_empty()).map(|(it, _)| it.error());
+                (error, found.and_then(|it| it.1))
+            });
+            let [size, step] = self.sizes(level.length);
+            row(size, step, level.errors.len(), errors)
+        };
+        all.iter().enumerate().map(level).collect()
+    }
+
+    /// h and dt of a level.
+    fn sizes(&self, length: f64) -> [Option<f64>; 2] {
+        let runs = &self.measured.runs;
+        let of = |run: &&crate::judge::Run| self.measured.length(self.refined, run) == length;
+        let run = runs.iter().find(of);
+        [run.map(|it| it.cell_size), run.and_then(|it| it.time_step)]
+    }
+
+    fn quantity(&self, quantity: &Quantity, judged: &Judged) -> Value {
+        let deciding = judged.judgement.deciding();
+        let mut norms = norms_judged(&judged.judgement);
+        for own in &mut norms {
+            let levels = quantity.norms.iter().find(|norm| own["norm"] == norm.name.raw());
+            own.insert("levels".into(), levels.map_or(Value::Null, |norm| self.norm(norm)));
+        }
+        json!({
+            "name": quantity.name,
+            "norm": deciding.norm,
+            "verdict": judged.judgement.verdict().to_string(),
+            "layer_order": judged.judgement.layer(),
+            "norms": norms,
+            "says": self.says(quantity, judged),
+        })
+    }
+
+    fn norm(&self, norm: &Norm) -> Value {
+        let level = |(level, order): &(Level, Option<f64>)| {
+            let error = (!level.errors.is_empty()).then(|| level.error());
+            json!({ "length": level.length, "runs": level.errors, "error": error, "order": order })
+        };
+        self.levels(norm).iter().map(level).collect()
+    }
+
+    /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let files = [
+            ("svg", self.picture().svg()?),
+            ("csv", self.csv()?),
+            ("json", pretty(&self.document())?),
+        ];
+        write_files(folder, "convergence", files)
+    }
+
+    /// A row for each run, in columns that can be read again.
+    fn csv(&self) -> anyhow::Result<String> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let columns = || {
+            self.measured
+                .quantities
+                .iter()
+                .flat_map(|quantity| quantity.norms.iter().map(move |norm| (quantity, norm)))
+        };
+        let several = self.measured.quantities.len() > 1;
+        let column =
+            |(quantity, norm): (&Quantity, &Norm)| match several && quantity.name != norm.name {
+                true => format!("{}_{}", quantity.name.raw(), norm.name.raw()),
+                false => norm.name.raw().to_owned(),
+            };
+        let has_steps = self.measured.runs.iter().any(|run| run.time_step.is_some());
+        let lengths = if has_steps { &["h", "dt"][..] } else { &["h"] };
+        writer
+            .write_record(lengths.iter().map(|it| (*it).to_owned()).chain(columns().map(column)))?;
+        for (at, run) in self.measured.runs.iter().enumerate() {
+            let number = |it: Option<f64>| it.map_or(String::new(), |it| format!("{it:e}"));
+            let mut row = vec![number(Some(run.cell_size))];
+            row.extend(has_steps.then(|| number(run.time_step)));
+            row.extend(columns().map(|(_, norm)| number(norm.errors[at])));
+            writer.write_record(row)?;
+        }
+        Ok(String::from_utf8(writer.into_inner()?)?)
+    }
+
+    /// A line for each norm; of several quantities for that which decides. In a grid of h and dt, points over h.
+    fn picture(&self) -> Picture {
+        let several = self.judged.len() > 1;
+        let lines = self.each().flat_map(|(quantity, _)| {
+            quantity.norms.iter().map(move |norm| -> Line {
+                let own = several && quantity.name != norm.name;
+                let of = if own { format!("{} ", quantity.name.shown()) } else { String::new() };
+                (format!("{of}{}", norm.name.shown()), self.points(norm))
+            })
+        });
+        let runs = self.measured.runs.iter();
+        Picture {
+            caption: self.source.clone(),
+            axes: [
+                if self.refined == Refined::Time { "time step dt" } else { "cell size h" },
+                "error",
+            ],
+            lines: lines.collect(),
+            lengths: runs.map(|run| self.measured.length(self.refined, run)).collect(),
+            order: self.judged.first().map_or(2.0, |it| it.judgement.norms[0].expected.order),
+        }
+    }
+
+    /// What a logarithmic axis can show of a norm: means of replicates.
+    fn points(&self, norm: &Norm) -> Vec<(f64, f64)> {
+        let refined = if self.refined == Refined::Grid { Refined::Space } else { self.refined };
+        let levels = self.measured.sequence(refined, norm);
+        let levels = levels.levels().iter().filter(|it| !it.errors.is_empty());
+        levels.map(|it| (it.length, it.error())).filter(|(_, error)| *error > 0.0).collect()
+    }
+}
+
+/// The texts of a row of a table.
+fn cells(row: &comfy_table::Row) -> Vec<String> {
+    row.cell_iter().map(|cell| cell.content()).collect()
+}
+
+fn row(
+    size: Option<f64>,
+    step: Option<f64>,
+    runs: usize,
+    errors: [(Option<f64>, Option<f64>); 3],
+) -> Value {
+    let mut row = Map::new();
+    let mut insert = |key: String, value: Value| row.insert(key, value);
+    insert("cell_size".into(), json!(size));
+    insert("time_step".into(), json!(step));
+    insert("runs".into(), json!(runs));
+    for (norm, (error, _)) in NORMS.iter().zip(&errors) {
+        insert((*norm).into(), json!(error));
+    }
+    for (norm, (_, order)) in NORMS.iter().zip(&errors) {
+        insert(format!("order_{norm}"), json!(order));
+    }
+    Value::Object(row)
+}
+
+fn observed(finding: &Finding) -> Option<f64> {
+    finding.estimate.map(|it| it.order)
+}
+
+fn interval(finding: &Finding) -> Option<[f64; 2]> {
+    finding.estimate.and_then(|it| it.interval)
+}
+
+/// What is found of each norm.
+pub(super) fn norms_judged(judgement: &Judgement) -> Vec<Map<String, Value>> {
+    judgement.norms.iter().map(judged).collect()
+}
+
+/// What is found of a norm, under its name.
+fn judged(judged: &mms_convergence::Judged) -> Map<String, Value> {
+    let mut document = Map::new();
+    document.insert("norm".into(), json!(judged.norm));
+    document.insert("expected_order".into(), json!(judged.expected.order));
+    document.extend(finding(&judged.finding));
+    document
+}
+
+fn finding(finding: &Finding) -> Map<String, Value> {
+    let basis = finding.estimate.map(|it| match it.basis {
+        Basis::Scatter => "scatter",
+        Basis::Drift => "drift",
+        Basis::Nothing => "nothing",
+    });
+    let term = finding.term.map(|term| {
+        let kind = match term.kind {
+            Kind::Plateau => "plateau",
+            Kind::LowerOrder => "lower order",
+            Kind::PreAsymptotic => "pre-asymptotic",
+        };
+        json!({
+            "kind": kind,
+            "order": term.order,
+            "share": term.share,
+            "share_interval": term.interval,
+            "takes_over": term.takes_over,
+        })
+    });
+    let limit = finding.limit.map(
+        |limit| json!({ "error": limit.error, "interval": limit.interval, "order": limit.order }),
+    );
+    let document = json!({
+        "verdict": finding.verdict.to_string(),
+        "observed_order": observed(finding),
+        "order_interval": interval(finding),
+        "interval_from": basis,
+        "decided_by": finding.lengths,
+        "second_term": term,
+        "limit": limit,
+    });
+    if let Value::Object(document) = document { document } else { Map::new() }
+}
