@@ -14,10 +14,10 @@ use mms_mechanics::Response;
 use mms_mechanics::{Bound, Output};
 use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_program::interpret::Interpreter;
+use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
 use mms_runtime::material::by_bunches;
 use mms_runtime::scene::Scene;
-use mms_runtime::stencil::BUNCH;
 use mms_runtime::{
     Body, Condition, Domain, Face, ManufacturedField, Material, Matrix, Real, Vector,
 };

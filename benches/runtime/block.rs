@@ -2,9 +2,9 @@
 
 use std::ops::MulAssign;
 
+use mms_runtime::column::BUNCH;
 use mms_runtime::column::Matrices;
 use mms_runtime::scene::Scene;
-use mms_runtime::stencil::BUNCH;
 use mms_runtime::{Condition, Domain, ManufacturedField, Material, Matrix, Real, Vector};
 
 /// A field of the gallery as a block.

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! (Bonet & Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2008, chapter 6; Holzapfel, Nonlinear
-//! Solid Mechanics, 2000, section 6.7). W is held as a function of i1 = I1 - 3, i2 = I2 - 3, j = J - 1 and i4 = I4
-//! - 1, which are formed from H without cancellation, and of X, where a material parameter depends on it. P is
+//! Solid Mechanics, 2000, section 6.7). W is held as a function of i1 = I1 - 3, i2 = I2 - 3, j = J - 1 and
+//! i4 = I4 - 1, which are formed from H without cancellation, and of X, where a material parameter depends on it. P is
 //! rearranged in powers of the strain, with s0 = alpha + beta + gamma, s1 = alpha + 2 beta, s2 = beta:
 //!
 //! ```text

@@ -6,8 +6,11 @@ mod cuboid;
 use std::fmt;
 use std::str::FromStr;
 
+use crate::extension::UnknownName;
+use crate::failure::Refusal;
 use crate::failure::{at_most, positive};
-use crate::{Body, Face, Matrix, Real, Refusal, UnknownName, Vector};
+use crate::field::{Body, Face};
+use crate::real::{Matrix, Real, Vector};
 use annulus::Sector;
 
 /// More particles than this are refused.

@@ -18,10 +18,12 @@ pub mod wall;
 
 use crate::body::{Fill, Filling, Piece, faces};
 use crate::defect::{Defect, on};
+use crate::failure::{Failure, Refusal};
+use crate::field::{Body, Condition, Domain, Face, ManufacturedField};
+use crate::grid::Grid;
+use crate::lattice::Lattice;
 use crate::nodal::Nodal;
-use crate::{
-    Body, Condition, Domain, Face, Failure, Grid, Lattice, ManufacturedField, Real, Refusal, Vector,
-};
+use crate::real::{Real, Vector};
 use period::Period;
 use prescribed::Prescribed;
 use surface::Surface;

@@ -5,8 +5,13 @@ use std::ops::{Deref, DerefMut};
 
 use mms_math::bunched::Numbers;
 
-use crate::stencil::BUNCH;
-use crate::{Matrix, Real, Vector};
+use crate::real::{Matrix, Real, Vector};
+
+/// How many particles are in a bunch.
+pub const BUNCH: usize = 8;
+
+/// And in each half of it.
+pub const HALF: usize = BUNCH / 2;
 
 /// An entry for every particle. The last bunch is full: its last entry stands in for those that there are not, so
 /// that whatever is done to bunches is done to all alike.
@@ -252,7 +257,7 @@ impl<B: Bunch> FromIterator<B::One> for Bunches<B> {
 #[cfg(test)]
 mod tests {
     use super::{Bunches, Column, Matrices};
-    use crate::Matrix;
+    use crate::real::Matrix;
 
     #[test]
     fn the_last_entry_stands_in_for_those_that_there_are_not() {

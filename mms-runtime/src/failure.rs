@@ -1,7 +1,8 @@
 //! Why a solver cannot start ([`Refusal`]) and why a run stopped ([`Failure`]).
 
+use crate::field::{Condition, Face};
+use crate::real::{Real, Vector};
 use crate::tensor::components;
-use crate::{Condition, Face, Real, ShapeName, Vector};
 
 /// The names of axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -37,8 +38,8 @@ pub enum Refusal {
          domain moves; the nearest is `ugimp`, whose domains are those of the reference configuration"
     )]
     NothingToFollow {
-        /// The shape function.
-        shape: ShapeName,
+        /// The name of the shape function.
+        shape: &'static str,
     },
     /// Threads that the system does not give.
     #[error("cannot run on {threads} thread(s): {reason}; use fewer")]

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::{Material, Matrix, Real, Vector};
+use crate::material::Material;
+use crate::real::{Matrix, Real, Vector};
 
 /// An exact solution u(X, t) of the balance of momentum rho0 a = Div P + rho0 b.
 ///

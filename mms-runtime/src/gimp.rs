@@ -9,14 +9,17 @@
 use mms_math::machine::Machine;
 use nalgebra::ComplexField;
 
+use crate::column::BUNCH;
 use crate::column::{Matrices, Vectors};
 use crate::defect::{Defect, on};
+use crate::failure::Cause;
 use crate::lanes::{columns, components, stretches, vectors};
+use crate::lattice::Lattice;
+use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
 use crate::spline;
-use crate::stencil::{BUNCH, Known, MOST, Tensor};
+use crate::stencil::{Known, MOST, Tensor};
 use crate::tensor::{determinant, is_finite};
-use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Wider ones, of
 /// less than two cells, reach [`MOST`].

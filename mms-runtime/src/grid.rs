@@ -1,8 +1,9 @@
 //! The background grid: what its nodes carry.
 
+use crate::lattice::Lattice;
 use crate::nodal::Nodal;
+use crate::real::Real;
 use crate::threads::each_node;
-use crate::{Lattice, Real};
 
 /// The nodes of a [`Lattice`]; entry `i` of every array belongs to node `i`.
 #[derive(Clone, Debug)]

@@ -4,9 +4,9 @@ use bytemuck::cast_slice;
 use mms_math::machine::Machine;
 use mms_math::structures::take_columns;
 
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices, Vectors};
-use crate::stencil::BUNCH;
-use crate::{Real, Vector};
+use crate::real::{Real, Vector};
 
 /// The components of the vectors of a bunch that stand one after the other.
 #[inline(always)]
@@ -230,8 +230,8 @@ mod tests {
 
     use super::{columns, stretches};
     use crate::column::{Bunch as _, Matrices};
+    use crate::real::{Matrix, Vector};
     use crate::tensor::deformation_gradient;
-    use crate::{Matrix, Vector};
 
     fn stretch<const D: usize>(f: &Matrix<f64, D>) -> Vector<f64, D> {
         let found = stretches::<f64, _, D>(Plain, &columns(Plain, &Matrices::alike(f)));

@@ -6,8 +6,9 @@
 
 use mms_math::machine::{Machine, Plain};
 
+use crate::failure::Refusal;
 use crate::failure::at_most;
-use crate::{Real, Refusal, Vector};
+use crate::real::{Real, Vector};
 
 /// More nodes than this are refused.
 const NODE_LIMIT: f64 = (1u64 << 28) as f64;

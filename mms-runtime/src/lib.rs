@@ -53,6 +53,7 @@ pub mod material;
 pub mod method;
 pub mod nodal;
 pub mod particle;
+mod real;
 pub mod scene;
 pub mod shape;
 pub mod solver;
@@ -76,65 +77,8 @@ pub use integrator::IntegratorName;
 pub use lattice::Lattice;
 pub use material::Material;
 pub use method::{Division, Method, Setup};
+pub use real::{Matrix, Real, Vector, arrays, arrays_mut};
 pub use shape::ShapeName;
 pub use solver::{AnySolver, Solver};
 pub use study::{Errors, Level, Run, Solve, run_level};
 pub use transfer::Transfer;
-
-/// A vector with `D` components.
-pub type Vector<T, const D: usize> = nalgebra::SVector<T, D>;
-
-/// A second-order tensor with `D` x `D` components.
-pub type Matrix<T, const D: usize> = nalgebra::SMatrix<T, D, D>;
-
-/// The precision a solver computes in: `f32` or `f64`.
-///
-/// Implemented for every type that has the arithmetic; nothing is left to implement by hand.
-pub trait Real:
-    mms_math::Scalar<Wide: Copy + Send + Sync>
-    + mms_math::batch::Float
-    + nalgebra::RealField
-    + bytemuck::Pod
-    + serde::Serialize
-    + serde::de::DeserializeOwned
-    + Send
-    + Sync
-{
-    /// The nearest value of this precision.
-    fn of(value: f64) -> Self {
-        <Self as mms_math::Scalar>::from_f64(value)
-    }
-
-    /// The same value in double precision.
-    fn to_f64(self) -> f64 {
-        nalgebra::convert_unchecked(self)
-    }
-}
-
-impl<T> Real for T where
-    T: mms_math::Scalar<Wide: Copy + Send + Sync>
-        + mms_math::batch::Float
-        + nalgebra::RealField
-        + bytemuck::Pod
-        + serde::Serialize
-        + serde::de::DeserializeOwned
-        + Send
-        + Sync
-{
-}
-
-/// Vectors or matrices as arrays of their `N` numbers, matrices by columns.
-///
-/// # Panics
-/// If they have another number of numbers.
-pub fn arrays<T: Real, V: bytemuck::Pod, const N: usize>(values: &[V]) -> &[[T; N]] {
-    bytemuck::cast_slice(values)
-}
-
-/// As [`arrays`], to write to.
-///
-/// # Panics
-/// If they have another number of numbers.
-pub fn arrays_mut<T: Real, V: bytemuck::Pod, const N: usize>(values: &mut [V]) -> &mut [[T; N]] {
-    bytemuck::cast_slice_mut(values)
-}

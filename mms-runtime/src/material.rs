@@ -1,8 +1,8 @@
 //! The constitutive response of a field's material.
 
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices};
-use crate::stencil::BUNCH;
-use crate::{Matrix, Real, Vector};
+use crate::real::{Matrix, Real, Vector};
 
 /// The constitutive response that the forcing was derived with.
 ///
@@ -101,9 +101,9 @@ pub fn by_bunches<T: Real, M: Material<T, D> + ?Sized, const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::{Material, by_bunches};
+    use crate::column::BUNCH;
     use crate::column::{Bunch as _, Bunches, Matrices};
-    use crate::stencil::BUNCH;
-    use crate::{Matrix, Vector};
+    use crate::real::{Matrix, Vector};
 
     /// A stress that depends on H and on X.
     fn stress(x: &Vector<f64, 2>, h: &Matrix<f64, 2>) -> Matrix<f64, 2> {

@@ -4,8 +4,12 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::body::Fill;
+use crate::failure::Refusal;
+use crate::formulation::FormulationName;
+use crate::integrator::IntegratorName;
+use crate::shape::ShapeName;
 use crate::shape::{Shape, ShapeVisitor};
-use crate::{FormulationName, IntegratorName, Refusal, ShapeName, Transfer};
+use crate::transfer::Transfer;
 
 /// More threads than this are refused.
 const MOST_THREADS: f64 = 1024.0;
@@ -173,7 +177,7 @@ impl Method {
         }
         let follows = self.shape.visit(Follows);
         if self.formulation == FormulationName::Total && follows {
-            return Err(Refusal::NothingToFollow { shape: self.shape });
+            return Err(Refusal::NothingToFollow { shape: self.shape.name() });
         }
         Ok(())
     }

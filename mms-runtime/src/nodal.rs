@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul};
 
 use mms_math::machine::Machine;
 
-use crate::{Real, Vector};
+use crate::real::{Real, Vector};
 
 /// A vector at a node, in the first components, and in the last one what is mapped along with it: the
 /// mass along with the momentum.

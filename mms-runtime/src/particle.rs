@@ -7,10 +7,11 @@ use std::ops::Range;
 use mms_math::machine::Machine;
 
 use crate::body::Filling;
+use crate::column::BUNCH;
 use crate::column::{Bunch, Bunches, Column, Matrices, Vectors};
-use crate::stencil::BUNCH;
+use crate::real::{Matrix, Real, Vector};
 use crate::threads::Parts;
-use crate::{Matrix, Real, Transfer, Vector};
+use crate::transfer::Transfer;
 
 /// The state of all particles.
 ///

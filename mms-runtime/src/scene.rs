@@ -1,9 +1,13 @@
 //! A field of any dimension, ready for a solver.
 
 use crate::body::bounding_box;
+use crate::failure::Refusal;
+use crate::field::{Body, ManufacturedField};
+use crate::method::{Division, Method};
+use crate::real::Real;
 use crate::solver::cell_size;
+use crate::study::{Level, Run};
 use crate::study::{Observer, Solve, Watch};
-use crate::{Body, Division, Level, ManufacturedField, Method, Real, Refusal, Run};
 
 /// The cells along the longest edge of a run that names none, in one to three dimensions.
 pub fn usual_cells(dimension: usize) -> usize {

@@ -63,12 +63,16 @@ mod state;
 mod weights;
 
 use crate::boundary::Boundary;
+use crate::failure::{Cause, Failure};
+use crate::field::ManufacturedField;
 use crate::formulation::Configuration;
+use crate::grid::Grid;
 use crate::integrator::Integrator;
 use crate::nodal::Nodal;
 use crate::particle::Particles;
+use crate::real::Real;
 use crate::tensor::{is_finite, jacobian, matrix_is_finite};
-use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer};
+use crate::transfer::Transfer;
 use clock::Clock;
 use order::When;
 use slabs::Slabs;
@@ -84,10 +88,6 @@ pub use state::State;
 /// After so many steps it is seen whether particles are to be put in order again, for bunches that share their nodes
 /// are faster than others.
 const STEPS_IN_ORDER: usize = 16;
-
-/// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
-/// left the caches since the last pass.
-const AHEAD: usize = 3;
 
 /// A body of particles, its grid, and the field that drives it, with any shape function.
 pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {

@@ -6,12 +6,15 @@
 
 use mms_math::machine::{Machine, Plain};
 
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
+use crate::failure::Cause;
 use crate::lanes::components;
+use crate::lattice::Lattice;
+use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
-use crate::stencil::{BUNCH, Known, Tensor};
-use crate::{Cause, Lattice, Matrix, Real, Vector};
+use crate::stencil::{Known, Tensor};
 
 /// How far beyond the ends a particle may come, in cells: it has no business there.
 const SLACK: f64 = 0.5;

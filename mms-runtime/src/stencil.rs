@@ -29,16 +29,12 @@ use std::ops::Range;
 
 use mms_math::machine::Machine;
 
+use crate::column::{BUNCH, HALF};
+use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
-use crate::{Lattice, Real, Vector};
+use crate::real::{Real, Vector};
 
 pub use tensor::{Known, MOST, Tensor};
-
-/// How many particles are in a bunch.
-pub const BUNCH: usize = 8;
-
-/// And in each half of it.
-pub const HALF: usize = BUNCH / 2;
 
 /// What a bunch adds to its nodes.
 #[derive(Clone, Copy)]

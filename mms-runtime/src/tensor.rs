@@ -1,7 +1,7 @@
 //! The few tensor operations that the vectors and matrices of `nalgebra` do not offer for plain
 //! `const D`.
 
-use crate::{Matrix, Real, Vector};
+use crate::real::{Matrix, Real, Vector};
 
 /// F = I + H.
 pub fn deformation_gradient<T: Real, const D: usize>(

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::UnknownName;
 use crate::defect::{Defect, on};
+use crate::extension::UnknownName;
 
 /// The highest order of XPIC that has a name.
 pub const MOST_XPIC: u32 = 5;

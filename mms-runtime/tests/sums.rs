@@ -4,11 +4,12 @@
 mod common;
 
 use common::weights::{CELLS, Particle, lattice};
+use mms_runtime::column::{BUNCH, HALF};
 use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Machine, Plain};
 use mms_runtime::nodal::{Nodal, Window};
 use mms_runtime::shape::{Shape, ShapeVisitor};
-use mms_runtime::stencil::{ALL, BUNCH, Carried, Gathered, HALF, Members, Stencil, Wanted};
+use mms_runtime::stencil::{ALL, Carried, Gathered, Members, Stencil, Wanted};
 use mms_runtime::{Lattice, Real, ShapeName, Vector};
 use proptest::prelude::*;
 

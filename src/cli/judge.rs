@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use anyhow::Context as _;
 use clap::Args;
-use mms_spec::foreign;
 use mms_convergence::{TOLERANCE, Verdict};
+use mms_spec::foreign;
 
 use super::method::{finite, positive};
 use super::{Outcome, hold_output, print, print_json, this_command};

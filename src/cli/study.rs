@@ -7,8 +7,8 @@ use std::rc::Rc;
 use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
-use mms_mechanics::sample::domain;
 use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
+use mms_mechanics::sample::domain;
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Run};
 

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use mms_mechanics::sample::samples;
 use mms_program::block::Blockwise;
+use mms_runtime::column::BUNCH;
 use mms_runtime::column::{Bunch as _, Matrices};
 use mms_runtime::scene::{Code, Scene};
-use mms_runtime::stencil::BUNCH;
 use mms_runtime::{ManufacturedField, Matrix, Real, Vector};
 
 use super::scene;

@@ -6,8 +6,8 @@ pub mod names;
 pub mod table;
 
 use anyhow::bail;
-use mms_spec::foreign::Foreign;
 use mms_convergence::{Expected, Fit, Judgement, Sample, Sequence, Verdict, fit};
+use mms_spec::foreign::Foreign;
 
 /// Errors of some quantities in some runs.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use anyhow::{Context as _, anyhow, bail};
 use csv::{ReaderBuilder, StringRecord};
+use mms_convergence::Expected;
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
 use mms_spec::suggest::did_you_mean;
-use mms_convergence::Expected;
 
 use super::names::Column;
 use super::{Measured, Norm, Quantity, Run};
@@ -48,7 +48,7 @@ impl Orders {
             }
         }
         known.retain(|it| !it.is_empty());
-        for (name, _) in self.named.iter().filter(|(name, _)| !known.contains(name)) {
+        if let Some((name, _)) = self.named.iter().find(|(name, _)| !known.contains(name)) {
             known.sort();
             known.dedup();
             let advice = match did_you_mean(name, known.iter().map(String::as_str)) {

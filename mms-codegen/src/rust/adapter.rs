@@ -91,7 +91,7 @@ impl Emitter<'_> {
 
                 fn kirchhoff_stress_of_bunches(
                     &self,
-                    #reference: &[[Vector<T>; ::#runtime::stencil::BUNCH]],
+                    #reference: &[[Vector<T>; ::#runtime::column::BUNCH]],
                     displacement_gradient: &[::#runtime::column::Matrices<T, #dimension>],
                     stress: &mut [::#runtime::column::Matrices<T, #dimension>],
                 ) {

@@ -34,7 +34,7 @@ use std::collections::BTreeMap;
 
 use self::callable::{Callable, callables};
 use self::names::{Rules, of_holder, unique};
-use super::Subject;
+use crate::target::Subject;
 use mms_codegen::compile::Compiled;
 use mms_codegen::liveness::Later;
 use mms_mechanics::{Output, Program};

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Filling, Piece};
 use crate::defect::{Defect, on};
-use crate::{Face, Matrix, Real, Vector};
+use crate::field::Face;
+use crate::real::{Matrix, Real, Vector};
 
 /// inner < R < outer, and angles between theta.
 pub struct Sector {

@@ -1,7 +1,8 @@
 //! Boxes full of boxes.
 
 use super::{Filling, Piece};
-use crate::{Face, Matrix, Vector};
+use crate::field::Face;
+use crate::real::{Matrix, Vector};
 
 /// A Cartesian array of equal particles whose domains fill the box.
 pub fn fill<const D: usize>(

@@ -1,7 +1,7 @@
 //! Nodes beyond a face, and the nodes inside that they repeat.
 
-use crate::Real;
 use crate::nodal::Nodal;
+use crate::real::Real;
 
 /// Pairs of a node outside and one inside, in layers from the face outward.
 ///

@@ -5,8 +5,9 @@
 
 use super::images::Images;
 use crate::defect::{Defect, on};
+use crate::lattice::Lattice;
 use crate::nodal::Nodal;
-use crate::{Lattice, Real};
+use crate::real::Real;
 
 /// The nodes outside a period, and those inside that they repeat.
 pub struct Period(Images);

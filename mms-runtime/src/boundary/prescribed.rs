@@ -9,9 +9,13 @@
 
 use super::surface::Surface;
 use crate::defect::{Defect, on};
+use crate::failure::{Cause, Failure};
+use crate::field::ManufacturedField;
+use crate::grid::Grid;
+use crate::lattice::Lattice;
 use crate::nodal::Nodal;
+use crate::real::{Matrix, Real, Vector};
 use crate::tensor::{components, inverse_deformation_gradient, is_finite};
-use crate::{Cause, Failure, Grid, Lattice, ManufacturedField, Matrix, Real, Vector};
 
 const NEWTON_ITERATIONS: usize = 30;
 

@@ -1,6 +1,8 @@
 //! The faces of a reference body, as surfaces.
 
-use crate::{Body, Face, Lattice, Real, Vector};
+use crate::field::{Body, Face};
+use crate::lattice::Lattice;
+use crate::real::{Real, Vector};
 
 /// A face of the reference body.
 pub enum Surface<T> {
@@ -103,7 +105,8 @@ impl<T: Real> Surface<T> {
 mod tests {
     use super::Surface;
     use crate::body::faces;
-    use crate::{Body, Vector};
+    use crate::field::Body;
+    use crate::real::Vector;
 
     #[test]
     fn normals_of_all_faces_point_away_from_the_body() {

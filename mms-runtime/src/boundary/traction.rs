@@ -9,13 +9,15 @@
 use mms_math::machine::Plain;
 
 use crate::body::Piece;
+use crate::column::HALF;
 use crate::defect::{Defect, on};
+use crate::failure::{Cause, Failure, Refusal};
+use crate::field::{Condition, Face, ManufacturedField};
+use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window, halves};
-use crate::stencil::{Carried, HALF, Stencil as _, Tensor};
+use crate::real::{Matrix, Real, Vector};
+use crate::stencil::{Carried, Stencil as _, Tensor};
 use crate::tensor::{cofactor, components, jacobian};
-use crate::{
-    Cause, Condition, Face, Failure, Lattice, ManufacturedField, Matrix, Real, Refusal, Vector,
-};
 
 /// Where a piece of a face is at present.
 pub struct Place<T, const D: usize> {

@@ -7,8 +7,11 @@
 
 use super::images::Images;
 use crate::defect::{Defect, on};
+use crate::failure::Refusal;
+use crate::field::{Condition, Face};
+use crate::lattice::Lattice;
 use crate::nodal::{LAST, Nodal};
-use crate::{Condition, Face, Lattice, Real, Refusal};
+use crate::real::Real;
 
 /// A wall: which nodes are on it, which are behind it, and which components it reflects.
 pub struct Wall {

@@ -1,8 +1,8 @@
 //! Formulations: in which configuration the grid lives.
 
-use crate::Real;
 use crate::column::Matrices;
 use crate::extension::extension_list;
+use crate::real::Real;
 
 extension_list! {
     /// The formulations.

@@ -6,10 +6,10 @@
 //! f_i = - sum_p V0 P grad0 w, and dF/dt = sum_i v_i (x) grad0 w.
 
 use super::Formulation;
-use crate::Real;
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
-use crate::stencil::BUNCH;
+use crate::real::Real;
 use crate::tensor::inverse_deformation_gradient;
 
 /// Particles stay where they are in the grid; nothing crosses a cell.

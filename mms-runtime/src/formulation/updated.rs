@@ -5,10 +5,10 @@
 //! f_i = - sum_p V0 tau grad w, since V sigma = V0 tau, and dF/dt = L F.
 
 use super::Formulation;
-use crate::Real;
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
-use crate::stencil::BUNCH;
+use crate::real::Real;
 use crate::tensor::jacobian;
 
 /// Particles move through the grid.

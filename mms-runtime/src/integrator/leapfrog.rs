@@ -7,7 +7,8 @@
 
 use super::{Integrator, Operations, Sum, Update};
 use crate::defect::{Defect, on};
-use crate::{Failure, Real};
+use crate::failure::Failure;
+use crate::real::Real;
 
 /// USL whose first kick is half a step, from the exact initial velocity to v at dt/2.
 pub struct Leapfrog;

@@ -13,7 +13,8 @@
 //! | `leapfrog` | 2 | USL whose first kick is half a step |
 
 use crate::extension::extension_list;
-use crate::{Failure, Real};
+use crate::failure::Failure;
+use crate::real::Real;
 
 extension_list! {
     /// The time integrators.

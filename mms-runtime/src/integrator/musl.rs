@@ -5,7 +5,8 @@
 //! compares it with USL and USF. First order in time.
 
 use super::{Integrator, Operations, Sum, Update};
-use crate::{Failure, Real};
+use crate::failure::Failure;
+use crate::real::Real;
 
 /// USL, but the deformation follows the particles' new velocities, mapped to the grid once more.
 pub struct Musl;

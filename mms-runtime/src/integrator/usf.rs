@@ -4,7 +4,8 @@
 //! Phys. 180 (2002) 383-403. First order in time.
 
 use super::{Integrator, Operations, Sum, Update};
-use crate::{Failure, Real};
+use crate::failure::Failure;
+use crate::real::Real;
 
 /// The deformation from the grid's velocity at t^n, then forces from the stress at t^(n+1).
 pub struct Usf;

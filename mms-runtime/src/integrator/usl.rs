@@ -6,7 +6,8 @@
 //! velocities are those of the exact initial time, one half step off where the scheme is centred.
 
 use super::{Integrator, Operations, Sum, Update};
-use crate::{Failure, Real};
+use crate::failure::Failure;
+use crate::real::Real;
 
 /// Forces from the stress at t^n, then the deformation from the grid's new velocity.
 pub struct Usl;

@@ -12,14 +12,17 @@ use std::ops::Range;
 use mms_math::machine::Machine;
 
 use super::Shape;
+use crate::column::{BUNCH, HALF};
 use crate::column::{Bunch as _, Matrices};
 use crate::defect::{Defect, on};
+use crate::failure::Cause;
 use crate::lanes::{columns, scaled};
+use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
+use crate::real::{Matrix, Real, Vector};
 use crate::spline;
-use crate::stencil::{BUNCH, Carried, Gathered, HALF, Members, Stencil, Tensor, Wanted};
+use crate::stencil::{Carried, Gathered, Members, Stencil, Tensor, Wanted};
 use crate::tensor::{deformation_gradient, matrix_is_finite};
-use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 /// GIMP on parallelepipeds: shear and rotation are followed, without gaps or overlaps in a uniform F.
 pub struct Cpdi;

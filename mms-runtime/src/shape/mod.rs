@@ -19,9 +19,11 @@ use mms_math::machine::{Machine, Plain};
 
 use crate::column::{Bunch, Matrices, Vectors};
 use crate::extension::extension_list;
+use crate::failure::Cause;
 use crate::lanes::{components, vectors};
+use crate::lattice::Lattice;
+use crate::real::{Matrix, Real, Vector};
 use crate::stencil::{Stencil, Tensor};
-use crate::{Cause, Lattice, Matrix, Real, Vector};
 
 extension_list! {
     /// The shape functions.

@@ -1,9 +1,14 @@
 //! A solver whose shape function and integrator are chosen by name.
 
 use super::{Present, Seconds, Solver, State};
+use crate::failure::{Failure, Refusal};
+use crate::field::ManufacturedField;
+use crate::grid::Grid;
+use crate::integrator::IntegratorName;
 use crate::integrator::{Integrator, IntegratorVisitor};
+use crate::method::{Division, Method};
+use crate::real::Real;
 use crate::shape::{Shape, ShapeVisitor};
-use crate::{Division, Failure, Grid, IntegratorName, ManufacturedField, Method, Real, Refusal};
 
 /// A solver of a [`Method`], whatever its shape function and its integrator are. Those of
 /// [`Solve`](crate::Solve) are compiled in this crate: who takes steps with them compiles none.

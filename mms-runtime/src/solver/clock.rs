@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Refusal;
+use crate::failure::Refusal;
 use crate::failure::{at_most, positive};
 
 /// More steps than this are refused.

@@ -3,16 +3,18 @@
 use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
-use super::weights::{Room, Scene, TOGETHER, Weigh};
-use super::{AHEAD, misread};
+use super::misread;
+use super::weights::{AHEAD, Room, Scene, TOGETHER, Weigh};
 use crate::defect::{Defect, on};
+use crate::failure::Cause;
 use crate::lanes::{columns, components, determinants, set_columns, set_components};
 use crate::nodal::Nodal;
 use crate::particle::Columns;
+use crate::real::Real;
 use crate::stencil::{Stencil, Wanted};
 use crate::threads::Parts as _;
 use crate::transfer::Reads;
-use crate::{Cause, Real, Transfer};
+use crate::transfer::Transfer;
 
 /// What of the particles' state follows the nodes, and how far.
 #[derive(Clone, Copy)]

@@ -3,8 +3,8 @@
 
 use mms_math::machine::Machine;
 
-use crate::Real;
 use crate::defect::{Defect, on};
+use crate::real::Real;
 
 /// The columns of the velocity gradients of a bunch.
 #[inline(always)]

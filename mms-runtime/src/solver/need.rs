@@ -1,10 +1,11 @@
 //! An estimate of the memory that a run takes: it is refused before its particles or nodes are allocated. The
 //! command sets the bound to what is free.
 
+use crate::column::BUNCH;
 use crate::column::{Matrices, Vectors};
+use crate::failure::Refusal;
 use crate::nodal::Nodal;
-use crate::stencil::BUNCH;
-use crate::{Matrix, Real, Refusal, Vector};
+use crate::real::{Matrix, Real, Vector};
 
 /// Bytes of a particle and of a node, and those that there are.
 pub(super) struct Need {

@@ -9,15 +9,19 @@ use super::order::When;
 use super::p2g::{Added, Map, Stop};
 use super::weights::Scene;
 use crate::boundary::traction::Place;
+use crate::column::BUNCH;
 use crate::defect::{Defect, on};
+use crate::failure::{Cause, Failure};
+use crate::field::ManufacturedField;
+use crate::grid::Grid;
 use crate::grid::divide_by_mass;
 use crate::integrator::{Operations, Sum, Update};
 use crate::nodal::Nodal;
-use crate::stencil::BUNCH;
+use crate::real::{Real, Vector};
 use crate::tensor::deformation_gradient;
 use crate::threads::{each_node, each_part};
 use crate::transfer::Reads;
-use crate::{Cause, Failure, Grid, ManufacturedField, Real, Transfer, Vector};
+use crate::transfer::Transfer;
 
 /// Bunches that are updated by one thread at a time.
 const PART: usize = 2048 / BUNCH;

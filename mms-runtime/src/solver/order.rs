@@ -5,11 +5,12 @@ use mms_math::machine::{Machine as _, Plain};
 
 use super::slabs::Slab;
 use super::weights::Domains;
+use crate::column::{BUNCH, HALF};
 use crate::lanes::positions;
+use crate::lattice::Lattice;
 use crate::particle::Particles;
-use crate::stencil::{BUNCH, HALF};
+use crate::real::Real;
 use crate::threads::each;
-use crate::{Lattice, Real};
 
 /// Bunches that are located by one thread at a time.
 const PART: usize = 512;

@@ -6,18 +6,22 @@ use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
 use super::clock::{Laps, Seconds};
+use super::misread;
 use super::slabs::Slab;
-use super::weights::{Domains, Room, Scene, TOGETHER, Weigh};
-use super::{AHEAD, misread};
+use super::weights::{AHEAD, Domains, Room, Scene, TOGETHER, Weigh};
+use crate::column::{BUNCH, HALF};
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
+use crate::failure::Cause;
+use crate::field::ManufacturedField;
 use crate::formulation::Configuration;
 use crate::lanes::{columns, scaled, turned};
+use crate::lattice::Lattice;
 use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
-use crate::stencil::{BUNCH, Carried, HALF, Members, Stencil};
+use crate::real::{Real, Vector};
+use crate::stencil::{Carried, Members, Stencil};
 use crate::tensor::matrix_is_finite;
-use crate::{Cause, Lattice, ManufacturedField, Real, Vector};
 
 /// Particles whose stresses are computed together: so few that their stresses stay near.
 const PART: usize = 256;

@@ -1,9 +1,10 @@
 //! A solver's state as measurements see it. It knows neither shape function nor formulation, so measurements are
 //! compiled once per dimension and precision, however many solvers there are.
 
+use crate::failure::{Cause, Failure};
 use crate::particle::Particles;
+use crate::real::Real;
 use crate::tensor::components;
-use crate::{Cause, Failure, Real};
 
 /// The state after a step.
 #[derive(Clone, Copy)]

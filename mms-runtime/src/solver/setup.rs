@@ -10,17 +10,19 @@ use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
 use crate::defect::{Defect, on};
 use crate::failure::positive;
+use crate::failure::{Cause, Failure, Refusal};
+use crate::field::{Body, Face, ManufacturedField};
+use crate::formulation::FormulationName;
+use crate::grid::Grid;
 use crate::lattice::Axis;
+use crate::lattice::Lattice;
 use crate::method::{Division, Setup};
 use crate::nodal::Nodal;
 use crate::particle::Particles;
+use crate::real::{Matrix, Real, Vector};
 use crate::shape::Shape;
 use crate::stencil::MOST;
 use crate::tensor::{components, is_finite, jacobian, matrix_is_finite};
-use crate::{
-    Body, Cause, Face, Failure, FormulationName, Grid, Lattice, ManufacturedField, Matrix, Real,
-    Refusal, Vector,
-};
 
 /// At how many times, at most, the field's motion is sampled to find the extent of the grid.
 const MOTION_SAMPLES: usize = 64;

@@ -13,11 +13,13 @@ use serde::{Deserialize, Serialize};
 
 use super::order::{Order, When};
 use super::weights::Domains;
+use crate::column::BUNCH;
+use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::particle::Particles;
-use crate::stencil::{ALL, BUNCH, Members};
+use crate::real::Real;
+use crate::stencil::{ALL, Members};
 use crate::threads::both;
-use crate::{Lattice, Real};
 
 /// Layers of nodes before and after a layer of cells that a particle in it may reach, wherever cells begin.
 const REACH: [usize; 2] = [2, 3];

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 use super::Solver;
 use super::clock::Seconds;
 use super::slabs::Cut;
-use crate::{Matrix, Real, Refusal, Vector};
+use crate::failure::Refusal;
+use crate::real::{Matrix, Real, Vector};
 
 /// What changes in a run: what a solver of the same scene goes on from, to the bit.
 #[derive(Serialize, Deserialize)]

@@ -7,16 +7,22 @@
 use mms_math::dispatch::{Work, best};
 use mms_math::machine::Machine;
 
-use super::AHEAD;
 use super::g2p::{Advance, Residual, Sound};
 use super::p2g::{Stop, Sums};
 use crate::boundary::traction::{Point, StencilOf};
+use crate::column::BUNCH;
 use crate::column::{Bunch as _, Bunches, Matrices, Vectors};
+use crate::failure::Cause;
 use crate::lanes::{positions, vectors};
+use crate::lattice::Lattice;
 use crate::particle::reorder_bunches;
+use crate::real::{Matrix, Real, Vector};
 use crate::shape::Shape;
-use crate::stencil::BUNCH;
-use crate::{Cause, Lattice, Matrix, Real, Transfer, Vector};
+use crate::transfer::Transfer;
+
+/// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
+/// left the caches since the last pass.
+pub(super) const AHEAD: usize = 3;
 
 /// Bunches whose weights are found together, and then their sums: so that a call is little beside them, and there is
 /// something to do while numbers are awaited.

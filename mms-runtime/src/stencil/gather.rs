@@ -6,8 +6,8 @@ use mms_math::machine::Machine;
 
 use super::tensor::{Along, Sharing, Tensor};
 use super::{BUNCH, HALF, eights, numbers};
-use crate::Real;
 use crate::nodal::Nodal;
+use crate::real::Real;
 
 /// What is summed, over which nodes.
 pub(super) struct Sums<'a, T, const D: usize, const K: usize> {

@@ -13,8 +13,8 @@ use mms_math::machine::Machine;
 
 use super::tensor::{Along, Sharing, Tensor};
 use super::{ALL, Carried, HALF, Members};
-use crate::Real;
 use crate::nodal::Window;
+use crate::real::Real;
 
 /// What is added to the nodes, with asides or without.
 pub(super) struct Scatter<'a, M: Machine<T>, T: Real, const D: usize, const ASIDES: bool> {

@@ -12,8 +12,9 @@ use super::gather::{Summed, Sums};
 use super::scatter::Scatter;
 use super::{BUNCH, Carried, Gathered, HALF, Members, Stencil, Wanted};
 use crate::defect::{Defect, on};
+use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
-use crate::{Lattice, Real, Vector};
+use crate::real::{Real, Vector};
 
 /// For every axis, and the first, second, .. node along it, a number for each particle of a bunch.
 pub(super) type Along<T, const D: usize> = [[[T; BUNCH]; MOST]; D];

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::field::ManufacturedField;
+use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
-use crate::{ManufacturedField, Matrix, Real, Vector};
 
 /// What drove the body, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -9,8 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::balance::{Account, Tally};
 use super::deviations::{Deviations, Watcher};
 use super::{Checkpoint, Details, Diagnostics, Frame, Observer, Record, Snapshots, Watch};
+use crate::failure::{Failure, Refusal};
+use crate::field::ManufacturedField;
+use crate::real::Real;
 use crate::solver::{Present, State};
-use crate::{Failure, ManufacturedField, Real, Refusal};
 
 /// What is known of a run so far, the solver's state among it.
 #[derive(Serialize, Deserialize)]

@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Errors, Watch};
+use crate::failure::{Cause, Failure};
+use crate::field::ManufacturedField;
 use crate::particle::Particles;
+use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 use crate::tensor::inverse_deformation_gradient;
-use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Vector};
 
 /// The errors of a state against the field's. Those that are not measured are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

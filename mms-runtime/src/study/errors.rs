@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Matrix, Real, Vector};
+use crate::real::{Matrix, Real, Vector};
 
 /// Norms over the particles of the distance between a computed and an exact value, such as delta_p =
 /// |d_p - u(X_p, t)|; of a run, the largest over its steps. In the unit of the quantity, computed in double precision whatever the solver's.

@@ -4,6 +4,7 @@ mod balance;
 mod course;
 mod deviations;
 mod errors;
+mod level;
 mod observer;
 mod order;
 mod phase;
@@ -16,6 +17,7 @@ mod snapshots;
 pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
+pub use level::Level;
 pub use observer::{Checkpoint, Frame, Observer, Record};
 pub use order::{Orders, orders};
 pub use phase::{Phase, Phases};
@@ -24,26 +26,9 @@ pub use run::{Details, Diagnostics, Run, Solve, Watch};
 pub use series::{NORMS, Point, Series, judge};
 pub use snapshots::Snapshots;
 
-use crate::{Division, Failure, ManufacturedField, Method, Refusal};
-
-/// One level of a study: a run at one resolution.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Level {
-    /// Cells of the body.
-    pub cells: Division,
-    /// Grid spacing h, the longest edge of a cell.
-    pub cell_size: f64,
-    /// Time step dt.
-    pub time_step: f64,
-    /// Steps that the time window takes.
-    pub steps: usize,
-    /// Particles.
-    pub particles: usize,
-    /// The errors, or why the run stopped.
-    pub errors: Result<Errors, Failure>,
-    /// Wall-clock seconds, everything included.
-    pub seconds: f64,
-}
+use crate::failure::Refusal;
+use crate::field::ManufacturedField;
+use crate::method::{Division, Method};
 
 /// Runs one level: the whole time window, with the body divided into `cells`; see [`Solve::run`].
 ///

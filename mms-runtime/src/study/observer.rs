@@ -3,9 +3,10 @@
 use std::io::{self, Read, Write};
 
 use super::{Diagnostics, Errors};
+use crate::field::ManufacturedField;
+use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
 use crate::tensor::{deformation_gradient, jacobian};
-use crate::{ManufacturedField, Matrix, Real, Vector};
 
 /// Follows a run. A closure does, if it wants no states, and `()` looks away.
 pub trait Observer: Send {

@@ -1,7 +1,9 @@
 //! Numbers beyond the range of a precision: a run that stops for them looks like an unstable one, and is none.
 
+use crate::failure::{Cause, Failure};
+use crate::field::ManufacturedField;
+use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
-use crate::{Cause, Failure, ManufacturedField, Matrix, Real, Vector};
 
 /// What stopped a run, with what leaves the range of its precision in the place of what that led to.
 pub(super) fn explained<T: Real, const D: usize>(

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::{Deviations, Errors, Level, Point, Run, Series};
-use crate::UnknownName;
+use crate::extension::UnknownName;
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,10 +3,13 @@
 use super::course::{Course, Saved, SavedCourse, Stopwatch};
 use super::range::explained;
 use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
+use crate::failure::{Failure, Refusal};
+use crate::field::ManufacturedField;
+use crate::method::{Division, Method};
 use crate::particle::Particles;
+use crate::real::{Real, Vector};
 use crate::solver::{AnySolver, Seconds, of_method};
 use crate::tensor::jacobian;
-use crate::{Division, Failure, ManufacturedField, Method, Real, Refusal, Vector};
 
 /// Which errors are measured in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

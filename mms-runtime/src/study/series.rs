@@ -103,7 +103,7 @@ mod tests {
     use mms_convergence::Verdict;
 
     use super::*;
-    use crate::{Cause, Failure};
+    use crate::failure::{Cause, Failure};
 
     const SECOND: Expected = Expected { order: 2.0, tolerance: 0.15 };
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Errors;
 use crate::particle::Particles;
-use crate::{Real, Vector};
+use crate::real::{Real, Vector};
 
 /// The displacements of all particles at some times, in double precision.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

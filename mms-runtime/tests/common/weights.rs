@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use mms_runtime::column::BUNCH;
 use mms_runtime::column::{Bunch, Matrices};
 use mms_runtime::lanes::turned;
 use mms_runtime::lattice::Axis;
 use mms_runtime::math::machine::Plain;
 use mms_runtime::shape::Shape;
-use mms_runtime::stencil::{BUNCH, Stencil};
+use mms_runtime::stencil::Stencil;
 use mms_runtime::tensor::{deformation_gradient, determinant};
 use mms_runtime::{Cause, Lattice, Matrix, Real, Vector};
 

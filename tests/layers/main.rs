@@ -1,0 +1,100 @@
+//! Imports point one way: between crates, between the modules of a crate, and, but for small circles, between files.
+
+mod imports;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use imports::Imports;
+
+/// So many files may import each other.
+const LARGEST_CIRCLE: usize = 8;
+
+/// A crate: the crates of this workspace that it knows, and its modules in layers, the lowest first. A module knows those
+/// of its own layer and of lower ones.
+struct Crate {
+    name: &'static str,
+    knows: &'static [&'static str],
+    layers: &'static [&'static str],
+}
+
+const CRATES: &[Crate] = &include!("crates.rs");
+
+fn folder(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if name == "mms" { root.into() } else { root.join(name) }
+}
+
+#[test]
+fn crates_know_what_they_may() {
+    for Crate { name, knows, .. } in CRATES {
+        let text = fs::read_to_string(folder(name).join("Cargo.toml")).expect("a manifest");
+        let manifest: toml::Table = toml::from_str(&text).expect("a manifest");
+        let dependencies = manifest.get("dependencies").and_then(|it| it.as_table());
+        let names = dependencies.into_iter().flat_map(|it| it.keys());
+        let mut known: Vec<&str> =
+            names.map(String::as_str).filter(|it| it.starts_with("mms-")).collect();
+        known.sort_unstable();
+        assert_eq!(known, *knows, "{name}");
+    }
+}
+
+#[test]
+fn every_crate_is_listed() {
+    let text = fs::read_to_string(folder("mms").join("Cargo.toml")).expect("a manifest");
+    let manifest: toml::Table = toml::from_str(&text).expect("a manifest");
+    let members = manifest["workspace"]["members"].as_array().expect("a list");
+    let mut members: Vec<&str> = members.iter().filter_map(|member| member.as_str()).collect();
+    members.push("mms");
+    members.sort_unstable();
+    let mut listed: Vec<&str> = CRATES.iter().map(|it| it.name).collect();
+    listed.sort_unstable();
+    assert_eq!(members, listed);
+}
+
+#[test]
+fn modules_import_from_lower_layers() {
+    for Crate { name, layers, .. } in CRATES {
+        let imports = Imports::of(&folder(name).join("src"));
+        let layer = |module: &str| {
+            let found = layers.iter().position(|layer| layer.split(' ').any(|it| it == module));
+            found.unwrap_or_else(|| {
+                panic!("{name}: `{module}` stands in no layer of tests/layers/crates.rs")
+            })
+        };
+        imports.modules().iter().for_each(|module| drop(layer(module)));
+        for (from, to) in imports.between_modules() {
+            assert!(
+                layer(&to) <= layer(&from),
+                "{name}: `{from}` imports from `{to}`, which is above it"
+            );
+        }
+    }
+}
+
+#[test]
+fn circles_of_files_are_small() {
+    for Crate { name, .. } in CRATES {
+        for circle in Imports::of(&folder(name).join("src")).circles() {
+            assert!(
+                circle.len() <= LARGEST_CIRCLE,
+                "{name}: {} files import each other: {circle:?}",
+                circle.len()
+            );
+        }
+    }
+}
+
+/// What the other tests find nothing in is read.
+#[test]
+fn imports_are_found() {
+    let imports = Imports::of(&folder("mms-codegen").join("src"));
+    let pairs = imports.between_modules();
+    let has = |from: &str, to: &str| pairs.contains(&(from.into(), to.into()));
+    assert!(
+        has("driver", "certify") && has("certify", "bounds") && has("compile", "declared"),
+        "{pairs:?}"
+    );
+    assert!(!has("bounds", "certify"), "{pairs:?}");
+    assert!(imports.circles().iter().any(|circle| circle.contains(&vec!["selection".into()])));
+}
