@@ -36,9 +36,12 @@ impl Term {
         self.interval[0] > 0.0 || self.interval[1] < 0.0
     }
 
-    /// By how much it moves the order of the finest level away from p.
+    /// By how much it moves the order of the finest level away from p, at least: with the digits of a table a share of
+    /// some percent may be there or not.
     pub fn moves(&self, expected: f64) -> f64 {
-        ((self.order - expected) * self.share).abs()
+        let least =
+            if self.is_shown() { self.interval[0].abs().min(self.interval[1].abs()) } else { 0.0 };
+        (self.order - expected).abs() * least
     }
 }
 

@@ -56,13 +56,15 @@ fn every_crate_is_listed() {
 fn modules_import_from_lower_layers() {
     for Crate { name, layers, .. } in CRATES {
         let imports = Imports::of(&folder(name).join("src"));
+        let find =
+            |module: &str| layers.iter().position(|layer| layer.split(' ').any(|it| it == module));
         let layer = |module: &str| {
-            let found = layers.iter().position(|layer| layer.split(' ').any(|it| it == module));
-            found.unwrap_or_else(|| {
-                panic!("{name}: `{module}` stands in no layer of tests/layers/crates.rs")
-            })
+            find(module)
+                .unwrap_or_else(|| panic!("{name}: tests/layers/crates.rs lacks `{module}`"))
         };
-        imports.modules().iter().for_each(|module| drop(layer(module)));
+        for module in imports.modules() {
+            layer(&module);
+        }
         for (from, to) in imports.between_modules() {
             assert!(
                 layer(&to) <= layer(&from),
