@@ -120,6 +120,9 @@ impl Table {
                 self.place(first)
             );
         }
+        if let Some(odd) = self.header.iter().find(|it| it.text.contains(char::is_control)) {
+            bail!("{}: `{}`: expected a name on one line", self.place(odd), shown(&odd.text));
+        }
         for (at, cell) in self.header.iter().enumerate() {
             let before = self.header[..at].iter().zip(&self.columns);
             let is_other = self.columns[at] == Column::Other;

@@ -187,7 +187,7 @@ fn bad_tables_are_refused_where_they_are_bad() {
         ("h,l2\n0.1,nan\n", "errors.csv:2:5: `nan`: expected an error"),
         ("h,l2\n0.1,inf\n", "errors.csv:2:5: `inf`: expected an error"),
         ("h;l2\n0;1\n", "errors.csv:2:1: `0`: expected a length, a finite number above 0"),
-        ("h,note,l2\n0.1,\"a,b\",x\n", "errors.csv:2:11: `x`: expected an error"),
+        ("h,failure,l2\n0.1,\"a,b\",x\n", "errors.csv:2:11: `x`: expected an error"),
         ("h,l2\n0.1\n", "errors.csv:2:1: expected 2 fields, as in the header, and found 1"),
         (
             "h dt l2\n1 .1 2\n1 .2 3\n2 .1 3\n2 .2 2\n",
@@ -204,8 +204,11 @@ fn bad_tables_are_refused_where_they_are_bad() {
     let folder = Folder::new();
     folder.mms("judge --errors missing.csv").exits(2).complains("cannot read `missing.csv`");
     folder.mms("judge").exits(2).complains("--errors <FILE>");
-    folder.write("odd.csv", "h,\u{1b}[31m\n1,x\n");
-    folder.mms("judge --errors odd.csv").exits(2).complains("odd.csv:2:3: `x`");
+    for name in ["\u{1b}[31m", "\"x\npass: all is well\""] {
+        folder.write("odd.csv", &format!("h,{name}\n1,1\n"));
+        let run = folder.mms("judge --errors odd.csv").exits(2);
+        run.complains("odd.csv:1:3: `").complains("expected a name on one line");
+    }
 }
 
 /// No table makes it panic, or print what is no number.

@@ -13,7 +13,7 @@ static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let folder = Folder::new();
     folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
     let time =
-        "--formulation total --shape linear --refine time --cells 32 --levels 4 --periods 1,2";
+        "--formulation total --shape linear --refine time --cells 64 --levels 4 --periods 1,2";
     folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
     let methods = "--formulation total --shape linear,quadratic_bspline --cells 8,16,32";
     folder.mms(&format!("study bar_1d {methods} --output all/methods")).exits(0);

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::mms::Folder;
 
 const SCENE: &str = "field = \"bar_1d\"\nformulation = \"total\"\nshape = \"linear\"\n\
-                     cells = [8, 16]\ncourant = 0.2\nset = { young = 1e3, length = 2 }\n\
+                     cells = [8, 16, 32]\ncourant = 0.2\nset = { young = 1e3, length = 2 }\n\
                      jitter = 0.0\njson = true\n";
 
 #[test]
@@ -26,11 +26,11 @@ fn a_saved_scene_is_the_command_with_its_options() {
     };
     let saved = strip("study --study scene.toml");
     let options = "--formulation total --shape linear --courant 0.2 --set young=1e3 --set length=2";
-    assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16 {options} --json")));
+    assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16,32 {options} --json")));
     assert_eq!(saved, strip("study --study=scene.toml"));
     // The command line goes first, whatever the order.
     for command in
-        ["study --cells 16,32 --study scene.toml", "study --study scene.toml --cells=16,32"]
+        ["study --cells 16,32,64 --study scene.toml", "study --study scene.toml --cells=16,32,64"]
     {
         assert_eq!(strip(command)["levels"][0]["cells"], 16);
     }
