@@ -1,0 +1,20 @@
+//! Results of any solver: what files hold, what its names mean, and how far it is from an exact solution.
+//!
+//! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
+//! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
+//! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
+//! [cells](cell).
+//!
+//! Nothing here opens a file, knows a field, or decides whether an error is small.
+
+pub mod cell;
+mod mistake;
+pub mod motion;
+pub mod names;
+pub mod norm;
+mod read;
+mod snapshot;
+
+pub use mistake::Mistake;
+pub use read::{Contents, parse, read};
+pub use snapshot::{Array, Cells, Snapshot, Stored, Time};

@@ -1,0 +1,180 @@
+//! X and u of points: two of X, x and u give the third.
+
+use crate::names::{Meaning, Role, Values, here};
+use crate::{Mistake, Snapshot, Stored};
+
+/// The points of a snapshot, as the exact solution knows them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// X.
+    pub reference: Values,
+    /// u, if two of the three are known.
+    pub displacement: Option<Values>,
+    /// How X was found.
+    pub how: String,
+}
+
+/// How far a point is outside the body; 0 within it.
+pub type Outside<'a> = &'a dyn Fn(&[f64]) -> f64;
+
+/// Finds X and u. Points that may be X or x are both in turn: the one reading with which they lie in the body is taken.
+///
+/// # Errors
+/// Too little for X; points with which both readings lie in the body; a point outside the body by more than its
+/// rounding; two points in one place, if there are no cells.
+pub fn resolve(
+    snapshot: &Snapshot,
+    meanings: &[Meaning],
+    dimension: usize,
+    outside: Outside<'_>,
+) -> Result<Motion, Mistake> {
+    let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
+    let values =
+        |role: Role| of(role).map(|meaning| meaning.values(snapshot, dimension)).transpose();
+    let known = Known {
+        reference: values(Role::Reference)?,
+        position: values(Role::Position)?,
+        place: values(Role::Place)?,
+        displacement: values(Role::Displacement)?.filter(|it| !it.is_of_cells),
+    };
+    known.hold_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
+    let motion = known.motion(outside).map_err(|mistake| mistake.of(&snapshot.path))?;
+    hold_inside(snapshot, &motion, outside)?;
+    Ok(motion)
+}
+
+/// What is known of the points.
+struct Known {
+    reference: Option<Values>,
+    position: Option<Values>,
+    place: Option<Values>,
+    displacement: Option<Values>,
+}
+
+impl Known {
+    fn hold_rows(&self) -> Result<(), Mistake> {
+        let all = [&self.reference, &self.position, &self.place, &self.displacement];
+        let mut rows = all.into_iter().flatten().map(|it| it.numbers.len() / it.components);
+        match rows.next() {
+            Some(0) => Err(Mistake::new("no points")),
+            Some(first) => match rows.find(|&other| other != first) {
+                Some(other) => {
+                    Err(Mistake::new(format!("X, x and u are of {first} and of {other} points")))
+                }
+                None => Ok(()),
+            },
+            None => Err(Mistake::new(
+                "no positions: expected X, or x and u; name them with `--map X=..`",
+            )),
+        }
+    }
+
+    fn motion(self, outside: Outside<'_>) -> Result<Motion, Mistake> {
+        let Known { reference, position, place, displacement } = self;
+        match (reference, position, place, displacement) {
+            (Some(x), _, _, Some(u)) => Ok(motion(x, Some(u), "X as given")),
+            (Some(x), Some(present), _, None) => {
+                let u = difference(&present, &x);
+                Ok(motion(x, Some(u), "X as given, u = x - X"))
+            }
+            (Some(x), None, Some(place), None) if is_moved(&place, &x) => {
+                let u = difference(&place, &x);
+                Ok(motion(x, Some(u), "X as given, u = points - X"))
+            }
+            (Some(x), None, _, None) => Ok(motion(x, None, "X as given")),
+            (None, Some(present), _, Some(u)) => {
+                let x = difference(&present, &u);
+                Ok(motion(x, Some(u), "X = x - u"))
+            }
+            (None, None, Some(place), Some(u)) => tried(place, u, outside),
+            (None, None, Some(place), None) => Ok(motion(place, None, "points taken as X")),
+            (None, ..) => Err(Mistake::new(
+                "X is not known: give it, or x and u; name them with `--map X=..`",
+            )),
+        }
+    }
+}
+
+fn motion(reference: Values, displacement: Option<Values>, how: &str) -> Motion {
+    Motion { reference, displacement, how: how.into() }
+}
+
+/// One position less another, with the roundings of both.
+fn difference(a: &Values, b: &Values) -> Values {
+    let numbers = a.numbers.iter().zip(&b.numbers).map(|(a, b)| a - b).collect();
+    let stored = Stored::coarser(a.stored, b.stored);
+    Values { numbers, rounding: a.rounding + b.rounding, stored, ..*a }
+}
+
+/// Whether points are elsewhere than X, by more than rounding.
+fn is_moved(place: &Values, reference: &Values) -> bool {
+    let most = place.rounding + reference.rounding;
+    place.numbers.iter().zip(&reference.numbers).any(|(a, b)| (a - b).abs() > 2.0 * most)
+}
+
+/// The first point that is outside the body by more than its rounding, and how far.
+fn stray(reference: &Values, outside: Outside<'_>) -> Option<(usize, f64)> {
+    let points = reference.numbers.chunks(reference.components).enumerate();
+    // Each coordinate may be off by its rounding, and the exact bound by some of its own.
+    let most = 4.0 * reference.rounding;
+    points.map(|(at, point)| (at, outside(point))).find(|(_, distance)| *distance > most)
+}
+
+/// Points that may be X or x, with u.
+fn tried(place: Values, u: Values, outside: Outside<'_>) -> Result<Motion, Mistake> {
+    let back = difference(&place, &u);
+    match (stray(&place, outside), stray(&back, outside)) {
+        (None, Some(_)) => {
+            Ok(motion(place, Some(u), "points taken as X: as x, some would lie outside the body"))
+        }
+        (Some(_), None) => Ok(motion(
+            back,
+            Some(u),
+            "points taken as x, X = x - u: as X, some would lie outside the body",
+        )),
+        (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
+            Ok(motion(place, Some(u), "points taken as X: u is 0"))
+        }
+        (None, None) => Err(Mistake::new(
+            "points may be X or x, and lie in the body with both readings: say which with `--map X=points` or \
+             `--map x=points`",
+        )),
+        (Some((at, far)), Some((other, away))) => Err(Mistake::new(format!(
+            "points lie outside the body with both readings: point {at} by {far:e} as X, point {other} by {away:e} \
+             as x; is it another field, or another unit?"
+        ))),
+    }
+}
+
+fn hold_inside(snapshot: &Snapshot, motion: &Motion, outside: Outside<'_>) -> Result<(), Mistake> {
+    let reference = &motion.reference;
+    let Some((at, distance)) = stray(reference, outside) else { return Ok(()) };
+    let point = &reference.numbers[at * reference.components..][..reference.components];
+    let what = format!("X = {point:?} lies outside the body by {distance:e} ({})", motion.how);
+    Err(here(snapshot, at, what))
+}
+
+/// Refuses two points in one place.
+///
+/// # Errors
+/// The second of them, and the first.
+pub fn hold_distinct(snapshot: &Snapshot, reference: &Values) -> Result<(), Mistake> {
+    let point = |at: usize| &reference.numbers[at * reference.components..][..reference.components];
+    let mut order: Vec<usize> = (0..reference.numbers.len() / reference.components).collect();
+    let compare = |&a: &usize, &b: &usize| {
+        point(a).partial_cmp(point(b)).unwrap_or(std::cmp::Ordering::Equal)
+    };
+    order.sort_by(compare);
+    match order.windows(2).find(|pair| point(pair[0]) == point(pair[1])) {
+        None => Ok(()),
+        Some(pair) => {
+            let (first, second) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
+            let what = format!(
+                "X = {:?} is where another point is: {}; is a time missing, or written twice?",
+                point(second),
+                snapshot.place(first)
+            );
+            Err(here(snapshot, second, what))
+        }
+    }
+}

@@ -1,0 +1,369 @@
+//! Legacy VTK: "VTK File Formats" (Kitware), of versions 2 to 5.
+
+use super::numbers::{Kind, Order, count, positions};
+use super::table::is_time;
+use super::text::{Style, number, settle};
+use crate::snapshot::Section;
+use crate::{Array, Mistake, Snapshot, Stored, Time};
+
+/// A place in a file.
+struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    is_binary: bool,
+}
+
+/// What was found so far.
+#[derive(Default)]
+struct Found {
+    snapshot: Snapshot,
+    single: Vec<bool>,
+    /// Of which the arrays that follow are.
+    of: Option<Of>,
+}
+
+/// Whose numbers an array has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Of {
+    Whole,
+    Points,
+    Cells,
+}
+
+/// Reads a file of one grid.
+pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
+    let mut cursor = Cursor { bytes, at: 0, is_binary: false };
+    cursor.line();
+    cursor.line();
+    cursor.is_binary = match cursor.line().trim_ascii() {
+        b"ASCII" => false,
+        b"BINARY" => true,
+        _ => return Err(cursor.mistake("expected ASCII or BINARY")),
+    };
+    let mut found = Found::default();
+    while let Some(word) = cursor.word() {
+        let part = found.part(&word.to_ascii_uppercase(), &mut cursor);
+        part.map_err(|mistake| cursor.mistake(mistake.what))?;
+    }
+    let rows = found.snapshot.points.as_ref().map_or(0, Array::rows);
+    found.snapshot.cells.hold(rows)?;
+    found.settle();
+    Ok(found.snapshot)
+}
+
+impl<'a> Cursor<'a> {
+    /// A mistake here; a line number means nothing among bytes.
+    fn mistake(&self, what: impl Into<String>) -> Mistake {
+        let before = &self.bytes[..self.at.min(self.bytes.len())];
+        match self.is_binary {
+            true => Mistake::new(what),
+            false => {
+                Mistake::at(1 + memchr::memchr_iter(b'\n', before.trim_ascii_end()).count(), what)
+            }
+        }
+    }
+
+    fn rest(&self) -> &'a [u8] {
+        &self.bytes[self.at..]
+    }
+
+    /// What is left of the line.
+    fn line(&mut self) -> &'a [u8] {
+        let rest = self.rest();
+        let end = memchr::memchr(b'\n', rest);
+        self.at += end.map_or(rest.len(), |end| end + 1);
+        &rest[..end.unwrap_or(rest.len())]
+    }
+
+    /// The next word.
+    fn word(&mut self) -> Option<&'a str> {
+        let rest = self.rest();
+        let start = rest.iter().position(|it| !it.is_ascii_whitespace())?;
+        let length = rest[start..].iter().position(u8::is_ascii_whitespace);
+        let end = length.map_or(rest.len(), |length| start + length);
+        self.at += end;
+        Some(std::str::from_utf8(&rest[start..end]).unwrap_or("\u{fffd}"))
+    }
+
+    fn needed(&mut self, what: &str) -> Result<&'a str, Mistake> {
+        self.word().ok_or_else(|| Mistake::new(format!("expected {what}, and the file ends")))
+    }
+
+    fn integer(&mut self) -> Result<usize, Mistake> {
+        let word = self.needed("a number")?;
+        word.parse().map_err(|_| Mistake::new(format!("expected a whole number, found `{word}`")))
+    }
+
+    fn kind(&mut self) -> Result<Kind, Mistake> {
+        let word = self.needed("a type")?;
+        let kind = Kind::of_legacy(&word.to_ascii_lowercase());
+        kind.ok_or_else(|| Mistake::new(format!("expected a type such as double, found `{word}`")))
+    }
+
+    /// An array of these numbers.
+    fn array(
+        &mut self,
+        name: &str,
+        rows: usize,
+        components: usize,
+        kind: Kind,
+    ) -> Result<Array, Mistake> {
+        let numbers = count(rows, components.max(1), kind)?;
+        let (values, stored) = match self.is_binary {
+            true => (self.binary(numbers, kind)?, kind.stored()),
+            false => self.ascii(numbers, kind)?,
+        };
+        Ok(Array { name: name.to_owned(), components: components.max(1), values, stored })
+    }
+
+    fn binary(&mut self, numbers: usize, kind: Kind) -> Result<Vec<f64>, Mistake> {
+        self.line();
+        let bytes = self.rest().get(..numbers * kind.bytes());
+        let bytes =
+            bytes.ok_or_else(|| Mistake::new("the file ends within an array: it was cut off"))?;
+        self.at += bytes.len();
+        Ok(kind.read(bytes, Order::Big))
+    }
+
+    fn ascii(&mut self, numbers: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+        let mut style = Style::default();
+        let mut values = Vec::new();
+        for _ in 0..numbers {
+            let word = self.needed("a number")?;
+            let value = number(word);
+            style.see(word);
+            values.push(
+                value.ok_or_else(|| Mistake::new(format!("expected a number, found `{word}`")))?,
+            );
+        }
+        Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
+    }
+
+    /// Passes over words, if the type of an array is that: one on each line, or each behind its length, whose first two
+    /// bits say how long that is.
+    fn passes_words(&mut self, words: usize) -> Result<bool, Mistake> {
+        let before = self.at;
+        if self.word() != Some("string") {
+            self.at = before;
+            return Ok(false);
+        }
+        self.line();
+        for _ in 0..words {
+            let Some(&first) = self.rest().first() else {
+                return Err(Mistake::new("the file ends within an array: it was cut off"));
+            };
+            if !self.is_binary {
+                self.line();
+                continue;
+            }
+            let bytes = 1 << (3 - (first >> 6));
+            let head = self.rest().iter().take(bytes).enumerate();
+            let value =
+                |(at, &byte): (usize, &u8)| usize::from(if at == 0 { byte & 63 } else { byte });
+            let length = head.map(value).fold(0, |all: usize, byte| all.wrapping_mul(256) + byte);
+            self.at = self.bytes.len().min(self.at.saturating_add(bytes).saturating_add(length));
+        }
+        Ok(true)
+    }
+
+    fn positions(&mut self, numbers: usize, kind: Kind) -> Result<Vec<usize>, Mistake> {
+        positions(self.array("", numbers, 1, kind)?.values)
+    }
+
+    /// Ends and points of cells: since version 5.1 as two arrays, before with the number of points in front of each
+    /// cell.
+    fn lists(&mut self) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
+        let (first, second) = (self.integer()?, self.integer()?);
+        let before = self.at;
+        if self.word() == Some("OFFSETS") {
+            let kind = self.kind()?;
+            let offsets = self.positions(first, kind)?;
+            self.needed("CONNECTIVITY")?;
+            let kind = self.kind()?;
+            return Ok((offsets.into_iter().skip(1).collect(), self.positions(second, kind)?));
+        }
+        self.at = before;
+        counted(first, &self.positions(second, Kind::Signed(4))?)
+    }
+}
+
+/// Cells, each with the number of its points in front.
+fn counted(cells: usize, all: &[usize]) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
+    let (mut ends, mut points, mut rest) = (Vec::new(), Vec::new(), all);
+    while let Some((&count, tail)) = rest.split_first() {
+        let cell = tail.get(..count);
+        let cell =
+            cell.ok_or_else(|| Mistake::new("the last cell has fewer points than it says"))?;
+        points.extend(cell);
+        ends.push(points.len());
+        rest = &tail[count..];
+    }
+    match ends.len() == cells {
+        true => Ok((ends, points)),
+        false => Err(Mistake::new(format!("{} cells, and expected {cells}", ends.len()))),
+    }
+}
+
+impl Found {
+    /// Reads what begins with this word.
+    fn part(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
+        match word {
+            "DATASET" => match cursor.needed("a kind of grid")?.to_ascii_uppercase().as_str() {
+                "UNSTRUCTURED_GRID" | "POLYDATA" => Ok(()),
+                other => Err(Mistake::new(format!(
+                    "`{other}` is not read: expected UNSTRUCTURED_GRID or POLYDATA"
+                ))),
+            },
+            "POINTS" => {
+                let (rows, kind) = (cursor.integer()?, cursor.kind()?);
+                self.snapshot.points = Some(cursor.array("Points", rows, 3, kind)?);
+                self.single.insert(0, kind == Kind::Float(4));
+                Ok(())
+            }
+            "CELLS" => {
+                let (ends, points) = cursor.lists()?;
+                (self.snapshot.cells.ends, self.snapshot.cells.points) = (ends, points);
+                Ok(())
+            }
+            "CELL_TYPES" => {
+                let count = cursor.integer()?;
+                let types = cursor.positions(count, Kind::Signed(4))?.into_iter();
+                let kind = |kind| u8::try_from(kind).map_err(|_| Mistake::new("no type of cells"));
+                self.snapshot.cells.types = types.map(kind).collect::<Result<_, _>>()?;
+                Ok(())
+            }
+            "VERTICES" => self.section(Section::Verts, cursor),
+            "LINES" => self.section(Section::Lines, cursor),
+            "POLYGONS" => self.section(Section::Polys, cursor),
+            "TRIANGLE_STRIPS" => self.section(Section::Strips, cursor),
+            "POINT_DATA" => self.begin(Of::Points, cursor),
+            "CELL_DATA" => self.begin(Of::Cells, cursor),
+            "METADATA" => {
+                while !cursor.line().trim_ascii().is_empty() {}
+                // The word itself stands on a line of its own.
+                while !cursor.rest().is_empty() && !cursor.line().trim_ascii().is_empty() {}
+                Ok(())
+            }
+            _ => self.attribute(word, cursor),
+        }
+    }
+
+    fn section(&mut self, section: Section, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
+        let (ends, points) = cursor.lists()?;
+        self.snapshot.cells.add(section, &ends, points);
+        Ok(())
+    }
+
+    fn begin(&mut self, of: Of, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
+        let (rows, expected) = (cursor.integer()?, self.rows(of));
+        self.of = Some(of);
+        match rows == expected {
+            true => Ok(()),
+            false => Err(Mistake::new(format!(
+                "numbers of {rows} points or cells, and there are {expected}"
+            ))),
+        }
+    }
+
+    fn rows(&self, of: Of) -> usize {
+        match of {
+            Of::Whole => 0,
+            Of::Points => self.snapshot.points.as_ref().map_or(0, Array::rows),
+            Of::Cells => self.snapshot.cells.ends.len(),
+        }
+    }
+
+    /// Reads arrays of points or cells.
+    fn attribute(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
+        let name = cursor.needed("a name")?.to_owned();
+        let components = match word {
+            "FIELD" => return self.fields(cursor),
+            "LOOKUP_TABLE" => {
+                let rows = cursor.integer()?;
+                let kind = if cursor.is_binary { Kind::Unsigned(1) } else { Kind::Float(4) };
+                return cursor.array("", rows, 4, kind).map(drop);
+            }
+            "SCALARS" => 1,
+            "VECTORS" | "NORMALS" => 3,
+            "TENSORS" => 9,
+            "TENSORS6" => 6,
+            "TEXTURE_COORDINATES" => cursor.integer()?,
+            _ => return Err(Mistake::new(format!("`{word}` is not known"))),
+        };
+        let kind = cursor.kind()?;
+        let components = if word == "SCALARS" { self.scalars(cursor)? } else { components };
+        let of = self
+            .of
+            .ok_or_else(|| Mistake::new("expected POINT_DATA or CELL_DATA before numbers"))?;
+        let array = cursor.array(&name, self.rows(of), components, kind)?;
+        self.add(of, array, kind);
+        Ok(())
+    }
+
+    /// How many components scalars have; the name of their table of colours is passed over.
+    fn scalars(&self, cursor: &mut Cursor<'_>) -> Result<usize, Mistake> {
+        let before = cursor.at;
+        let line = cursor.line();
+        let components = std::str::from_utf8(line).unwrap_or("").trim().parse();
+        let after = cursor.at;
+        if cursor.word() == Some("LOOKUP_TABLE") {
+            cursor.needed("a name")?;
+            return Ok(components.unwrap_or(1));
+        }
+        // An array begins behind the end of the line before it.
+        cursor.at = if cursor.is_binary { before.max(after - 1) } else { after };
+        Ok(components.unwrap_or(1))
+    }
+
+    fn fields(&mut self, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
+        let of = self.of.unwrap_or(Of::Whole);
+        for _ in 0..cursor.integer()? {
+            let mut name = cursor.needed("a name")?;
+            if name == "METADATA" {
+                self.part(name, cursor)?;
+                name = cursor.needed("a name")?;
+            }
+            let (components, rows) = (cursor.integer()?, cursor.integer()?);
+            if cursor.passes_words(components.saturating_mul(rows))? {
+                continue;
+            }
+            let kind = cursor.kind()?;
+            let array = cursor.array(name, rows, components, kind)?;
+            if of != Of::Whole && array.rows() != self.rows(of) {
+                return Err(Mistake::new(format!(
+                    "`{name}` has {rows} rows, and expected {}",
+                    self.rows(of)
+                )));
+            }
+            self.add(of, array, kind);
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, of: Of, array: Array, kind: Kind) {
+        match of {
+            Of::Whole => self.time(&array),
+            Of::Points => {
+                let before = self.snapshot.of_cells.len();
+                self.single.insert(self.single.len() - before, kind == Kind::Float(4));
+                self.snapshot.of_points.push(array);
+            }
+            Of::Cells => {
+                self.single.push(kind == Kind::Float(4));
+                self.snapshot.of_cells.push(array);
+            }
+        }
+    }
+
+    fn time(&mut self, array: &Array) {
+        if let ([value], true) = (array.values.as_slice(), is_time(&array.name)) {
+            self.snapshot.time = Some(Time { value: *value, rounding: array.rounding() });
+        }
+    }
+
+    fn settle(&mut self) {
+        let Snapshot { points, of_points, of_cells, .. } = &mut self.snapshot;
+        let all = points.iter_mut().chain(of_points).chain(of_cells);
+        settle(&mut all.collect::<Vec<_>>(), &self.single);
+    }
+}

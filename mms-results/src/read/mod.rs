@@ -1,0 +1,136 @@
+//! What a file is, by its content.
+
+mod base64;
+mod legacy;
+mod npy;
+mod npz;
+mod numbers;
+mod table;
+mod text;
+mod xml;
+
+use std::path::Path;
+
+use crate::{Mistake, Snapshot, Time};
+
+/// What was found in a file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contents {
+    /// Results, at one time or more.
+    Snapshots(Vec<Snapshot>),
+    /// The files of the pieces of one mesh at one time.
+    Pieces(Vec<String>),
+    /// The files of one mesh at times; more than one at the same time are pieces.
+    Times(Vec<(Time, String)>),
+}
+
+/// How long a list of files may be.
+const MOST_FILES: usize = 50_000;
+
+/// Ways in which files begin that are not read, and what to do.
+const FOREIGN: &[(&[u8], &str)] = &[
+    (
+        b"\x89HDF\r\n\x1a\n",
+        "HDF5 is not read; write VTK, CSV or NumPy, as with h5py and `numpy.savez`",
+    ),
+    (b"CDF", "NetCDF and Exodus are not read; convert it to VTK, as with `meshio convert`"),
+    (b"\x1f\x8b", "a file in gzip is not read; unpack it"),
+    (b"$MeshFormat", "Gmsh is not read; convert it to VTK, as with `meshio convert`"),
+];
+
+/// Reads bytes, whatever they are.
+///
+/// # Errors
+/// What is wrong with them, or what they are that is not read.
+pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
+    if let Some((_, what)) = FOREIGN.iter().find(|(start, _)| bytes.starts_with(start)) {
+        return Err(Mistake::new(*what));
+    }
+    let one = |snapshot| Contents::Snapshots(vec![snapshot]);
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    match start {
+        [] => Err(Mistake::new("the file is empty")),
+        _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes).map(one),
+        _ if bytes.starts_with(b"PK") => npz::parse(bytes).map(one),
+        _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes).map(one),
+        [b'<', ..] => xml::parse(bytes),
+        _ => table::parse(bytes).map(Contents::Snapshots),
+    }
+}
+
+/// Opens a file, or says why it cannot be.
+pub type Open<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, String>;
+
+/// Reads a file, and those that it lists.
+///
+/// # Errors
+/// What is wrong, with the file and the line.
+pub fn read(path: &Path, open: Open<'_>) -> Result<Vec<Snapshot>, Mistake> {
+    let name = path.to_string_lossy();
+    let beside = |file: &str| path.with_file_name(file);
+    let found = match contents(path, open)? {
+        Contents::Snapshots(snapshots) => Ok(snapshots),
+        Contents::Pieces(files) => pieces(&files, &beside, open).map(|one| vec![one]),
+        Contents::Times(files) => times(&files, &beside, open),
+    };
+    let mut found = found.map_err(|mistake| mistake.of(&name))?;
+    for snapshot in found.iter_mut().filter(|it| it.path.is_empty()) {
+        snapshot.path = name.clone().into_owned();
+    }
+    Ok(found)
+}
+
+fn contents(path: &Path, open: Open<'_>) -> Result<Contents, Mistake> {
+    let name = path.to_string_lossy();
+    let bytes = open(path).map_err(|what| Mistake::new(what).of(&name))?;
+    parse(&bytes).map_err(|mistake| mistake.of(&name))
+}
+
+/// The one snapshot of a file that a list names: lists of lists end with the pieces of a time.
+fn listed(path: &Path, open: Open<'_>) -> Result<Snapshot, Mistake> {
+    let snapshots = match contents(path, open)? {
+        Contents::Snapshots(snapshots) => snapshots,
+        Contents::Pieces(files) => {
+            vec![pieces(&files, &|file| path.with_file_name(file), open)?]
+        }
+        Contents::Times(_) => Vec::new(),
+    };
+    let path = path.to_string_lossy();
+    match <[Snapshot; 1]>::try_from(snapshots) {
+        Ok([snapshot]) => Ok(Snapshot { path: path.into_owned(), ..snapshot }),
+        Err(_) => Err(Mistake::new("expected one mesh at one time, as it is in a list").of(&path)),
+    }
+}
+
+/// The files of one mesh at one time, joined.
+fn pieces(
+    files: &[String],
+    beside: &dyn Fn(&str) -> std::path::PathBuf,
+    open: Open<'_>,
+) -> Result<Snapshot, Mistake> {
+    let piece = |file: &String| match contents(&beside(file), open)? {
+        Contents::Snapshots(snapshots) => Snapshot::join(snapshots),
+        _ => Err(Mistake::new(format!("the piece `{file}` is itself a list of files"))),
+    };
+    Snapshot::join(files.iter().map(piece).collect::<Result<_, _>>()?)
+}
+
+fn times(
+    files: &[(Time, String)],
+    beside: &dyn Fn(&str) -> std::path::PathBuf,
+    open: Open<'_>,
+) -> Result<Vec<Snapshot>, Mistake> {
+    let mut found: Vec<Snapshot> = Vec::new();
+    for (time, file) in files {
+        let snapshot = Snapshot { time: Some(*time), ..listed(&beside(file), open)? };
+        match found.last_mut().filter(|last| last.time.map(|it| it.value) == Some(time.value)) {
+            Some(last) => {
+                let path = last.path.clone();
+                let whole = Snapshot::join(vec![std::mem::take(last), snapshot])?;
+                *last = Snapshot { path, ..whole };
+            }
+            None => found.push(snapshot),
+        }
+    }
+    Ok(found)
+}

@@ -1,0 +1,133 @@
+//! Numbers in bytes.
+
+use crate::{Mistake, Stored};
+
+/// In which order the bytes of a number stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// The least first.
+    Little,
+    /// The greatest first.
+    Big,
+}
+
+/// A type of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A floating-point number of so many bytes: 4 or 8.
+    Float(usize),
+    /// An integer with a sign, of so many bytes: 1, 2, 4 or 8.
+    Signed(usize),
+    /// An integer without a sign.
+    Unsigned(usize),
+}
+
+impl Kind {
+    /// By the names of VTK in XML: `Float64`, `Int32`, `UInt8`.
+    pub fn of_xml(name: &str) -> Option<Kind> {
+        let at = name.find(|it: char| it.is_ascii_digit())?;
+        let bytes = match &name[at..] {
+            "8" => 1,
+            "16" => 2,
+            "32" => 4,
+            "64" => 8,
+            _ => return None,
+        };
+        match (&name[..at], bytes) {
+            ("Float", 4 | 8) => Some(Kind::Float(bytes)),
+            ("Int", _) => Some(Kind::Signed(bytes)),
+            ("UInt", _) => Some(Kind::Unsigned(bytes)),
+            _ => None,
+        }
+    }
+
+    /// By the names of legacy VTK.
+    pub fn of_legacy(name: &str) -> Option<Kind> {
+        Some(match name {
+            "float" => Kind::Float(4),
+            "double" => Kind::Float(8),
+            "char" | "signed_char" => Kind::Signed(1),
+            "unsigned_char" => Kind::Unsigned(1),
+            "short" => Kind::Signed(2),
+            "unsigned_short" => Kind::Unsigned(2),
+            "int" => Kind::Signed(4),
+            "unsigned_int" => Kind::Unsigned(4),
+            "long" | "vtkidtype" | "vtktypeint64" => Kind::Signed(8),
+            "unsigned_long" | "vtktypeuint64" => Kind::Unsigned(8),
+            _ => return None,
+        })
+    }
+
+    /// By the names of NumPy: `f8`, `i4`, `u1`.
+    pub fn of_numpy(name: &str) -> Option<Kind> {
+        let (letter, bytes) = name.split_at_checked(1)?;
+        let bytes = bytes.parse().ok()?;
+        match (letter, bytes) {
+            ("f", 4 | 8) => Some(Kind::Float(bytes)),
+            ("i", 1 | 2 | 4 | 8) => Some(Kind::Signed(bytes)),
+            ("u", 1 | 2 | 4 | 8) | ("b", 1) => Some(Kind::Unsigned(bytes)),
+            _ => None,
+        }
+    }
+
+    /// The bytes of a number.
+    pub fn bytes(self) -> usize {
+        let (Kind::Float(bytes) | Kind::Signed(bytes) | Kind::Unsigned(bytes)) = self;
+        bytes
+    }
+
+    /// How exact its numbers are.
+    pub fn stored(self) -> Stored {
+        match self {
+            Kind::Float(4) => Stored::Single,
+            Kind::Float(_) => Stored::Double,
+            Kind::Signed(_) | Kind::Unsigned(_) => Stored::Whole,
+        }
+    }
+
+    /// All numbers of some bytes.
+    pub fn read(self, bytes: &[u8], order: Order) -> Vec<f64> {
+        match self {
+            Kind::Float(4) => each(bytes, order, |it| f64::from(f32::from_le_bytes(it))),
+            Kind::Float(_) => each(bytes, order, f64::from_le_bytes),
+            Kind::Signed(1) => each(bytes, order, |it| f64::from(i8::from_le_bytes(it))),
+            Kind::Signed(2) => each(bytes, order, |it| f64::from(i16::from_le_bytes(it))),
+            Kind::Signed(4) => each(bytes, order, |it| f64::from(i32::from_le_bytes(it))),
+            Kind::Signed(_) => each(bytes, order, |it| i64::from_le_bytes(it) as f64),
+            Kind::Unsigned(1) => each(bytes, order, |it| f64::from(u8::from_le_bytes(it))),
+            Kind::Unsigned(2) => each(bytes, order, |it| f64::from(u16::from_le_bytes(it))),
+            Kind::Unsigned(4) => each(bytes, order, |it| f64::from(u32::from_le_bytes(it))),
+            Kind::Unsigned(_) => each(bytes, order, |it| u64::from_le_bytes(it) as f64),
+        }
+    }
+}
+
+fn each<const N: usize>(bytes: &[u8], order: Order, read: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+    let in_order = |bytes: &[u8; N]| {
+        let mut bytes = *bytes;
+        if order == Order::Big {
+            bytes.reverse();
+        }
+        read(bytes)
+    };
+    bytes.as_chunks().0.iter().map(in_order).collect()
+}
+
+/// How many numbers, and bytes of them, so many rows have; or that no file holds as many.
+pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistake> {
+    let numbers = rows.checked_mul(components).filter(|it| it.checked_mul(kind.bytes()).is_some());
+    numbers.ok_or_else(|| {
+        Mistake::new(format!("{rows} times {components} numbers: no file holds as many"))
+    })
+}
+
+/// Numbers as positions.
+pub fn positions(values: Vec<f64>) -> Result<Vec<usize>, Mistake> {
+    // Beyond that, a number in double precision may be another than the integer that was stored.
+    const MOST: f64 = (1_u64 << 53) as f64;
+    let position = |value: f64| match (0.0..MOST).contains(&value) && value.fract() == 0.0 {
+        true => Ok(value as usize),
+        false => Err(Mistake::new(format!("expected the number of a point, found {value}"))),
+    };
+    values.into_iter().map(position).collect()
+}

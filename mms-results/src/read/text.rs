@@ -1,0 +1,130 @@
+//! Numbers in text, and how many digits they have.
+
+use crate::{Array, Stored};
+
+/// What a number of the text is like.
+#[derive(Clone, Copy, Debug, Default)]
+struct Written {
+    significant: u32,
+    decimals: u32,
+    is_whole: bool,
+    has_exponent: bool,
+    ends_in_zero: bool,
+}
+
+impl Written {
+    fn of(text: &str) -> Self {
+        let (mantissa, exponent) =
+            text.split_once(['e', 'E', 'd', 'D']).map_or((text, false), |(it, _)| (it, true));
+        let (before, after) =
+            mantissa.split_once('.').map_or((mantissa, None), |(it, after)| (it, Some(after)));
+        let digits = before.bytes().chain(after.unwrap_or("").bytes()).filter(u8::is_ascii_digit);
+        Written {
+            significant: digits.skip_while(|&digit| digit == b'0').count() as u32,
+            decimals: after.map_or(0, |after| after.len() as u32),
+            is_whole: after.is_none() && !exponent,
+            has_exponent: exponent,
+            ends_in_zero: after.is_some_and(|after| after.ends_with('0')),
+        }
+    }
+}
+
+/// What the numbers of an array are like, all together.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Style {
+    first: Option<Written>,
+    most: Written,
+    varies: bool,
+}
+
+impl Style {
+    /// Looks at one more number.
+    pub fn see(&mut self, text: &str) {
+        let (one, most) = (Written::of(text), self.most);
+        let first = *self.first.get_or_insert(one);
+        self.varies |= one.decimals != first.decimals || one.is_whole != first.is_whole;
+        self.most = Written {
+            significant: most.significant.max(one.significant),
+            decimals: first.decimals,
+            is_whole: first.is_whole,
+            has_exponent: most.has_exponent | one.has_exponent,
+            ends_in_zero: most.ends_in_zero | one.ends_in_zero,
+        };
+    }
+
+    /// How they were stored. As many digits after the point everywhere are a fixed number of them only where
+    /// some end in zero: 0.125 and 0.375 may be exact.
+    pub fn stored(&self) -> Stored {
+        let Written { significant, decimals, is_whole, has_exponent, ends_in_zero } = self.most;
+        match self.varies || has_exponent {
+            false if is_whole => Stored::Whole,
+            false if ends_in_zero => Stored::Fixed(decimals),
+            _ => Stored::Digits(significant),
+        }
+    }
+}
+
+/// The digits from which on a text holds all of a number in single and in double precision, but for its last bits.
+const ALL_OF_SINGLE: u32 = 8;
+const ALL_OF_DOUBLE: u32 = 16;
+
+/// Gives arrays the significant digits of the one that has most: a program writes all in one way, and an array of few
+/// digits may hold numbers that have no more.
+pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
+    let digits = |stored: Stored| if let Stored::Digits(digits) = stored { digits } else { 0 };
+    let most = arrays.iter().map(|array| digits(array.stored)).max().unwrap_or(0);
+    for (array, &single) in arrays.iter_mut().zip(single) {
+        array.stored = match array.stored {
+            Stored::Digits(_) if single && most >= ALL_OF_SINGLE => Stored::Single,
+            Stored::Digits(_) if most >= ALL_OF_DOUBLE => Stored::Double,
+            Stored::Digits(_) => Stored::Digits(most),
+            Stored::Fixed(decimals) if decimals >= ALL_OF_DOUBLE => Stored::Double,
+            other => other,
+        };
+    }
+}
+
+/// A number as programs write it: Fortran's `1.0D-3` too.
+pub fn number(text: &str) -> Option<f64> {
+    let value = text.parse().ok();
+    value.or_else(|| {
+        text.contains(['d', 'D']).then(|| text.replace(['d', 'D'], "e").parse().ok())?
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stored(texts: &[&str]) -> Stored {
+        let mut style = Style::default();
+        texts.iter().for_each(|text| style.see(text));
+        style.stored()
+    }
+
+    #[test]
+    fn digits_are_counted_as_they_are_written() {
+        assert_eq!(stored(&["1", "-20"]), Stored::Whole);
+        assert_eq!(stored(&["0.100000", "12.345678"]), Stored::Fixed(6));
+        assert_eq!(stored(&["0.125", "0.375"]), Stored::Digits(3));
+        assert_eq!(stored(&["0.00123457", "-0.5"]), Stored::Digits(6));
+        assert_eq!(stored(&["1.2346e-03", "1.0000e+00"]), Stored::Digits(5));
+        assert_eq!(stored(&["0", "1e-5"]), Stored::Digits(1));
+    }
+
+    #[test]
+    fn a_rounding_is_half_a_unit_in_the_last_place() {
+        assert_eq!(Stored::Fixed(6).rounding(12.0), 0.5e-6);
+        assert!((Stored::Digits(6).rounding(0.00123457) - 0.5e-8).abs() < 1e-20);
+        assert_eq!(Stored::Double.rounding(1.0), f64::EPSILON / 2.0);
+        assert_eq!(Stored::Single.rounding(2.0), f64::from(f32::EPSILON));
+    }
+
+    #[test]
+    fn numbers_of_fortran_are_read() {
+        assert_eq!(number("1.5D-3"), Some(1.5e-3));
+        assert_eq!(number("-2e5"), Some(-2e5));
+        assert_eq!(number("word"), None);
+        assert_eq!(number("d"), None);
+    }
+}

@@ -1,0 +1,439 @@
+//! VTK in XML: "VTK XML Formats" (Kitware, VTK documentation).
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::base64::Encoded;
+use super::numbers::{Kind, Order, count, positions};
+use super::table::is_time;
+use super::text::{Style, number, settle};
+use super::{Contents, MOST_FILES};
+use crate::snapshot::Section;
+use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
+
+/// How many elements a file may have: its numbers are none.
+const MOST_ELEMENTS: u32 = 200_000;
+/// How long a tag may be. The attributes of one are compared with each other.
+const LONGEST_TAG: usize = 4096;
+
+/// How the numbers of a file are written.
+struct Format<'a> {
+    order: Order,
+    /// Of the lengths before arrays.
+    header: Kind,
+    is_compressed: bool,
+    appended: Option<Encoded<'a>>,
+}
+
+/// Arrays of a file, and of each whether it is declared to be in single precision.
+#[derive(Default)]
+struct Arrays {
+    all: Vec<Array>,
+    single: Vec<bool>,
+}
+
+/// Reads a file: its grid, or the list of its files.
+pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
+    let (text, appended) = split(bytes);
+    let text = match appended {
+        Some(_) => [text, b"</VTKFile>"].concat(),
+        None => text.to_vec(),
+    };
+    let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    hold_tags(text.as_bytes())?;
+    let options = ParsingOptions { nodes_limit: MOST_ELEMENTS, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options)
+        .map_err(|error| Mistake::at(error.pos().row as usize, format!("not XML: {error}")))?;
+    let root = document.root_element();
+    if !root.has_tag_name("VTKFile") {
+        let what = match root.tag_name().name() {
+            "Xdmf" => "XDMF is not read; convert it to VTK, as with `meshio convert`".into(),
+            other => format!("expected `<VTKFile>`, found `<{other}>`"),
+        };
+        return Err(Mistake::new(what));
+    }
+    contents(root, &Format::of(root, appended)?)
+}
+
+/// The XML of a file, and what stands behind it in bytes, after the tag of its element.
+fn split(bytes: &[u8]) -> (&[u8], Option<[&[u8]; 2]>) {
+    let Some(start) = memchr::memmem::find(bytes, b"<AppendedData") else { return (bytes, None) };
+    let (text, rest) = bytes.split_at(start);
+    let Some(end) = memchr::memchr(b'>', rest) else { return (bytes, None) };
+    let (tag, data) = rest.split_at(end);
+    let data = memchr::memchr(b'_', data).map_or(&data[..0], |at| &data[at + 1..]);
+    (text, Some([tag, data]))
+}
+
+/// Refuses tags that are longer than any program writes.
+fn hold_tags(text: &[u8]) -> Result<(), Mistake> {
+    let mut at = 0;
+    while let Some(start) = memchr::memchr(b'<', &text[at..]) {
+        at += start;
+        let rest = &text[at..];
+        let length = match rest.starts_with(b"<!--") {
+            true => memchr::memmem::find(rest, b"-->"),
+            false => tag(&rest[..rest.len().min(LONGEST_TAG)]),
+        };
+        match length {
+            Some(length) => at += length + 1,
+            None if rest.len() <= LONGEST_TAG || rest.starts_with(b"<!--") => break,
+            None => {
+                return Err(Mistake::new(format!("a tag of more than {LONGEST_TAG} bytes")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where a tag ends.
+fn tag(text: &[u8]) -> Option<usize> {
+    let mut quote = None;
+    text.iter().position(|&byte| match quote {
+        Some(mark) => {
+            quote = quote.filter(|_| byte != mark);
+            false
+        }
+        None => {
+            quote = matches!(byte, b'"' | b'\'').then_some(byte);
+            byte == b'>'
+        }
+    })
+}
+
+impl<'a> Format<'a> {
+    fn of(root: Node<'_, '_>, appended: Option<[&'a [u8]; 2]>) -> Result<Self, Mistake> {
+        let order = match root.attribute("byte_order") {
+            Some("BigEndian") => Order::Big,
+            _ => Order::Little,
+        };
+        let header = match root.attribute("header_type") {
+            Some("UInt64") => Kind::Unsigned(8),
+            None | Some("UInt32") => Kind::Unsigned(4),
+            Some(other) => {
+                return Err(at(root, format!("header_type `{other}`: expected UInt32 or UInt64")));
+            }
+        };
+        let is_compressed = match root.attribute("compressor") {
+            None => false,
+            Some("vtkZLibDataCompressor") => true,
+            Some(other) => {
+                let what = format!(
+                    "compressed with `{other}`, which is not read: write without compression, or with \
+                     vtkZLibDataCompressor"
+                );
+                return Err(at(root, what));
+            }
+        };
+        let appended = appended.map(|[tag, data]| match memchr::memmem::find(tag, b"base64") {
+            Some(_) => Encoded::Base64(letters(data), Vec::new()),
+            None => Encoded::Raw(data),
+        });
+        Ok(Format { order, header, is_compressed, appended })
+    }
+}
+
+/// What is base64 of these bytes.
+fn letters(bytes: &[u8]) -> &[u8] {
+    let end = memchr::memchr(b'<', bytes).unwrap_or(bytes.len());
+    bytes[..end].trim_ascii()
+}
+
+/// A mistake at the line of an element.
+fn at(node: Node<'_, '_>, what: impl Into<String>) -> Mistake {
+    Mistake::at(line(node), what)
+}
+
+fn line(node: Node<'_, '_>) -> usize {
+    node.document().text_pos_at(node.range().start).row as usize
+}
+
+fn child<'a, 'b>(node: Node<'a, 'b>, name: &str) -> Option<Node<'a, 'b>> {
+    node.children().find(|child| child.has_tag_name(name))
+}
+
+fn contents(root: Node<'_, '_>, format: &Format<'_>) -> Result<Contents, Mistake> {
+    let kind = root.attribute("type").unwrap_or("");
+    let body =
+        child(root, kind).ok_or_else(|| at(root, format!("expected an element `<{kind}>`")))?;
+    match kind {
+        "Collection" => times(body),
+        "PUnstructuredGrid" | "PPolyData" => {
+            let files = body.children().filter(|it| it.has_tag_name("Piece"));
+            Ok(Contents::Pieces(names(files, "Source")?))
+        }
+        "UnstructuredGrid" | "PolyData" => {
+            grid(root, body, format).map(|it| Contents::Snapshots(vec![it]))
+        }
+        other => Err(at(
+            root,
+            format!(
+                "`{other}` is not read: expected UnstructuredGrid or PolyData, or a list of such files; ParaView \
+                 turns it into one with `Append Datasets`"
+            ),
+        )),
+    }
+}
+
+/// The files that elements name, each once.
+fn names<'a, 'b: 'a>(
+    nodes: impl Iterator<Item = Node<'a, 'b>>,
+    attribute: &str,
+) -> Result<Vec<String>, Mistake> {
+    let mut files = Vec::new();
+    let mut seen = std::collections::BTreeSet::new();
+    for node in nodes {
+        let file = node.attribute(attribute);
+        let file = file.ok_or_else(|| at(node, format!("expected an attribute `{attribute}`")))?;
+        if !seen.insert(file) {
+            return Err(at(node, format!("the file `{file}` is listed twice")));
+        }
+        files.push(file.to_owned());
+    }
+    match files.len() {
+        0 => Err(Mistake::new("the list has no files")),
+        count if count > MOST_FILES => {
+            Err(Mistake::new(format!("a list of more than {MOST_FILES} files")))
+        }
+        _ => Ok(files),
+    }
+}
+
+fn times(body: Node<'_, '_>) -> Result<Contents, Mistake> {
+    let sets = || body.children().filter(|it| it.has_tag_name("DataSet"));
+    let files = names(sets(), "file")?;
+    let time = |node: Node<'_, '_>| {
+        let text = node.attribute("timestep").unwrap_or("");
+        let value = number(text).filter(|it| it.is_finite());
+        let value = value.ok_or_else(|| at(node, format!("timestep `{text}`: expected a time")))?;
+        let mut style = Style::default();
+        style.see(text);
+        Ok((value, style.stored()))
+    };
+    let found = sets().map(time).collect::<Result<Vec<_>, Mistake>>()?;
+    let digits = found.iter().map(|(_, stored)| digits(*stored)).max().unwrap_or(0);
+    let times = found.into_iter().map(|(value, stored)| {
+        let stored = if let Stored::Digits(_) = stored { Stored::Digits(digits) } else { stored };
+        Time { value, rounding: stored.rounding(value) }
+    });
+    let mut times: Vec<_> = times.zip(files).collect();
+    times.sort_by(|a, b| a.0.value.total_cmp(&b.0.value));
+    Ok(Contents::Times(times))
+}
+
+fn digits(stored: Stored) -> u32 {
+    if let Stored::Digits(digits) = stored { digits } else { 0 }
+}
+
+fn grid(root: Node<'_, '_>, body: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> {
+    let pieces = body.children().filter(|it| it.has_tag_name("Piece"));
+    let pieces = pieces.map(|piece| self::piece(piece, format)).collect::<Result<Vec<_>, _>>()?;
+    if pieces.is_empty() {
+        return Err(at(body, "expected an element `<Piece>`"));
+    }
+    let time = [body, root].into_iter().find_map(|it| child(it, "FieldData"));
+    let time = time.map(|data| time_of(data, format)).transpose()?.flatten();
+    Ok(Snapshot { time, ..Snapshot::join(pieces)? })
+}
+
+/// The time of a file, if its data of the whole have one.
+fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mistake> {
+    let named = |it: &Node<'_, '_>| it.attribute("Name").is_some_and(is_time);
+    let Some(node) = data.children().filter(|it| it.has_tag_name("DataArray")).find(named) else {
+        return Ok(None);
+    };
+    let mut arrays = Arrays::default();
+    arrays.read(node, None, format)?;
+    arrays.settle();
+    let found = arrays.all.first().filter(|array| array.values.len() == 1);
+    let array = found.ok_or_else(|| at(node, "expected one time"))?;
+    let value = array.values[0];
+    Ok(Some(Time { value, rounding: array.stored.rounding(value) }))
+}
+
+fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> {
+    let rows = attribute(piece, "NumberOfPoints")?;
+    let cells = cells(piece, format)?;
+    cells.hold(rows).map_err(|mistake| Mistake { line: Some(line(piece)), ..mistake })?;
+    let mut arrays = Arrays::default();
+    let points = child(piece, "Points").into_iter().flat_map(|it| it.children());
+    for node in points.filter(|it| it.has_tag_name("DataArray")).take(1) {
+        arrays.read(node, Some(rows), format)?;
+    }
+    let has_points = arrays.all.len();
+    arrays.section(piece, "PointData", rows, format)?;
+    let of_points = arrays.all.len();
+    arrays.section(piece, "CellData", cells.len(), format)?;
+    arrays.settle();
+    let mut all = arrays.all;
+    let of_cells = all.split_off(of_points);
+    let of_points = all.split_off(has_points);
+    Ok(Snapshot { points: all.pop(), cells, of_points, of_cells, ..Snapshot::default() })
+}
+
+/// An attribute that is a number; 0 where there is none.
+fn attribute(node: Node<'_, '_>, name: &str) -> Result<usize, Mistake> {
+    let text = node.attribute(name).unwrap_or("0").trim();
+    let wrong = || at(node, format!("{name}=\"{text}\": expected a whole number"));
+    text.parse().map_err(|_| wrong())
+}
+
+fn cells(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Cells, Mistake> {
+    if let Some(node) = child(piece, "Cells") {
+        let (ends, points) =
+            (integers(node, "offsets", format)?, integers(node, "connectivity", format)?);
+        let types = integers(node, "types", format)?.into_iter();
+        let kind = |kind: usize| {
+            u8::try_from(kind).map_err(|_| at(node, format!("no type of cells: {kind}")))
+        };
+        return Ok(Cells { types: types.map(kind).collect::<Result<_, _>>()?, points, ends });
+    }
+    let mut cells = Cells::default();
+    for section in Section::ALL {
+        let Some(node) = child(piece, section.name()) else { continue };
+        let (ends, points) =
+            (integers(node, "offsets", format)?, integers(node, "connectivity", format)?);
+        cells.add(section, &ends, points);
+    }
+    Ok(cells)
+}
+
+/// The array of that name as positions; none where it is not there.
+fn integers(node: Node<'_, '_>, name: &str, format: &Format<'_>) -> Result<Vec<usize>, Mistake> {
+    let named = |it: &Node<'_, '_>| it.attribute("Name") == Some(name);
+    let Some(node) = node.children().find(named) else { return Ok(Vec::new()) };
+    let mut arrays = Arrays::default();
+    arrays.read(node, None, format)?;
+    let values = arrays.all.pop().map(|array| array.values).unwrap_or_default();
+    positions(values).map_err(|mistake| at(node, mistake.what))
+}
+
+impl Arrays {
+    /// Reads the arrays of points or of cells.
+    fn section(
+        &mut self,
+        piece: Node<'_, '_>,
+        name: &str,
+        rows: usize,
+        format: &Format<'_>,
+    ) -> Result<(), Mistake> {
+        let Some(section) = child(piece, name) else { return Ok(()) };
+        let mut nodes = section.children().filter(|it| it.has_tag_name("DataArray"));
+        nodes.try_for_each(|node| self.read(node, Some(rows), format))
+    }
+
+    /// Reads an array; one of words is left out.
+    fn read(
+        &mut self,
+        node: Node<'_, '_>,
+        rows: Option<usize>,
+        format: &Format<'_>,
+    ) -> Result<(), Mistake> {
+        let kind = node.attribute("type").unwrap_or("");
+        if kind == "String" {
+            return Ok(());
+        }
+        let kind = Kind::of_xml(kind).ok_or_else(|| {
+            at(node, format!("type `{kind}`: expected one such as Float64 or Int32"))
+        })?;
+        let components = attribute(node, "NumberOfComponents")?.max(1);
+        let expected = rows.map(|rows| count(rows, components, kind)).transpose()?;
+        let found = match node.attribute("format") {
+            None | Some("ascii") => ascii(node, kind),
+            Some("binary") => {
+                let text = node.text().unwrap_or("").as_bytes();
+                let clean: Vec<u8>;
+                let text = match text.trim_ascii() {
+                    text if text.iter().any(u8::is_ascii_whitespace) => {
+                        clean =
+                            text.iter().copied().filter(|it| !it.is_ascii_whitespace()).collect();
+                        &clean
+                    }
+                    text => text,
+                };
+                format.decode(Encoded::Base64(text, Vec::new()), kind)
+            }
+            Some("appended") => format.appended_at(attribute(node, "offset")?, kind),
+            Some(other) => {
+                Err(Mistake::new(format!("format `{other}`: expected ascii, binary or appended")))
+            }
+        };
+        let name = node.attribute("Name").unwrap_or("").to_owned();
+        let (values, stored) =
+            found.map_err(|mistake| at(node, format!("`{name}`: {}", mistake.what)))?;
+        if expected.is_some_and(|expected| expected != values.len())
+            || values.len() % components != 0
+        {
+            let what = format!(
+                "`{name}`: {} numbers, and expected {components} for each of {} points or cells",
+                values.len(),
+                rows.unwrap_or(0)
+            );
+            return Err(at(node, what));
+        }
+        self.all.push(Array { name, components, values, stored });
+        self.single.push(kind == Kind::Float(4));
+        Ok(())
+    }
+
+    fn settle(&mut self) {
+        settle(&mut self.all.iter_mut().collect::<Vec<_>>(), &self.single);
+    }
+}
+
+/// The numbers of an array in text.
+fn ascii(node: Node<'_, '_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+    let mut style = Style::default();
+    let value = |text: &str| {
+        style.see(text);
+        number(text).ok_or_else(|| Mistake::new(format!("expected a number, found `{text}`")))
+    };
+    let values = node.text().unwrap_or("").split_ascii_whitespace().map(value);
+    let values = values.collect::<Result<Vec<_>, _>>()?;
+    Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
+}
+
+impl Format<'_> {
+    fn appended_at(&self, offset: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+        let beyond = || Mistake::new(format!("offset {offset}: beyond the appended data"));
+        let encoded = match self.appended.as_ref().ok_or_else(beyond)? {
+            Encoded::Raw(bytes) => Encoded::Raw(bytes.get(offset..).ok_or_else(beyond)?),
+            Encoded::Base64(text, _) => {
+                Encoded::Base64(text.get(offset..).ok_or_else(beyond)?, Vec::new())
+            }
+        };
+        self.decode(encoded, kind)
+    }
+
+    fn decode(&self, mut encoded: Encoded<'_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+        let bytes = match self.is_compressed {
+            true => self.inflate(&mut encoded)?,
+            false => {
+                let length = encoded.integer(self.header, self.order)?;
+                encoded.take(length)?
+            }
+        };
+        if bytes.len() % kind.bytes() != 0 {
+            return Err(Mistake::new("its length is not that of whole numbers"));
+        }
+        Ok((kind.read(&bytes, self.order), kind.stored()))
+    }
+
+    /// Blocks of bytes, each compressed for itself: how many, their length, that of the last if it is another, and the
+    /// lengths to which they were compressed.
+    fn inflate(&self, encoded: &mut Encoded<'_>) -> Result<Vec<u8>, Mistake> {
+        let blocks = encoded.integer(self.header, self.order)?;
+        let [length, last] =
+            [encoded.integer(self.header, self.order)?, encoded.integer(self.header, self.order)?];
+        let table = encoded.take(blocks.saturating_mul(self.header.bytes()))?;
+        let mut bytes = Vec::new();
+        for (block, compressed) in self.header.read(&table, self.order).into_iter().enumerate() {
+            let compressed = encoded.take(compressed as usize)?;
+            let length = if block + 1 == blocks && last > 0 { last } else { length };
+            let block =
+                miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(&compressed, length);
+            bytes.extend(block.map_err(|error| Mistake::new(format!("not zlib: {error}")))?);
+        }
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,264 @@
+//! What a file holds of one mesh at one time.
+
+use crate::Mistake;
+
+/// How numbers were stored, and so how far each may be from what the solver had.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// In single precision.
+    Single,
+    /// In double precision, or in text with as many digits.
+    Double,
+    /// As integers, which are exact.
+    Whole,
+    /// In text, with so many digits after the point.
+    Fixed(u32),
+    /// In text, with so many significant digits.
+    Digits(u32),
+}
+
+impl Stored {
+    /// Half a unit in the last place of a number of this magnitude.
+    pub fn rounding(self, magnitude: f64) -> f64 {
+        let magnitude = magnitude.abs();
+        match self {
+            Stored::Single => magnitude * f64::from(f32::EPSILON) / 2.0,
+            Stored::Double => magnitude * f64::EPSILON / 2.0,
+            Stored::Whole => 0.0,
+            Stored::Fixed(decimals) => 0.5 * 10f64.powi(-(decimals as i32)),
+            Stored::Digits(_) if magnitude == 0.0 => 0.0,
+            Stored::Digits(digits) => {
+                0.5 * 10f64.powi(magnitude.log10().floor() as i32 + 1 - digits as i32)
+            }
+        }
+    }
+
+    /// What a person calls it.
+    pub fn name(self) -> String {
+        match self {
+            Stored::Single => "single precision".into(),
+            Stored::Double => "double precision".into(),
+            Stored::Whole => "integers".into(),
+            Stored::Fixed(decimals) => format!("{decimals} digits after the point"),
+            Stored::Digits(digits) => format!("{digits} significant digits"),
+        }
+    }
+}
+
+/// Named numbers, so many for each point or cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Array {
+    /// Its name in the file.
+    pub name: String,
+    /// Numbers of one point or cell; 1 at least.
+    pub components: usize,
+    /// All numbers, those of a point or cell together.
+    pub values: Vec<f64>,
+    /// How they were stored.
+    pub stored: Stored,
+}
+
+impl Array {
+    /// How many points or cells it has numbers for.
+    pub fn rows(&self) -> usize {
+        self.values.len() / self.components
+    }
+
+    /// The same, without numbers.
+    pub(crate) fn clone_without_values(&self) -> Array {
+        Array { name: self.name.clone(), values: Vec::new(), ..*self }
+    }
+
+    /// How far its numbers may be from those that were stored, at the largest of them.
+    pub fn rounding(&self) -> f64 {
+        let largest = self.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        self.stored.rounding(largest)
+    }
+}
+
+/// Cells, by the numbers that VTK gives to their types.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Cells {
+    /// The type of each.
+    pub types: Vec<u8>,
+    /// The points of all cells, one cell after the other.
+    pub points: Vec<usize>,
+    /// Where the points of each cell end.
+    pub ends: Vec<usize>,
+}
+
+impl Cells {
+    /// The type and the points of each cell.
+    pub fn iter(&self) -> impl Iterator<Item = (u8, &[usize])> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        let each = self.types.iter().zip(starts.zip(&self.ends));
+        each.map(|(&kind, (start, &end))| (kind, &self.points[start..end]))
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.types.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.types.is_empty()
+    }
+
+    /// Refuses cells that do not end one after the other, or have points beyond the last.
+    pub(crate) fn hold(&self, points: usize) -> Result<(), Mistake> {
+        let (types, ends) = (self.types.len(), self.ends.len());
+        if types != ends {
+            return Err(Mistake::new(format!("{types} types of cells for {ends} cells")));
+        }
+        if !self.ends.is_sorted() || self.ends.last().copied().unwrap_or(0) != self.points.len() {
+            return Err(Mistake::new("the offsets of the cells do not fit their connectivity"));
+        }
+        match self.points.iter().find(|&&point| point >= points) {
+            Some(point) => Err(Mistake::new(format!(
+                "a cell has the point {point}, counted from 0, but there are {points} points"
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A time, and how far it may be from that of the solver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Time {
+    /// The time.
+    pub value: f64,
+    /// Half a unit in the last place that was stored.
+    pub rounding: f64,
+}
+
+/// What a file holds of one mesh at one time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// The file.
+    pub path: String,
+    /// The time, where it is known.
+    pub time: Option<Time>,
+    /// The places of the points, where the format has such.
+    pub points: Option<Array>,
+    /// The cells, where the format has such.
+    pub cells: Cells,
+    /// Named numbers of points.
+    pub of_points: Vec<Array>,
+    /// Named numbers of cells.
+    pub of_cells: Vec<Array>,
+    /// The lines on which the points stand; none in files without lines.
+    pub lines: Vec<usize>,
+}
+
+impl Snapshot {
+    /// Where a point stands: `path:line`, or its number.
+    pub fn place(&self, point: usize) -> String {
+        match self.lines.get(point) {
+            Some(line) => format!("{}:{line}", self.path),
+            None => format!("{}: point {point}", self.path),
+        }
+    }
+
+    /// The snapshots as one: pieces of a mesh, with the same arrays.
+    ///
+    /// # Errors
+    /// An array that only some have, or that has other components there.
+    pub(crate) fn join(pieces: Vec<Snapshot>) -> Result<Snapshot, Mistake> {
+        let mut pieces = pieces.into_iter();
+        let mut whole = pieces.next().unwrap_or_default();
+        for piece in pieces {
+            whole.append(piece)?;
+        }
+        Ok(whole)
+    }
+
+    fn append(&mut self, piece: Snapshot) -> Result<(), Mistake> {
+        let before = self.points.as_ref().map_or(0, Array::rows);
+        let connected = self.cells.points.len();
+        self.cells.points.extend(piece.cells.points.iter().map(|point| point + before));
+        self.cells.ends.extend(piece.cells.ends.iter().map(|end| end + connected));
+        self.cells.types.extend(piece.cells.types);
+        append(self.points.as_mut_slice(), piece.points.into_iter().collect())?;
+        append(&mut self.of_points, piece.of_points)?;
+        append(&mut self.of_cells, piece.of_cells)
+    }
+}
+
+/// Appends arrays to those of the same names.
+fn append(arrays: &mut [Array], more: Vec<Array>) -> Result<(), Mistake> {
+    if arrays.len() != more.len() {
+        return Err(Mistake::new("its pieces do not have the same arrays"));
+    }
+    for (array, more) in arrays.iter_mut().zip(more) {
+        if array.name != more.name || array.components != more.components {
+            let what = format!("the array `{}` is not in all its pieces", array.name);
+            return Err(Mistake::new(what));
+        }
+        array.values.extend(more.values);
+        array.stored = array.stored.coarser(more.stored);
+    }
+    Ok(())
+}
+
+impl Stored {
+    /// The one that leaves more of a rounding.
+    pub(crate) fn coarser(self, other: Stored) -> Stored {
+        if self.rounding(1.0) >= other.rounding(1.0) { self } else { other }
+    }
+}
+
+/// The parts of a surface in VTK, in the order of their cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Section {
+    /// Points.
+    Verts,
+    /// Lines.
+    Lines,
+    /// Polygons.
+    Polys,
+    /// Strips of triangles.
+    Strips,
+}
+
+impl Section {
+    /// All of them.
+    pub const ALL: [Section; 4] = [Section::Verts, Section::Lines, Section::Polys, Section::Strips];
+
+    /// Its name in XML.
+    pub fn name(self) -> &'static str {
+        match self {
+            Section::Verts => "Verts",
+            Section::Lines => "Lines",
+            Section::Polys => "Polys",
+            Section::Strips => "Strips",
+        }
+    }
+
+    /// The type of one of its cells with so many points.
+    fn kind(self, points: usize) -> u8 {
+        match (self, points) {
+            (Section::Verts, 1) => 1,
+            (Section::Verts, _) => 2,
+            (Section::Lines, 2) => 3,
+            (Section::Lines, _) => 4,
+            (Section::Polys, 3) => 5,
+            (Section::Polys, 4) => 9,
+            (Section::Polys, _) => 7,
+            (Section::Strips, _) => 6,
+        }
+    }
+}
+
+impl Cells {
+    /// Adds the cells of a section.
+    pub(crate) fn add(&mut self, section: Section, ends: &[usize], points: Vec<usize>) {
+        let (before, mut start) = (self.points.len(), 0);
+        for &end in ends {
+            self.types.push(section.kind(end.saturating_sub(start)));
+            self.ends.push(before.saturating_add(end));
+            start = end;
+        }
+        self.points.extend(points);
+    }
+}

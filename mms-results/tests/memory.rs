@@ -1,0 +1,41 @@
+//! No file takes more memory than its own numbers do, a few times over: counted by the allocator. Alone in its program,
+//! since it counts everything that runs in it.
+
+use mms_results::parse;
+use peak_alloc::PeakAlloc;
+
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
+
+/// A number of a table is two bytes at least, and becomes eight; an element of XML is three, and becomes two hundred
+/// while their list grows.
+const FACTOR: usize = 80;
+/// A table may have 10,000 times, of some hundred bytes each.
+const BASE: usize = 8 << 20;
+
+#[test]
+fn no_file_takes_more_memory_than_it_honestly_asks_for() {
+    let claimed = usize::MAX / 32;
+    let vtk = "# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\n";
+    let attributes: String = (0..100_000).map(|at| format!(" a{at}=\"\"")).collect();
+    let texts = [
+        format!("{vtk}POINTS {claimed} double\n"),
+        format!("{vtk}VERTICES {claimed} {claimed}\n"),
+        format!("{vtk}FIELD FieldData {claimed}\n"),
+        format!("X,u\n{}", "1,2\n".repeat(100_000)),
+        format!("t,u\n{}", (0..10_000).map(|at| format!("{at},2\n")).collect::<String>()),
+        format!("t,u\n{}", (0..100_000).map(|at| format!("{at},2\n")).collect::<String>()),
+        format!("<a{attributes}/>"),
+        "<a/>".repeat(100_000),
+        "<a>".repeat(100_000),
+        "\u{93}".repeat(100_000),
+    ];
+    for text in &texts {
+        let before = ALLOCATOR.current_usage();
+        ALLOCATOR.reset_peak_usage();
+        let _ = parse(text.as_bytes());
+        let taken = ALLOCATOR.peak_usage().saturating_sub(before);
+        let name: String = text.chars().take(80).collect();
+        assert!(taken <= BASE + FACTOR * text.len(), "{name}: {taken} bytes for {}", text.len());
+    }
+}

@@ -1,0 +1,251 @@
+//! Norms against sums and quadratures that are made in another way.
+
+use mms_results::Cells;
+use mms_results::cell::{Local, Shape};
+use mms_results::norm::{Asked, Exact, Mesh, lengths, over_points};
+
+#[test]
+fn norms_over_points_are_their_definitions() {
+    let errors = lengths(&[3.0, 4.0, 1.0, 0.0], &[0.0, 0.0, 1.0, 0.0], 2);
+    assert_eq!(errors, [5.0, 0.0]);
+    let norms = over_points(&errors, None).unwrap();
+    assert_eq!((norms.l1, norms.l2, norms.linf, norms.at), (2.5, 12.5_f64.sqrt(), 5.0, 0));
+    let weighted = over_points(&errors, Some(&[1.0, 3.0])).unwrap();
+    assert_eq!((weighted.l1, weighted.l2, weighted.linf), (1.25, 2.5, 5.0));
+    assert_eq!(over_points(&[], None), None);
+    assert_eq!(over_points(&errors, Some(&[0.0, 0.0])), None);
+}
+
+/// One cell of that kind, at X = A xi with A below.
+struct One {
+    cells: Cells,
+    points: Vec<f64>,
+    dimension: usize,
+}
+
+/// Rows of A: a cell that is stretched and sheared.
+const A: [[f64; 3]; 3] = [[0.7, 0.2, 0.1], [0.0, 0.9, -0.3], [0.0, 0.0, 0.6]];
+
+fn place(local: Local, dimension: usize) -> Vec<f64> {
+    (0..dimension).map(|row| (0..dimension).map(|j| A[row][j] * local[j]).sum()).collect()
+}
+
+/// Where that is in the reference cell, by back substitution.
+fn local(place: &[f64]) -> Local {
+    let mut local = [0.0; 3];
+    for row in (0..place.len()).rev() {
+        let known: f64 = (row + 1..place.len()).map(|j| A[row][j] * local[j]).sum();
+        local[row] = (place[row] - known) / A[row][row];
+    }
+    local
+}
+
+impl One {
+    fn new(shape: &Shape) -> Self {
+        let (dimension, count) = (shape.dimension, shape.nodes.len());
+        let cells =
+            Cells { types: vec![shape.kind()], points: (0..count).collect(), ends: vec![count] };
+        let points = shape.nodes.iter().flat_map(|&node| place(node, dimension)).collect();
+        One { cells, points, dimension }
+    }
+
+    fn mesh(&self) -> Mesh<'_> {
+        Mesh { cells: &self.cells, points: &self.points, dimension: self.dimension }
+    }
+}
+
+/// A smooth function of two components, and its gradient by differences.
+fn smooth(x: &[f64]) -> [f64; 2] {
+    let phase: f64 = x.iter().zip([1.3, 0.7, -0.4]).map(|(x, k)| k * x).sum();
+    [phase.sin(), 0.3 * (2.0 * phase).cos()]
+}
+
+fn gradient(of: impl Fn(&[f64]) -> [f64; 2], x: &[f64]) -> Vec<f64> {
+    let step = 1e-5;
+    let by = |axis: usize| {
+        let moved = |by: f64| {
+            let mut x = x.to_vec();
+            x[axis] += by;
+            of(&x)
+        };
+        let (before, after) = (moved(-step), moved(step));
+        [0, 1].map(|row| (after[row] - before[row]) / (2.0 * step))
+    };
+    let columns: Vec<_> = (0..x.len()).map(by).collect();
+    [0, 1].into_iter().flat_map(|row| columns.iter().map(move |column| column[row])).collect()
+}
+
+fn exact(asked: Asked, places: &[f64], dimension: usize) -> Vec<f64> {
+    let points = places.chunks(dimension);
+    match asked {
+        Asked::Values => points.flat_map(smooth).collect(),
+        Asked::Gradients => points.flat_map(|x| gradient(smooth, x)).collect(),
+    }
+}
+
+/// Points spread evenly over a reference cell: those of a grid; on a simplex, the differences of their sorted
+/// coordinates, which are spread evenly too.
+fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
+    let is_simplex = [5, 10, 22, 24].contains(&shape.kind());
+    let count = per_edge.pow(shape.dimension as u32);
+    let coordinate = |index: usize, axis: usize| {
+        ((index / per_edge.pow(axis as u32)) % per_edge) as f64 / per_edge as f64
+            + 0.5 / per_edge as f64
+    };
+    let point = |index: usize| {
+        let mut at = [0.0; 3];
+        (0..shape.dimension).for_each(|axis| at[axis] = coordinate(index, axis));
+        if is_simplex {
+            at[..shape.dimension].sort_by(|a, b| b.total_cmp(a));
+            at = [at[0] - at[1], at[1] - at[2], at[2]];
+        }
+        at
+    };
+    (0..count).map(point).collect()
+}
+
+#[test]
+fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
+    for shape in Shape::all() {
+        let (one, dimension) = (One::new(shape), shape.dimension);
+        let values: Vec<f64> = one.points.chunks(dimension).flat_map(smooth).collect();
+        let mut asked = |what: Asked, places: &[f64]| Ok(exact(what, places, dimension));
+        let found = one.mesh().measure(&values, 2, &mut asked).unwrap();
+        let computed = |x: &[f64]| {
+            let functions = shape.values(local(x));
+            [0, 1].map(|row| {
+                functions.iter().enumerate().map(|(node, n)| n * values[2 * node + row]).sum()
+            })
+        };
+        let points = spread(shape, [20_000, 150, 30][dimension - 1]);
+        let (mut of_value, mut of_gradient) = (Vec::new(), Vec::new());
+        for &at in &points {
+            let x = place(at, dimension);
+            of_value.extend(lengths(&computed(&x), &smooth(&x), 2));
+            let size = 2 * dimension;
+            of_gradient.extend(lengths(&gradient(computed, &x), &gradient(smooth, &x), size));
+        }
+        let node = |at: &Local| {
+            let x = place(*at, dimension);
+            lengths(&gradient(computed, &x), &gradient(smooth, &x), 2 * dimension)[0]
+        };
+        let largest = shape.nodes.iter().map(node).fold(0.0, f64::max);
+        let parts = [(found.value, of_value, 0.0), (found.gradient, of_gradient, largest)];
+        for (found, errors, at_nodes) in parts {
+            let sum = over_points(&errors, None).unwrap();
+            let near =
+                |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-3, "{}: {a} {b}", shape.kind());
+            near(found.l2, sum.l2);
+            // The length of an error has a kink where it is 0, which four or five points in a direction see only roughly.
+            let l1 = found.l1 / sum.l1;
+            assert!((l1 - 1.0).abs() < 0.2, "{}: {} {}", shape.kind(), found.l1, sum.l1);
+            // The points of the sum are none of the nodes, at which the largest error of a gradient may be.
+            let linf = found.linf / sum.linf.max(at_nodes);
+            assert!(linf > 0.8 && linf < 1.01, "{}: {} {}", shape.kind(), found.linf, sum.linf);
+        }
+    }
+}
+
+/// A cell whose nodes are off their places still holds what is linear in X.
+#[test]
+fn what_is_linear_has_no_error_on_any_cell() {
+    for shape in Shape::all() {
+        let mut one = One::new(shape);
+        let wobble = |(at, x): (usize, &mut f64)| *x += 0.03 * ((7 * at) as f64).sin();
+        one.points.iter_mut().enumerate().for_each(wobble);
+        let linear =
+            |x: &[f64]| 0.5 + x.iter().zip([1.0, -2.0, 3.0]).map(|(x, k)| k * x).sum::<f64>();
+        let values: Vec<f64> = one.points.chunks(shape.dimension).map(linear).collect();
+        let mut asked = |what: Asked, places: &[f64]| {
+            let points = places.chunks(shape.dimension);
+            Ok(match what {
+                Asked::Values => points.map(linear).collect(),
+                Asked::Gradients => {
+                    points.flat_map(|x| [1.0, -2.0, 3.0][..x.len()].to_vec()).collect()
+                }
+            })
+        };
+        let found = one.mesh().measure(&values, 1, &mut asked).unwrap();
+        assert!(
+            found.value.linf < 1e-13 && found.gradient.linf < 1e-11,
+            "{}: {found:?}",
+            shape.kind()
+        );
+    }
+}
+
+/// A grid of quads, or of triangles, on the unit square; of degree 1 or 2.
+fn grid(cells: usize, kind: u8) -> (Cells, Vec<f64>) {
+    let degree = if [22, 28].contains(&kind) { 2 } else { 1 };
+    let side = degree * cells + 1;
+    let mut points = Vec::new();
+    for j in 0..side {
+        for i in 0..side {
+            points.extend([i as f64 / (side - 1) as f64, j as f64 / (side - 1) as f64]);
+        }
+    }
+    let shape = Shape::of(kind).unwrap();
+    let mut found = Cells::default();
+    let node = |cell: [usize; 2], at: Local, flipped: bool| {
+        let [x, y] = if flipped { [1.0 - at[0], 1.0 - at[1]] } else { [at[0], at[1]] };
+        let [i, j] = [x, y].map(|it| (degree as f64 * it) as usize);
+        degree * cell[0] + i + side * (degree * cell[1] + j)
+    };
+    let halves: &[bool] = if [5, 22].contains(&kind) { &[false, true] } else { &[false] };
+    for index in 0..cells * cells {
+        for &flipped in halves {
+            let cell = [index % cells, index / cells];
+            found.points.extend(shape.nodes.iter().map(|&at| node(cell, at, flipped)));
+            found.ends.push(found.points.len());
+            found.types.push(kind);
+        }
+    }
+    (found, points)
+}
+
+/// Interpolants of degree p have the orders p + 1 and p: no quadrature of the norms has spoilt them.
+#[test]
+fn interpolants_have_their_orders() {
+    for (kind, degree) in [(5, 1.0), (9, 1.0), (22, 2.0), (28, 2.0)] {
+        let errors = [8, 16].map(|cells| {
+            let (found, points) = grid(cells, kind);
+            let mesh = Mesh { cells: &found, points: &points, dimension: 2 };
+            let sizes = mesh.sizes().unwrap();
+            let edge = if kind == 5 || kind == 22 { 2f64.sqrt() } else { 1.0 } / cells as f64;
+            assert!(sizes.iter().all(|size| (size - edge).abs() < 1e-12));
+            let values: Vec<f64> = points.chunks(2).flat_map(smooth).collect();
+            let mut asked = |what: Asked, places: &[f64]| Ok(exact(what, places, 2));
+            mesh.measure(&values, 2, &mut asked).unwrap()
+        });
+        let order = |norm: &dyn Fn(usize) -> f64| (norm(0) / norm(1)).log2();
+        let (l2, h1) = (order(&|at| errors[at].value.l2), order(&|at| errors[at].gradient.l2));
+        assert!((l2 - degree - 1.0).abs() < 0.02, "{kind}: {l2}");
+        assert!((h1 - degree).abs() < 0.02, "{kind}: {h1}");
+    }
+}
+
+#[test]
+fn flat_and_folded_cells_are_named() {
+    let quad = Cells { types: vec![9], points: vec![0, 1, 2, 3], ends: vec![4] };
+    let mut none = |what: Asked, places: &[f64]| Ok(exact(what, places, 2));
+    let said = |points: &[f64], exact: Exact<'_>| {
+        let mesh = Mesh { cells: &quad, points, dimension: 2 };
+        mesh.measure(&[0.0; 8], 2, exact).unwrap_err().what
+    };
+    let flat = said(&[0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0], &mut none);
+    assert!(flat.contains("cell 0 is flat"), "{flat}");
+    let folded = said(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0], &mut none);
+    assert!(folded.contains("or folded"), "{folded}");
+    let turned = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0];
+    let mesh = Mesh { cells: &quad, points: &turned, dimension: 2 };
+    assert!(mesh.measure(&[0.0; 8], 2, &mut none).is_ok());
+    let solid = Mesh { cells: &quad, points: &[0.0; 12], dimension: 3 };
+    assert!(solid.measure(&[0.0; 12], 3, &mut none).unwrap_err().what.contains("no cell"));
+}
+
+#[test]
+fn middles_are_where_cells_are() {
+    let (cells, points) = grid(2, 9);
+    let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
+    assert_eq!(mesh.middles(), [0.25, 0.25, 0.75, 0.25, 0.25, 0.75, 0.75, 0.75]);
+}
