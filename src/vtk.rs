@@ -120,9 +120,9 @@ fn head(kind: &str) -> String {
 fn document(frame: &Frame) -> String {
     let Frame { dimension, .. } = *frame;
     let count = frame.position.len() / dimension;
-    let vector = |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, 1), 3);
+    let vector = |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, [1, 3]), 3);
     let tensor =
-        |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, dimension), 9);
+        |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, [dimension, 9]), 9);
     let whole = |name: &str, values: &mut dyn Iterator<Item = u64>| {
         let bytes: Vec<u8> = values.flat_map(u64::to_le_bytes).collect();
         array("UInt64", name, 1, &bytes)
@@ -153,12 +153,13 @@ fn document(frame: &Frame) -> String {
     text
 }
 
-/// Tensors of `rows` rows of `dimension` components each, with what is missing in three dimensions: 0.
-fn padded(values: &[f64], dimension: usize, rows: usize) -> Vec<f64> {
+/// Tensors of `rows` rows of `dimension` components each, with what is missing of the `size` that they have in three
+/// dimensions: 0.
+fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64> {
     let mut all = Vec::new();
     for tensor in values.chunks(dimension * rows) {
         let start = all.len();
-        all.resize(start + if rows == 1 { 3 } else { 9 }, 0.0);
+        all.resize(start + size, 0.0);
         for (row, components) in tensor.chunks(dimension).enumerate() {
             all[start + 3 * row..][..dimension].copy_from_slice(components);
         }
@@ -188,9 +189,14 @@ mod tests {
 
     #[test]
     fn missing_components_are_zero() {
-        assert_eq!(padded(&[1.0, 2.0], 1, 1), [1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        assert_eq!(padded(&[1.0, 2.0], 1, [1, 3]), [1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        let lonely = padded(&[1.0, 2.0], 1, [1, 9]);
         assert_eq!(
-            padded(&[1.0, 2.0, 3.0, 4.0], 2, 2),
+            (lonely.len(), lonely[0], lonely[9], lonely.iter().sum::<f64>()),
+            (18, 1.0, 2.0, 3.0)
+        );
+        assert_eq!(
+            padded(&[1.0, 2.0, 3.0, 4.0], 2, [2, 9]),
             [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0]
         );
     }

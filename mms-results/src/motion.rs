@@ -54,6 +54,11 @@ struct Known {
 impl Known {
     fn hold_rows(&self) -> Result<(), Mistake> {
         let all = [&self.reference, &self.position, &self.place, &self.displacement];
+        if all.into_iter().flatten().any(|it| it.is_of_cells) {
+            return Err(Mistake::new(
+                "positions are of points, and those that are named are of cells",
+            ));
+        }
         let mut rows = all.into_iter().flatten().map(|it| it.numbers.len() / it.components);
         match rows.next() {
             Some(0) => Err(Mistake::new("no points")),
@@ -79,7 +84,7 @@ impl Known {
             }
             (Some(x), None, Some(place), None) if is_moved(&place, &x) => {
                 let u = difference(&place, &x);
-                Ok(motion(x, Some(u), "X as given, u = points - X"))
+                Ok(motion(x, Some(u), "X as given, points taken as x, u = x - X"))
             }
             (Some(x), None, _, None) => Ok(motion(x, None, "X as given")),
             (None, Some(present), _, Some(u)) => {
