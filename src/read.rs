@@ -26,6 +26,8 @@ pub enum Kind {
     Study,
     /// A table of errors.
     Errors,
+    /// What a solver wrote.
+    Results,
     /// A document that a command wrote.
     Result,
     /// The result of one run in a store.
@@ -45,6 +47,7 @@ impl Kind {
             Kind::Field => "a field or material file",
             Kind::Study => "a study file",
             Kind::Errors => "a table of errors",
+            Kind::Results => "a file of results",
             Kind::Result => "a result",
             Kind::Stored => "a stored result",
             Kind::States => "a list of states",
@@ -59,6 +62,7 @@ impl Kind {
             Kind::Field | Kind::Study | Kind::Errors => MAX_FILE as u64,
             Kind::Result | Kind::Stored | Kind::States => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
+            Kind::Results => 8 << 30,
         }
     }
 
@@ -70,6 +74,7 @@ impl Kind {
             }
             Kind::Study => "is it the file that was meant? its keys are the options of `mms study`",
             Kind::Errors => "is it the file that was meant? it has a row for each run",
+            Kind::Results => "write fewer times to a file, or fewer quantities",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
             Kind::Stored => "remove it, and the run is made again",
             Kind::States => "write fewer states, with `--frames`",

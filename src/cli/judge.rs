@@ -1,6 +1,8 @@
-//! `mms judge`: the observed order of any solver, from errors that somebody measured.
+//! `mms judge`: the observed order of any solver, from its results, or from errors that somebody measured.
 
-use std::path::PathBuf;
+mod results;
+
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::Context as _;
@@ -18,7 +20,10 @@ use crate::store::digest;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
 ///
-/// The table has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
+/// Results of a FIELD are one FILE for each mesh. Their errors are measured over cells where there are such, and over points
+/// else. Two of X, x and u give the third; --map says what names mean that are not known.
+///
+/// The table of --errors has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
 /// rows of one h are replicates, of other grid offsets or seeds. l1, l2, linf, H1, and what people call them (mean, rms,
 /// max), alone or with the name of a quantity, as in u_l2, are norms; another column is judged by itself. The worst of
 /// all decides. An empty field is a run that stopped; `round_off` is a column of floors below which errors are left out;
@@ -30,9 +35,18 @@ use crate::store::digest;
 /// Exit codes: 0 pass; 1 another verdict; 2 bad usage, or a bad table.
 #[derive(Args)]
 pub struct Judge {
-    /// The table: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.
-    #[arg(long, value_name = "FILE")]
-    errors: PathBuf,
+    /// A gallery name, or a path to a TOML file.
+    #[arg(requires = "files", required_unless_present_any = ["errors", "same"])]
+    field: Option<String>,
+    /// Results, each of one mesh, at one time or more: a file, a list of states (.pvd), a folder, or a quoted pattern such as
+    /// 'out/*.vtu'. CSV with a header, VTK in XML or in the legacy format, NumPy; each is known by its content.
+    #[arg(value_name = "FILE")]
+    files: Vec<String>,
+    /// Judge this table instead: values between commas, semicolons, tabs or blanks; lines that begin with # are comments.
+    #[arg(long, value_name = "TABLE", conflicts_with_all = ["field", "files"])]
+    errors: Option<PathBuf>,
+    #[command(flatten)]
+    results: results::Options,
     /// The order to judge against; that of H1 is one less, if it is not given by NAME. NAME is a norm, a quantity or a
     /// column; `time` is the order in dt where h and dt are refined each by itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',', default_value = "2")]
@@ -69,12 +83,24 @@ impl FromStr for Order {
 impl Judge {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.output.as_deref().map_or(Ok(()), hold_output)?;
-        let text = read::text(&self.errors, Kind::Errors)?;
-        let measured = table::read(&self.errors, &text, &self.orders())?;
-        let source = foreign::path(&self.errors);
+        match (&self.errors, &self.field) {
+            (Some(table), _) => self.errors(table),
+            (None, Some(field)) => self.results(field),
+            (None, None) => self.same(),
+        }
+    }
+
+    fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
+        let text = read::text(table, Kind::Errors)?;
+        let measured = table::read(table, &text, &self.orders())?;
+        let source = foreign::path(table);
         let input = Input { field: None, rigid: None, set: Vec::new(), hash: digest([text]) };
         let provenance = this_command("judge", input);
-        let report = Judgements::of(source.clone(), measured, provenance).context(source)?;
+        self.tell(&Judgements::of(source.clone(), measured, provenance).context(source)?)
+    }
+
+    /// Prints a report, and writes it where that is asked for.
+    fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
         if self.json {
             print_json(&report.document())?;
         } else {

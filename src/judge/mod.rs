@@ -3,6 +3,7 @@
 //! [`table`] reads them from a file. Whoever computes them from results makes a [`Measured`], too.
 
 pub mod names;
+pub mod results;
 pub mod table;
 
 use anyhow::bail;

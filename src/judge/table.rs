@@ -32,7 +32,7 @@ impl Orders {
     }
 
     /// Of a norm of a quantity in this column, in h and in dt.
-    fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
+    pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
         let usual = if norm == "h1" { self.usual - 1.0 } else { self.usual };
         let space = self.find(&[column]).or_else(|| self.find(&[quantity, norm])).unwrap_or(usual);
         let time = self.find(&[TIME]).unwrap_or(self.usual);

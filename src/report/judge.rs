@@ -21,6 +21,10 @@ pub struct Judgements {
     pub refined: Refined,
     /// What is said of each quantity.
     pub judged: Vec<Judged>,
+    /// How the errors were measured, in sentences.
+    pub notes: Vec<String>,
+    /// What the document has besides.
+    pub more: Map<String, Value>,
     /// Where the verdicts are from.
     pub provenance: Provenance,
 }
@@ -42,7 +46,15 @@ impl Judgements {
         let refined = measured.refined()?;
         let judge = |quantity| measured.judge(refined, quantity);
         let judged = measured.quantities.iter().filter_map(judge).collect();
-        Ok(Self { source, refined, judged, measured, provenance })
+        Ok(Self {
+            source,
+            refined,
+            judged,
+            measured,
+            notes: Vec::new(),
+            more: Map::new(),
+            provenance,
+        })
     }
 
     /// The quantity that decides, its position and the verdict.
@@ -80,7 +92,8 @@ impl Judgements {
 
     /// The tables for a terminal, with the verdicts.
     pub fn table(&self) -> String {
-        let mut parts = vec![format!("{}: {} runs", self.source, self.measured.runs.len())];
+        let head = format!("{}: {} runs", self.source, self.measured.runs.len());
+        let mut parts = vec![[&[head], self.notes.as_slice()].concat().join("\n")];
         let several = self.judged.len() > 1;
         for (quantity, judged) in self.each() {
             let mut lines = Vec::new();
@@ -149,7 +162,7 @@ impl Judgements {
             self.each().map(|(quantity, judged)| self.quantity(quantity, judged)).collect();
         let deciding = self.judged.get(at).map(|it| it.judgement.deciding());
         let finding = deciding.map(|it| &it.finding);
-        self.provenance.sign(json!({
+        let mut document = json!({
             "source": self.source,
             "refinement": self.refined.name(),
             "levels": self.rows(),
@@ -161,7 +174,11 @@ impl Judgements {
             "order_interval": finding.and_then(interval),
             "quantities": quantities,
             "verdict": verdict.to_string(),
-        }))
+        });
+        if let Value::Object(document) = &mut document {
+            document.extend(self.more.clone());
+        }
+        self.provenance.sign(document)
     }
 
     /// The levels of the first quantity, as a study writes them; of a grid its runs.

@@ -10,6 +10,7 @@ pub(crate) mod method;
 mod phase;
 pub(crate) mod picture;
 pub mod provenance;
+mod results;
 pub mod run;
 mod study;
 pub(crate) mod tradeoff;
@@ -17,6 +18,7 @@ pub(crate) mod tradeoff;
 pub use comparison::Comparison;
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
+pub(crate) use results::{differences, with_baseline};
 pub use study::{Refused, Study};
 
 pub(crate) use file::{write_own, write_whole, write_with};

@@ -12,6 +12,7 @@ mod files;
 mod foreign;
 mod form;
 mod judge;
+mod judge_results;
 mod main_job;
 mod material;
 mod mms;

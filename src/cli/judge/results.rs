@@ -1,0 +1,156 @@
+//! `mms judge FIELD FILE..`: results of any solver against a field.
+
+use std::path::PathBuf;
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+use mms_codegen::foreign::{self, Foreign, shown};
+use mms_codegen::quantity::Quantity;
+use mms_convergence::Verdict;
+use mms_results::names::{Mapping, Role};
+use serde_json::{Map, Value, json};
+
+use super::super::input::{Input, Variant, quantities};
+use super::super::method::{finite, positive};
+use super::super::{Outcome, print, print_json, say, this_command};
+use super::Judge;
+use crate::judge::results::{Baseline, Exact, Measurement, Reading, Results, measure, same};
+use crate::judge::table::Orders;
+use crate::read::{self, Kind};
+use crate::report::{Judgements, differences, with_baseline};
+
+/// How results are read.
+#[derive(Args)]
+pub struct Options {
+    /// A quantity, and the columns that it is in: `X=x0,y0`, `u=disp`, `sigma=stress:0,stress:3,..` for components, counted
+    /// from 0; `points` are the places of points in VTK, `cells:NAME` is an array of cells. May be repeated.
+    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
+    map: Vec<Mapping>,
+    /// The quantities to judge, by name or symbol, separated by commas; without it all that are found.
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// h of the FILEs, in their order.
+    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = positive)]
+    h: Vec<f64>,
+    /// The times to judge at; or those of the results, where files have none.
+    #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
+    time: Vec<f64>,
+    /// Take means by this column: volume or mass.
+    #[arg(long, value_name = "NAME", value_parser = weight)]
+    weight: Option<Role>,
+    /// Set a parameter; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    variant: Variant,
+    /// Compare the errors with those of the same meshes in a judgement that --output wrote: they may change by 1 %. One coarse
+    /// mesh takes seconds, and shows that nothing has changed.
+    #[arg(long, value_name = "JSON")]
+    baseline: Option<PathBuf>,
+    /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where
+    /// they are. Takes no FIELD.
+    #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
+    same: Vec<String>,
+}
+
+fn weight(text: &str) -> Result<Role, &'static str> {
+    let role = Role::from_name(text).filter(|it| matches!(it, Role::Volume | Role::Mass));
+    role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
+}
+
+impl Judge {
+    /// Judges results, or compares two.
+    pub(super) fn results(&self, field: &str) -> anyhow::Result<Outcome> {
+        let options = &self.results;
+        if self.files.is_empty() {
+            bail!(
+                "expected files with results of `{}`: one mesh each, from coarse to fine",
+                shown(field)
+            );
+        }
+        let input = Input::find(field, &options.variant)?;
+        let mut exact = Exact::new(input, &options.set)?;
+        let orders = self.orders();
+        let measurement = self.measured(&mut exact, &orders)?;
+        measurement.warnings.iter().for_each(|warning| say(format_args!("warning: {warning}")));
+        let input = exact.input();
+        let title = format!("{}: {}", input.name.shown(), input.compiled.field.title.shown());
+        let provenance = this_command("judge", input.provenance(&options.set));
+        if let Some(path) = &options.baseline {
+            return self.against(path, &title, &measurement);
+        }
+        let more = self.more(&input.name, &measurement);
+        let report = Judgements::of(title, measurement.measured, provenance)?;
+        let report = Judgements { notes: measurement.notes, more, ..report };
+        self.tell(&report)
+    }
+
+    fn measured(&self, exact: &mut Exact, orders: &Orders) -> anyhow::Result<Measurement> {
+        let options = &self.results;
+        let wanted = match options.quantity.as_slice() {
+            [] => Vec::new(),
+            names => quantities(&in_full(names))?,
+        };
+        let all =
+            self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
+        let reading = Reading { map: &options.map, wanted: &wanted, weight: options.weight };
+        measure(all, &reading, exact, &options.h, &options.time, orders)
+    }
+
+    /// What the document of results has besides.
+    fn more(&self, field: &Foreign, measurement: &Measurement) -> Map<String, Value> {
+        let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
+        let samplings = names.zip(measurement.samplings.iter().map(|it| json!(it.name())));
+        let document = json!({
+            "field": field,
+            "files": self.files,
+            "times": measurement.times,
+            "samplings": samplings.map(|(name, it)| (name.to_owned(), it)).collect::<Map<_, _>>(),
+            "notes": measurement.notes,
+            "warnings": measurement.warnings,
+        });
+        if let Value::Object(document) = document { document } else { Map::new() }
+    }
+
+    fn against(
+        &self,
+        path: &PathBuf,
+        title: &str,
+        measurement: &Measurement,
+    ) -> anyhow::Result<Outcome> {
+        let text = read::text(path, Kind::Result)?;
+        let compared = Baseline::read(&text).and_then(|it| it.compare(&measurement.measured));
+        let compared = compared.with_context(|| format!("`--baseline {}`", foreign::path(path)))?;
+        let verdict =
+            if compared.iter().all(|it| it.is_near()) { Verdict::Pass } else { Verdict::Fail };
+        let (table, document) = with_baseline(title, &compared, verdict);
+        if self.json {
+            print_json(&document)?
+        } else {
+            print(&table)?
+        }
+        Ok(if verdict == Verdict::Pass { Outcome::AsExpected } else { Outcome::Refuted })
+    }
+
+    /// Compares two results.
+    pub(super) fn same(&self) -> anyhow::Result<Outcome> {
+        let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
+        let (found, alone) = same(&Results::find(a)?, &Results::find(b)?)?;
+        let (table, document) = differences(a, b, &found, &alone);
+        if self.json {
+            print_json(&document)?
+        } else {
+            print(&table)?
+        }
+        Ok(Outcome::AsExpected)
+    }
+}
+
+/// Symbols that are quantities, by their names.
+fn in_full(names: &[String]) -> Vec<String> {
+    let full = |name: &String| {
+        let symbol = |it: &&Quantity| it.symbol() == name.trim();
+        Quantity::ALL.iter().find(symbol).map_or(name.clone(), |it| it.name().to_owned())
+    };
+    names.iter().map(full).collect()
+}

@@ -1,0 +1,96 @@
+//! From what a user names to snapshots: a file, a list, a folder, a pattern.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use mms_codegen::foreign;
+use mms_results::{Mistake, Snapshot};
+
+use crate::read::{self, Kind, cannot_read};
+
+/// How files of results end, where a folder has others too.
+const ENDS: [&str; 9] = ["pvtu", "pvtp", "vtu", "vtp", "vtk", "npz", "npy", "csv", "tsv"];
+
+/// The results of one mesh, at one time or more.
+#[derive(Debug)]
+pub struct Results {
+    /// What the user named.
+    pub name: String,
+    /// The snapshots, in the order of their times.
+    pub snapshots: Vec<Snapshot>,
+}
+
+impl Results {
+    /// Reads what was named.
+    ///
+    /// # Errors
+    /// Nothing there, or what is wrong with a file, and where.
+    pub fn find(given: &str) -> anyhow::Result<Results> {
+        let mut snapshots = Vec::new();
+        for path in paths(given)? {
+            let open = |path: &Path| {
+                read::bytes(path, Kind::Results).map_err(|error| format!("cannot read it: {error}"))
+            };
+            snapshots.extend(mms_results::read(&path, &open).map_err(placed)?);
+        }
+        snapshots.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
+        Ok(Results { name: given.to_owned(), snapshots })
+    }
+}
+
+fn moment(snapshot: &Snapshot) -> f64 {
+    snapshot.time.map_or(f64::NEG_INFINITY, |time| time.value)
+}
+
+/// A mistake as the command says it.
+pub fn placed(mistake: Mistake) -> anyhow::Error {
+    anyhow!("{mistake}")
+}
+
+/// The files that are named, in the order of their names.
+fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
+    let path = Path::new(given);
+    if path.is_dir() {
+        return folder(path);
+    }
+    if path.exists() || !given.contains(['*', '?', '[']) {
+        return Ok(vec![path.to_owned()]);
+    }
+    let found = glob::glob(given).with_context(|| format!("`{given}`: not a pattern"))?;
+    let found: Vec<_> = found.filter_map(Result::ok).filter(|path| path.is_file()).collect();
+    if found.is_empty() {
+        bail!("`{given}`: no file fits the pattern");
+    }
+    Ok(found)
+}
+
+/// The list of states of a folder, or its files of results.
+fn folder(path: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let entries = path.read_dir().with_context(|| cannot_read(path))?;
+    let mut files: Vec<PathBuf> = entries.filter_map(|it| it.ok().map(|it| it.path())).collect();
+    files.sort();
+    let ending = |end: &str| -> Vec<PathBuf> {
+        let fits =
+            |file: &&PathBuf| file.extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+        files.iter().filter(fits).cloned().collect()
+    };
+    let lists = ending("pvd");
+    if lists.len() > 1 {
+        bail!(
+            "`{}`: it holds {} lists of states (.pvd); name one of them",
+            foreign::path(path),
+            lists.len()
+        );
+    }
+    // The pieces of a list are not meshes of their own.
+    let found = [lists, ending("pvtu")].into_iter().find(|it| !it.is_empty());
+    let found = found.unwrap_or_else(|| ENDS.into_iter().flat_map(ending).collect());
+    if found.is_empty() {
+        bail!(
+            "`{}`: it holds no results: expected {}",
+            foreign::path(path),
+            ENDS.map(|it| format!(".{it}")).join(", ")
+        );
+    }
+    Ok(found)
+}

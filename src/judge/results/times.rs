@@ -1,0 +1,119 @@
+//! At which times levels are compared.
+
+use anyhow::bail;
+use mms_results::{Snapshot, Time};
+
+use super::files::Results;
+
+/// What part of the time window two times may differ by that are the same: sums of time steps round.
+const SAME: f64 = 1e-9;
+
+/// Times at which all meshes have results, or those that are wanted; and how many each has that are left out.
+pub struct Common {
+    /// The times.
+    pub times: Vec<f64>,
+    /// The snapshots of each mesh at them, by position.
+    pub snapshots: Vec<Vec<usize>>,
+    /// How many times no other mesh has, over all of them.
+    pub left_out: usize,
+}
+
+/// Gives snapshots without a time those of `--time`, and finds the times that all have.
+///
+/// # Errors
+/// No time; a time outside the window; two snapshots at one time; no time that all have.
+pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::Result<Common> {
+    for results in all.iter_mut() {
+        complete(results, wanted)?;
+        hold_times(results, window)?;
+    }
+    let span = window[1] - window[0];
+    let same =
+        |a: Time, b: Time| (a.value - b.value).abs() <= a.rounding + b.rounding + SAME * span;
+    let at = |results: &Results, time: Time| {
+        results.snapshots.iter().position(|it| it.time.is_some_and(|other| same(time, other)))
+    };
+    let first = all[0].snapshots.iter().filter_map(|snapshot| snapshot.time);
+    let is_wanted = |time: &Time| {
+        wanted.is_empty() || wanted.iter().any(|&value| same(*time, Time { value, rounding: 0.0 }))
+    };
+    let mut common =
+        Common { times: Vec::new(), snapshots: vec![Vec::new(); all.len()], left_out: 0 };
+    for time in first.filter(is_wanted) {
+        let positions: Option<Vec<usize>> = all.iter().map(|results| at(results, time)).collect();
+        let Some(positions) = positions else { continue };
+        common.times.push(time.value);
+        common.snapshots.iter_mut().zip(positions).for_each(|(to, position)| to.push(position));
+    }
+    if common.times.is_empty() {
+        bail!("no time at which all files have results: {}", listed(all));
+    }
+    let found: usize = all.iter().map(|it| it.snapshots.len()).sum();
+    common.left_out = found - all.len() * common.times.len();
+    Ok(common)
+}
+
+fn complete(results: &mut Results, wanted: &[f64]) -> anyhow::Result<()> {
+    let without = results.snapshots.iter().filter(|it| it.time.is_none()).count();
+    if without == 0 {
+        return Ok(());
+    }
+    if without != results.snapshots.len() || without != wanted.len() {
+        bail!(
+            "`{}`: {without} of its {} results have no time; give it in the file (a column `time`, TimeValue, a .pvd), \
+             or as many with `--time T,..`, in the order of the files",
+            results.name,
+            results.snapshots.len()
+        );
+    }
+    for (snapshot, &value) in results.snapshots.iter_mut().zip(wanted) {
+        snapshot.time = Some(Time { value, rounding: 0.0 });
+    }
+    Ok(())
+}
+
+fn hold_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> {
+    let mut before: Option<(&Snapshot, f64)> = None;
+    for (snapshot, time) in results.snapshots.iter().filter_map(|it| Some((it, it.time?))) {
+        let Time { value, rounding } = time;
+        let most = rounding + SAME * (last - first);
+        if !value.is_finite() || value < first - most || value > last + most {
+            bail!(
+                "{}: t = {value} is outside the time window of the field, {first} to {last}",
+                place(snapshot)
+            );
+        }
+        if let Some((other, _)) = before.filter(|(_, earlier)| *earlier == value) {
+            bail!(
+                "{}: another result at t = {value}: {}; name one of them",
+                place(snapshot),
+                place(other)
+            );
+        }
+        before = Some((snapshot, value));
+    }
+    Ok(())
+}
+
+/// The file, and the line of its first point where it has lines.
+fn place(snapshot: &Snapshot) -> String {
+    match snapshot.lines.first() {
+        Some(_) => snapshot.place(0),
+        None => snapshot.path.clone(),
+    }
+}
+
+fn listed(all: &[Results]) -> String {
+    let of = |results: &Results| {
+        let times: Vec<_> = results.snapshots.iter().filter_map(|it| it.time).collect();
+        let range = match times.as_slice() {
+            [] => String::new(),
+            [only] => format!("t = {}", only.value),
+            [first, .., last] => {
+                format!("{} times, {} to {}", times.len(), first.value, last.value)
+            }
+        };
+        format!("`{}` has {range}", results.name)
+    };
+    all.iter().map(of).collect::<Vec<_>>().join(", ")
+}
