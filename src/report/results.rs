@@ -1,6 +1,6 @@
 //! Comparisons of results as tables and JSON documents.
 
-use mms_codegen::foreign::shown;
+use mms_spec::foreign::shown;
 use mms_convergence::Verdict;
 use serde_json::{Value, json};
 

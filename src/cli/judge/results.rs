@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use clap::Args;
-use mms_codegen::foreign::{self, Foreign, shown};
-use mms_codegen::quantity::Quantity;
+use mms_spec::foreign;
+use mms_spec::foreign::{Foreign, shown};
+use mms_spec::quantity::Quantity;
 use mms_convergence::Verdict;
 use mms_results::names::{Mapping, Role};
 use serde_json::{Map, Value, json};

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use mms_codegen::expr::Symbol;
-use mms_codegen::program::Output;
-use mms_codegen::program::block::{Plan, Prepared, Room, Way};
-use mms_codegen::quantity::Quantity;
-use mms_codegen::sample::{Extent, domain};
+use mms_symbolic::expr::Symbol;
+use mms_program::Output;
+use mms_program::block::{Plan, Prepared, Room, Way};
+use mms_spec::quantity::Quantity;
+use mms_mechanics::sample::{Extent, domain};
 
 use crate::cli::input::Input;
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use mms_codegen::foreign;
+use mms_spec::foreign;
 use mms_results::{Mistake, Snapshot};
 
 use crate::read::{self, Kind, cannot_read};

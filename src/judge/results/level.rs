@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use anyhow::{anyhow, bail};
-use mms_codegen::quantity::Quantity;
+use mms_spec::quantity::Quantity;
 use mms_results::motion::{Motion, hold_distinct, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
 use mms_results::norm::{Asked, Mesh, lengths, over_points};

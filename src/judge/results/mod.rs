@@ -10,8 +10,8 @@ mod times;
 use std::collections::BTreeMap;
 
 use anyhow::{bail, ensure};
-use mms_codegen::foreign::shown;
-use mms_codegen::quantity::Quantity;
+use mms_spec::foreign::shown;
+use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
 pub use exact::Exact;
