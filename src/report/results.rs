@@ -1,7 +1,7 @@
 //! Comparisons of results as tables and JSON documents.
 
-use mms_spec::foreign::shown;
 use mms_convergence::Verdict;
+use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
 use super::{plain, to_the_right};

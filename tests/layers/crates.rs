@@ -118,6 +118,14 @@
         ],
     },
     Crate {
+        name: "mms-results",
+        knows: &[],
+        layers: &[
+            "cell mistake names snapshot",
+            "motion norm read",
+        ],
+    },
+    Crate {
         name: "mms-runtime",
         knows: &["mms-convergence", "mms-math"],
         layers: &[
@@ -155,11 +163,11 @@
     },
     Crate {
         name: "mms",
-        knows: &["mms-analysis", "mms-codegen", "mms-convergence", "mms-emit", "mms-gallery", "mms-mechanics", "mms-program", "mms-runtime", "mms-show", "mms-spec", "mms-symbolic"],
+        knows: &["mms-analysis", "mms-codegen", "mms-convergence", "mms-emit", "mms-gallery", "mms-mechanics", "mms-program", "mms-results", "mms-runtime", "mms-show", "mms-spec", "mms-symbolic"],
         layers: &[
-            "gallery interpreted judge read rows shell",
+            "gallery interpreted read rows shell",
             "schema workbench",
-            "checkpoint cli extremes history page report store tradeoff trial verify vtk",
+            "checkpoint cli extremes history judge page report store tradeoff trial verify vtk",
         ],
     },
 ]

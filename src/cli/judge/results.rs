@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use clap::Args;
+use mms_convergence::Verdict;
+use mms_results::names::{Mapping, Role};
 use mms_spec::foreign;
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
-use mms_convergence::Verdict;
-use mms_results::names::{Mapping, Role};
 use serde_json::{Map, Value, json};
 
 use super::super::input::{Input, Variant, quantities};
@@ -115,7 +115,7 @@ impl Judge {
 
     fn against(
         &self,
-        path: &PathBuf,
+        path: &Path,
         title: &str,
         measurement: &Measurement,
     ) -> anyhow::Result<Outcome> {

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use mms_symbolic::expr::Symbol;
-use mms_program::Output;
+use mms_mechanics::Output;
+use mms_mechanics::extent::Extent;
+use mms_mechanics::sample::domain;
 use mms_program::block::{Plan, Prepared, Room, Way};
 use mms_spec::quantity::Quantity;
-use mms_mechanics::sample::{Extent, domain};
+use mms_symbolic::expr::Symbol;
 
 use crate::cli::input::Input;
 
@@ -32,7 +33,7 @@ impl Exact {
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
         input.hold(settings)?;
         let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
-        let (body, window) = domain(&input.compiled, &parameters);
+        let (body, window) = domain(&input.compiled.program, &parameters);
         let dimension = input.compiled.field.dimension;
         Ok(Exact { input, parameters, dimension, window, body, prepared: BTreeMap::new() })
     }
@@ -52,7 +53,7 @@ impl Exact {
         let (dimension, components) = (self.dimension, self.components(quantity));
         let (program, parameters) = (&self.input.compiled.program, &self.parameters);
         let prepared = self.prepared.entry(quantity).or_insert_with(|| {
-            let plan = Plan::new(program, &[Output::Quantity(quantity)]);
+            let plan = Plan::new(program, &[Output::Quantity(quantity)], Output::is_quantity);
             Prepared::new(Arc::new(plan), Way::portable(), parameters)
         });
         let count = points.len() / dimension;

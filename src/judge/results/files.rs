@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
-use mms_spec::foreign;
 use mms_results::{Mistake, Snapshot};
+use mms_spec::foreign;
 
 use crate::read::{self, Kind, cannot_read};
 

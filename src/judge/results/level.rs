@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use anyhow::{anyhow, bail};
-use mms_spec::quantity::Quantity;
 use mms_results::motion::{Motion, hold_distinct, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
 use mms_results::norm::{Asked, Mesh, lengths, over_points};
 use mms_results::{Snapshot, Stored};
+use mms_spec::quantity::Quantity;
 
 use super::exact::Exact;
 use super::files::placed;

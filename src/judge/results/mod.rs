@@ -1,4 +1,8 @@
 //! Results of any solver against a field: their errors, as [`Measured`].
+//!
+//! [`files`] reads them, with `mms-results`; [`times`] finds those at which meshes can be compared; [`level`] measures a
+//! snapshot against [`exact`], which runs the field's program, and finds the floor that the rounding of the file makes;
+//! [`baseline`] and [`same`] compare results with results.
 
 mod baseline;
 mod exact;
