@@ -1,6 +1,6 @@
 //! `mms judge FIELD FILE..`: results of any solver against a field.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::Args;

@@ -95,6 +95,7 @@ fn level(
     reading: &Reading<'_>,
     exact: &mut Exact,
 ) -> anyhow::Result<Level> {
+    let what = |errors: &Errors| (errors.quantity, errors.sampling);
     let mut level: Option<Level> = None;
     for snapshot in snapshots.iter().map(|&at| &results.snapshots[at]) {
         let Some(time) = snapshot.time else { continue };
@@ -106,8 +107,8 @@ fn level(
             }
             Some(level) => {
                 ensure!(
-                    level.errors.len() == found.errors.len(),
-                    "{}: it has other quantities than the file before it",
+                    level.errors.iter().map(what).eq(found.errors.iter().map(what)),
+                    "{}: it has other quantities than the result before it, or cells where that has none",
                     snapshot.path
                 );
                 level.errors.iter_mut().zip(found.errors).for_each(|(most, one)| most.raise(one));
