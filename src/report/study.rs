@@ -274,6 +274,7 @@ impl Study {
             "differences": differences,
             "expected_order": self.expected.order,
             "observed_order": self.judgement.observed_order(),
+            "order_uncertainty": self.order_uncertainty(),
             "order_interval": self.order_interval(),
             "norm": self.judgement.deciding().norm,
             "norms": norms_judged(&self.judgement),
@@ -402,6 +403,12 @@ impl Study {
             (Some(run), _) => format!("{} cells", run.level.cells),
             (None, _) => format!("h {length:.2e}"),
         }
+    }
+
+    /// How far from the observed order that of the limit may be.
+    fn order_uncertainty(&self) -> Option<f64> {
+        let (order, [low, high]) = (self.judgement.observed_order()?, self.order_interval()?);
+        Some((order - low).max(high - order))
     }
 
     /// The interval of the observed order.

@@ -149,6 +149,11 @@ fn documents_have_the_keys_of_the_page() {
     let mut reader = Reader { tables: &tables, met: BTreeSet::new() };
     let folder = Folder::with_bar("bar.toml");
     folder.write("faulty.toml", FAULTY);
+    folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
+    folder.write("steps.csv", "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n");
+    for name in ["a.csv", "b.csv", "c.csv"] {
+        folder.write(name, "X,u\n0.25,0.01\n0.75,0.02\n");
+    }
     folder.write("broken.toml", "[field]\ntitle = 1\n");
     for (heading, arguments, code) in [
         ("list", "list", 0),
@@ -164,8 +169,17 @@ fn documents_have_the_keys_of_the_page() {
         ("run", "run bar.toml --cells 8 --courant 3 --allow-unstable", 3),
         ("study", "study bar.toml --cells 4,8,16 --fit", 0),
         ("study", "study bar.toml --cells 8 --refine time --levels 2", 1),
-        ("study", "study bar.toml --cells 8,16 --periods 1", 0),
-        ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
+        ("study", "study bar.toml --cells 8,16 --periods 1", 1),
+        ("judge", "judge --errors errors.csv", 1),
+        ("judge", "judge --errors steps.csv", 0),
+        ("judge", "judge bar.toml a.csv b.csv c.csv --h 4,2,1 --time 0.001 --output judged", 1),
+        (
+            "judge-baseline",
+            "judge bar.toml a.csv --h 4 --time 0.001 --baseline judged/convergence.json",
+            0,
+        ),
+        ("judge-same", "judge --same a.csv b.csv", 0),
+        ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 1),
         ("verify", "verify --quick --row startup/usl", 0),
         ("verify-list", "verify --list", 0),
         ("tradeoff", "tradeoff bar.toml --target-linf 5e-2 --cost memory", 0),

@@ -203,7 +203,7 @@ fn bad_tables_are_refused_where_they_are_bad() {
     judge(good, "--tolerance 0").exits(2).complains("--tolerance");
     let folder = Folder::new();
     folder.mms("judge --errors missing.csv").exits(2).complains("cannot read `missing.csv`");
-    folder.mms("judge").exits(2).complains("--errors <FILE>");
+    folder.mms("judge").exits(2).complains("<FIELD>");
     for name in ["\u{1b}[31m", "\"x\npass: all is well\""] {
         folder.write("odd.csv", &format!("h,{name}\n1,1\n"));
         let run = folder.mms("judge --errors odd.csv").exits(2);
