@@ -11,10 +11,10 @@ use mms_runtime::{Division, Method};
 use peak_alloc::PeakAlloc;
 use serde::{Deserialize, Serialize};
 
-use crate::cli::input::Input;
-use crate::cli::method::Precision;
-use crate::cli::progress::Progress;
-use crate::cli::stability::fastest_wave;
+use crate::session::input::Input;
+use crate::session::method::Precision;
+use crate::session::progress::Progress;
+use crate::session::stability::fastest_wave;
 use crate::shell;
 use crate::store::{Entry, Store};
 use crate::verify::matrix::{Quantity, Study};

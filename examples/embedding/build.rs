@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
 
-use mms_codegen::rust::file;
 use mms_codegen::Quantity;
+use mms_codegen::rust::file;
 use mms_codegen::selection::Freeze;
 use mms_codegen::{Options, Selection, compile_with};
 

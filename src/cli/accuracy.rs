@@ -14,10 +14,10 @@ use mms_spec::foreign::{Foreign, one_line, shown};
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
-use super::input::{Motion, Text, precision, quantities, settings};
 use super::{Outcome, hold_output, print, print_json, say, this_command};
+use crate::provenance::Input;
 use crate::report::accuracy::Report;
-use crate::report::provenance::Input;
+use crate::session::input::{Motion, Text, precision, quantities, settings};
 use crate::workbench::{Module, Time, Way, Workbench, time};
 
 /// Measure the errors of a field against arbitrary precision: every quantity, in single, double and

@@ -19,8 +19,8 @@ use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
 use serde_json::{Value, json};
 
-use super::input::{Variant, read, settings};
 use super::{Outcome, print, print_json, say, say_styled};
+use crate::session::input::{Variant, read, settings};
 
 /// Check field files: mistakes, boundary claims, J > 0, and closed forms.
 ///

@@ -14,9 +14,9 @@ use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use self::folder::{State, compare, write};
-use super::input::{Input, Variant, quantities, settings};
 use super::{Outcome, print, print_json, say};
 use crate::gallery::FIELDS;
+use crate::session::input::{Input, Variant, quantities, settings};
 use crate::shell::{command, quoted, words};
 
 /// Write the source of a field for another solver: all of it, or only what is needed.

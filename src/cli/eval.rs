@@ -15,8 +15,8 @@ use mms_spec::quantity::Quantity;
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
-use super::input::{Input, Variant, precision, quantities};
 use super::{Outcome, print, print_json, say};
+use crate::session::input::{Input, Variant, precision, quantities};
 
 /// Evaluate quantities of a field at points.
 ///

@@ -10,9 +10,6 @@ use mms_runtime::{Division, IntegratorName, Method, Transfer};
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
-use super::input::{Motion, settings};
-use super::method::{Arithmetic, MethodOptions, Precision};
-use super::progress::Progress;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::extremes::rows::{Row, rows};
 use crate::extremes::stable;
@@ -22,6 +19,9 @@ use crate::extremes::verdict::{Declared, Seen, judge};
 use crate::report::extremes::{Judged, Report, Stability};
 use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
+use crate::session::input::{Motion, settings};
+use crate::session::method::{Arithmetic, MethodOptions, Precision};
+use crate::session::progress::Progress;
 use crate::tradeoff::setting::Setting;
 use mms_runtime::scene::usual_cells;
 

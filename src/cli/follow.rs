@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::Context as _;
 use mms_runtime::study::{Checkpoint, Frame, Observer, Record};
 
-use super::progress::OfRun;
 use crate::checkpoint::{Found, Keeper};
 use crate::history::History;
+use crate::session::progress::OfRun;
 use crate::vtk::Writer;
 
 /// What a process ends with whom a second signal does not let wait: 128 and the number of SIGINT.

@@ -10,12 +10,12 @@ use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
 use mms_spec::foreign;
 
-use super::method::{finite, positive};
 use super::{Outcome, hold_output, print, print_json, this_command};
 use crate::judge::table::{self, Orders};
+use crate::provenance::Input;
 use crate::read::{self, Kind};
 use crate::report::Judgements;
-use crate::report::provenance::Input;
+use crate::session::method::{finite, positive};
 use crate::store::digest;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.

@@ -6,7 +6,7 @@
 use clap::error::ErrorKind;
 use clap::{ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
 
-use super::method::MethodOptions;
+use crate::session::method::MethodOptions;
 
 /// Every combination of what the options in [`LISTS`] are given, one method at least.
 #[derive(Clone, Debug)]

@@ -18,25 +18,21 @@ mod emit;
 mod eval;
 mod extremes;
 mod follow;
-pub(crate) mod input;
 mod judge;
 mod list;
-pub(crate) mod method;
 mod methods;
 mod new;
-pub(crate) mod progress;
 mod report;
 mod run;
 mod saved;
 mod schema;
 mod show;
-pub(crate) mod stability;
 pub(crate) mod study;
 mod tradeoff;
 mod verify;
 
 use std::ffi::OsString;
-use std::io::{self, ErrorKind, Write as _};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -45,9 +41,10 @@ use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
 use mms_spec::foreign;
 
+use crate::provenance::{Input, Provenance};
 use crate::report::file::{is_same, try_to_write};
-use crate::report::provenance::{Input, Provenance};
 use crate::shell::words;
+use crate::terminal::{print, print_json, printed_to_the_end, say, say_styled};
 
 /// Manufactured solutions for solid mechanics: derive, evaluate and check them, and see the order
 /// of convergence of an MPM/GIMP solver on them.
@@ -217,39 +214,4 @@ fn output_folder(given: Option<&Path>, name: &str) -> anyhow::Result<PathBuf> {
     let folder = given.map_or_else(|| Path::new("target/mms").join(own), Path::to_owned);
     hold_output(&folder)?;
     Ok(folder)
-}
-
-/// Prints one JSON document.
-fn print_json(document: &impl serde::Serialize) -> anyhow::Result<()> {
-    print_shown(&foreign::json(&serde_json::to_string_pretty(document)?))
-}
-
-/// Says a line on stderr, in which nothing steers the terminal. Where it cannot be written, the work goes on without it.
-pub(crate) fn say(line: impl std::fmt::Display) {
-    say_styled(&foreign::lines(&line.to_string()));
-}
-
-/// Says a line on stderr that steers the terminal where it means to, and holds nothing foreign that is not shown.
-fn say_styled(line: &str) {
-    let _ = writeln!(anstream::stderr().lock(), "{line}");
-}
-
-/// Prints a text to stdout, in which nothing steers the terminal.
-fn print(text: &str) -> anyhow::Result<()> {
-    print_shown(&foreign::lines(text))
-}
-
-fn print_shown(text: &str) -> anyhow::Result<()> {
-    let mut stdout = anstream::stdout().lock();
-    printed_to_the_end(writeln!(stdout, "{}", text.trim_end()).and_then(|()| stdout.flush()))
-}
-
-/// A reader that stopped reading is not an error of ours.
-fn printed_to_the_end(printed: io::Result<()>) -> anyhow::Result<()> {
-    match printed {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(anyhow::Error::new(error).context("cannot write to stdout"))
-        }
-        _ => Ok(()),
-    }
 }

@@ -18,8 +18,8 @@ use mms_spec::diagnostic::render_styled;
 use mms_spec::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::input::{Input, Variant, quantities};
 use super::{Outcome, print, print_json, say};
+use crate::session::input::{Input, Variant, quantities};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many
 /// operations each quantity takes, and which terms of the equations it can and cannot see.

@@ -12,13 +12,13 @@ use mms_mechanics::sample::domain;
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Run};
 
-use super::input::{Input, Motion};
-use super::method::{MethodOptions, Precision, finite, hold_division, positive};
 use super::methods::Methods;
-use super::progress::Progress;
 use super::{Outcome, output_folder, print, print_json, say};
-use crate::report::provenance::Provenance;
+use crate::provenance::Provenance;
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
+use crate::session::input::{Input, Motion};
+use crate::session::method::{MethodOptions, Precision, finite, hold_division, positive};
+use crate::session::progress::Progress;
 use mms_runtime::scene::{Scene, Solvable};
 
 /// Run a method on levels of refinement: errors, observed orders, verdict.

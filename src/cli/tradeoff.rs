@@ -12,12 +12,12 @@ use mms_runtime::Division;
 use mms_spec::Form;
 use mms_symbolic::expr::Rational;
 
-use super::input::{Input, Motion, Variant};
-use super::method::positive;
-use super::stability::sound;
 use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
 use crate::report::tradeoff::page::Page;
+use crate::session::input::{Input, Motion, Variant};
+use crate::session::method::positive;
+use crate::session::stability::sound;
 use crate::shell;
 use crate::store::Store;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};

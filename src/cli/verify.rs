@@ -14,11 +14,12 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_spec::suggest::advice;
 use serde_json::Value;
 
-use super::input::Input;
 use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::gallery::FIELDS;
-use crate::report::{pretty, provenance, write_files};
+use crate::provenance;
+use crate::report::{pretty, write_files};
 use crate::rows::Named as _;
+use crate::session::input::Input;
 use crate::store::{Store, digest, program};
 use crate::verify::matrix::{MATRIX, Row, rows};
 use crate::verify::plan::{Job, Plan};

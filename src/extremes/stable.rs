@@ -5,7 +5,7 @@ use mms_runtime::{Division, Method};
 
 use super::subject::Subject;
 use super::verdict::Seen;
-use crate::cli::method::Precision;
+use crate::session::method::Precision;
 
 /// Between these, numbers are looked for.
 pub const RANGE: [f64; 2] = [0.02, 4.0];

@@ -17,9 +17,9 @@ use mms_symbolic::expr::Rational;
 use super::rows::Row;
 use super::theory::Elasticity;
 use super::verdict::{Diagnosis, Seen};
-use crate::cli::input::{Input, Text};
-use crate::cli::method::Precision;
-use crate::cli::stability::{fastest_wave_with, sound};
+use crate::session::input::{Input, Text};
+use crate::session::method::Precision;
+use crate::session::stability::{fastest_wave_with, sound};
 use mms_runtime::scene::{Scene, Solvable, usual_cells};
 
 /// At how many points and times the largest displacement and the least J are looked for.

@@ -8,9 +8,9 @@ use mms_show::{Document, mathml};
 use mms_spec::quantity::Quantity;
 
 use super::motion::Motion;
-use crate::cli::input;
 use crate::gallery::Entry;
-use crate::report::provenance::{Input, Provenance};
+use crate::provenance::{Input, Provenance};
+use crate::session::input;
 
 /// The quantities that lead from u to b.
 const QUANTITIES: [Quantity; 6] = [

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::mark::list;
-use crate::cli::method::Arithmetic;
+use crate::session::method::Arithmetic;
 
 /// What a document has under `method`.
 #[derive(Deserialize)]

@@ -36,7 +36,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::report::provenance::Provenance;
+use crate::provenance::Provenance;
 use crate::report::tally;
 use field::Shown;
 

@@ -8,8 +8,8 @@ use comfy_table::{CellAlignment, Table};
 use mms_convergence::Verdict;
 use serde_json::{Value, json};
 
-use super::provenance::Provenance;
 use super::{Study, picture, pretty, write_files};
+use crate::provenance::Provenance;
 
 /// Studies of one field with methods that differ.
 pub struct Comparison {

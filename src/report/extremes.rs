@@ -6,11 +6,11 @@ use mms_runtime::Method;
 use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
-use super::provenance::Provenance;
 use super::{method, tally};
-use crate::cli::method::Arithmetic;
 use crate::extremes::rows::Row;
 use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
+use crate::provenance::Provenance;
+use crate::session::method::Arithmetic;
 
 /// What came of a field at its extremes.
 pub struct Report {

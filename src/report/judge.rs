@@ -7,9 +7,9 @@ use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
 use serde_json::{Map, Value, json};
 
 use super::picture::{Line, Picture};
-use super::provenance::Provenance;
 use super::{plain, pretty, to_the_right, write_files};
 use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
+use crate::provenance::Provenance;
 
 /// Errors with what they say.
 pub struct Judgements {

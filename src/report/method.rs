@@ -3,7 +3,7 @@
 use mms_runtime::{Division, FormulationName, Method, Setup, Transfer};
 use serde_json::{Value, json};
 
-use crate::cli::method::Arithmetic;
+use crate::session::method::Arithmetic;
 
 /// The JSON object.
 pub fn document(method: &Method, arithmetic: Arithmetic) -> Value {

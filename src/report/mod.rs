@@ -9,7 +9,6 @@ mod judge;
 pub(crate) mod method;
 mod phase;
 pub(crate) mod picture;
-pub mod provenance;
 mod results;
 pub mod run;
 mod study;

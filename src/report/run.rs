@@ -7,9 +7,9 @@ use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
 use serde_json::{Map, Value, json};
 
-use super::provenance::Provenance;
 use super::{Refused, duration, method};
-use crate::cli::method::Arithmetic;
+use crate::provenance::Provenance;
+use crate::session::method::Arithmetic;
 
 /// A run.
 pub struct Run {

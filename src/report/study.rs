@@ -12,10 +12,10 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::judge::norms_judged;
-use super::provenance::Provenance;
 use super::run::quantities;
 use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
-use crate::cli::method::Arithmetic;
+use crate::provenance::Provenance;
+use crate::session::method::Arithmetic;
 
 /// A finished study.
 pub struct Study {

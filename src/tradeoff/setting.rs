@@ -5,7 +5,7 @@ use std::fmt;
 use mms_runtime::{FormulationName, IntegratorName, Method, Setup, ShapeName, Transfer};
 use mms_spec::Form;
 
-use crate::cli::method::{Arithmetic, Precision};
+use crate::session::method::{Arithmetic, Precision};
 
 /// The Courant numbers that are tried.
 pub const COURANT: [f64; 11] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];

@@ -2,7 +2,7 @@
 
 use super::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
 use super::setting::Setting;
-use crate::cli::method::Precision;
+use crate::session::method::Precision;
 use mms_runtime::ShapeName;
 
 /// Errors and times by formula, and how often they were asked for.

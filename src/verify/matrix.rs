@@ -6,10 +6,10 @@ use mms_convergence::TOLERANCE;
 use mms_runtime::{Division, Setup};
 use serde::Deserialize;
 
-use crate::cli::input::{Motion, Variant};
-use crate::cli::method::MethodOptions;
 use crate::gallery::{self, Entry};
 use crate::rows::{Named, read};
+use crate::session::input::{Motion, Variant};
+use crate::session::method::MethodOptions;
 
 /// The rows, in their order.
 pub const MATRIX: &str = include_str!("matrix.toml");

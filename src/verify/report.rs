@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 use super::matrix::{Row, Study};
 use super::verdict::Judgement;
 use super::work::Outcome;
+use crate::provenance::Provenance;
 use crate::report::method::division;
-use crate::report::provenance::Provenance;
 use crate::report::{duration, tally};
 use crate::rows::Named as _;
 

@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use super::matrix::{Quantity, Row};
 use super::plan::Job;
-use crate::cli::input::{Input, Variant};
-use crate::cli::method::Precision;
+use crate::session::input::{Input, Variant};
+use crate::session::method::Precision;
 use crate::store::{Entry, Store};
 
 /// l1, l2 and linf, the largest over all steps.

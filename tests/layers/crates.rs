@@ -1,4 +1,9 @@
-[
+//! The crates, in the order in which they know each other, and the layers of each.
+
+use super::Crate;
+
+/// All of them.
+pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-math",
         knows: &[],
@@ -8,15 +13,7 @@
             "bunched generate",
         ],
     },
-    Crate {
-        name: "mms-symbolic",
-        knows: &[],
-        layers: &[
-            "work",
-            "expr",
-            "pass",
-        ],
-    },
+    Crate { name: "mms-symbolic", knows: &[], layers: &["work", "expr", "pass"] },
     Crate {
         name: "mms-program",
         knows: &["mms-math", "mms-symbolic"],
@@ -72,14 +69,27 @@
     },
     Crate {
         name: "mms-analysis",
-        knows: &["mms-codegen", "mms-math", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
-        layers: &[
-            "accuracy operations period visibility",
+        knows: &[
+            "mms-codegen",
+            "mms-math",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
         ],
+        layers: &["accuracy operations period visibility"],
     },
     Crate {
         name: "mms-emit",
-        knows: &["mms-analysis", "mms-codegen", "mms-math", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
+        knows: &[
+            "mms-analysis",
+            "mms-codegen",
+            "mms-math",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
+        ],
         layers: &[
             "port target text",
             "c fortran octave python rust rust_mms_math",
@@ -89,7 +99,15 @@
     },
     Crate {
         name: "mms-show",
-        knows: &["mms-analysis", "mms-codegen", "mms-math", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
+        knows: &[
+            "mms-analysis",
+            "mms-codegen",
+            "mms-math",
+            "mms-mechanics",
+            "mms-program",
+            "mms-spec",
+            "mms-symbolic",
+        ],
         layers: &[
             "name relation sympy",
             "walk",
@@ -98,13 +116,7 @@
             "latex mathml",
         ],
     },
-    Crate {
-        name: "mms-macros",
-        knows: &["mms-codegen", "mms-spec"],
-        layers: &[
-            "request",
-        ],
-    },
+    Crate { name: "mms-macros", knows: &["mms-codegen", "mms-spec"], layers: &["request"] },
     Crate {
         name: "mms-convergence",
         knows: &[],
@@ -120,10 +132,7 @@
     Crate {
         name: "mms-results",
         knows: &[],
-        layers: &[
-            "cell mistake names snapshot",
-            "motion norm read",
-        ],
+        layers: &["cell mistake names snapshot", "motion norm read"],
     },
     Crate {
         name: "mms-runtime",
@@ -143,31 +152,38 @@
             "scene",
         ],
     },
-    Crate {
-        name: "mms-gallery",
-        knows: &["mms-runtime"],
-        layers: &[
-        ],
-    },
+    Crate { name: "mms-gallery", knows: &["mms-runtime"], layers: &[] },
     Crate {
         name: "mms-capi",
         knows: &["mms-codegen", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
-        layers: &[
-            "error evaluator settings",
-            "memory stop",
-            "border",
-            "field",
-            "gallery",
-            "abi",
-        ],
+        layers: &["error evaluator settings", "memory stop", "border", "field", "gallery", "abi"],
     },
     Crate {
         name: "mms",
-        knows: &["mms-analysis", "mms-codegen", "mms-convergence", "mms-emit", "mms-gallery", "mms-mechanics", "mms-program", "mms-results", "mms-runtime", "mms-show", "mms-spec", "mms-symbolic"],
+        knows: &[
+            "mms-analysis",
+            "mms-codegen",
+            "mms-convergence",
+            "mms-emit",
+            "mms-gallery",
+            "mms-mechanics",
+            "mms-program",
+            "mms-results",
+            "mms-runtime",
+            "mms-show",
+            "mms-spec",
+            "mms-symbolic",
+        ],
         layers: &[
-            "gallery interpreted read rows shell",
-            "schema workbench",
-            "checkpoint cli extremes history judge page report store tradeoff trial verify vtk",
+            "gallery interpreted read rows shell terminal",
+            "provenance schema workbench",
+            "session",
+            "extremes judge tradeoff",
+            "report",
+            "history store vtk",
+            "checkpoint verify",
+            "trial",
+            "cli page",
         ],
     },
-]
+];

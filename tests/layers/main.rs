@@ -1,10 +1,12 @@
 //! Imports point one way: between crates, between the modules of a crate, and, but for small circles, between files.
 
+mod crates;
 mod imports;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crates::CRATES;
 use imports::Imports;
 
 /// So many files may import each other.
@@ -17,8 +19,6 @@ struct Crate {
     knows: &'static [&'static str],
     layers: &'static [&'static str],
 }
-
-const CRATES: &[Crate] = &include!("crates.rs");
 
 fn folder(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

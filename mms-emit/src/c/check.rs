@@ -81,20 +81,20 @@ fn sample(sample: &Sample) -> String {
 }
 
 /// Rows of numbers in a bracket that stands behind `indent` spaces.
-pub(in crate) fn block(rows: &[Vec<f64>], indent: usize) -> String {
+pub(crate) fn block(rows: &[Vec<f64>], indent: usize) -> String {
     let row = |row: &Vec<f64>| format!("{:indent$}    {{{}}},\n", "", numbers(row, indent + 4));
     let rows: String = rows.iter().map(row).collect();
     format!("{:indent$}{{\n{rows}{:indent$}}},\n", "", "")
 }
 
 /// Numbers behind a bracket that stands behind `indent` spaces.
-pub(in crate) fn numbers(values: &[f64], indent: usize) -> String {
+pub(crate) fn numbers(values: &[f64], indent: usize) -> String {
     let numbers: Vec<String> = values.iter().map(|value| hexadecimal(*value)).collect();
     row(&numbers, indent)
 }
 
 /// The same of any items.
-pub(in crate) fn row(items: &[String], indent: usize) -> String {
+pub(crate) fn row(items: &[String], indent: usize) -> String {
     listed(items, 96 - indent).join(&format!("\n{:1$}", "", indent + 1))
 }
 

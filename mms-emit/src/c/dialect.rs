@@ -3,8 +3,8 @@
 use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::port::names::Rules;
 use crate::port::number::{decimal, nearest};
-use mms_symbolic::expr::{Function, Rational};
 use mms_program::interpret::parts;
+use mms_symbolic::expr::{Function, Rational};
 
 /// Names that C takes; headers are also read by C++.
 pub const RULES: Rules = Rules {

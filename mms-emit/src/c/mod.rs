@@ -7,9 +7,9 @@ mod source;
 
 use self::dialect::RULES;
 use crate::port::Port;
+use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
 use mms_codegen::rust::File;
-use crate::target::{Bundle, Subject, Target};
 
 /// C.
 pub const TARGET: Target = Target {

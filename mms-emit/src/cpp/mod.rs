@@ -7,8 +7,8 @@ mod header;
 use crate::c::dialect::{C_KEYWORDS, CPP_KEYWORDS, HEADERS, MACROS};
 use crate::port::Port;
 use crate::port::names::Rules;
-use mms_codegen::rust::File;
 use crate::target::{Bundle, Subject, Target};
+use mms_codegen::rust::File;
 
 /// C++.
 pub const TARGET: Target = Target {

@@ -2,8 +2,8 @@
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
-use mms_symbolic::expr::{Function, Rational};
 use mms_program::interpret::parts;
+use mms_symbolic::expr::{Function, Rational};
 
 /// How statements are written in Fortran.
 pub struct Fortran;

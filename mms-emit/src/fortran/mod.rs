@@ -7,9 +7,9 @@ mod module;
 
 use crate::port::Port;
 use crate::port::names::{FUNCTIONS, Rules};
+use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
 use mms_codegen::rust::File;
-use crate::target::{Bundle, Subject, Target};
 
 /// Fortran.
 pub const TARGET: Target = Target {

@@ -2,8 +2,8 @@
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
-use mms_symbolic::expr::{Function, Rational};
 use mms_program::interpret::parts;
+use mms_symbolic::expr::{Function, Rational};
 
 /// How statements are written in Julia. Its own numbers of any precision take the place of those with twice
 /// the digits of a double.

@@ -6,8 +6,8 @@ mod module;
 
 use crate::port::Port;
 use crate::port::names::{FUNCTIONS, Rules};
-use mms_codegen::rust::File;
 use crate::target::{Bundle, Subject, Target};
+use mms_codegen::rust::File;
 
 /// Julia.
 pub const TARGET: Target = Target {

@@ -2,8 +2,8 @@
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::nearest;
-use mms_symbolic::expr::{Function, Rational};
 use mms_program::Value;
+use mms_symbolic::expr::{Function, Rational};
 
 /// How variables are written, for a field of that name.
 pub struct Karamelo<'a>(pub &'a str);

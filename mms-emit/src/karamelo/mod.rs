@@ -15,10 +15,10 @@ use crate::port::body::Place;
 use crate::port::callable::Callable;
 use crate::port::names::Rules;
 use crate::python::module::comment;
-use mms_codegen::rust::File;
 use crate::target::{Bundle, Subject, Target};
-use mms_symbolic::expr::Function;
+use mms_codegen::rust::File;
 use mms_program::Value;
+use mms_symbolic::expr::Function;
 
 /// Karamelo.
 pub const TARGET: Target = Target {

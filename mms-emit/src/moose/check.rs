@@ -27,7 +27,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
 }
 
 /// The names of the parameters with their defaults, and what is checked.
-pub(in crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
+pub(crate) fn functions(port: &Port<'_>, accepted: Vec<Option<u32>>) -> String {
     let defaults = &port.subject.vectors().defaults;
     let mut text = "\n# The parameters and their defaults.\nDEFAULTS = {\n".to_string();
     for (parameter, default) in port.parameters.values().zip(defaults) {

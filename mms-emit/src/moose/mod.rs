@@ -16,11 +16,11 @@ use crate::port::callable::input;
 use crate::port::names::Rules;
 use crate::port::number::decimal;
 use crate::python::module::comment;
+use crate::target::{Bundle, Subject, Target};
 use crate::text::listed;
 use mms_codegen::rust::File;
-use crate::target::{Bundle, Subject, Target};
-use mms_symbolic::expr::{Function, Symbol};
 use mms_program::{Op, Value};
+use mms_symbolic::expr::{Function, Symbol};
 
 /// MOOSE.
 pub const TARGET: Target = Target {

@@ -1,7 +1,7 @@
 //! Python: a module over NumPy arrays of any shape. Its printer is that of `python`.
 
-use crate::target::Target;
 use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::target::Target;
 
 /// Python with NumPy.
 pub const TARGET: Target = Target {

@@ -6,9 +6,9 @@ mod file;
 
 use crate::port::Port;
 use crate::port::names::Rules;
+use crate::target::{Bundle, Subject, Target};
 use crate::text::wrapped;
 use mms_codegen::rust::File;
-use crate::target::{Bundle, Subject, Target};
 
 /// Octave and MATLAB.
 pub const TARGET: Target = Target {

@@ -9,7 +9,7 @@ use crate::port::number::hexadecimal;
 use crate::port::once::Once;
 
 /// What check programs in Python begin with: what compares.
-pub(in crate) const CHECK: &str = include_str!("support/check.py");
+pub(crate) const CHECK: &str = include_str!("support/check.py");
 
 /// The text of `FIELD_check.py`.
 pub(super) fn text(port: &Port<'_>, form: Form) -> String {
@@ -45,7 +45,7 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
 }
 
 /// The test vectors, as names of Python: `SETS`, `POINTS` and `EXPECTED`.
-pub(in crate) fn tables(port: &Port<'_>) -> String {
+pub(crate) fn tables(port: &Port<'_>) -> String {
     let line = |values: Vec<f64>| {
         let numbers: Vec<String> = values.iter().map(|value| hexadecimal(*value)).collect();
         numbers.join(" ") + "\n"

@@ -7,8 +7,8 @@ pub(super) mod module;
 use self::dialect::Form;
 use crate::port::Port;
 use crate::port::names::Rules;
-use mms_codegen::rust::File;
 use crate::target::{Bundle, Subject, Target};
+use mms_codegen::rust::File;
 use mms_symbolic::expr::Function;
 
 /// Python.

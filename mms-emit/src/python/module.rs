@@ -64,7 +64,7 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
 }
 
 /// Paragraphs as lines of a comment.
-pub(in crate) fn comment(paragraphs: &[String], indent: &str) -> String {
+pub(crate) fn comment(paragraphs: &[String], indent: &str) -> String {
     let paragraphs: Vec<Vec<String>> =
         paragraphs.iter().map(|text| wrapped(text, 96 - indent.len())).collect();
     let lines = paragraphs.join(&String::new());

@@ -10,8 +10,8 @@ mod module;
 
 use crate::port::Port;
 use crate::port::names::Rules;
-use mms_codegen::rust::File;
 use crate::target::{Bundle, Subject, Target};
+use mms_codegen::rust::File;
 
 /// Rust that stands alone.
 pub const TARGET: Target = Target {

@@ -1,7 +1,7 @@
 //! Python: a module of SymPy expressions. Its printer is that of `python`.
 
-use crate::target::Target;
 use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::target::Target;
 
 /// Python with SymPy.
 pub const TARGET: Target = Target {

@@ -1,7 +1,7 @@
 //! Python: a module of UFL expressions. Its printer is that of `python`.
 
-use crate::target::Target;
 use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::target::Target;
 
 /// Python with UFL.
 pub const TARGET: Target = Target {

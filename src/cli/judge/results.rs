@@ -11,14 +11,14 @@ use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::super::input::{Input, Variant, quantities};
-use super::super::method::{finite, positive};
 use super::super::{Outcome, print, print_json, say, this_command};
 use super::Judge;
 use crate::judge::results::{Baseline, Exact, Measurement, Reading, Results, measure, same};
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
+use crate::session::input::{Input, Variant, quantities};
+use crate::session::method::{finite, positive};
 
 /// How results are read.
 #[derive(Args)]

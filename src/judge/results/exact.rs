@@ -11,7 +11,7 @@ use mms_program::block::{Plan, Prepared, Room, Way};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 
-use crate::cli::input::Input;
+use crate::session::input::Input;
 
 /// A field with numbers for its parameters.
 pub struct Exact {

@@ -13,8 +13,8 @@ use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 use serde_json::{Value, json};
 
-use super::provenance::Provenance;
 use super::{pretty, write_files};
+use crate::provenance::Provenance;
 use crate::workbench::Time;
 
 /// What the stable form promises, in eps of the largest value of a quantity.

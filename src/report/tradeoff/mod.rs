@@ -11,8 +11,8 @@ use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::front::front;
-use super::provenance::Provenance;
 use super::{bytes, duration, pretty, write_files};
+use crate::provenance::Provenance;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
 

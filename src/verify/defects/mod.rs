@@ -23,7 +23,7 @@ use super::plan::Plan;
 use super::pseudo::Looks;
 use super::verdict::{Judgement, judge};
 use super::work::{Fields, Outcome, Watcher, outcomes};
-use crate::cli::input::Input;
+use crate::session::input::Input;
 use crate::store::Store;
 use eyes::{Eyes, Watched};
 

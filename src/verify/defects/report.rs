@@ -5,7 +5,7 @@ use comfy_table::presets::NOTHING;
 use serde_json::{Value, json};
 
 use super::{Defect, Shown};
-use crate::report::provenance::Provenance;
+use crate::provenance::Provenance;
 use crate::verify::matrix::Row;
 use crate::verify::pseudo::{Check, Looks};
 

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_runtime::Division;
 use mms_runtime::study::Observer;
 
-use super::say;
+use crate::terminal::say;
 
 /// A bar on a terminal, a line per run elsewhere.
 pub struct Progress {

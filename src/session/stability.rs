@@ -17,7 +17,7 @@ use mms_runtime::{FormulationName, Method};
 use mms_symbolic::expr::Rational;
 
 use super::input::Input;
-use super::say;
+use crate::terminal::say;
 
 /// At how many points c0 is sampled.
 const POINTS: usize = 16;

@@ -23,8 +23,8 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
 use crate::gallery::{self, Entry};
+use crate::provenance;
 use crate::read::{self, Kind};
-use crate::report::provenance;
 
 /// What is wrong where a part of a field does not compile: the file, or the part.
 const SELECTED: &str = "the field does not compile as selected";
