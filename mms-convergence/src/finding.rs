@@ -35,8 +35,10 @@ pub enum Reason {
     Stopped,
     /// An error is exactly zero or not finite, or nothing fits: there is no order.
     NoOrder,
-    /// There are two levels or fewer above round-off.
+    /// There is one level above round-off, or none.
     TooFewLevels,
+    /// There are two, so that nothing says whether their order is settled: it alone is held to the expected one.
+    TwoLevels,
     /// The whole interval lies below the expected order.
     Below,
     /// It does, but orders approach the expected one.
@@ -131,8 +133,13 @@ impl Finding {
             finding.term = term.filter(Term::is_shown);
             finding.limit = limit(levels);
             (finding.verdict, finding.reason) = finding.decide(orders, expected);
-        } else if orders.is_some() {
-            finding.reason = Reason::TooFewLevels;
+        } else if let Some([order]) = orders.as_deref() {
+            finding.verdict = match order - expected.order {
+                off if off < -expected.tolerance => Verdict::Fail,
+                off if off > expected.tolerance => Verdict::NotAsymptotic,
+                _ => Verdict::Pass,
+            };
+            finding.reason = Reason::TwoLevels;
         }
         finding
     }

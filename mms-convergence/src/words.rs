@@ -71,11 +71,12 @@ impl Finding {
             Reason::Settled | Reason::Below | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
-            Reason::TooFewLevels => match self.lengths.len() {
-                2 => "; two levels have an order, and cannot show that it is settled: give a third"
-                    .into(),
-                _ => "; three levels above round-off are needed".into(),
-            },
+            Reason::TooFewLevels => {
+                "; two levels above round-off are needed, and three tell more".into()
+            }
+            Reason::TwoLevels => {
+                "; two levels cannot show that it is settled: a third would".into()
+            }
             Reason::Approaching => format!("; orders approach {p}, but are not near it yet"),
             Reason::Near => {
                 "; near it, and three levels cannot tell noise from a lower order: give a fourth"

@@ -146,10 +146,17 @@ fn three_levels_are_judged_by_their_drift() {
 }
 
 #[test]
-fn two_levels_have_an_order_and_prove_nothing() {
-    for order in [2.0, 1.0, 0.0] {
+fn two_levels_have_an_order_alone_and_say_so() {
+    let verdicts = [
+        (2.0, Verdict::Pass),
+        (1.9, Verdict::Pass),
+        (1.0, Verdict::Fail),
+        (0.0, Verdict::Fail),
+        (2.5, Verdict::NotAsymptotic),
+    ];
+    for (order, verdict) in verdicts {
         let found = with_orders(&[order]);
-        assert_eq!((found.verdict, found.reason), (Verdict::NotAsymptotic, Reason::TooFewLevels));
+        assert_eq!((found.verdict, found.reason), (verdict, Reason::TwoLevels));
         let estimate = found.estimate.expect("an order");
         assert_eq!(estimate.interval, None);
         assert_near(estimate.order, order, 1e-12);

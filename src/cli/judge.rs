@@ -30,7 +30,7 @@ use crate::store::digest;
 /// counts, orders and times are passed over, so that the CSV file of `mms study` can be judged as it is.
 ///
 /// pass: the interval of the order holds the expected one, half its width is the tolerance at most, and no lower order is
-/// shown. fail: it lies below. not asymptotic: else. Fewer than three levels never pass.
+/// shown. fail: it lies below. not asymptotic: else. Two levels are held to the order alone.
 ///
 /// Exit codes: 0 pass; 1 another verdict; 2 bad usage, or a bad table.
 #[derive(Args)]

@@ -269,6 +269,7 @@ impl Study {
             refinement: self.refine,
             judgement,
             verdict,
+            uncertainty: series.uncertainty(),
             error_constant,
             expected_error_constant: self.expected_constant,
             fit,

@@ -39,6 +39,8 @@ pub struct Study {
     pub judgement: Judgement,
     /// The outcome: `fail` also where a level was not started, or the error constant is another one.
     pub verdict: Verdict,
+    /// What Richardson's extrapolation adds to the order of the finest pair.
+    pub uncertainty: Option<f64>,
     /// C of l2 = C h^p, or C dt^p in time, with the expected order.
     pub error_constant: Option<f64>,
     /// What it should be, where that is known.
@@ -274,7 +276,7 @@ impl Study {
             "differences": differences,
             "expected_order": self.expected.order,
             "observed_order": self.judgement.observed_order(),
-            "order_uncertainty": self.order_uncertainty(),
+            "order_uncertainty": self.uncertainty,
             "order_interval": self.order_interval(),
             "norm": self.judgement.deciding().norm,
             "norms": norms_judged(&self.judgement),
@@ -403,12 +405,6 @@ impl Study {
             (Some(run), _) => format!("{} cells", run.level.cells),
             (None, _) => format!("h {length:.2e}"),
         }
-    }
-
-    /// How far from the observed order that of the limit may be.
-    fn order_uncertainty(&self) -> Option<f64> {
-        let (order, [low, high]) = (self.judgement.observed_order()?, self.order_interval()?);
-        Some((order - low).max(high - order))
     }
 
     /// The interval of the observed order.

@@ -66,7 +66,7 @@ fn the_claims_of_each_kind_hold_and_nothing_is_turned_inside_out() {
 
 #[test]
 fn the_solver_shows_the_order_that_the_file_states() {
-    for (dimension, cells) in [(1, "16,32,64"), (2, "8,16,32"), (3, "4,8,16")] {
+    for (dimension, cells) in [(1, "16,32,64"), (2, "8,16"), (3, "4,8")] {
         let folder = Folder::new();
         let run = folder.mms(&format!("new fresh --dimension {dimension}")).exits(0);
         run.prints("mms study fresh.toml");

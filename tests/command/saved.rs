@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::mms::Folder;
 
 const SCENE: &str = "field = \"bar_1d\"\nformulation = \"total\"\nshape = \"linear\"\n\
-                     cells = [8, 16, 32]\ncourant = 0.2\nset = { young = 1e3, length = 2 }\n\
+                     cells = [8, 16]\ncourant = 0.2\nset = { young = 1e3, length = 2 }\n\
                      jitter = 0.0\njson = true\n";
 
 #[test]
@@ -26,11 +26,11 @@ fn a_saved_scene_is_the_command_with_its_options() {
     };
     let saved = strip("study --study scene.toml");
     let options = "--formulation total --shape linear --courant 0.2 --set young=1e3 --set length=2";
-    assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16,32 {options} --json")));
+    assert_eq!(saved, strip(&format!("study bar_1d --cells 8,16 {options} --json")));
     assert_eq!(saved, strip("study --study=scene.toml"));
     // The command line goes first, whatever the order.
     for command in
-        ["study --cells 16,32,64 --study scene.toml", "study --study scene.toml --cells=16,32,64"]
+        ["study --cells 16,32 --study scene.toml", "study --study scene.toml --cells=16,32"]
     {
         assert_eq!(strip(command)["levels"][0]["cells"], 16);
     }
@@ -83,12 +83,12 @@ fn mistakes_of_a_study_file_are_named_at_their_places() {
 #[test]
 fn the_command_line_goes_first() {
     let folder = Folder::new();
-    let scene = "field = \"bar_1d\"\ncells = [8, 16, 32]\ntime_step = 1e-4\njson = true\noutput = \"a\"\n\
+    let scene = "field = \"bar_1d\"\ncells = [8, 16]\ntime_step = 1e-4\njson = true\noutput = \"a\"\n\
                  set = { young = 1e3, length = 2 }\n";
     folder.write("scene.toml", scene);
     let own = "study --study scene.toml --courant 0.25 --set young=2e3 --set=amplitude=0.1 -o b";
     let found = folder.mms(own).exits(0).json();
-    let command = "study bar_1d --cells 8,16,32 --json --courant 0.25 --set young=2e3 --set length=2 --set amplitude=0.1";
+    let command = "study bar_1d --cells 8,16 --json --courant 0.25 --set young=2e3 --set length=2 --set amplitude=0.1";
     let expected = folder.mms(command).exits(0).json();
     for key in ["method", "levels"] {
         let strip = |document: &serde_json::Value| {
@@ -108,7 +108,7 @@ fn a_study_file_that_is_not_there_or_lacks_a_field_exits_2() {
     let folder = Folder::new();
     folder.mms("study --study none.toml").exits(2).complains("cannot read `none.toml`");
     folder.mms("study --study").exits(2).complains("expected the path");
-    folder.write("scene.toml", "cells = [8, 16, 32]\n");
+    folder.write("scene.toml", "cells = [8, 16]\n");
     folder.mms("study --study scene.toml").exits(2).complains("<FIELD>");
     folder.mms("study bar_1d --study scene.toml").exits(0);
     folder.write("scene.toml", "cells = [8, \"x\"]\n");

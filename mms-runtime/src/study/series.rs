@@ -87,6 +87,19 @@ impl Series {
         Judgement::of(norms).expect("three norms")
     }
 
+    /// How far the order of l2 on the finest pair may be from that of the limit: the distance to the order of the pair
+    /// before over r - 1, r being the ratio of lengths (Richardson's extrapolation; Roache, Verification and Validation
+    /// in Computational Science and Engineering, 1998, chapter 5). Round-off of the finest error comes on top. `None`
+    /// with fewer than three levels above round-off.
+    pub fn uncertainty(&self) -> Option<f64> {
+        let sound = self.points.iter().position(Point::is_noise).unwrap_or(self.points.len());
+        let [.., first, second, third] = &self.points[..sound] else { return None };
+        let (before, last) = (second.orders_from(first).l2?, third.orders_from(second).l2?);
+        let ratio = second.length / third.length;
+        let noise = third.floor / third.errors?.l2 / ratio.ln();
+        Some((last - before).abs() / (ratio - 1.0) + noise)
+    }
+
     /// C of e = C h^p, from l2 on the finest level above round-off, p being the expected order.
     pub fn error_constant(&self, expected_order: f64) -> Option<f64> {
         self.sequence(|errors| errors.l2).error_constant(expected_order)
