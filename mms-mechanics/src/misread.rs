@@ -32,7 +32,7 @@ pub(super) fn body_force(
 
 /// The model of the motion and its b, where they are derived for other moduli than those of the solver's stress.
 #[cfg(feature = "defects")]
-pub(crate) fn moduli(
+pub fn moduli(
     graph: &mut Graph,
     field: &mms_spec::FieldSpec,
     material: &mms_spec::MaterialSpec,
