@@ -222,7 +222,7 @@ mms_code mms_field_components(const struct mms_field *field,
 
 // Evaluates a quantity at `count` points of the reference body, at one time.
 //
-// `quantity` is a name, or one of the symbols u x v a H F J C B E P sigma b W. `points` are count x
+// `quantity` is a name, or one of the symbols u x v a H F J C B E rho P sigma b W. `points` are count x
 // D coordinates, those of a point side by side. `values` get count x C numbers, those of a point
 // side by side, with C from `mms_field_components`; a tensor is stored by rows. `normals` are count
 // x D components of reference unit normals for "traction" (see `mms_field_normals`), and NULL for

@@ -3,9 +3,8 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{Blockwise, Inputs, Outputs, Plan, Prepared, Room, Way};
+use mms_program::block::{Blockwise, Plan, Prepared, Room, Way};
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::Symbol;
 
 /// How many points are evaluated together.
 pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
@@ -90,31 +89,7 @@ impl Ready {
             self.values.resize(count * components, 0.0);
         }
         let values = &mut self.values[..count * components];
-        let mut bring = |_: usize, inputs: &mut Inputs<'_, f64>| {
-            for (symbol, column) in inputs.columns() {
-                let (numbers, axis) = match symbol {
-                    Symbol::Coordinate(axis) => (points, axis),
-                    Symbol::Normal(axis) => (normals, axis),
-                    _ => unreachable!("a quantity takes positions and normals"),
-                };
-                match dimension {
-                    1 => column.copy_from_slice(&numbers[..column.len()]),
-                    _ => {
-                        let numbers = numbers[axis..].iter().step_by(dimension);
-                        column.iter_mut().zip(numbers).for_each(|(to, number)| *to = *number);
-                    }
-                }
-            }
-        };
-        let mut take = |_: usize, outputs: &Outputs<'_, f64>| {
-            for (index, component) in outputs.components(0).enumerate() {
-                match components {
-                    1 => component.write(values.iter_mut()),
-                    _ => component.write(values[index..].iter_mut().step_by(components)),
-                }
-            }
-        };
-        self.prepared.run(&mut self.room, time, count, &mut bring, &mut take);
+        self.prepared.at_points(&mut self.room, time, dimension, [points, normals], values);
         &self.values[..count * components]
     }
 }

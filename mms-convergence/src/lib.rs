@@ -11,15 +11,15 @@
 //!
 //! | levels | fit | says |
 //! |---|---|---|
-//! | 2 | the order ln(e1/e2)/ln(h1/h2) | that there is an order, and not whether it is settled: never a `pass` |
+//! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order alone, which is held to the expected one, and not whether it is settled |
 //! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), where the drift may lead |
 //! | 4 and more, or replicates | ln e = ln C + p ln h | the interval of 95 % by Student's t, from the scatter |
 //! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term), its share and where it takes over |
 //! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 holds 0 |
 //!
-//! * `pass`: the interval holds the expected order, half its width is the tolerance at most, and no lower term is
-//!   shown.
-//! * `fail`: the interval lies below it, of three levels by more than the tolerance; or a run stopped.
+//! * `pass`: the interval holds the expected order, half its width is the tolerance at most, and no lower term is shown that
+//!   matters; of two levels, the order is near the expected one.
+//! * `fail`: the interval lies below it, of three levels by more than the tolerance, as the order of two; or a run stopped.
 //! * `not asymptotic`: else; so too where the interval lies above.
 //!
 //! ```

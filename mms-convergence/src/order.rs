@@ -1,8 +1,9 @@
 //! The observed order of a few levels, and the interval in which it lies.
 
 use crate::OUTSIDE;
+use crate::least::{Solution, solve};
 use crate::sequence::Level;
-use crate::student::{quantile, tail_of_ratio};
+use crate::student::tail_of_ratio;
 
 /// An order, and where it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,53 +73,35 @@ fn drift(levels: &[Level]) -> Option<[f64; 2]> {
 /// with that of levels, unless levels scatter more than replicates do (lack of fit, by Fisher's F; Draper & Smith,
 /// Applied Regression Analysis, 1998, section 2.1). `None` of three levels whose scatter is not that of replicates.
 fn scatter(levels: &[Level]) -> Option<(f64, f64)> {
-    let all = || levels.iter().flat_map(|level| level.errors.iter().map(|e| [level.length, *e]));
-    let means: Vec<_> = levels.iter().map(|level| [level.length, level.error()]).collect();
-    let of_all = Line::through(&all().collect::<Vec<_>>());
+    let all = levels.iter().flat_map(|level| level.errors.iter().map(|e| [level.length, *e]));
+    let of_all = power_law(all)?;
     let within: f64 = levels
         .iter()
         .flat_map(|level| level.errors.iter().map(|e| (e / level.error()).ln().powi(2)))
         .sum();
-    let (runs, between) = (all().count(), levels.len() - 2);
-    let replicates = runs - levels.len();
+    let runs: usize = levels.iter().map(|level| level.errors.len()).sum();
+    let (replicates, between) = (runs - levels.len(), levels.len() - 2);
     let is_pooled = replicates > 0 && {
         let lack = (of_all.left - within).max(0.0) / between as f64;
         tail_of_ratio(lack / (within / replicates as f64), [between, replicates]) > OUTSIDE
     };
-    if is_pooled {
-        return Some((of_all.slope, of_all.reach(runs - 2)));
-    }
-    let of_means = Line::through(&means);
-    (levels.len() > 3).then(|| (of_means.slope, of_means.reach(between)))
+    let of_levels = || power_law(means(levels)).filter(|_| levels.len() > 3);
+    let found = if is_pooled { Some(of_all) } else { of_levels() }?;
+    Some((found.unknowns[1], found.reach(1, OUTSIDE)))
 }
 
-/// A straight line through logarithms.
-struct Line {
-    slope: f64,
-    left: f64,
-    spread: f64,
+fn means(levels: &[Level]) -> impl Iterator<Item = [f64; 2]> {
+    levels.iter().map(|level| [level.length, level.error()])
 }
 
-impl Line {
-    fn through(points: &[[f64; 2]]) -> Self {
-        let points: Vec<_> = points.iter().map(|point| point.map(f64::ln)).collect();
-        let mean =
-            |which: usize| points.iter().map(|p| p[which]).sum::<f64>() / points.len() as f64;
-        let centre = [mean(0), mean(1)];
-        let sum = |i: usize, j: usize| {
-            points.iter().map(|p| (p[i] - centre[i]) * (p[j] - centre[j])).sum::<f64>()
-        };
-        let (spread, slope) = (sum(0, 0), sum(0, 1) / sum(0, 0));
-        let residual = |p: &[f64; 2]| (p[1] - centre[1] - slope * (p[0] - centre[0])).powi(2);
-        Self { slope, left: points.iter().map(residual).sum(), spread }
-    }
-
-    fn reach(&self, freedom: usize) -> f64 {
-        quantile(OUTSIDE, freedom) * (self.left / freedom as f64 / self.spread).sqrt()
-    }
+/// The straight line through logarithms: ln C at the first length, and p.
+fn power_law(points: impl Iterator<Item = [f64; 2]>) -> Option<Solution<2>> {
+    let points: Vec<_> = points.map(|point| point.map(f64::ln)).collect();
+    let first = points.first()?[0];
+    solve(&points.iter().map(|[h, e]| ([1.0, h - first], *e)).collect::<Vec<_>>())
 }
 
 /// How far levels are from a power law of an order of their own: the sum of squares of logarithms.
 pub(crate) fn misfit(levels: &[Level]) -> f64 {
-    Line::through(&levels.iter().map(|it| [it.length, it.error()]).collect::<Vec<_>>()).left
+    power_law(means(levels)).map_or(f64::INFINITY, |found| found.left)
 }

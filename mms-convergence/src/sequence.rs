@@ -77,14 +77,14 @@ impl Sequence {
         samples.sort_by(|a, b| b.length.total_cmp(&a.length));
         let mut levels: Vec<Level> = Vec::new();
         for sample in samples {
-            let (has_stopped, is_noise) = (false, false);
-            let own = Level { length: sample.length, errors: Vec::new(), has_stopped, is_noise };
             match levels.last_mut() {
                 Some(level) if level.length <= sample.length * (1.0 + SAME) => level.join(sample),
-                _ => {
-                    levels.push(own);
-                    levels.iter_mut().last().into_iter().for_each(|level| level.join(sample));
-                }
+                _ => levels.push(Level {
+                    length: sample.length,
+                    errors: sample.error.into_iter().collect(),
+                    has_stopped: sample.error.is_none(),
+                    is_noise: sample.is_noise,
+                }),
             }
         }
         Self { levels }

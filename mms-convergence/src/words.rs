@@ -16,10 +16,11 @@ const ABOVE: &str = "an order above theory comes from an error that changes its 
      from coarse levels that are not asymptotic, or from a theory that says too little";
 
 impl Judgement {
-    /// The verdict with what decided it, and then what is behind it, a sentence a line.
-    pub fn sentences(&self, name: Name<'_>) -> Vec<String> {
+    /// The verdict with what decided it, and then what is behind it, a sentence a line. `symbol` is that of the lengths in
+    /// formulas: h or dt.
+    pub fn sentences(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let first = format!("{}: {}", self.verdict(), self.headline(name));
-        std::iter::once(first).chain(self.explanations(name)).collect()
+        std::iter::once(first).chain(self.explanations(symbol, name)).collect()
     }
 
     /// The order with its interval, the norm and the levels that decided, and what was expected.
@@ -29,9 +30,9 @@ impl Judgement {
     }
 
     /// What is behind the verdict, a sentence a line.
-    pub fn explanations(&self, name: Name<'_>) -> Vec<String> {
+    pub fn explanations(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
         let Judged { expected, finding, .. } = self.deciding();
-        let mut lines = finding.explanations(*expected, name);
+        let mut lines = finding.explanations(*expected, symbol, name);
         lines.extend(self.layer().map(|q| {
             format!(
                 "the orders of l1, l2 and linf are those of a layer at a face where the order is {q:.1}: q + 1, q + 1/2 \
@@ -91,7 +92,7 @@ impl Finding {
     }
 
     /// What the fits say, in words.
-    fn explanations(&self, expected: Expected, name: Name<'_>) -> Vec<String> {
+    fn explanations(&self, expected: Expected, symbol: &str, name: Name<'_>) -> Vec<String> {
         let mut lines = Vec::new();
         lines.extend(self.estimate.and_then(|it| match it.basis {
             Basis::Scatter => Some(format!(
@@ -103,10 +104,12 @@ impl Finding {
             ),
             Basis::Nothing => None,
         }));
-        lines.extend(self.material_term(expected).map(|term| term.sentence(expected.order, name)));
+        lines.extend(
+            self.material_term(expected).map(|term| term.sentence(expected.order, symbol, name)),
+        );
         lines.extend(self.inconsistency(expected).map(|it| {
             format!(
-                "not consistent: e0 + C h^{:.2} fits with e0 = {:.2e}, between {:.2e} and {:.2e}",
+                "not consistent: e0 + C {symbol}^{:.2} fits with e0 = {:.2e}, between {:.2e} and {:.2e}",
                 it.order, it.error, it.interval[0], it.interval[1]
             )
         }));
@@ -149,7 +152,7 @@ impl Fit {
 }
 
 impl Term {
-    fn sentence(&self, p: f64, name: Name<'_>) -> String {
+    fn sentence(&self, p: f64, symbol: &str, name: Name<'_>) -> String {
         let (q, at) = (self.order, name(self.takes_over));
         let what = match self.kind {
             Kind::Plateau => "a plateau".into(),
@@ -162,7 +165,9 @@ impl Term {
             100.0 * self.interval[0],
             100.0 * self.interval[1]
         );
-        let fits = format!("C h^{p} + D h^{q} fits the drift of the orders: {what}, {percent}");
+        let fits = format!(
+            "C {symbol}^{p} + D {symbol}^{q} fits the drift of the orders: {what}, {percent}"
+        );
         match self.kind {
             _ if self.share < 0.0 && self.kind != Kind::PreAsymptotic => {
                 format!("{fits}, of the other sign: both cancel near {at}")

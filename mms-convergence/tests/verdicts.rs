@@ -221,7 +221,8 @@ fn the_worst_norm_decides_and_a_layer_is_told_by_its_orders() {
 
 #[test]
 fn words_name_the_norm_the_levels_and_the_reason() {
-    let says = |judgement: &Judgement| judgement.sentences(&|h| format!("h = {h:.4}")).join("\n");
+    let says =
+        |judgement: &Judgement| judgement.sentences("h", &|h| format!("h = {h:.4}")).join("\n");
     let square: fn(f64) -> f64 = |x| x * x;
     let layer = says(&three([square, |x| x.powf(1.5), |x| x]));
     assert!(layer.starts_with("fail: observed order 1.50, between 1.46"), "{layer}");

@@ -63,6 +63,44 @@ impl Extent<f64> {
     }
 }
 
+impl Extent<f64> {
+    /// The length, area or volume of the body.
+    pub fn measure(&self) -> f64 {
+        match self {
+            Extent::Box([lower, upper]) => lower.iter().zip(upper).map(|(a, b)| b - a).product(),
+            Extent::Annulus([inner, outer], [first, last]) => {
+                (last - first) / 2.0 * (outer * outer - inner * inner)
+            }
+        }
+    }
+
+    /// How far a point is from the body, in the unit of lengths; 0 within it.
+    pub fn distance(&self, point: &[f64]) -> f64 {
+        match (self, point) {
+            (Extent::Box([lower, upper]), _) => {
+                let sides = point.iter().zip(lower.iter().zip(upper));
+                sides.map(|(x, (a, b))| beyond(*x, *a, *b).powi(2)).sum::<f64>().sqrt()
+            }
+            (Extent::Annulus([inner, outer], [first, last]), [x, y]) => {
+                if (y.atan2(*x) - first).rem_euclid(TAU) <= last - first {
+                    return beyond(x.hypot(*y), *inner, *outer);
+                }
+                let to_edge = |angle: &f64| {
+                    let (sine, cosine) = angle.sin_cos();
+                    let along = (x * cosine + y * sine).clamp(*inner, *outer);
+                    (x - along * cosine).hypot(y - along * sine)
+                };
+                to_edge(first).min(to_edge(last))
+            }
+            (Extent::Annulus(..), _) => f64::INFINITY,
+        }
+    }
+}
+
+fn beyond(value: f64, lower: f64, upper: f64) -> f64 {
+    (lower - value).max(value - upper).max(0.0)
+}
+
 /// Whether a number lies between two others, or within rounding of them.
 pub fn is_between(lower: f64, upper: f64, value: f64) -> bool {
     let rounding = ROUNDING * f64::max(lower.abs(), upper.abs());
@@ -103,4 +141,36 @@ fn radical_inverse(mut index: usize, base: usize) -> Rational {
         index /= base;
     }
     Rational::from_parts(numerator.into(), denominator.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    /// Against the nearest of many points of the body.
+    #[test]
+    fn distances_are_those_to_the_nearest_point() {
+        let bodies = [
+            Extent::Box([vec![0.0, -1.0], vec![2.0, 1.0]]),
+            Extent::Annulus([1.0, 2.0], [0.25 * PI, 1.5 * PI]),
+            Extent::Annulus([0.5, 1.0], [0.0, 2.0 * PI]),
+        ];
+        let fractions = || (0..=400).map(|k| f64::from(k) / 400.0);
+        for body in &bodies {
+            for [x, y] in [[0.0, 0.0], [3.0, 2.0], [0.1, -1.7], [1.5, 0.2], [-1.2, 0.3], [0.2, 0.1]]
+            {
+                let points =
+                    fractions().flat_map(|a| fractions().map(move |b| body.point(&[a, b])));
+                let nearest =
+                    points.map(|p| (p[0] - x).hypot(p[1] - y)).fold(f64::INFINITY, f64::min);
+                let found = body.distance(&[x, y]);
+                assert!((found - nearest).abs() < 0.02, "{body:?}, {x}, {y}: {found}, {nearest}");
+                assert_eq!(found == 0.0, body.contains(&[x, y]), "{body:?}, {x}, {y}");
+            }
+        }
+        assert_eq!(bodies[0].measure(), 4.0);
+        assert!((bodies[2].measure() - 0.75 * PI).abs() < 1e-12);
+    }
 }

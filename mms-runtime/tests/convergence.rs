@@ -27,7 +27,7 @@ fn finest_orders(levels: &[Level]) -> [f64; 2] {
 
 fn verdict(levels: &[Level]) -> Verdict {
     let judgement = judge(levels, Expected { order: 2.0, tolerance: TOLERANCE });
-    println!("{}", judgement.sentences(&|h| format!("h {h}")).join("\n"));
+    println!("{}", judgement.sentences("h", &|h| format!("h {h}")).join("\n"));
     judgement.verdict()
 }
 

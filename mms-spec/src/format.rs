@@ -258,7 +258,7 @@ pub const STUDY: &[Key] = &[
         Holds::Levels,
         "The levels, coarse to fine: cells along the longest edge of the body.",
     ),
-    optional("order", Holds::Positive, "The order that the finest pair must show; 2 by default."),
+    optional("order", Holds::Positive, "The order that the levels must show; 2 by default."),
     optional("tolerance", Holds::Positive, "By how much it may differ; 0.15 by default."),
     optional("reason", Holds::Text, "Why theory says so."),
 ];

@@ -94,10 +94,10 @@ impl Quantity {
     }
 
     /// The quantity of that identifier, or of one of the accepted aliases
-    /// `u x v a H F J C B E P sigma b W` (`div_p` and `div_sigma` are both).
+    /// `u x v a H F J C B E rho P sigma b W` (`div_p` and `div_sigma` are both).
     pub fn from_name(name: &str) -> Option<Quantity> {
         const ALIASED: &[&str] =
-            &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "P", "sigma", "b", "W"];
+            &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "sigma", "b", "W"];
         Self::ALL.iter().copied().find(|quantity| {
             quantity.name() == name || (ALIASED.contains(&name) && quantity.symbol() == name)
         })

@@ -9,6 +9,7 @@ use anyhow::Context as _;
 use clap::Args;
 use mms_convergence::{TOLERANCE, Verdict};
 use mms_spec::foreign;
+use serde_json::Value;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
 use crate::judge::table::{self, Orders};
@@ -101,11 +102,7 @@ impl Judge {
 
     /// Prints a report, and writes it where that is asked for.
     fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
-        if self.json {
-            print_json(&report.document())?;
-        } else {
-            print(&report.table())?;
-        }
+        self.show((report.table(), report.document()))?;
         if let Some(folder) = &self.output {
             let written = report.write(folder)?;
             if !self.json {
@@ -116,6 +113,11 @@ impl Judge {
             Verdict::Pass => Outcome::AsExpected,
             Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
         })
+    }
+
+    /// Prints a text, or the document that says the same.
+    fn show(&self, (text, document): (String, Value)) -> anyhow::Result<()> {
+        if self.json { print_json(&document) } else { print(&text) }
     }
 
     fn orders(&self) -> Orders {

@@ -70,6 +70,11 @@ impl Refined {
             Refined::Grid => "space and time",
         }
     }
+
+    /// The lengths of levels, in formulas.
+    pub fn symbol(self) -> &'static str {
+        if self == Refined::Time { "dt" } else { "h" }
+    }
 }
 
 /// What is said of a quantity.

@@ -117,7 +117,8 @@ impl Judgements {
     fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
         let fits = quantity.norms.iter().zip(&judged.fits);
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
-        let mut lines = judged.judgement.sentences(&|length| self.name(length));
+        let mut lines =
+            judged.judgement.sentences(self.refined.symbol(), &|length| self.name(length));
         lines.extend(fits);
         lines
     }

@@ -412,10 +412,17 @@ impl Study {
         self.judgement.norm("l2")?.finding.estimate?.interval
     }
 
+    /// What is refined, in formulas.
+    fn symbol(&self) -> &'static str {
+        if self.refinement == Refinement::Time { "dt" } else { "h" }
+    }
+
     /// The verdict, and all that it rests on.
     fn conclusions(&self) -> String {
         let mut lines = vec![self.conclusion()];
-        lines.extend(self.judgement.explanations(&|length| self.name_of_level(length)));
+        lines.extend(
+            self.judgement.explanations(self.symbol(), &|length| self.name_of_level(length)),
+        );
         lines.push(self.constant());
         lines.extend(self.fit.map(|fit| fit.sentence("l2")));
         if self.refinement == Refinement::Time {
@@ -429,7 +436,7 @@ impl Study {
 
     /// The error constant, and what it was held to: a defect may leave the order and change it.
     fn constant(&self) -> String {
-        let length = if self.refinement == Refinement::Time { "dt" } else { "h" };
+        let length = self.symbol();
         let found = match self.error_constant {
             Some(found) => {
                 format!("l2 = {found:.3e} {length}^{} on the finest level", self.expected.order)

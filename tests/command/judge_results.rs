@@ -114,6 +114,29 @@ fn floors_of_files_are_found() {
     run.prints("u = x - X").prints("observed order 3.97 (l2; 2 levels, h 4.000e0 to h 2.000e0)");
 }
 
+/// Times whose digits let neighbours be the same are told apart by which is nearer.
+#[test]
+fn each_time_is_judged_once() {
+    let folder = Folder::new();
+    let both = |of: f64| {
+        for (name, points) in [("a", 4), ("b", 8), ("c", 16)] {
+            // The error is that of the second time alone.
+            let rows = ["0.01", "0.02"].map(|time| {
+                let error = if time == "0.02" { of / f64::from(points).powi(2) } else { 0.0 };
+                let row = |x: f64, u: f64| format!("{time},{x},{}", u + error);
+                exact(&folder, points as usize, time, row)
+            });
+            folder.write(&format!("{name}.csv"), &format!("t,X,u\n{}", rows.concat()));
+        }
+        folder.mms("judge bar_1d a.csv b.csv c.csv --h 4,2,1 --json").exits(0).json()
+    };
+    for of in [1e-2, 2e-2] {
+        let document = both(of);
+        assert_eq!(document["times"], serde_json::json!([0.01, 0.02]));
+        near(number(&document["levels"][2]["l2"]), of / 256.0, 1e-6);
+    }
+}
+
 #[test]
 fn cells_are_measured_by_quadrature() {
     let folder = Folder::new();

@@ -194,6 +194,49 @@ impl<T: Blockwise> Prepared<T> {
     }
 }
 
+impl<T: Blockwise> Prepared<T> {
+    /// The first output at points whose coordinates X stand one after the other, and so do normals N where it takes them;
+    /// its components too, in `values`, which has room for just those of all points.
+    pub fn at_points(
+        &self,
+        room: &mut Room<T>,
+        time: T,
+        dimension: usize,
+        [points, normals]: [&[T]; 2],
+        values: &mut [T],
+    ) {
+        let count = points.len() / dimension;
+        let components = values.len().checked_div(count).unwrap_or(0);
+        let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
+            for (symbol, column) in inputs.columns() {
+                let (numbers, axis) = match symbol {
+                    Symbol::Coordinate(axis) => (points, axis),
+                    Symbol::Normal(axis) => (normals, axis),
+                    _ => unreachable!("a quantity takes positions and normals"),
+                };
+                let numbers = &numbers[start * dimension..];
+                match dimension {
+                    1 => column.copy_from_slice(&numbers[..column.len()]),
+                    _ => {
+                        let numbers = numbers[axis..].iter().step_by(dimension);
+                        column.iter_mut().zip(numbers).for_each(|(to, number)| *to = *number);
+                    }
+                }
+            }
+        };
+        let mut take = |start: usize, outputs: &Outputs<'_, T>| {
+            let own = &mut values[start * components..][..outputs.count() * components];
+            for (index, component) in outputs.components(0).enumerate() {
+                match components {
+                    1 => component.write(own.iter_mut()),
+                    _ => component.write(own[index..].iter_mut().step_by(components)),
+                }
+            }
+        };
+        self.run(room, time, count, &mut bring, &mut take);
+    }
+}
+
 fn signed<T: Blockwise>(scalar: &Scalar, number: T) -> T {
     if scalar.negated { -number } else { number }
 }

@@ -129,6 +129,20 @@ mod tests {
         }))
     }
 
+    /// e = h^2 (1 + K h): the limit lies within the uncertainty of the finest pair's order, by not much.
+    #[test]
+    fn the_uncertainty_covers_what_levels_are_away_from_the_limit() {
+        assert!(series(|h| 3.0 * h * h, 4, 0.0).uncertainty().unwrap() < 1e-12);
+        for next in [0.3, -0.3, 0.8] {
+            let series = series(|h| h * h * (1.0 + next * h), 6, 0.0);
+            let [.., coarse, fine] = series.points() else { panic!("six points") };
+            let (order, away) =
+                (fine.orders_from(coarse).l2.unwrap(), series.uncertainty().unwrap());
+            let error = (order - 2.0).abs();
+            assert!(error < 1.1 * away && away < 1.5 * error, "{next}: {order} {away}");
+        }
+    }
+
     fn verdict(series: &Series) -> Verdict {
         series.judge(SECOND).verdict()
     }

@@ -8,10 +8,9 @@ use mms_convergence::Verdict;
 use mms_results::names::{Mapping, Role};
 use mms_spec::foreign;
 use mms_spec::foreign::{Foreign, shown};
-use mms_spec::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
-use super::super::{Outcome, print, print_json, say, this_command};
+use super::super::{Outcome, say, this_command};
 use super::Judge;
 use crate::judge::results::{Baseline, Exact, Measurement, Reading, Results, measure, same};
 use crate::judge::table::Orders;
@@ -90,7 +89,7 @@ impl Judge {
         let options = &self.results;
         let wanted = match options.quantity.as_slice() {
             [] => Vec::new(),
-            names => quantities(&in_full(names))?,
+            names => quantities(names)?,
         };
         let all =
             self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
@@ -124,12 +123,7 @@ impl Judge {
         let compared = compared.with_context(|| format!("`--baseline {}`", foreign::path(path)))?;
         let verdict =
             if compared.iter().all(|it| it.is_near()) { Verdict::Pass } else { Verdict::Fail };
-        let (table, document) = with_baseline(title, &compared, verdict);
-        if self.json {
-            print_json(&document)?
-        } else {
-            print(&table)?
-        }
+        self.show(with_baseline(title, &compared, verdict))?;
         Ok(if verdict == Verdict::Pass { Outcome::AsExpected } else { Outcome::Refuted })
     }
 
@@ -137,21 +131,7 @@ impl Judge {
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (found, alone) = same(&Results::find(a)?, &Results::find(b)?)?;
-        let (table, document) = differences(a, b, &found, &alone);
-        if self.json {
-            print_json(&document)?
-        } else {
-            print(&table)?
-        }
+        self.show(differences(a, b, &found, &alone))?;
         Ok(Outcome::AsExpected)
     }
-}
-
-/// Symbols that are quantities, by their names.
-fn in_full(names: &[String]) -> Vec<String> {
-    let full = |name: &String| {
-        let symbol = |it: &&Quantity| it.symbol() == name.trim();
-        Quantity::ALL.iter().find(symbol).map_or(name.clone(), |it| it.name().to_owned())
-    };
-    names.iter().map(full).collect()
 }

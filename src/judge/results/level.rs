@@ -137,7 +137,7 @@ impl Reading<'_> {
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
         let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
-        let motion = resolve(snapshot, &meanings, dimension, &|point| exact.outside(point))
+        let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
             .map_err(placed)?;
         let cells = &snapshot.cells;
         let mesh = Mesh { cells, points: &motion.reference.numbers, dimension };

@@ -245,7 +245,7 @@ fn lengths(
             .into(),
     );
     let size = |level: &Level| {
-        (exact.measure() / level.found.points as f64).powf(1.0 / exact.dimension as f64)
+        (exact.body.measure() / level.found.points as f64).powf(1.0 / exact.dimension as f64)
     };
     Ok(levels.iter().map(size).collect())
 }

@@ -14,7 +14,7 @@ pub struct Difference {
     pub time: Option<f64>,
     /// The largest difference of a number.
     pub largest: f64,
-    /// The largest number of the first result.
+    /// The largest number of both.
     pub magnitude: f64,
     /// Where it is.
     pub place: String,
@@ -107,7 +107,8 @@ fn compare(one: &Snapshot, other: &Snapshot) -> anyhow::Result<(Vec<Difference>,
         });
         let row = at / array.components;
         let place = if is_of_points { one.place(row) } else { format!("{}: cell {row}", one.path) };
-        let magnitude = array.values.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let both = array.values.iter().chain(&second.values);
+        let magnitude = both.fold(0.0, |most: f64, it| most.max(it.abs()));
         let time = one.time.map(|time| time.value);
         differences.push(Difference { name: array.name.clone(), time, largest, magnitude, place });
     }

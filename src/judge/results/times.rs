@@ -30,8 +30,13 @@ pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::
     let span = window[1] - window[0];
     let same =
         |a: Time, b: Time| (a.value - b.value).abs() <= a.rounding + b.rounding + SAME * span;
+    // Of those that rounding lets be the same, the nearest.
     let at = |results: &Results, time: Time| {
-        results.snapshots.iter().position(|it| it.time.is_some_and(|other| same(time, other)))
+        let times =
+            results.snapshots.iter().enumerate().filter_map(|(at, it)| Some((at, it.time?)));
+        let distance = |other: Time| (time.value - other.value).abs();
+        let near = times.filter(|(_, other)| same(time, *other));
+        near.min_by(|(_, a), (_, b)| distance(*a).total_cmp(&distance(*b))).map(|(at, _)| at)
     };
     let first = all[0].snapshots.iter().filter_map(|snapshot| snapshot.time);
     let is_wanted = |time: &Time| {
@@ -41,7 +46,10 @@ pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::
         Common { times: Vec::new(), snapshots: vec![Vec::new(); all.len()], left_out: 0 };
     for time in first.filter(is_wanted) {
         let positions: Option<Vec<usize>> = all.iter().map(|results| at(results, time)).collect();
-        let Some(positions) = positions else { continue };
+        let is_taken = |positions: &Vec<usize>| {
+            common.snapshots.iter().zip(positions).any(|(taken, position)| taken.contains(position))
+        };
+        let Some(positions) = positions.filter(|it| !is_taken(it)) else { continue };
         common.times.push(time.value);
         common.snapshots.iter_mut().zip(positions).for_each(|(to, position)| to.push(position));
     }
