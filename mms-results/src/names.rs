@@ -254,7 +254,7 @@ fn hold_clear(name: &str, wants: &dyn Fn(Role) -> bool) -> Result<(), Mistake> {
     }
 }
 
-/// Refuses two arrays for one quantity, and columns of which one is missing.
+/// Refuses two arrays for one quantity.
 fn hold_single(found: &[Meaning]) -> Result<(), Mistake> {
     for (at, meaning) in found.iter().enumerate() {
         if let Some(other) = found[..at].iter().find(|other| other.role == meaning.role) {
