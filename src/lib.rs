@@ -10,6 +10,7 @@
 
 mod checkpoint;
 pub mod cli;
+mod diagnose;
 mod extremes;
 pub mod gallery;
 mod history;

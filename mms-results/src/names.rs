@@ -60,6 +60,7 @@ roles! {
     Displacement "displacement" "u" Vector ["u" "U" "d" "displacements" "disp" "displ"] "Displacement u.",
     Velocity "velocity" "v" Vector ["v" "V" "velocities" "vel"] "Velocity v.",
     Acceleration "acceleration" "a" Vector ["a" "A" "accelerations" "accel" "acc"] "Acceleration a.",
+    Residual "residual" "r" Vector ["r" "residuals"] "Residual of the balance of momentum, per reference volume.",
     DisplacementGradient "displacement_gradient" "H" Tensor ["H" "gradu"] "Displacement gradient H.",
     DeformationGradient "deformation_gradient" "F" Tensor ["F" "defgrad" "deformationgradients"] "Deformation gradient F.",
     Jacobian "jacobian" "J" Scalar ["J" "detf"] "J = det F.",

@@ -178,6 +178,24 @@ impl<'a> Mesh<'a> {
         self.full().flat_map(middle).collect()
     }
 
+    /// The volume of each point: the integral of its function over the cells, as in a lumped mass.
+    ///
+    /// # Errors
+    /// A cell that is flat, or turned inside out.
+    pub fn volumes(&self) -> Result<Vec<f64>, Mistake> {
+        let mut volumes = vec![0.0; self.points.len() / self.dimension];
+        for (cell, shape, points) in self.full() {
+            let table = Tabulated::new(shape);
+            let mut batch = Batch::default();
+            self.place(&mut batch, cell, &table, points, (&[], 0))?;
+            for (weight, (_, functions, _)) in batch.weights.iter().zip(&table.points) {
+                let parts = points.iter().zip(functions);
+                parts.for_each(|(&point, value)| volumes[point] += weight * value);
+            }
+        }
+        Ok(volumes)
+    }
+
     /// The norms over the body of what its points carry: numbers of so many components.
     ///
     /// # Errors

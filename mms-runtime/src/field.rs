@@ -27,6 +27,18 @@ pub trait ManufacturedField<T: Real, const D: usize>: Material<T, D> {
 
     /// H_iJ = du_i/dX_J.
     fn displacement_gradient(&self, time: T, reference: &[Vector<T, D>], out: &mut [Matrix<T, D>]);
+
+    /// The Kirchhoff stress whose tractions act on the faces, where the field's H is `displacement_gradient`: that
+    /// of the material.
+    fn surface_stress(
+        &self,
+        _time: T,
+        reference: &[Vector<T, D>],
+        displacement_gradient: &[Matrix<T, D>],
+        stress: &mut [Matrix<T, D>],
+    ) {
+        self.kirchhoff_stress(reference, displacement_gradient, stress);
+    }
 }
 
 /// The reference body, the time window, and the claims about the body's faces.

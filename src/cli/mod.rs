@@ -14,6 +14,7 @@
 
 mod accuracy;
 mod check;
+mod diagnose;
 mod emit;
 mod eval;
 mod extremes;
@@ -75,6 +76,7 @@ enum Command {
     Run(run::Run),
     Study(study::Study),
     Judge(judge::Judge),
+    Diagnose(diagnose::Diagnose),
     Verify(verify::Verify),
     Report(report::Report),
     Tradeoff(tradeoff::Tradeoff),
@@ -134,6 +136,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Run(run)) => run.run(),
         Some(Command::Study(study)) => study.run(&words(arguments)),
         Some(Command::Judge(judge)) => judge.run(),
+        Some(Command::Diagnose(diagnose)) => diagnose.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),

@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod comparison;
+mod diagnosis;
 pub(crate) mod extremes;
 pub(crate) mod file;
 pub(crate) mod front;
@@ -15,6 +16,7 @@ mod study;
 pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
+pub use diagnosis::{Diagnosed, Hypotheses};
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
 pub(crate) use results::{differences, with_baseline};

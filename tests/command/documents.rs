@@ -154,6 +154,7 @@ fn documents_have_the_keys_of_the_page() {
     for name in ["a.csv", "b.csv", "c.csv"] {
         folder.write(name, "X,u\n0.25,0.01\n0.75,0.02\n");
     }
+    folder.write("law.csv", "F,P\n1.1,3e5\n1.2,6e5\n0.9,-3e5\n");
     folder.write("broken.toml", "[field]\ntitle = 1\n");
     for (heading, arguments, code) in [
         ("list", "list", 0),
@@ -179,6 +180,8 @@ fn documents_have_the_keys_of_the_page() {
             0,
         ),
         ("judge-same", "judge --same a.csv b.csv", 0),
+        ("diagnose", "diagnose bar.toml law.csv --quantity stress", 1),
+        ("hypotheses", "diagnose bar.toml --list", 0),
         ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
         ("verify", "verify --quick --row startup/usl", 0),
         ("verify-list", "verify --list", 0),

@@ -4,6 +4,7 @@ mod accuracy;
 mod bound;
 mod check;
 mod checkpoint;
+mod diagnose;
 mod documents;
 mod emit;
 mod eval;

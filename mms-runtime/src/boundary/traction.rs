@@ -106,7 +106,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         let machine = T::PlainMachine::from(Plain);
         let Self { particle, reference, area, displacement_gradient, kirchhoff_stress } = self;
         field.displacement_gradient(time, reference, displacement_gradient);
-        field.kirchhoff_stress(reference, displacement_gradient, kirchhoff_stress);
+        field.surface_stress(time, reference, displacement_gradient, kirchhoff_stress);
         for (k, &particle) in particle.iter().enumerate() {
             let fail = |cause: Cause| Failure {
                 step: 0, // the solver knows

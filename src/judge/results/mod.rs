@@ -19,7 +19,7 @@ use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
 pub use exact::Exact;
-pub use files::Results;
+pub use files::{Results, placed};
 pub use level::{Reading, Sampling};
 pub use same::{Difference, same};
 

@@ -1,0 +1,242 @@
+//! What is said of an error: a finding, and hypotheses in the order of what they explain.
+
+use mms_runtime::Face;
+
+use crate::exact::Exact;
+use crate::hypothesis::{Hypothesis, Kind, Size, title};
+use crate::smooth::size;
+
+/// What was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// No error beyond that of a method.
+    Nothing,
+    /// An error that a hypothesis explains.
+    Named,
+    /// An error that none explains.
+    Unexplained,
+}
+
+impl Finding {
+    /// Its name in a document.
+    pub fn name(self) -> &'static str {
+        match self {
+            Finding::Nothing => "nothing",
+            Finding::Named => "named",
+            Finding::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// A hypothesis, and what it explains.
+#[derive(Clone, Debug)]
+pub struct Ranked {
+    /// Which hypothesis, of the list.
+    pub hypothesis: usize,
+    /// The name of the mistake; of a size with a name, that.
+    pub name: &'static str,
+    /// What it is.
+    pub says: String,
+    /// Whether it is a mistake or a choice.
+    pub kind: Kind,
+    /// The face that it is on.
+    pub face: Option<Face>,
+    /// Which of several it is.
+    pub which: Option<&'static str>,
+    /// Its size: a factor, an amount, the parts of a vector; of a mistake without one by which its effect would have to be
+    /// scaled.
+    pub factor: Vec<f64>,
+    /// How far each may be off.
+    pub margin: f64,
+    /// Which part of the squared error it explains.
+    pub explained: f64,
+    /// Whether it is of a size that it may have.
+    pub is_plausible: bool,
+    /// The mistakes that are the same formula, for such results of any field.
+    pub equivalent_always: Vec<String>,
+    /// Those that explain this error as well.
+    pub equivalent_here: Vec<String>,
+    /// What separates them.
+    pub needs: Vec<String>,
+}
+
+impl Ranked {
+    /// The name, with the face and which it is.
+    pub fn title(&self) -> String {
+        title(self.name, self.which, self.face)
+    }
+}
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    /// What was found.
+    pub finding: Finding,
+    /// What kind of results were looked at.
+    pub evidence: &'static str,
+    /// Hypotheses, the best one first.
+    pub ranked: Vec<Ranked>,
+    /// Two mistakes that explain the error together, where one does not.
+    pub pair: Option<[String; 2]>,
+    /// What such results of this field cannot show.
+    pub cannot_be_seen: Vec<String>,
+    /// The size of the error over that of the exact solution.
+    pub error: f64,
+    /// That of a right solver, as far as is known.
+    pub expected: f64,
+    /// What else is to be said.
+    pub notes: Vec<String>,
+}
+
+/// What a hypothesis explains.
+#[derive(Clone, Debug)]
+pub struct Explained {
+    /// Which, of the list.
+    pub hypothesis: usize,
+    /// Its size; none where it has none.
+    pub size: Vec<f64>,
+    /// How far each may be off.
+    pub margin: f64,
+    /// By which the response has to be scaled.
+    pub scale: f64,
+    /// Which part of the squared error is explained.
+    pub share: f64,
+    /// The error that it makes.
+    pub response: Vec<f64>,
+}
+
+/// Mistakes that are one formula for any field, inside a body and with b per mass; with the size that each has then.
+const SAME: [&[(&str, Option<f64>)]; 2] = [
+    &[("force_sign", None), ("moduli_factor", Some(3.0)), ("density_factor", Some(1.0 / 3.0))],
+    &[("moduli_factor", None), ("density_factor", None)],
+];
+
+/// By how much a response may have to be scaled in a mistake that has no size, besides what it leaves of the error.
+const SCALED: f64 = 0.06;
+/// Which part of the error may be left by a mistake that is named, where the method makes next to nothing of it; and what it
+/// may leave besides, over how many times the method's error it is.
+const LEFT: f64 = 0.2;
+const LEFT_BY_METHOD: f64 = 0.3;
+/// The remainder of a hypothesis that explains an error as well as the best one, over that of it; and the part of the
+/// squared error that is not looked at.
+const AS_WELL: f64 = 1.3;
+const UNSEEN: f64 = 0.004;
+/// A size is a known one within this of itself, or within what is sure of it, but for no more than this.
+const KNOWN: f64 = 0.03;
+const SURE: f64 = 0.1;
+
+/// Which part of an error is left where this share of its square is explained.
+fn left(share: f64) -> f64 {
+    (1.0 - share).max(0.0).sqrt()
+}
+
+/// Whether a hypothesis may be of the size that was found.
+fn is_plausible<const D: usize>(hypothesis: &Hypothesis<D>, explained: &Explained) -> bool {
+    let scaled = (explained.scale - 1.0).abs() <= SCALED + left(explained.share);
+    scaled && explained.scale > 0.0 && hypothesis.allows(&explained.size)
+}
+
+/// What is found where the best hypothesis is this, of an error that is so many times that of the method.
+pub fn finding(best: Option<&Ranked>, excess: f64) -> Finding {
+    let most = LEFT + LEFT_BY_METHOD / excess;
+    match best {
+        _ if excess <= 1.0 => Finding::Nothing,
+        Some(best) if best.is_plausible && left(best.explained) <= most => Finding::Named,
+        _ => Finding::Unexplained,
+    }
+}
+
+/// Hypotheses in the order of what they explain, those first that may be.
+pub fn ranked<const D: usize>(
+    exact: &Exact<'_, D>,
+    hypotheses: &[Hypothesis<D>],
+    mut all: Vec<Explained>,
+    needs: &[&str],
+) -> Vec<Ranked> {
+    all.retain(|it| it.share.is_finite());
+    // Shares that differ by rounding leave the order of the list.
+    let order =
+        |it: &Explained| (is_plausible(&hypotheses[it.hypothesis], it), (it.share * 1e6).round());
+    all.sort_by(|a, b| {
+        let (a, b) = (order(a), order(b));
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    let mut ranked: Vec<Ranked> =
+        all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it)).collect();
+    let Some(best) = ranked.first() else { return ranked };
+    let remains = |share: f64| 1.0 - share;
+    let most = AS_WELL * remains(best.explained) + UNSEEN;
+    let as_well = ranked[1..].iter().take_while(|it| it.is_plausible);
+    let as_well: Vec<&Ranked> = as_well.filter(|it| remains(it.explained) <= most).collect();
+    let names = hypotheses[all[0].hypothesis].name;
+    let is_same = |other: &&Ranked| {
+        SAME.iter().any(|group| {
+            let has = |name: &str| group.iter().any(|(it, _)| *it == name);
+            has(names) && has(hypotheses[other.hypothesis].name)
+        })
+    };
+    let always: Vec<String> =
+        as_well.iter().filter(|it| is_same(it)).map(|it| it.title()).collect();
+    let here: Vec<String> = as_well.iter().filter(|it| !is_same(it)).map(|it| it.title()).collect();
+    let needs =
+        if here.is_empty() { Vec::new() } else { needs.iter().map(|it| (*it).into()).collect() };
+    let first = &mut ranked[0];
+    (first.equivalent_always, first.equivalent_here, first.needs) = (always, here, needs);
+    ranked
+}
+
+fn one<const D: usize>(
+    exact: &Exact<'_, D>,
+    hypothesis: &Hypothesis<D>,
+    explained: &Explained,
+) -> Ranked {
+    let mut name = hypothesis.name;
+    let mut says = hypothesis.says.to_owned();
+    let factor =
+        if explained.size.is_empty() { vec![explained.scale] } else { explained.size.clone() };
+    if let (Size::Any { right, .. }, [found]) = (&hypothesis.size, explained.size.as_slice()) {
+        if let Some(below) = hypothesis.below.filter(|_| *found < right[0]) {
+            name = below;
+        }
+        let near = |it: &crate::hypothesis::Known| {
+            let step = (found - right[0]).abs();
+            let most = explained.margin.min(SURE * step).max(KNOWN * it.size.abs().max(step));
+            (it.size - found).abs() <= most
+        };
+        let known = (hypothesis.known)(exact);
+        let away = |it: &&crate::hypothesis::Known| (it.size - found).abs();
+        let known = known.iter().filter(|it| near(it)).min_by(|a, b| away(a).total_cmp(&away(b)));
+        // What is nearly right has no name of its own.
+        if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {
+            (name, says) = (known.name, format!("{found:.3} = {:.3}: {}", known.size, known.says));
+        }
+    }
+    Ranked {
+        hypothesis: explained.hypothesis,
+        name,
+        says,
+        kind: hypothesis.kind,
+        face: hypothesis.face,
+        which: hypothesis.which,
+        factor,
+        margin: explained.margin,
+        explained: explained.share,
+        is_plausible: is_plausible(hypothesis, explained),
+        equivalent_always: Vec::new(),
+        equivalent_here: Vec::new(),
+        needs: Vec::new(),
+    }
+}
+
+/// Hypotheses whose error is below that of the method: what the results cannot show.
+pub fn unseen<const D: usize>(
+    hypotheses: &[Hypothesis<D>],
+    all: &[Explained],
+    method: f64,
+) -> Vec<String> {
+    let is_small = |it: &&Explained| size(&it.response) <= method;
+    let title = |it: &Explained| hypotheses[it.hypothesis].title();
+    let mut names: Vec<String> = all.iter().filter(is_small).map(title).collect();
+    names.dedup();
+    names
+}

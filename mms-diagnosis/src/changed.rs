@@ -1,0 +1,190 @@
+//! A field with a mistake, as a solver is given it.
+
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
+
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Given, Hypothesis, Initial};
+
+/// Terms that are left out on purpose.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Without {
+    /// b is 0.
+    pub body_force: bool,
+    /// P is 0 in the body.
+    pub stress: bool,
+    /// Tractions are 0.
+    pub traction: bool,
+}
+
+/// A field with a mistake of some size, or without one.
+pub struct Changed<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    mistake: Option<(&'a Hypothesis<D>, &'a [f64])>,
+    without: Without,
+    /// That of the last b: a material is not told the time.
+    time: AtomicU64,
+}
+
+impl<'a, const D: usize> Changed<'a, D> {
+    /// The field as it is, but for terms that are left out.
+    pub fn right(exact: &'a Exact<'a, D>, without: Without) -> Self {
+        let time = AtomicU64::new(exact.domain.time[0].to_bits());
+        Changed { exact, mistake: None, without, time }
+    }
+
+    /// The same with a mistake.
+    pub fn with(
+        exact: &'a Exact<'a, D>,
+        without: Without,
+        hypothesis: &'a Hypothesis<D>,
+        size: &'a [f64],
+    ) -> Self {
+        Changed { mistake: Some((hypothesis, size)), ..Self::right(exact, without) }
+    }
+
+    /// Sets the time at which the material is evaluated.
+    pub fn at_time(&self, time: f64) {
+        self.time.store(time.to_bits(), Relaxed);
+    }
+
+    fn given<'b>(
+        &'b self,
+        size: &'b [f64],
+        time: f64,
+        reference: &'b [Vector<f64, D>],
+        gradient: &'b [Matrix<f64, D>],
+    ) -> Given<'b, D> {
+        Given { exact: self.exact, size, time, reference, gradient }
+    }
+
+    /// Changes a quantity of the initial state, and no later one.
+    fn start(&self, time: f64, reference: &[Vector<f64, D>], initial: Initial<'_, D>) {
+        if let Some((Hypothesis { change: Change::Start(change), .. }, size)) = self.mistake
+            && time == self.exact.domain.time[0]
+        {
+            change(&self.given(size, time, reference, &[]), initial);
+        }
+    }
+}
+
+impl<const D: usize> Material<f64, D> for Changed<'_, D> {
+    fn density(&self, reference: &[Vector<f64, D>], density: &mut [f64]) {
+        self.exact.field.density(reference, density);
+        if let Some((Hypothesis { change: Change::Density, .. }, [factor, ..])) = self.mistake {
+            density.iter_mut().for_each(|density| *density *= factor);
+        }
+    }
+
+    fn wave_speed(&self, reference: &[Vector<f64, D>], speed: &mut [f64]) {
+        self.exact.field.wave_speed(reference, speed);
+    }
+
+    fn kirchhoff_stress(
+        &self,
+        reference: &[Vector<f64, D>],
+        displacement_gradient: &[Matrix<f64, D>],
+        stress: &mut [Matrix<f64, D>],
+    ) {
+        if self.without.stress {
+            return stress.fill(Matrix::zeros());
+        }
+        self.exact.field.kirchhoff_stress(reference, displacement_gradient, stress);
+        if let Some((Hypothesis { change: Change::Stress(change), .. }, size)) = self.mistake {
+            let time = f64::from_bits(self.time.load(Relaxed));
+            change(&self.given(size, time, reference, displacement_gradient), stress);
+        }
+    }
+}
+
+impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
+    fn domain(&self) -> Domain<f64, D> {
+        let mut domain = self.exact.domain.clone();
+        if let Some((hypothesis, _)) = self.mistake
+            && let (Change::Condition(condition), Some(face)) =
+                (&hypothesis.change, hypothesis.face)
+        {
+            domain.faces.retain(|(claimed, _)| *claimed != face);
+            domain.faces.push((face, *condition));
+        }
+        domain
+    }
+
+    fn displacement(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
+        self.exact.field.displacement(time, x, out);
+        self.start(time, x, Initial::Displacement(out));
+    }
+
+    fn velocity(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
+        self.exact.field.velocity(time, x, out);
+        self.start(time, x, Initial::Velocity(out));
+    }
+
+    fn acceleration(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
+        self.exact.field.acceleration(time, x, out);
+    }
+
+    fn body_force(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
+        self.at_time(time);
+        if self.without.body_force {
+            return out.fill(Vector::zeros());
+        }
+        self.exact.field.body_force(time, x, out);
+        if let Some((Hypothesis { change: Change::Force(change), .. }, size)) = self.mistake {
+            change(&self.given(size, time, x, &[]), out);
+        }
+    }
+
+    fn displacement_gradient(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Matrix<f64, D>]) {
+        self.exact.field.displacement_gradient(time, x, out);
+        self.start(time, x, Initial::Gradient(out));
+    }
+
+    fn surface_stress(
+        &self,
+        time: f64,
+        x: &[Vector<f64, D>],
+        h: &[Matrix<f64, D>],
+        stress: &mut [Matrix<f64, D>],
+    ) {
+        if self.without.traction {
+            return stress.fill(Matrix::zeros());
+        }
+        self.exact.field.kirchhoff_stress(x, h, stress);
+        let Some((hypothesis, size)) = self.mistake else { return };
+        let (Change::Surface(change), Some(face)) = (&hypothesis.change, hypothesis.face) else {
+            return;
+        };
+        let right = stress.to_vec();
+        change(&self.given(size, time, x, h), stress);
+        let pairs = stress.iter_mut().zip(right).zip(x);
+        pairs
+            .filter(|(_, x)| !is_on(&self.exact.domain.body, face, x))
+            .for_each(|((stress, right), _)| *stress = right);
+    }
+}
+
+/// Whether a point of the boundary is on a face, to a thousandth of the body's size.
+pub fn is_on<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> bool {
+    match (body, face) {
+        (Body::Box { lower, upper }, Face::Min(axis) | Face::Max(axis)) => {
+            let place = if face == Face::Min(axis) { lower[axis] } else { upper[axis] };
+            (x[axis] - place).abs() < 1e-3 * (upper[axis] - lower[axis])
+        }
+        (Body::Annulus { inner, outer, theta }, face) => {
+            let radius = x.norm();
+            let turns = |angle: f64| {
+                let away = (x[1].atan2(x[0]) - angle).rem_euclid(std::f64::consts::TAU);
+                away.min(std::f64::consts::TAU - away)
+            };
+            match face {
+                Face::Inner => (radius - inner).abs() < 1e-3 * (outer - inner),
+                Face::Outer => (radius - outer).abs() < 1e-3 * (outer - inner),
+                Face::ThetaMin => turns(theta[0]) < 1e-3 * (theta[1] - theta[0]),
+                _ => turns(theta[1]) < 1e-3 * (theta[1] - theta[0]),
+            }
+        }
+        _ => false,
+    }
+}

@@ -1,0 +1,120 @@
+//! What a solver wrote, and its errors as coefficients of smooth functions.
+
+use mms_runtime::Vector;
+
+use crate::exact::{Exact, Quantity, vectors};
+use crate::smooth::Smooth;
+
+/// What a solver wrote on one mesh, at one time or more.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// h.
+    pub cell_size: f64,
+    /// The results, in the order of their times.
+    pub snapshots: Vec<Snapshot>,
+}
+
+/// What a solver wrote at one time. The numbers of a point stand together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// The time.
+    pub time: f64,
+    /// X.
+    pub reference: Vec<f64>,
+    /// Quantities; tensors by rows.
+    pub values: Vec<(Quantity, Vec<f64>)>,
+}
+
+/// How many times are looked at, at most.
+const TIMES: usize = 4;
+
+/// What is compared: quantities at times, as coefficients of smooth functions, each over the size of the exact quantity.
+#[derive(Clone, Debug)]
+pub struct Frame<const D: usize> {
+    /// The times.
+    pub times: Vec<f64>,
+    /// The quantities, each with its size.
+    pub quantities: Vec<(Quantity, f64)>,
+    /// The functions.
+    pub smooth: Smooth<D>,
+}
+
+/// What a frame sees of results.
+pub struct Seen {
+    /// Coefficients: by times, by quantities, by components, by functions.
+    pub coefficients: Vec<f64>,
+    /// Which part of the squared error they hold.
+    pub share: f64,
+}
+
+impl<const D: usize> Frame<D> {
+    /// For results with these points, at some of these times.
+    pub fn new(exact: &Exact<'_, D>, snapshots: &[&Snapshot], smooth: Smooth<D>) -> Self {
+        let start = exact.domain.time[0];
+        let last = snapshots.len().saturating_sub(1);
+        let chosen: Vec<&Snapshot> = match snapshots.len() {
+            0..=TIMES => snapshots.to_vec(),
+            // Evenly, the last one among them.
+            _ => (1..=TIMES).map(|part| snapshots[part * last / TIMES]).collect(),
+        };
+        let kinds = snapshots.first().map_or(&[][..], |it| &it.values);
+        let size = |quantity: Quantity| {
+            let squares = chosen
+                .iter()
+                .flat_map(|it| exact.values(quantity, it.time, &vectors(&it.reference)));
+            let squares: Vec<f64> = squares.filter(|it| it.is_finite()).map(|it| it * it).collect();
+            let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64
+                * quantity.components(D) as f64;
+            if mean > 0.0 { mean.sqrt() } else { 1.0 }
+        };
+        let times = chosen.iter().map(|it| it.time);
+        Frame {
+            // There the state is given.
+            times: times.filter(|time| *time > start).collect(),
+            quantities: kinds.iter().map(|(quantity, _)| (*quantity, size(*quantity))).collect(),
+            smooth,
+        }
+    }
+
+    /// Errors of values at points and times, which `values` gives.
+    pub fn see(
+        &self,
+        mut errors: impl FnMut(usize, Quantity) -> Option<(Vec<Vector<f64, D>>, Vec<f64>)>,
+    ) -> Option<Seen> {
+        let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
+        let (mut all, mut held) = (0.0, 0.0);
+        for at in 0..self.times.len() {
+            for &(quantity, size) in &self.quantities {
+                let (points, values) = errors(at, quantity)?;
+                let scaled: Vec<f64> = values.iter().map(|value| value / size).collect();
+                if scaled.iter().any(|it| !it.is_finite()) {
+                    return None;
+                }
+                let (coefficients, share) = self.smooth.fit(&points, &scaled);
+                let square =
+                    scaled.iter().map(|it| it * it).sum::<f64>() / points.len().max(1) as f64;
+                (all, held) = (all + square, held + share * square);
+                seen.coefficients.extend(coefficients);
+            }
+        }
+        seen.share = if all > 0.0 { held / all } else { 1.0 };
+        Some(seen)
+    }
+
+    /// The errors of a mesh; `None` where one is not finite.
+    pub fn errors_of(&self, exact: &Exact<'_, D>, mesh: &Mesh) -> Option<Seen> {
+        self.see(|at, quantity| {
+            let snapshot = nearest(mesh, self.times[at])?;
+            let points = vectors(&snapshot.reference);
+            let (_, values) = snapshot.values.iter().find(|(it, _)| *it == quantity)?;
+            let right = exact.values(quantity, snapshot.time, &points);
+            Some((points, values.iter().zip(right).map(|(a, b)| a - b).collect()))
+        })
+    }
+}
+
+/// The result nearest to a time.
+pub fn nearest(mesh: &Mesh, time: f64) -> Option<&Snapshot> {
+    let away = |it: &&Snapshot| (it.time - time).abs();
+    mesh.snapshots.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
+}

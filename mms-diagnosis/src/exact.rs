@@ -1,0 +1,223 @@
+//! The exact solution, its law, and its moduli.
+
+use mms_runtime::body::{Filling, bounding_box};
+use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
+
+use crate::law::{LAWS, Law, moduli};
+
+/// What of the motion solvers write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Quantity {
+    /// u.
+    Displacement,
+    /// v.
+    Velocity,
+    /// H.
+    DisplacementGradient,
+}
+
+impl Quantity {
+    /// Its identifier.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Displacement => "displacement",
+            Quantity::Velocity => "velocity",
+            Quantity::DisplacementGradient => "displacement_gradient",
+        }
+    }
+
+    /// Its numbers in a point.
+    pub fn components(self, dimension: usize) -> usize {
+        match self {
+            Quantity::Displacement | Quantity::Velocity => dimension,
+            Quantity::DisplacementGradient => dimension * dimension,
+        }
+    }
+}
+
+/// How the moduli of the law are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Moduli {
+    /// They are the same everywhere.
+    Uniform([f64; 2]),
+    /// They depend on X.
+    Graded,
+    /// The law has no lambda and mu at rest: it is anisotropic, or has a stress there.
+    None,
+}
+
+/// A field, and what a solver that computes it takes.
+pub struct Exact<'a, const D: usize> {
+    /// The field.
+    pub field: &'a dyn ManufacturedField<f64, D>,
+    /// Its body, time window and conditions.
+    pub domain: Domain<f64, D>,
+    /// The time step of the solver, or about that.
+    pub time_step: f64,
+    /// h of the solver.
+    pub cell_size: f64,
+    /// The published law that the field's is.
+    pub law: Option<&'static Law>,
+    moduli: Moduli,
+}
+
+/// Displacement gradients at which laws are told apart, and one at which all are alike.
+fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
+    let angle = |k: usize, i: usize, j: usize| {
+        (1.0 + 2.3 * k as f64 + 1.7 * i as f64 + 0.9 * j as f64).sin()
+    };
+    std::array::from_fn(|k| Matrix::from_fn(|i, j| 0.15 * angle(k, i, j)))
+}
+
+/// The strain at which a law is taken as linear.
+const SMALL: f64 = 1e-6;
+/// By how much a law may miss stresses of its own, for rounding.
+const SAME: f64 = 1e-9;
+/// The same of a law taken as linear.
+const LINEAR: f64 = 1e-4;
+
+impl<'a, const D: usize> Exact<'a, D> {
+    /// Of a field, for a solver with this h and time step.
+    pub fn new(field: &'a dyn ManufacturedField<f64, D>, cell_size: f64, time_step: f64) -> Self {
+        let domain = field.domain();
+        let mut exact =
+            Exact { field, domain, time_step, cell_size, law: None, moduli: Moduli::None };
+        let places = exact.places();
+        exact.law = LAWS.iter().find(|law| {
+            let fits = |x: &Vector<f64, D>| {
+                let found = moduli(law, &exact.samples(x, &trials()));
+                found.is_some_and(|(_, missed)| missed < SAME)
+            };
+            places.iter().all(fits)
+        });
+        let found: Option<Vec<_>> = places.iter().map(|x| exact.fitted(x)).collect();
+        exact.moduli = match found.as_deref() {
+            None | Some([]) => Moduli::None,
+            Some([first, others @ ..]) => {
+                let near = |a: f64, b: f64| (a - b).abs() <= LINEAR * a.abs().max(b.abs());
+                let alike = |it: &[f64; 2]| near(it[0], first[0]) && near(it[1], first[1]);
+                if others.iter().all(alike) { Moduli::Uniform(*first) } else { Moduli::Graded }
+            }
+        };
+        exact
+    }
+
+    /// rho0, where it is the same everywhere.
+    pub fn uniform_density(&self) -> Option<f64> {
+        let density = self.density(&self.places());
+        let first = *density.first()?;
+        density.iter().all(|it| (it - first).abs() <= SAME * first).then_some(first)
+    }
+
+    /// Some points of the body.
+    pub fn places(&self) -> Vec<Vector<f64, D>> {
+        let Ok([lower, upper]) = bounding_box(&self.domain.body) else { return Vec::new() };
+        let spacing = (upper - lower) / 3.0;
+        let filling = Filling::new(&self.domain.body, Fill::Fitted, &spacing);
+        filling.map_or(Vec::new(), |it| it.position.into_iter().step_by(2).take(5).collect())
+    }
+
+    fn samples(
+        &self,
+        x: &Vector<f64, D>,
+        gradients: &[Matrix<f64, D>],
+    ) -> Vec<(Matrix<f64, D>, Matrix<f64, D>)> {
+        let stress = self.stress(&vec![*x; gradients.len()], gradients);
+        gradients.iter().copied().zip(stress).collect()
+    }
+
+    /// lambda and mu at X, of the law where it is known, and else at small strains.
+    fn fitted(&self, x: &Vector<f64, D>) -> Option<[f64; 2]> {
+        let (law, gradients, most) = match self.law {
+            Some(law) => (law, trials(), SAME),
+            None => (&LAWS[LAWS.len() - 1], trials().map(|h| h * SMALL), LINEAR),
+        };
+        let (found, missed) = moduli(law, &self.samples(x, &gradients))?;
+        (missed < most && found.iter().all(|it| it.is_finite())).then_some(found)
+    }
+
+    /// lambda and mu at rest at each X; `None` where the law has none.
+    pub fn moduli(&self, reference: &[Vector<f64, D>]) -> Option<Vec<[f64; 2]>> {
+        match self.moduli {
+            Moduli::None => None,
+            Moduli::Uniform(moduli) => Some(vec![moduli; reference.len()]),
+            Moduli::Graded => reference.iter().map(|x| self.fitted(x)).collect(),
+        }
+    }
+
+    /// lambda and mu at rest, where they are the same everywhere.
+    pub fn uniform_moduli(&self) -> Option<[f64; 2]> {
+        if let Moduli::Uniform(moduli) = self.moduli { Some(moduli) } else { None }
+    }
+
+    /// tau of H at X.
+    pub fn stress(&self, x: &[Vector<f64, D>], h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
+        let mut stress = vec![Matrix::zeros(); h.len()];
+        self.field.kirchhoff_stress(x, h, &mut stress);
+        stress
+    }
+
+    /// u.
+    pub fn displacement(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let mut values = vec![Vector::zeros(); x.len()];
+        self.field.displacement(time, x, &mut values);
+        values
+    }
+
+    /// v.
+    pub fn velocity(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let mut values = vec![Vector::zeros(); x.len()];
+        self.field.velocity(time, x, &mut values);
+        values
+    }
+
+    /// a.
+    pub fn acceleration(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let mut values = vec![Vector::zeros(); x.len()];
+        self.field.acceleration(time, x, &mut values);
+        values
+    }
+
+    /// b.
+    pub fn body_force(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let mut values = vec![Vector::zeros(); x.len()];
+        self.field.body_force(time, x, &mut values);
+        values
+    }
+
+    /// H.
+    pub fn gradient(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Matrix<f64, D>> {
+        let mut values = vec![Matrix::zeros(); x.len()];
+        self.field.displacement_gradient(time, x, &mut values);
+        values
+    }
+
+    /// rho0.
+    pub fn density(&self, x: &[Vector<f64, D>]) -> Vec<f64> {
+        let mut density = vec![0.0; x.len()];
+        self.field.density(x, &mut density);
+        density
+    }
+
+    /// A quantity, the numbers of a point together, tensors by rows.
+    pub fn values(&self, quantity: Quantity, time: f64, x: &[Vector<f64, D>]) -> Vec<f64> {
+        match quantity {
+            Quantity::Displacement => numbers(&self.displacement(time, x)),
+            Quantity::Velocity => numbers(&self.velocity(time, x)),
+            Quantity::DisplacementGradient => {
+                let rows = self.gradient(time, x);
+                rows.iter().flat_map(|h| h.transpose().as_slice().to_vec()).collect()
+            }
+        }
+    }
+}
+
+/// The components of vectors, one after the other.
+pub fn numbers<const D: usize>(vectors: &[Vector<f64, D>]) -> Vec<f64> {
+    vectors.iter().flat_map(|vector| vector.iter().copied()).collect()
+}
+
+/// Vectors whose components stand one after the other.
+pub fn vectors<const D: usize>(numbers: &[f64]) -> Vec<Vector<f64, D>> {
+    numbers.chunks_exact(D).map(Vector::from_column_slice).collect()
+}

@@ -1,0 +1,71 @@
+//! Mistakes on faces.
+
+use mms_runtime::tensor::determinant;
+use mms_runtime::{Body, Condition, Face, Matrix};
+
+use super::{Change, Hypothesis, Known, inverse, of_first};
+use crate::exact::Exact;
+
+pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    let of = |face| match exact.domain.condition(face) {
+        Condition::Traction => of_load(face),
+        Condition::Free => vec![held(face)],
+        Condition::Roller => vec![free(face), held(face)],
+        Condition::Fixed | Condition::Prescribed => vec![free(face)],
+    };
+    faces(&exact.domain.body).into_iter().flat_map(of).collect()
+}
+
+/// The faces of a body.
+pub fn faces<const D: usize>(body: &Body<f64, D>) -> Vec<Face> {
+    match body {
+        Body::Box { .. } => (0..D).flat_map(|axis| [Face::Min(axis), Face::Max(axis)]).collect(),
+        Body::Annulus { theta: [first, last], .. } => {
+            let is_ring = last - first >= std::f64::consts::TAU * (1.0 - 1e-12);
+            let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
+            all[..if is_ring { 2 } else { 4 }].to_vec()
+        }
+    }
+}
+
+fn held<const D: usize>(face: Face) -> Hypothesis<D> {
+    let says = "the face follows the field, where it has a load or none";
+    Hypothesis::fixed("held_face", says, Change::Condition(Condition::Prescribed)).on(face)
+}
+
+fn free<const D: usize>(face: Face) -> Hypothesis<D> {
+    let says = "the face is free, where it is held";
+    Hypothesis::fixed("free_face", says, Change::Condition(Condition::Free)).on(face)
+}
+
+/// What may be wrong with tractions on a face.
+fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
+    let factor = Hypothesis::factor(
+        "traction_factor",
+        "the traction times a factor",
+        0.0,
+        Change::Surface(|at, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
+        |_| {
+            vec![
+                Known::new(0.0, "traction_missing", "the traction is missing"),
+                Known::new(-1.0, "traction_sign", "the traction has the other sign"),
+                Known::new(2.0, "traction_twice", "the traction is added twice"),
+            ]
+        },
+    );
+    let made = |name, says, change| Hypothesis::fixed(name, says, Change::Surface(change));
+    let all = [
+        factor,
+        made("traction_transposed", "P^T N in place of P N", |at, tau| {
+            of_first(at, tau, |f, p: Matrix<f64, D>| p.transpose() * f.transpose());
+        }),
+        made("traction_cauchy", "sigma N on the reference area in place of P N", |at, tau| {
+            of_first(at, tau, |f, p| p * f.transpose() * f.transpose() / determinant(f));
+        }),
+        made("traction_second_piola", "S N in place of P N", |at, tau| {
+            of_first(at, tau, |f, p| inverse(f) * p * f.transpose());
+        }),
+        held(face),
+    ];
+    all.into_iter().map(|hypothesis| hypothesis.on(face)).collect()
+}

@@ -1,0 +1,106 @@
+//! Mistakes in b.
+
+use mms_runtime::Vector;
+use mms_runtime::tensor::jacobian;
+
+use super::{Change, Given, Hypothesis, Known};
+use crate::exact::Exact;
+
+/// By how many steps b may be late: more is another mistake.
+const STEPS: f64 = 8.0;
+
+pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    let window = exact.domain.time[1] - exact.domain.time[0];
+    let force = |name, says, change| Hypothesis::fixed(name, says, Change::Force(change));
+    let mut delay = Hypothesis::amount(
+        "force_late",
+        "b of an earlier time; the size is by how much",
+        vec![exact.time_step],
+        Change::Force(|at, b| {
+            b.copy_from_slice(&at.exact.body_force(at.time - at.size[0], at.reference));
+        }),
+    );
+    delay.below = Some("force_early");
+    let delay = delay.within([-STEPS * exact.time_step, STEPS * exact.time_step]);
+    vec![
+        Hypothesis::factor(
+            "force_factor",
+            "b times a factor",
+            0.0,
+            Change::Force(|at, b| b.iter_mut().for_each(|b| *b *= at.size[0])),
+            factors,
+        ),
+        force("force_sign", "the sign of Div P in b: b = a + Div P/rho0", |at, b| {
+            change(at, b, |right, inertia, _| inertia * 2.0 - right);
+        }),
+        force("inertia_missing", "b without a: b = -Div P/rho0", |at, b| {
+            change(at, b, |right, inertia, _| right - inertia);
+        }),
+        force("force_present_density", "b with the present density: b = a - Div P/rho", |at, b| {
+            change(at, b, |right, inertia, j| inertia + (right - inertia) * j)
+        }),
+        force("force_at_present", "b at the present place x in place of X", |at, b| {
+            let u = at.exact.displacement(at.time, at.reference);
+            let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x + u).collect();
+            b.copy_from_slice(&at.exact.body_force(at.time, &places));
+        }),
+        delay,
+        Hypothesis::amount(
+            "constant_force",
+            "a constant force per mass besides b, as gravity; the size is the vector",
+            vec![scale(exact) * 0.1; D],
+            Change::Force(|at, b| {
+                b.iter_mut().for_each(|b| *b += Vector::from_column_slice(at.size))
+            }),
+        ),
+        Hypothesis::amount(
+            "damping",
+            "a force against the velocity; the size is the rate",
+            vec![0.3 / window],
+            Change::Force(|at, b| {
+                let v = at.exact.velocity(at.time, at.reference);
+                b.iter_mut().zip(v).for_each(|(b, v)| *b -= v * at.size[0]);
+            }),
+        )
+        .within([0.0, f64::MAX])
+        .choice(),
+    ]
+}
+
+/// Replaces each b by what a function makes of b, a and J.
+fn change<const D: usize>(
+    at: &Given<'_, D>,
+    b: &mut [Vector<f64, D>],
+    made: impl Fn(Vector<f64, D>, Vector<f64, D>, f64) -> Vector<f64, D>,
+) {
+    let inertia = at.exact.acceleration(at.time, at.reference);
+    let gradients = at.exact.gradient(at.time, at.reference);
+    for ((b, a), h) in b.iter_mut().zip(inertia).zip(&gradients) {
+        *b = made(*b, a, jacobian(h));
+    }
+}
+
+fn factors<const D: usize>(exact: &Exact<'_, D>) -> Vec<Known> {
+    let mut known = vec![
+        Known::new(0.0, "force_missing", "b is missing"),
+        Known::new(2.0, "force_twice", "b is added twice"),
+        Known::new(-1.0, "force_reversed", "b has the other sign"),
+        Known::new(0.5, "force_half", "half of b"),
+    ];
+    if let Some(density) = exact.uniform_density() {
+        known.push(Known::new(density, "force_per_volume", "rho0 b, a force per volume, for b"));
+        known.push(Known::new(1.0 / density, "force_per_density", "b divided by rho0"));
+    }
+    known
+}
+
+/// The size of b in the body.
+fn scale<const D: usize>(exact: &Exact<'_, D>) -> f64 {
+    let [first, last] = exact.domain.time;
+    let places = exact.places();
+    let sizes = [0.3, 0.6, 0.9].iter().flat_map(|part| {
+        exact.body_force(first + part * (last - first), &places).into_iter().map(|b| b.norm())
+    });
+    let largest = sizes.filter(|it| it.is_finite()).fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
+}

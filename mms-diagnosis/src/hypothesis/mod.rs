@@ -1,0 +1,291 @@
+//! Hypotheses: mistakes that people make, each as a change of what a solver is given or computes.
+//!
+//! Each family is a file; its list is `all`. A [`Hypothesis`] has a size, one number for most: a factor, a time, a
+//! part of a vector. At [`Hypothesis::right`] the solver is right. Sizes with names of their own are [`Known`].
+
+mod density;
+mod face;
+mod force;
+mod law;
+mod output;
+mod start;
+mod stress;
+
+use mms_runtime::{Condition, Face, Matrix, Vector};
+
+use crate::exact::{Exact, Quantity};
+
+pub use face::faces;
+
+/// Where a hypothesis is evaluated: X, and H where that is known.
+pub struct Given<'a, const D: usize> {
+    /// The exact solution.
+    pub exact: &'a Exact<'a, D>,
+    /// The size of the mistake.
+    pub size: &'a [f64],
+    /// The time.
+    pub time: f64,
+    /// X.
+    pub reference: &'a [Vector<f64, D>],
+    /// H of the solver; none where only X matters.
+    pub gradient: &'a [Matrix<f64, D>],
+}
+
+/// A quantity of the initial state.
+pub enum Initial<'a, const D: usize> {
+    /// u.
+    Displacement(&'a mut [Vector<f64, D>]),
+    /// v.
+    Velocity(&'a mut [Vector<f64, D>]),
+    /// H.
+    Gradient(&'a mut [Matrix<f64, D>]),
+}
+
+/// Changes stresses, from what is right.
+pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
+
+/// What a hypothesis changes. The functions are given what is right.
+pub enum Change<const D: usize> {
+    /// b.
+    Force(fn(&Given<'_, D>, &mut [Vector<f64, D>])),
+    /// tau in the body.
+    Stress(OfStress<D>),
+    /// tau whose tractions act on the face.
+    Surface(OfStress<D>),
+    /// rho0, by the size as a factor.
+    Density,
+    /// The initial state.
+    Start(fn(&Given<'_, D>, Initial<'_, D>)),
+    /// What holds on the face.
+    Condition(Condition),
+    /// Nothing that is computed: what is written of a quantity.
+    Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
+}
+
+impl<const D: usize> Change<D> {
+    /// What is changed, in a word.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Change::Force(_) => "body force",
+            Change::Stress(_) => "stress",
+            Change::Surface(_) => "traction",
+            Change::Density => "mass",
+            Change::Start(_) => "start",
+            Change::Condition(_) => "boundary condition",
+            Change::Output(_) => "output",
+        }
+    }
+}
+
+/// A size with a name of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// The size.
+    pub size: f64,
+    /// The name of the mistake.
+    pub name: &'static str,
+    /// What it is.
+    pub says: String,
+}
+
+impl Known {
+    fn new(size: f64, name: &'static str, says: impl Into<String>) -> Self {
+        Known { size, name, says: says.into() }
+    }
+}
+
+/// Whether somebody made a mistake, or chose something else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A mistake.
+    Mistake,
+    /// A choice that is right elsewhere.
+    Choice,
+}
+
+impl Kind {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Mistake => "mistake",
+            Kind::Choice => "choice",
+        }
+    }
+}
+
+/// What size a hypothesis may have.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Size {
+    /// None but the one that it is.
+    Fixed,
+    /// Any; the response to it is found at this one first.
+    Any {
+        /// The size of a right solver.
+        right: Vec<f64>,
+        /// The size at which the response is found first.
+        first: Vec<f64>,
+        /// Sizes that may be.
+        range: [f64; 2],
+    },
+}
+
+/// A mistake that a solver may make.
+pub struct Hypothesis<const D: usize> {
+    /// Its identifier.
+    pub name: &'static str,
+    /// What it is, in a sentence.
+    pub says: &'static str,
+    /// Whether it is a mistake.
+    pub kind: Kind,
+    /// What it changes.
+    pub change: Change<D>,
+    /// Its size.
+    pub size: Size,
+    /// Sizes with names of their own, of this field.
+    pub known: fn(&Exact<'_, D>) -> Vec<Known>,
+    /// The name below the right size, where that has one.
+    pub below: Option<&'static str>,
+    /// The face that it is on.
+    pub face: Option<Face>,
+    /// Which of several it is.
+    pub which: Option<&'static str>,
+}
+
+impl<const D: usize> Hypothesis<D> {
+    /// A mistake without a size.
+    fn fixed(name: &'static str, says: &'static str, change: Change<D>) -> Self {
+        Hypothesis {
+            name,
+            says,
+            kind: Kind::Mistake,
+            change,
+            size: Size::Fixed,
+            known: |_| Vec::new(),
+            below: None,
+            face: None,
+            which: None,
+        }
+    }
+
+    /// A mistake with a factor, of 1 in a right solver.
+    fn factor(
+        name: &'static str,
+        says: &'static str,
+        first: f64,
+        change: Change<D>,
+        known: fn(&Exact<'_, D>) -> Vec<Known>,
+    ) -> Self {
+        let size = Size::Any { right: vec![1.0], first: vec![first], range: [f64::MIN, f64::MAX] };
+        Hypothesis { size, known, ..Self::fixed(name, says, change) }
+    }
+
+    /// A mistake with an amount of something, of 0 in a right solver.
+    fn amount(name: &'static str, says: &'static str, first: Vec<f64>, change: Change<D>) -> Self {
+        let size = Size::Any { right: vec![0.0; first.len()], first, range: [f64::MIN, f64::MAX] };
+        Hypothesis { size, ..Self::fixed(name, says, change) }
+    }
+
+    /// The same, where sizes beyond these are another mistake.
+    fn within(mut self, range: [f64; 2]) -> Self {
+        if let Size::Any { range: all, .. } = &mut self.size {
+            *all = range;
+        }
+        self
+    }
+
+    /// P in place of another measure, where a law is asked for that.
+    pub fn first_piola() -> Self {
+        let says = "P in place of the measure that it is said to be";
+        Self::fixed("stress_first_piola", says, Change::Stress(|_, _| {}))
+    }
+
+    /// Hypotheses with effects of one kind, between which an error may hardly tell.
+    pub fn family(&self) -> &'static str {
+        match self.name {
+            "stress_small_strain" | "material" => "law",
+            "deformation_transposed" | "strain_left" => "kinematics",
+            "moduli_factor" | "lambda_factor" | "mu_factor" | "moduli_swapped" | "shear_factor"
+            | "density_factor" => "moduli",
+            "force_late" | "output_time" | "start_half_step" => "time",
+            "output_factor" | "increment_for_total" => "scale",
+            _ if self.name.starts_with("stress_") => "measure",
+            _ if matches!(self.change, Change::Force(_))
+                && self.name != "damping"
+                && self.name != "constant_force" =>
+            {
+                "force"
+            }
+            name => name,
+        }
+    }
+
+    fn choice(self) -> Self {
+        Hypothesis { kind: Kind::Choice, ..self }
+    }
+
+    fn on(self, face: Face) -> Self {
+        Hypothesis { face: Some(face), ..self }
+    }
+
+    /// The size whose effect is that of this one, scaled: as if it grew with the distance from the right size, or of a
+    /// density with that of its inverse.
+    pub fn rescaled(&self, right: f64, size: f64, scale: f64) -> f64 {
+        match self.change {
+            Change::Density => 1.0 / (1.0 / right + scale * (1.0 / size - 1.0 / right)),
+            _ => right + scale * (size - right),
+        }
+    }
+
+    /// The name, with which it is and the face.
+    pub fn title(&self) -> String {
+        title(self.name, self.which, self.face)
+    }
+
+    /// Whether a size may be.
+    pub fn allows(&self, size: &[f64]) -> bool {
+        match self.size {
+            Size::Fixed => true,
+            Size::Any { range: [least, most], .. } => {
+                size.iter().all(|it| (least..=most).contains(it))
+            }
+        }
+    }
+}
+
+/// All hypotheses about a field.
+pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    let families = [
+        force::all(exact),
+        stress::all(),
+        law::all(exact),
+        density::all(),
+        face::all(exact),
+        start::all(exact),
+        output::all(exact),
+    ];
+    families.into_iter().flatten().collect()
+}
+
+/// The name of a mistake, with which of several it is, and the face that it is on.
+pub fn title(name: &str, which: Option<&str>, face: Option<Face>) -> String {
+    let which = which.map_or(String::new(), |it| format!(" [{it}]"));
+    let face = face.map_or(String::new(), |it| format!(" on {it}"));
+    format!("{name}{which}{face}")
+}
+
+/// Replaces each tau by what a function makes of F and P.
+fn of_first<const D: usize>(
+    at: &Given<'_, D>,
+    tau: &mut [Matrix<f64, D>],
+    made: impl Fn(&Matrix<f64, D>, Matrix<f64, D>) -> Matrix<f64, D>,
+) {
+    for (tau, h) in tau.iter_mut().zip(at.gradient) {
+        let f = h + Matrix::identity();
+        *tau = made(&f, *tau * inverse(&f.transpose()));
+    }
+}
+
+/// The inverse; of a singular F what is not finite, which a solver refuses.
+fn inverse<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
+    f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN))
+}

@@ -1,0 +1,96 @@
+//! Mistakes in what is written and read, of a solver that is right.
+
+use mms_runtime::Vector;
+
+use super::{Change, Given, Hypothesis, Known, law};
+use crate::exact::{Exact, Quantity};
+
+/// By how many steps and cells results may be off: more is another mistake.
+const STEPS: f64 = 8.0;
+const CELLS: f64 = 2.0;
+
+pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    let (time, length) = (STEPS * exact.time_step, CELLS * exact.cell_size);
+    let mut all = vec![
+        Hypothesis::amount(
+            "output_time",
+            "results belong to a later time than they say; the size is by how much",
+            vec![exact.time_step],
+            Change::Output(|at, quantity| {
+                at.exact.values(quantity, at.time + at.size[0], at.reference)
+            }),
+        )
+        .within([-time, time]),
+        Hypothesis::amount(
+            "points_offset",
+            "results belong to points beside X; the size is by how much",
+            vec![exact.cell_size / 4.0; D],
+            Change::Output(|at, quantity| {
+                let offset = Vector::from_column_slice(at.size);
+                let places: Vec<_> = at.reference.iter().map(|x| x + offset).collect();
+                at.exact.values(quantity, at.time, &places)
+            }),
+        )
+        .within([-length, length]),
+        Hypothesis::fixed(
+            "position_for_reference",
+            "x is given as X",
+            Change::Output(|at, quantity| {
+                // To first order; what moves far is seen by its points outside the body.
+                let u = at.exact.displacement(at.time, at.reference);
+                let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x - u).collect();
+                at.exact.values(quantity, at.time, &places)
+            }),
+        ),
+        Hypothesis::factor(
+            "output_factor",
+            "results times a factor",
+            2.0,
+            Change::Output(|at, quantity| {
+                let mut values = at.exact.values(quantity, at.time, at.reference);
+                values.iter_mut().for_each(|value| *value *= at.size[0]);
+                values
+            }),
+            |_| {
+                let mut known = law::powers_of_ten("output_zero", "results are 0");
+                known.push(Known::new(-1.0, "output_sign", "results have the other sign"));
+                known
+            },
+        ),
+        Hypothesis::fixed(
+            "increment_for_total",
+            "the displacement of the last step in place of all",
+            Change::Output(|at, quantity| {
+                let [now, before] = [0.0, at.exact.time_step]
+                    .map(|step| at.exact.values(quantity, at.time - step, at.reference));
+                match quantity {
+                    Quantity::Displacement => now.iter().zip(before).map(|(a, b)| a - b).collect(),
+                    _ => now,
+                }
+            }),
+        ),
+    ];
+    if D > 1 {
+        all.push(Hypothesis::fixed(
+            "components_swapped",
+            "components stand in another order",
+            Change::Output(swapped),
+        ));
+    }
+    all
+}
+
+/// Components shifted by one place.
+fn swapped<const D: usize>(at: &Given<'_, D>, quantity: Quantity) -> Vec<f64> {
+    let mut values = at.exact.values(quantity, at.time, at.reference);
+    for point in values.chunks_mut(quantity.components(D)) {
+        match quantity {
+            Quantity::DisplacementGradient => {
+                point.chunks_mut(D).for_each(|row| row.rotate_left(1));
+                point.rotate_left(D);
+            }
+            _ => point.rotate_left(1),
+        }
+    }
+    values
+}

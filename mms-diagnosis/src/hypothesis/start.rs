@@ -1,0 +1,42 @@
+//! Mistakes in the initial state.
+
+use mms_runtime::{Matrix, Vector};
+
+use super::{Change, Hypothesis, Initial};
+use crate::exact::Exact;
+
+pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
+    let mut offset = Hypothesis::amount(
+        "start_half_step",
+        "the initial velocity is that of a later time; the size is by how much",
+        vec![exact.time_step / 2.0],
+        Change::Start(|at, initial| {
+            if let Initial::Velocity(v) = initial {
+                v.copy_from_slice(&at.exact.velocity(at.time + at.size[0], at.reference));
+            }
+        }),
+    );
+    offset.below = Some("initial_acceleration_missing");
+    let offset = offset.within([-2.0 * exact.time_step, 2.0 * exact.time_step]);
+    vec![
+        Hypothesis::fixed(
+            "start_at_rest",
+            "the initial velocity is 0",
+            Change::Start(|_, initial| {
+                if let Initial::Velocity(v) = initial {
+                    v.fill(Vector::zeros());
+                }
+            }),
+        ),
+        Hypothesis::fixed(
+            "start_undeformed",
+            "F is I at the start",
+            Change::Start(|_, initial| {
+                if let Initial::Gradient(h) = initial {
+                    h.fill(Matrix::zeros());
+                }
+            }),
+        ),
+        offset,
+    ]
+}

@@ -1,0 +1,34 @@
+//! Names the mistake of a solver by the error that it makes.
+//!
+//! A [hypothesis] is a change of what a solver is given or computes: of b, of tau, of tractions on a face, of rho0, of the initial
+//! state, of a condition, or of what is written. The error that it makes is found in one of three ways:
+//!
+//! * of a law alone, by its stresses ([`table`]);
+//! * of accelerations or residuals at an exact state, by the weak form of the balance ([`state`]);
+//! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, or for mistakes of output by the
+//!   exact solution ([`ordinary`], [`run`]).
+//!
+//! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point: what
+//! methods make of an error between points differs, and what is smooth does not. [`rank`] finds the size with which a hypothesis
+//! comes nearest to an error, besides what the method makes of it: that is known from two meshes of the user's, or from a right
+//! run of our own. [`answer`] says whether what is left is no more than that, and which hypotheses do as well.
+//!
+//! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
+//! that it may have; and what it leaves is small where the method's own error is.
+//!
+//! The formula for a size that is no factor of the effect (a time, a density) is met by repeating: the response is found again at
+//! the size that the last one asked for.
+
+pub mod answer;
+pub mod changed;
+pub mod evidence;
+pub mod exact;
+pub mod hypothesis;
+pub mod law;
+pub mod ordinary;
+pub mod patterns;
+pub mod rank;
+pub mod run;
+pub mod smooth;
+pub mod state;
+pub mod table;

@@ -1,0 +1,80 @@
+//! Mistakes that are seen in the numbers themselves, before any comparison with a solver.
+
+use crate::answer::{Diagnosis, Finding, Ranked};
+use crate::evidence::Snapshot;
+use crate::exact::{Exact, vectors};
+use crate::hypothesis::Kind;
+use crate::smooth::size;
+
+/// What is found so, for a list of all hypotheses.
+pub const LISTED: [(&str, &str); 1] =
+    [("points_permuted", "the values of points stand in another order than their positions")];
+
+/// Values that are the exact ones of other points, to this part of their errors, stand in another order.
+const PERMUTED: f64 = 0.1;
+
+/// Looks for such mistakes.
+pub fn diagnose<const D: usize>(
+    exact: &Exact<'_, D>,
+    snapshots: &[&Snapshot],
+) -> Option<Diagnosis> {
+    let snapshot = snapshots.last()?;
+    let points = vectors::<D>(&snapshot.reference);
+    let (quantity, computed) = snapshot.values.first()?;
+    let right = exact.values(*quantity, snapshot.time, &points);
+    let components = quantity.components(D);
+    let (scale, off) = (size(&right), distance(computed, &right));
+    if off.is_nan() || off <= 0.1 * scale || points.len() < 16 {
+        return None;
+    }
+    // Of each component, the sorted values are those of the exact solution, whatever their order.
+    let sorted = |values: &[f64]| -> Vec<f64> {
+        let columns = (0..components).flat_map(|component| {
+            let mut column: Vec<f64> =
+                values.iter().skip(component).step_by(components).copied().collect();
+            column.sort_by(f64::total_cmp);
+            column
+        });
+        columns.collect()
+    };
+    let apart = distance(&sorted(computed), &sorted(&right));
+    let ordered = rows(computed, components);
+    let of_right = rows(&right, components);
+    let is_permuted =
+        apart < PERMUTED * off && distance(&ordered, &of_right) < 2.0 * PERMUTED * off;
+    is_permuted.then(|| Diagnosis {
+        finding: Finding::Named,
+        evidence: "results",
+        ranked: vec![Ranked {
+            hypothesis: usize::MAX,
+            name: "points_permuted",
+            says: LISTED[0].1.into(),
+            kind: Kind::Mistake,
+            face: None,
+            which: None,
+            factor: Vec::new(),
+            margin: 0.0,
+            explained: 1.0 - (apart / off).powi(2),
+            is_plausible: true,
+            equivalent_always: Vec::new(),
+            equivalent_here: Vec::new(),
+            needs: Vec::new(),
+        }],
+        pair: None,
+        cannot_be_seen: Vec::new(),
+        error: off / scale,
+        expected: apart / scale,
+        notes: Vec::new(),
+    })
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+/// The points in an order that their values have, by the first component and then the next.
+fn rows(values: &[f64], components: usize) -> Vec<f64> {
+    let mut rows: Vec<&[f64]> = values.chunks_exact(components).collect();
+    rows.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    rows.concat()
+}

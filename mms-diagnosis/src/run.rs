@@ -1,0 +1,160 @@
+//! The errors that mistakes make, in runs of this project's own solver.
+
+use mms_runtime::body::bounding_box;
+use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
+use mms_runtime::{
+    Division, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName,
+    Transfer,
+};
+
+use crate::changed::{Changed, Without};
+use crate::evidence::Frame;
+use crate::exact::{Exact, Quantity, vectors};
+use crate::hypothesis::{Change, Given, Hypothesis};
+
+/// Cells along the longest edge, at least and at most, in one to three dimensions.
+const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 24], [4, 8]];
+
+/// How the responses are found.
+pub struct Plan<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    frame: &'a Frame<D>,
+    without: Without,
+    cells: usize,
+    methods: [Method; 2],
+}
+
+/// The states of a run at the wanted times.
+struct States<'a> {
+    times: &'a [f64],
+    window: [f64; 2],
+    seen: Vec<State>,
+}
+
+impl Observer for States<'_> {
+    fn step(&mut self, _: usize, _: usize) {}
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        let [start, end] = self.window;
+        let at = |time: &f64| ((time - start) / (end - start) * steps as f64).round() as usize;
+        self.times.iter().any(|time| at(time) == step)
+    }
+
+    fn see(&mut self, frame: &State) -> Result<(), String> {
+        self.seen.push(frame.clone());
+        Ok(())
+    }
+}
+
+impl<'a, const D: usize> Plan<'a, D>
+where
+    f64: Solve<D>,
+{
+    /// For a solver with cells of this size, in a frame.
+    pub fn new(exact: &'a Exact<'a, D>, frame: &'a Frame<D>, without: Without) -> Self {
+        let edges = bounding_box(&exact.domain.body).map(|[lower, upper]| upper - lower);
+        let longest = edges.map_or(1.0, |edges| edges.max());
+        let [least, most] = CELLS[D - 1];
+        let cells = (longest / exact.cell_size).round().clamp(least as f64, most as f64) as usize;
+        let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
+        let setup = Setup { end_time: Some(end), ..Setup::default() };
+        let method = |shape, transfer| Method {
+            shape,
+            integrator: IntegratorName::Leapfrog,
+            formulation: FormulationName::Total,
+            setup: Setup { transfer, ..setup.clone() },
+        };
+        // The first has particles as a quadrature has points: finite elements. The second is smooth, and damps.
+        let methods = [
+            method(ShapeName::Linear, Transfer::FLIP),
+            method(ShapeName::QuadraticBspline, Transfer::Apic),
+        ];
+        Plan { exact, frame, without, cells, methods }
+    }
+
+    /// h of the runs.
+    pub fn cell_size(&self) -> f64 {
+        let edges = bounding_box(&self.exact.domain.body).map(|[lower, upper]| upper - lower);
+        edges.map_or(1.0, |edges| edges.max()) / self.cells as f64
+    }
+
+    /// The errors of a right solver; `None` where it stops.
+    pub fn right(&self, method: usize) -> Option<Vec<f64>> {
+        self.errors(method, &Changed::right(self.exact, self.without))
+    }
+
+    /// The errors of a solver with a mistake; `None` where it stops.
+    pub fn wrong(
+        &self,
+        method: usize,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Option<Vec<f64>> {
+        self.errors(method, &Changed::with(self.exact, self.without, hypothesis, size))
+    }
+
+    fn errors(&self, method: usize, field: &Changed<'_, D>) -> Option<Vec<f64>> {
+        let [start, _] = self.exact.domain.time;
+        let method = &self.methods[method];
+        let end = method.setup.end_time?;
+        if end <= start {
+            return None;
+        }
+        let mut states =
+            States { times: &self.frame.times, window: [start, end], seen: Vec::new() };
+        let field: &dyn ManufacturedField<f64, D> = field;
+        let cells = Division::Uniform(self.cells);
+        let run = f64::run(field, method, &cells, Watch::Displacement, &mut states).ok()?;
+        run.level.errors.ok()?;
+        let seen = self.frame.see(|at, quantity| {
+            let time = self.frame.times[at];
+            let away = |state: &&State| (state.time - time).abs();
+            let state = states.seen.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+            Some(self.error(state, quantity, run.level.time_step))
+        });
+        seen.map(|seen| seen.coefficients)
+    }
+
+    /// X and the errors of a state.
+    fn error(
+        &self,
+        state: &State,
+        quantity: Quantity,
+        time_step: f64,
+    ) -> (Vec<mms_runtime::Vector<f64, D>>, Vec<f64>) {
+        let pairs = state.position.iter().zip(&state.displacement);
+        let points = vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>());
+        // Leapfrog has velocities half a step earlier.
+        let (computed, time): (Vec<f64>, f64) = match quantity {
+            Quantity::Displacement => (state.displacement.clone(), state.time),
+            Quantity::Velocity => (state.velocity.clone(), state.time - time_step / 2.0),
+            Quantity::DisplacementGradient => {
+                let is_diagonal = |at: usize| (at % (D * D)).is_multiple_of(D + 1);
+                let f = state.deformation_gradient.iter().enumerate();
+                (f.map(|(at, f)| if is_diagonal(at) { f - 1.0 } else { *f }).collect(), state.time)
+            }
+        };
+        let right = self.exact.values(quantity, time, &points);
+        (points, computed.iter().zip(right).map(|(a, b)| a - b).collect())
+    }
+}
+
+/// The errors that a mistake in what is written makes, at points of a user's.
+pub fn written<const D: usize>(
+    exact: &Exact<'_, D>,
+    frame: &Frame<D>,
+    mesh: &crate::evidence::Mesh,
+    hypothesis: &Hypothesis<D>,
+    size: &[f64],
+) -> Option<Vec<f64>> {
+    let Change::Output(change) = hypothesis.change else { return None };
+    let seen = frame.see(|at, quantity| {
+        let snapshot = crate::evidence::nearest(mesh, frame.times[at])?;
+        let points = vectors(&snapshot.reference);
+        let given = Given { exact, size, time: snapshot.time, reference: &points, gradient: &[] };
+        let wrong = change(&given, quantity);
+        let right = exact.values(quantity, snapshot.time, &points);
+        Some((points, wrong.iter().zip(right).map(|(a, b)| a - b).collect()))
+    });
+    seen.map(|seen| seen.coefficients)
+}

@@ -1,0 +1,347 @@
+//! Diagnosis of accelerations or residuals at an exact state, in the weak form.
+//!
+//! Values at points of a right solver need not be near the exact ones: on irregular meshes they are not, while their sums
+//! with smooth functions w are. So the balance is asked for such sums: int rho0 a.w = -int P:grad w + int rho0 b.w + int
+//! T.w over faces with tractions, with w = 0 where the motion is given. Every mistake in b, P, T or rho0 changes them in a
+//! way that is known without a solver.
+
+use mms_runtime::body::{Filling, Piece, bounding_box};
+use mms_runtime::{
+    Body, Condition, Face, Fill, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
+};
+
+use crate::answer::{Diagnosis, finding, ranked, unseen};
+use crate::changed::{Changed, Without};
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Hypothesis, faces};
+use crate::rank::{Error, explain};
+use crate::smooth::{Smooth, less, size};
+
+/// What a solver computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Computed {
+    /// a.
+    Acceleration,
+    /// r = rho0 a - Div P - rho0 b per reference volume.
+    Residual,
+}
+
+/// Accelerations or residuals of a solver at an exact state.
+#[derive(Clone, Debug)]
+pub struct Response {
+    /// What they are.
+    pub computed: Computed,
+    /// The time of the state.
+    pub time: f64,
+    /// X, the numbers of a point together.
+    pub reference: Vec<f64>,
+    /// The values, likewise.
+    pub values: Vec<f64>,
+    /// The volume of each point; none where all have the same.
+    pub volumes: Option<Vec<f64>>,
+    /// What was left out.
+    pub without: Without,
+}
+
+/// Points of a quadrature along an axis, in one to three dimensions.
+const POINTS: [f64; 3] = [512.0, 64.0, 20.0];
+/// What h may make of a sum of a right solver, over the sum: so many times (h/length)^2.
+const METHOD: f64 = 2.5;
+
+/// Smooth functions that vanish where the motion is given, and a quadrature.
+struct Weak<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    time: f64,
+    smooth: Smooth<D>,
+    points: Vec<Vector<f64, D>>,
+    volumes: Vec<f64>,
+    pieces: Vec<Piece<D>>,
+}
+
+/// The sums of a field, apart by their terms: of a, of P in the body, of b, of tractions.
+struct Sums {
+    inertia: Vec<f64>,
+    stress: Vec<f64>,
+    force: Vec<f64>,
+    traction: Vec<f64>,
+}
+
+impl<'a, const D: usize> Weak<'a, D> {
+    fn new(exact: &'a Exact<'a, D>, time: f64, points: usize) -> Result<Self, Refusal> {
+        let body = &exact.domain.body;
+        let [lower, upper] = bounding_box(body)?;
+        let spacing = (upper - lower) / POINTS[D - 1];
+        let filling = Filling::new(body, Fill::Fitted, &spacing)?;
+        Ok(Weak {
+            exact,
+            time,
+            smooth: Smooth::new(body, points)?,
+            points: filling.position,
+            volumes: filling.volume,
+            pieces: filling.pieces,
+        })
+    }
+
+    /// 0 where the motion of a component is given, and of the size of 1 in the body.
+    fn bubble(&self, component: usize, x: &Vector<f64, D>) -> f64 {
+        let body = &self.exact.domain.body;
+        let factor = |face: Face| match self.exact.domain.condition(face) {
+            Condition::Traction | Condition::Free => 1.0,
+            Condition::Fixed | Condition::Prescribed => away(body, face, x),
+            Condition::Roller => match face {
+                Face::Min(axis) | Face::Max(axis) if axis != component => 1.0,
+                _ => away(body, face, x),
+            },
+        };
+        faces(body).into_iter().map(factor).product()
+    }
+
+    /// The values of all functions with one component, at X.
+    fn functions(&self, x: &Vector<f64, D>) -> Vec<f64> {
+        let values = self.smooth.values(x);
+        (0..D)
+            .flat_map(|i| values.iter().map(|value| value * self.bubble(i, x)).collect::<Vec<_>>())
+            .collect()
+    }
+
+    /// Their gradients.
+    fn gradients(&self, x: &Vector<f64, D>) -> Vec<Vector<f64, D>> {
+        let (values, slopes) = (self.smooth.values(x), self.smooth.gradients(x));
+        let step = 1e-5 * self.exact.cell_size.max(f64::MIN_POSITIVE);
+        let of_bubble = |i: usize| {
+            Vector::from_fn(|axis, _| {
+                let mut along = Vector::zeros();
+                along[axis] = step;
+                (self.bubble(i, &(x + along)) - self.bubble(i, &(x - along))) / (2.0 * step)
+            })
+        };
+        let all = (0..D).flat_map(|i| {
+            let (bubble, slope) = (self.bubble(i, x), of_bubble(i));
+            let pairs = values.iter().zip(&slopes);
+            pairs.map(move |(value, of)| of * bubble + slope * *value).collect::<Vec<_>>()
+        });
+        all.collect()
+    }
+
+    fn count(&self) -> usize {
+        D * self.smooth.count()
+    }
+
+    /// int q.w over the body, of q at the points of the quadrature.
+    fn paired(&self, values: &[Vector<f64, D>]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.count()];
+        for ((x, volume), q) in self.points.iter().zip(&self.volumes).zip(values) {
+            add(&mut sums, &self.functions(x), &(q * *volume));
+        }
+        sums
+    }
+
+    /// The terms of a field with a mistake.
+    fn sums(&self, field: &Changed<'_, D>) -> Sums {
+        let (x, time) = (&self.points, self.time);
+        let mut b = vec![Vector::zeros(); x.len()];
+        field.body_force(time, x, &mut b);
+        let h = self.exact.gradient(time, x);
+        let mut tau = vec![Matrix::zeros(); x.len()];
+        field.at_time(time);
+        field.kirchhoff_stress(x, &h, &mut tau);
+        let mut stress = vec![0.0; self.count()];
+        for (((x, volume), tau), h) in x.iter().zip(&self.volumes).zip(&tau).zip(&h) {
+            let p = first(tau, h) * *volume;
+            let gradients = self.gradients(x);
+            let each = gradients.chunks(self.smooth.count()).enumerate();
+            let terms = each.flat_map(|(i, of)| of.iter().map(move |slope| (p.row(i) * slope)[0]));
+            stress.iter_mut().zip(terms).for_each(|(sum, term)| *sum -= term);
+        }
+        let density = self.exact.density(x);
+        let per_volume = |values: Vec<Vector<f64, D>>| -> Vec<Vector<f64, D>> {
+            values.iter().zip(&density).map(|(value, density)| value * *density).collect()
+        };
+        Sums {
+            inertia: self.paired(&per_volume(self.exact.acceleration(time, x))),
+            stress,
+            force: self.paired(&per_volume(b)),
+            traction: self.tractions(field),
+        }
+    }
+
+    fn tractions(&self, field: &Changed<'_, D>) -> Vec<f64> {
+        let mut sums = vec![0.0; self.count()];
+        let has_load =
+            |piece: &&Piece<D>| self.exact.domain.condition(piece.face) == Condition::Traction;
+        let loaded: Vec<&Piece<D>> = self.pieces.iter().filter(has_load).collect();
+        let x: Vec<_> = loaded.iter().map(|piece| piece.position).collect();
+        let h = self.exact.gradient(self.time, &x);
+        let mut tau = vec![Matrix::zeros(); x.len()];
+        field.surface_stress(self.time, &x, &h, &mut tau);
+        for ((piece, tau), h) in loaded.iter().zip(&tau).zip(&h) {
+            add(&mut sums, &self.functions(&piece.position), &(first(tau, h) * piece.area));
+        }
+        sums
+    }
+
+    /// What a solver computes in such sums.
+    fn computed(&self, response: &Response, sums: &Sums, density: f64) -> Vec<f64> {
+        let Sums { inertia, stress, force, traction } = sums;
+        let all = inertia.iter().zip(stress).zip(force).zip(traction);
+        all.map(|(((inertia, stress), force), traction)| match response.computed {
+            Computed::Acceleration => (stress + traction) / density + force,
+            Computed::Residual => density * (inertia - force) - stress - traction,
+        })
+        .collect()
+    }
+
+    /// What scatter of the values from point to point leaves in the sums: half the difference of those over every second
+    /// point and over the others.
+    fn scatter(&self, response: &Response, right: &[f64]) -> Vec<f64> {
+        let half = |first: usize| {
+            let of = |at: usize| if at % 2 == first { 2.0 } else { 0.0 };
+            self.error(response, right, &of)
+        };
+        less(&half(0), 1.0, &half(1)).iter().map(|it| it / 2.0).collect()
+    }
+
+    /// The same of the values at points of a user's, less those of a right solver. Each point counts `times`.
+    fn error(&self, response: &Response, right: &[f64], times: &dyn Fn(usize) -> f64) -> Vec<f64> {
+        let points: Vec<Vector<f64, D>> = crate::exact::vectors(&response.reference);
+        let total: f64 = self.volumes.iter().sum();
+        let even = vec![total / points.len().max(1) as f64; points.len()];
+        let volumes = response.volumes.as_ref().unwrap_or(&even);
+        // The smooth part of what is right is taken away at the points, so that the user's sums need not be exact for it.
+        let smooth = |x: &[Vector<f64, D>]| self.smooth_part(response, x);
+        let (own, at_points) = (smooth(&self.points), smooth(&points));
+        let per_volume = match response.computed {
+            Computed::Acceleration => self.exact.density(&points),
+            Computed::Residual => vec![1.0; points.len()],
+        };
+        let mut sums = vec![0.0; self.count()];
+        let values: Vec<Vector<f64, D>> = crate::exact::vectors(&response.values);
+        for (at, x) in points.iter().enumerate() {
+            let q = (values[at] * per_volume[at] - at_points[at]) * volumes[at] * times(at);
+            add(&mut sums, &self.functions(x), &q);
+        }
+        let rest = less(right, 1.0, &self.paired(&own));
+        less(&sums, 1.0, &rest)
+    }
+
+    /// Per volume, what a right solver computes in the body, without what tractions add on faces.
+    fn smooth_part(&self, response: &Response, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let (a, b) = (self.exact.acceleration(self.time, x), self.exact.body_force(self.time, x));
+        let density = self.exact.density(x);
+        let Without { body_force, stress, .. } = response.without;
+        let keep = |is_out: bool| if is_out { 0.0 } else { 1.0 };
+        let (force, inner) = (keep(body_force), keep(stress));
+        let each = a.iter().zip(&b).zip(&density);
+        each.map(|((a, b), density)| {
+            let applied = ((a - b) * inner + b * force) * *density;
+            match response.computed {
+                Computed::Acceleration => applied,
+                Computed::Residual => a * *density - applied,
+            }
+        })
+        .collect()
+    }
+}
+
+/// P = tau F^-T; what is not finite where F is singular.
+fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix<f64, D> {
+    let f = h + Matrix::identity();
+    f.try_inverse().map_or(Matrix::repeat(f64::NAN), |inverse| tau * inverse.transpose())
+}
+
+/// Adds q.w for all functions, whose components come one after the other.
+fn add<const D: usize>(sums: &mut [f64], functions: &[f64], q: &Vector<f64, D>) {
+    let count = functions.len() / D;
+    for (at, (sum, value)) in sums.iter_mut().zip(functions).enumerate() {
+        *sum += value * q[at / count];
+    }
+}
+
+/// How far X is from a face, over the size of the body.
+fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
+    match (body, face) {
+        (Body::Box { lower, upper }, Face::Min(axis)) => {
+            (x[axis] - lower[axis]) / (upper[axis] - lower[axis])
+        }
+        (Body::Box { lower, upper }, Face::Max(axis)) => {
+            (upper[axis] - x[axis]) / (upper[axis] - lower[axis])
+        }
+        (Body::Annulus { inner, outer, .. }, Face::Inner) => (x.norm() - inner) / (outer - inner),
+        (Body::Annulus { inner, outer, .. }, Face::Outer) => (outer - x.norm()) / (outer - inner),
+        (Body::Annulus { theta, outer, .. }, face) => {
+            let angle = if face == Face::ThetaMin { theta[0] } else { theta[1] };
+            (x[1] * angle.cos() - x[0] * angle.sin()).abs() / outer
+        }
+        _ => 1.0,
+    }
+}
+
+/// Diagnoses what a solver computed at an exact state.
+///
+/// # Errors
+/// A body without extent.
+pub fn diagnose<const D: usize>(
+    exact: &Exact<'_, D>,
+    response: &Response,
+    hypotheses: &[Hypothesis<D>],
+) -> Result<Diagnosis, Refusal> {
+    let weak = Weak::new(exact, response.time, response.reference.len() / D)?;
+    let right_sums = weak.sums(&Changed::right(exact, response.without));
+    let right = weak.computed(response, &right_sums, 1.0);
+    let Sums { inertia, stress, force, .. } = &right_sums;
+    let scale = [inertia, stress, force].map(|it| size(it)).into_iter().fold(0.0, f64::max);
+    let all = weak.error(response, &right, &|_| 1.0).iter().map(|it| it / scale).collect();
+    let [lower, upper] = bounding_box(&exact.domain.body)?;
+    let smooth = METHOD * (exact.cell_size / (upper - lower).max()).powi(2);
+    let floor = smooth.hypot(size(&weak.scatter(response, &right)) / scale);
+    let error = Error { method: vec![0.0; right.len()], floor, all };
+    let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
+        let density = match (&hypothesis.change, at) {
+            (Change::Density, [factor, ..]) => *factor,
+            _ => 1.0,
+        };
+        let sums = weak.sums(&Changed::with(exact, response.without, hypothesis, at));
+        let wrong = weak.computed(response, &sums, density);
+        less(&wrong, 1.0, &right).iter().map(|it| it / scale).collect::<Vec<f64>>()
+    };
+    let explained: Vec<_> = hypotheses
+        .iter()
+        .enumerate()
+        .filter(|(_, it)| {
+            matches!(
+                it.change,
+                Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density
+            )
+        })
+        .filter_map(|(index, hypothesis)| explain(index, hypothesis, &error, &make))
+        .collect();
+    let mut cannot_be_seen = unseen(hypotheses, &explained, floor.min(1e-6));
+    let others = hypotheses.iter().filter(|it| {
+        matches!(it.change, Change::Start(_) | Change::Condition(_) | Change::Output(_))
+    });
+    cannot_be_seen.extend(others.map(|it| it.name.to_owned()));
+    cannot_be_seen.dedup();
+    let (found, excess) = (size(&error.all), error.excess());
+    let ranked = ranked(
+        exact,
+        hypotheses,
+        explained,
+        &["another term left out (`--without`)", "another field"],
+    );
+    let finding = finding(ranked.first(), excess);
+    let notes = Vec::new();
+    let evidence = match response.computed {
+        Computed::Acceleration => "accelerations at an exact state",
+        Computed::Residual => "residuals at an exact state",
+    };
+    Ok(Diagnosis {
+        finding,
+        evidence,
+        ranked,
+        pair: None,
+        cannot_be_seen,
+        error: found,
+        expected: floor,
+        notes,
+    })
+}

@@ -1,0 +1,143 @@
+//! Diagnosis of a law alone: stresses beside the F at which they were computed, without a solver.
+
+use mms_runtime::tensor::determinant;
+use mms_runtime::{Matrix, Vector};
+
+use crate::answer::{Diagnosis, Ranked, finding, ranked, unseen};
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Given, Hypothesis};
+use crate::rank::{Error, explain};
+use crate::smooth::size;
+
+/// A measure of stress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// P.
+    FirstPiola,
+    /// S.
+    SecondPiola,
+    /// tau.
+    Kirchhoff,
+    /// sigma.
+    Cauchy,
+}
+
+/// A measure of tau at F; what is not finite where F is singular.
+fn measured<const D: usize>(
+    measure: Measure,
+    f: &Matrix<f64, D>,
+    tau: &Matrix<f64, D>,
+) -> Matrix<f64, D> {
+    let inverse = f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN));
+    match measure {
+        Measure::FirstPiola => tau * inverse.transpose(),
+        Measure::SecondPiola => inverse * tau * inverse.transpose(),
+        Measure::Kirchhoff => *tau,
+        Measure::Cauchy => tau / determinant(f),
+    }
+}
+
+/// What a law gave.
+#[derive(Clone, Debug)]
+pub struct Table<const D: usize> {
+    /// X; it matters where moduli depend on it.
+    pub reference: Vec<Vector<f64, D>>,
+    /// H.
+    pub gradient: Vec<Matrix<f64, D>>,
+    /// What the stresses are said to be.
+    pub measure: Measure,
+    /// The stresses.
+    pub stress: Vec<Matrix<f64, D>>,
+    /// How far each number may be from what was computed, for how it was stored.
+    pub rounding: f64,
+}
+
+/// What a law may lose of its digits, over the largest stress.
+const ARITHMETIC: f64 = 1e-11;
+/// Which part of the squared error a named mistake explains at least: it is there to round-off.
+const EXPLAINED: f64 = 1.0 - 1e-6;
+
+/// Mistakes in the measure: what stands for P is written down, whatever the stress is said to be.
+fn is_of_measure(name: &str) -> bool {
+    [
+        "stress_first_piola",
+        "stress_transposed",
+        "stress_second_piola",
+        "stress_kirchhoff",
+        "stress_cauchy",
+        "stress_volume",
+    ]
+    .contains(&name)
+}
+
+/// Diagnoses a law. `None` where an exact stress is not finite.
+pub fn diagnose<const D: usize>(
+    exact: &Exact<'_, D>,
+    table: &Table<D>,
+    mut hypotheses: Vec<Hypothesis<D>>,
+) -> Option<Diagnosis> {
+    if table.measure != Measure::FirstPiola {
+        hypotheses.push(Hypothesis::first_piola());
+    }
+    let hypotheses = hypotheses.as_slice();
+    let deformation: Vec<_> = table.gradient.iter().map(|h| h + Matrix::identity()).collect();
+    let flat = |stress: &[Matrix<f64, D>], measure: Measure| -> Vec<f64> {
+        let pairs = deformation.iter().zip(stress);
+        pairs.flat_map(|(f, tau)| measured(measure, f, tau).as_slice().to_vec()).collect()
+    };
+    let tau = exact.stress(&table.reference, &table.gradient);
+    let right = flat(&tau, table.measure);
+    let scale = size(&right).max(f64::MIN_POSITIVE);
+    let given = table.stress.iter().flat_map(|it| it.as_slice().to_vec());
+    let all: Vec<f64> = given.zip(&right).map(|(given, right)| (given - right) / scale).collect();
+    if right.iter().any(|it| !it.is_finite()) {
+        return None;
+    }
+    let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    let count = (right.len() as f64).sqrt();
+    let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
+    let error = Error { method: vec![0.0; right.len()], floor, all };
+    let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
+        let mut wrong = tau.clone();
+        let given = Given {
+            exact,
+            size: at,
+            time: exact.domain.time[0],
+            reference: &table.reference,
+            gradient: &table.gradient,
+        };
+        if let Change::Stress(change) = hypothesis.change {
+            change(&given, &mut wrong);
+        }
+        let measure =
+            if is_of_measure(hypothesis.name) { Measure::FirstPiola } else { table.measure };
+        flat(&wrong, measure)
+            .iter()
+            .zip(&right)
+            .map(|(wrong, right)| (wrong - right) / scale)
+            .collect::<Vec<f64>>()
+    };
+    let mut explained: Vec<_> = hypotheses
+        .iter()
+        .enumerate()
+        .filter(|(_, it)| matches!(it.change, Change::Stress(_)) && it.name != "moduli_at_present")
+        .filter_map(|(index, hypothesis)| explain(index, hypothesis, &error, &make))
+        .collect();
+    let (found, excess) = (size(&error.all), error.excess());
+    let cannot_be_seen = unseen(hypotheses, &explained, floor);
+    explained.retain(|it| size(&it.response) > floor);
+    let ranked = ranked(exact, hypotheses, explained, &["other F: with shear, and of other sizes"]);
+    let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
+    let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
+    let finding = finding(ranked.first().filter(|it| is_exact(it)), excess);
+    Some(Diagnosis {
+        finding,
+        evidence: "the law alone",
+        ranked,
+        pair: None,
+        cannot_be_seen,
+        error: found,
+        expected: floor,
+        notes: Vec::new(),
+    })
+}

@@ -1,0 +1,272 @@
+//! Mistakes that are typed by hand, in results of a solver, in accelerations at an exact state, and in a law.
+
+mod field;
+
+use field::{DENSITY, LAMBDA, MU, Square};
+use mms_diagnosis::answer::{Diagnosis, Finding};
+use mms_diagnosis::changed::Without;
+use mms_diagnosis::evidence::{Frame, Mesh, Snapshot};
+use mms_diagnosis::exact::{Exact, Quantity};
+use mms_diagnosis::hypothesis::all;
+use mms_diagnosis::smooth::Smooth;
+use mms_diagnosis::state::{self, Computed, Response};
+use mms_diagnosis::table::{self, Measure, Table};
+use mms_diagnosis::{ordinary, patterns};
+use mms_runtime::study::{Frame as State, Observer, Solve as _, Watch};
+use mms_runtime::{
+    Division, Domain, FormulationName, ManufacturedField, Material, Matrix, Method, Setup,
+    ShapeName, Vector,
+};
+
+type Point = Vector<f64, 2>;
+type Tensor = Matrix<f64, 2>;
+
+/// The name of what is found: that of the mistake, or the finding.
+fn name(diagnosis: &Diagnosis) -> &'static str {
+    match diagnosis.finding {
+        Finding::Named => diagnosis.ranked[0].name,
+        other => other.name(),
+    }
+}
+
+/// With a load, and without one.
+const LOADED: Square = Square { is_loaded: true };
+const HELD: Square = Square { is_loaded: false };
+
+fn exact(field: &'static Square, cells: f64) -> Exact<'static, 2> {
+    Exact::new(field, 1.0 / cells, 0.4 / cells / ((LAMBDA + 2.0 * MU) / DENSITY).sqrt())
+}
+
+/// Points in the middle of cells, and on the loaded face none.
+fn points(count: usize) -> Vec<Point> {
+    let middle = |k: usize| (k as f64 + 0.5) / count as f64;
+    (0..count * count).map(|k| Point::new(middle(k % count), middle(k / count))).collect()
+}
+
+#[test]
+fn the_law_and_its_moduli_are_recognised() {
+    let exact = exact(&LOADED, 20.0);
+    assert_eq!(exact.law.map(|law| law.name), Some("neo_hookean"));
+    let [lambda, mu] = exact.uniform_moduli().unwrap();
+    assert!((lambda / LAMBDA - 1.0).abs() < 1e-9 && (mu / MU - 1.0).abs() < 1e-9);
+}
+
+/// What is said of a law that gives these stresses for P.
+fn of_law(stress: impl Fn(&Tensor) -> Tensor) -> Diagnosis {
+    let exact = exact(&LOADED, 20.0);
+    let gradient: Vec<Tensor> = points(5).iter().map(|x| field::gradient(0.0, x) * 3.0).collect();
+    let stress: Vec<Tensor> = gradient.iter().map(stress).collect();
+    let reference = points(5);
+    let table = Table { reference, gradient, measure: Measure::FirstPiola, stress, rounding: 0.0 };
+    table::diagnose(&exact, &table, all(&exact)).unwrap()
+}
+
+#[test]
+fn a_law_is_named_to_round_off() {
+    let f = |h: &Tensor| h + Tensor::identity();
+    let right = |h: &Tensor| field::first(h, [LAMBDA, MU]);
+    let ln = std::f64::consts::LN_10;
+    assert_eq!(name(&of_law(right)), "nothing");
+    assert_eq!(name(&of_law(|h| right(h).transpose())), "stress_transposed");
+    assert_eq!(name(&of_law(|h| f(h).try_inverse().unwrap() * right(h))), "stress_second_piola");
+    assert_eq!(name(&of_law(|h| right(h) * f(h).transpose())), "stress_kirchhoff");
+    assert_eq!(name(&of_law(|h| right(h) / f(h).determinant())), "stress_volume");
+    assert_eq!(name(&of_law(|h| field::first(h, [MU, LAMBDA]))), "moduli_swapped");
+    assert_eq!(name(&of_law(|h| field::first(h, [0.0, MU]))), "lambda_missing");
+    assert_eq!(name(&of_law(|h| field::first(h, [LAMBDA + 2.0 / 3.0 * MU, MU]))), "lambda_bulk");
+    assert_eq!(name(&of_law(|h| right(h) * 1e-6)), "units");
+    let logarithm = of_law(|h| field::first(h, [LAMBDA / ln, MU]));
+    assert_eq!(name(&logarithm), "lambda_factor");
+    assert!((logarithm.ranked[0].factor[0] * ln - 1.0).abs() < 1e-6);
+    // mu (F - F^-T) + lambda (J - 1) J F^-T.
+    let quadratic = of_law(|h| {
+        let j = f(h).determinant();
+        field::first(h, [0.0, MU])
+            + f(h).try_inverse().unwrap().transpose() * (LAMBDA * (j - 1.0) * j)
+    });
+    assert_eq!(name(&quadratic), "material");
+    assert_eq!(quadratic.ranked[0].which, Some("neo_hookean_quadratic"));
+    // What nobody has thought of.
+    assert_eq!(name(&of_law(|h| right(h) + h * h * 100.0)), "unexplained");
+}
+
+/// What is said of these accelerations at the exact state.
+fn of_accelerations(acceleration: impl Fn(&Point) -> Point) -> Diagnosis {
+    let exact = exact(&HELD, 24.0);
+    let (time, points) = (0.013, points(24));
+    let values = points.iter().flat_map(|x| acceleration(x).as_slice().to_vec()).collect();
+    let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
+    let computed = Computed::Acceleration;
+    let response =
+        Response { computed, time, reference, values, volumes: None, without: Without::default() };
+    state::diagnose(&exact, &response, &all(&exact)).unwrap()
+}
+
+#[test]
+fn accelerations_at_an_exact_state_name_a_term() {
+    let time = 0.013;
+    let a = |x: &Point| field::acceleration(time, x);
+    let b = |x: &Point| field::body_force(time, x);
+    assert_eq!(name(&of_accelerations(a)), "nothing");
+    assert_eq!(name(&of_accelerations(|x| a(x) - b(x))), "force_missing");
+    assert_eq!(name(&of_accelerations(|x| a(x) + b(x))), "force_twice");
+    // With b per mass and no load, b = a + Div P/rho0 is the stress times 3 on any field.
+    let sign = of_accelerations(|x| a(x) * 3.0 - b(x) * 2.0);
+    let names = [&[name(&sign).to_owned()], sign.ranked[0].equivalent_always.as_slice()].concat();
+    assert!(
+        ["force_sign", "moduli_factor", "density_factor"]
+            .iter()
+            .all(|it| names.iter().any(|n| n == it)),
+        "{names:?}"
+    );
+    assert_eq!(name(&of_accelerations(|x| a(x) - Point::new(0.0, 9.81 * 20.0))), "constant_force");
+    let transposed = |x: &Point| {
+        b(x) + field::divergence(time, x, |h| field::first(h, [LAMBDA, MU]).transpose()) / DENSITY
+    };
+    assert_eq!(name(&of_accelerations(transposed)), "stress_transposed");
+    let swapped =
+        |x: &Point| b(x) + field::divergence(time, x, |h| field::first(h, [MU, LAMBDA])) / DENSITY;
+    assert_eq!(name(&of_accelerations(swapped)), "moduli_swapped");
+    // Scatter from point to point is no mistake of a term.
+    let noise = |x: &Point| a(x) + Point::new((1e4 * x[0] * x[1]).sin(), (9e3 * x[0]).cos()) * 5.0;
+    assert_ne!(of_accelerations(noise).finding, Finding::Named);
+}
+
+/// The same field with mistakes, for the solver.
+struct Mistaken {
+    moduli: [f64; 2],
+    force: fn(f64, &Point) -> Point,
+}
+
+impl Material<f64, 2> for Mistaken {
+    fn density(&self, x: &[Point], density: &mut [f64]) {
+        LOADED.density(x, density);
+    }
+
+    fn wave_speed(&self, x: &[Point], speed: &mut [f64]) {
+        LOADED.wave_speed(x, speed);
+    }
+
+    fn kirchhoff_stress(&self, _: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
+        for (h, stress) in h.iter().zip(stress) {
+            *stress = field::first(h, self.moduli) * (h + Tensor::identity()).transpose();
+        }
+    }
+}
+
+impl ManufacturedField<f64, 2> for Mistaken {
+    fn domain(&self) -> Domain<f64, 2> {
+        LOADED.domain()
+    }
+
+    fn displacement(&self, time: f64, x: &[Point], out: &mut [Point]) {
+        LOADED.displacement(time, x, out);
+    }
+
+    fn velocity(&self, time: f64, x: &[Point], out: &mut [Point]) {
+        LOADED.velocity(time, x, out);
+    }
+
+    fn acceleration(&self, time: f64, x: &[Point], out: &mut [Point]) {
+        LOADED.acceleration(time, x, out);
+    }
+
+    fn body_force(&self, time: f64, x: &[Point], out: &mut [Point]) {
+        x.iter().zip(out).for_each(|(x, out)| *out = (self.force)(time, x));
+    }
+
+    fn displacement_gradient(&self, time: f64, x: &[Point], out: &mut [Tensor]) {
+        LOADED.displacement_gradient(time, x, out);
+    }
+
+    fn surface_stress(&self, time: f64, x: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
+        LOADED.surface_stress(time, x, h, stress);
+    }
+}
+
+/// The last state of a run.
+#[derive(Default)]
+struct Last(Option<State>);
+
+impl Observer for Last {
+    fn step(&mut self, _: usize, _: usize) {}
+
+    fn wants(&self, step: usize, steps: usize) -> bool {
+        step == steps
+    }
+
+    fn see(&mut self, state: &State) -> Result<(), String> {
+        self.0 = Some(state.clone());
+        Ok(())
+    }
+}
+
+/// What is said of a run of cubic splines, which are none of the shape functions of diagnosis.
+fn of_solver(mistaken: &Mistaken) -> Diagnosis {
+    let setup = Setup { end_time: Some(0.03), ..Setup::default() };
+    let (shape, formulation) = (ShapeName::CubicBspline, FormulationName::Total);
+    let method = Method { shape, formulation, setup, ..Method::default() };
+    let cells = Division::Uniform(12);
+    let mut last = Last::default();
+    let field: &dyn ManufacturedField<f64, 2> = mistaken;
+    let run = f64::run(field, &method, &cells, Watch::Displacement, &mut last).unwrap();
+    assert!(run.level.errors.is_ok());
+    let state = last.0.unwrap();
+    let pairs = state.position.iter().zip(&state.displacement);
+    let reference: Vec<f64> = pairs.map(|(x, u)| x - u).collect();
+    let values = vec![(Quantity::Displacement, state.displacement.clone())];
+    let snapshots = vec![Snapshot { time: state.time, reference, values }];
+    said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }])
+}
+
+#[test]
+fn a_mistake_in_a_solver_is_named() {
+    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force };
+    assert_eq!(name(&of_solver(&right)), "nothing");
+    let swapped = Mistaken { moduli: [MU, LAMBDA], ..right };
+    assert_eq!(name(&of_solver(&swapped)), "moduli_swapped");
+    let late = Mistaken { force: |time, x| field::body_force(time - 4e-3, x), ..right };
+    let found = of_solver(&late);
+    assert_eq!(name(&found), "force_late");
+    assert!((found.ranked[0].factor[0] / 4e-3 - 1.0).abs() < 0.15, "{:?}", found.ranked[0].factor);
+    let sign = Mistaken {
+        force: |time, x| field::acceleration(time, x) * 2.0 - field::body_force(time, x),
+        ..right
+    };
+    assert_eq!(name(&of_solver(&sign)), "force_sign");
+}
+
+/// What is said of results of meshes.
+fn said(meshes: &[Mesh]) -> Diagnosis {
+    let exact = exact(&LOADED, 12.0);
+    let snapshots: Vec<&Snapshot> = meshes[0].snapshots.iter().collect();
+    if let Some(found) = patterns::diagnose(&exact, &snapshots) {
+        return found;
+    }
+    let frame = Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576).unwrap());
+    ordinary::diagnose(&exact, &frame, meshes, &all(&exact)).unwrap()
+}
+
+/// What is said of results with this displacement.
+fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
+    let points = points(24);
+    let snapshot = |time: f64| {
+        let u = points.iter().flat_map(|x| displacement(time, x).as_slice().to_vec()).collect();
+        let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
+        Snapshot { time, reference, values: vec![(Quantity::Displacement, u)] }
+    };
+    said(&[Mesh { cell_size: 1.0 / 12.0, snapshots: vec![snapshot(0.015), snapshot(0.03)] }])
+}
+
+#[test]
+fn what_is_written_wrongly_is_named() {
+    let u = field::displacement;
+    assert_eq!(name(&of_results(u)), "nothing");
+    assert_eq!(name(&of_results(|t, x| Point::new(u(t, x)[1], u(t, x)[0]))), "components_swapped");
+    assert_eq!(name(&of_results(|t, x| u(t, x) * 1000.0)), "units");
+    let offset = of_results(|t, x| u(t, &(x + Point::new(1.0 / 24.0, 1.0 / 24.0))));
+    assert_eq!(name(&offset), "points_offset");
+    assert!((offset.ranked[0].factor[0] * 24.0 - 1.0).abs() < 0.1, "{:?}", offset.ranked[0].factor);
+    let permuted = of_results(|t, x| u(t, &Point::new(x[1], x[0])));
+    assert_eq!(name(&permuted), "points_permuted");
+}

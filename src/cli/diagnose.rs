@@ -1,0 +1,139 @@
+//! `mms diagnose`: which mistake makes the error of a solver.
+
+use clap::{Args, ValueEnum};
+use mms_diagnosis::answer::Finding;
+use mms_diagnosis::changed::Without;
+use mms_results::names::Mapping;
+
+use super::{Outcome, print, print_json, say, this_command};
+use crate::diagnose::{self, Reading, Solver};
+use crate::judge::results::{Exact, Results};
+use crate::report::{Diagnosed, Hypotheses};
+use crate::session::input::{Input, Variant};
+use crate::session::method::{finite, positive};
+
+/// Name the mistake of a solver by the error that it makes.
+///
+/// Results of a FIELD are one FILE for each mesh, as for `mms judge`. What is in them decides what is looked at:
+///
+/// F and a stress, with --quantity stress: the law alone, to round-off, without a solver. Accelerations `a` or residuals `r` at
+/// an exact state, paired with smooth functions. u, v, F at some times: hypotheses are run by this project's own solver on
+/// a grid of about that size, and their errors are compared with yours.
+///
+/// A hypothesis is named if it explains the error, with a size that it may have, and nothing else explains it as well. It says what the
+/// error acts as, not which line is wrong.
+///
+/// Exit codes: 0 nothing is wrong beyond what a method makes; 1 a mistake is named, or the error is unexplained; 2 bad
+/// usage, or bad files.
+#[derive(Args)]
+pub struct Diagnose {
+    /// A gallery name, or a path to a TOML file.
+    field: String,
+    /// Results, each of one mesh, at one time or more, as for `mms judge`.
+    #[arg(value_name = "FILE", required_unless_present = "list")]
+    files: Vec<String>,
+    /// List the hypotheses about this field: what each is, what it changes, whether it is a mistake or a choice.
+    #[arg(long, conflicts_with = "files")]
+    list: bool,
+    /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau.
+    #[arg(long, value_name = "stress")]
+    quantity: Option<Quantity>,
+    /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
+    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
+    map: Vec<Mapping>,
+    /// h of the FILEs, in their order.
+    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = positive)]
+    h: Vec<f64>,
+    /// The times of results that have none.
+    #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
+    time: Vec<f64>,
+    /// The time step of the solver; without it, about the Courant number 0.4.
+    #[arg(long, value_name = "DT", value_parser = positive)]
+    time_step: Option<f64>,
+    /// A term that the solver was told to leave out, in accelerations or residuals. May be repeated.
+    #[arg(long, value_name = "body_force|stress|traction")]
+    without: Vec<Term>,
+    /// The sign of residuals: `+` is r = rho0 a - Div P - rho0 b, per reference volume.
+    #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
+    residual_sign: f64,
+    /// Set a parameter; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    variant: Variant,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+/// What may be looked at alone.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Quantity {
+    Stress,
+}
+
+/// A term of the balance of momentum.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+enum Term {
+    BodyForce,
+    Stress,
+    Traction,
+}
+
+fn sign(text: &str) -> Result<f64, &'static str> {
+    match text {
+        "+" => Ok(1.0),
+        "-" => Ok(-1.0),
+        _ => Err("expected + or -"),
+    }
+}
+
+impl Diagnose {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let input = Input::find(&self.field, &self.variant)?;
+        let scene = input.scene(&self.set, |code| code.double)?;
+        if self.list {
+            let report = Hypotheses { field: &input.name, all: diagnose::hypotheses(&scene) };
+            self.show(|| report.table(), || report.document())?;
+            return Ok(Outcome::AsExpected);
+        }
+        let provenance = this_command("diagnose", input.provenance(&self.set));
+        let exact = Exact::new(input, &self.set)?;
+        let all =
+            self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
+        let reading = Reading {
+            map: &self.map,
+            times: &self.time,
+            sizes: &self.h,
+            is_law: self.quantity == Some(Quantity::Stress),
+            residual_sign: self.residual_sign,
+        };
+        let evidence = diagnose::read(all, &reading, &exact)?;
+        say(format_args!("looking at {}", evidence.says()));
+        let is_out = |term: Term| self.without.contains(&term);
+        let without = Without {
+            body_force: is_out(Term::BodyForce),
+            stress: is_out(Term::Stress),
+            traction: is_out(Term::Traction),
+        };
+        let solver = Solver { time_step: self.time_step, without };
+        let diagnosis = diagnose::diagnose(&scene, &evidence, solver)?;
+        let input = exact.input();
+        let report =
+            Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };
+        self.show(|| report.text(), || report.document())?;
+        Ok(match diagnosis.finding {
+            Finding::Nothing => Outcome::AsExpected,
+            Finding::Named | Finding::Unexplained => Outcome::Refuted,
+        })
+    }
+
+    fn show(
+        &self,
+        text: impl FnOnce() -> String,
+        document: impl FnOnce() -> serde_json::Value,
+    ) -> anyhow::Result<()> {
+        if self.json { print_json(&document()) } else { print(&text()) }
+    }
+}

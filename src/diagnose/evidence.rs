@@ -1,0 +1,200 @@
+//! Reads evidence from files.
+
+use anyhow::{Context as _, bail, ensure};
+use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
+use mms_diagnosis::exact::Quantity;
+use mms_diagnosis::state::Computed;
+use mms_diagnosis::table::Measure;
+use mms_results::Snapshot;
+use mms_results::motion::resolve;
+use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
+use mms_results::norm::Mesh;
+
+use super::{Evidence, LawOf, StateOf};
+use crate::judge::results::{Exact, Results, placed};
+
+/// How results are read.
+pub struct Reading<'a> {
+    /// What the user says of names.
+    pub map: &'a [Mapping],
+    /// Times of results that have none.
+    pub times: &'a [f64],
+    /// h of the FILEs, in their order.
+    pub sizes: &'a [f64],
+    /// Whether a law alone is looked at.
+    pub is_law: bool,
+    /// The sign of residuals: r = sign (rho0 a - Div P - rho0 b).
+    pub residual_sign: f64,
+}
+
+/// Reads files: from coarse to fine.
+///
+/// # Errors
+/// What is wrong with a file, and where; evidence that is none.
+pub fn read(all: Vec<Results>, reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Evidence> {
+    if reading.is_law {
+        let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
+        return law(snapshot.context("expected a table of F and stress")?, reading, exact);
+    }
+    if let Some(state) = state(&all, reading, exact)? {
+        return Ok(Evidence::State(state));
+    }
+    let mut levels = Vec::new();
+    for (at, results) in all.iter().enumerate() {
+        levels.push(level(results, reading, reading.sizes.get(at).copied(), exact)?);
+    }
+    levels.sort_by(|a, b| b.cell_size.total_cmp(&a.cell_size));
+    Ok(Evidence::Results(levels))
+}
+
+fn meanings(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<Meaning>> {
+    recognise(snapshot, reading.map, &|_| true).map_err(placed)
+}
+
+fn values(
+    meanings: &[Meaning],
+    role: Role,
+    snapshot: &Snapshot,
+    dimension: usize,
+) -> anyhow::Result<Option<Values>> {
+    let meaning = meanings.iter().find(|it| it.role == role);
+    let values = meaning.map(|it| it.values(snapshot, dimension)).transpose().map_err(placed)?;
+    Ok(values.filter(|it| !it.is_of_cells))
+}
+
+/// H, from H or F.
+fn gradient(
+    meanings: &[Meaning],
+    snapshot: &Snapshot,
+    dimension: usize,
+) -> anyhow::Result<Option<Values>> {
+    if let Some(h) = values(meanings, Role::DisplacementGradient, snapshot, dimension)? {
+        return Ok(Some(h));
+    }
+    let mut f = values(meanings, Role::DeformationGradient, snapshot, dimension)?;
+    for point in f.iter_mut().flat_map(|it| it.numbers.chunks_mut(dimension * dimension)) {
+        (0..dimension).for_each(|axis| point[axis * (dimension + 1)] -= 1.0);
+    }
+    Ok(f)
+}
+
+/// What the columns of stress are said to be.
+const MEASURES: [(Role, Measure); 4] = [
+    (Role::FirstPiolaKirchhoff, Measure::FirstPiola),
+    (Role::SecondPiolaKirchhoff, Measure::SecondPiola),
+    (Role::KirchhoffStress, Measure::Kirchhoff),
+    (Role::CauchyStress, Measure::Cauchy),
+];
+
+fn law(snapshot: &Snapshot, reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Evidence> {
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
+    let h = gradient(&meanings, snapshot, dimension)?;
+    let h =
+        h.with_context(|| format!("{}: no F: name its columns with `--map F=..`", snapshot.path))?;
+    let mut found = Vec::new();
+    for (role, measure) in MEASURES {
+        found.extend(values(&meanings, role, snapshot, dimension)?.map(|it| (measure, it)));
+    }
+    let (measure, stress) = match found.len() {
+        0 => bail!(
+            "{}: no stress: name its columns with `--map P=..`, S, sigma or tau",
+            snapshot.path
+        ),
+        1 => found.remove(0),
+        _ => bail!("{}: several measures of stress: leave one in the file", snapshot.path),
+    };
+    ensure!(
+        stress.numbers.len() == h.numbers.len(),
+        "{}: F and stress of different rows",
+        snapshot.path
+    );
+    let reference = values(&meanings, Role::Reference, snapshot, dimension)?;
+    Ok(Evidence::Law(LawOf {
+        reference: reference.map_or(Vec::new(), |it| it.numbers),
+        gradient: h.numbers,
+        measure,
+        rounding: stress.rounding,
+        stress: stress.numbers,
+    }))
+}
+
+/// Accelerations or residuals, where there are such, and no motion.
+fn state(all: &[Results], reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Option<StateOf>> {
+    let Some(results) = all.last() else { return Ok(None) };
+    let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
+    let kinds =
+        [(Role::Residual, Computed::Residual), (Role::Acceleration, Computed::Acceleration)];
+    for (role, computed) in kinds {
+        let Some(mut found) = values(&meanings, role, snapshot, dimension)? else { continue };
+        if computed == Computed::Residual {
+            found.numbers.iter_mut().for_each(|it| *it *= reading.residual_sign);
+        }
+        let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
+            .map_err(placed)?;
+        let reference = motion.reference.numbers;
+        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
+        let volumes = match values(&meanings, Role::Volume, snapshot, 1)? {
+            Some(volumes) => Some(volumes.numbers),
+            None if mesh.sizes().is_some() => {
+                Some(mesh.volumes().map_err(|it| placed(it.of(&snapshot.path)))?)
+            }
+            None => None,
+        };
+        let cell_size = size(reading.sizes.last().copied(), &mesh, exact);
+        let time = time(snapshot, reading, 0)?;
+        return Ok(Some(StateOf {
+            computed,
+            time,
+            values: found.numbers,
+            volumes,
+            cell_size,
+            reference,
+        }));
+    }
+    Ok(None)
+}
+
+fn time(snapshot: &Snapshot, reading: &Reading<'_>, at: usize) -> anyhow::Result<f64> {
+    let time = snapshot.time.map(|it| it.value).or(reading.times.get(at).copied());
+    time.with_context(|| format!("{}: it has no time; give it with `--time`", snapshot.path))
+}
+
+/// h: as given, of cells, or about that of so many points.
+fn size(given: Option<f64>, mesh: &Mesh<'_>, exact: &Exact) -> f64 {
+    let points = mesh.points.len() / exact.dimension;
+    given.or(mesh.sizes().map(|[_, longest]| longest)).unwrap_or_else(|| {
+        (exact.body.measure() / points as f64).powf(1.0 / exact.dimension as f64)
+    })
+}
+
+fn level(
+    results: &Results,
+    reading: &Reading<'_>,
+    given: Option<f64>,
+    exact: &Exact,
+) -> anyhow::Result<Level> {
+    let mut level = Level::default();
+    for (at, snapshot) in results.snapshots.iter().enumerate() {
+        let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
+        let outside = |point: &[f64]| exact.body.distance(point);
+        let motion = resolve(snapshot, &meanings, dimension, &outside).map_err(placed)?;
+        let reference = motion.reference.numbers;
+        let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
+        level.cell_size = size(given, &mesh, exact);
+        let u = motion.displacement.map(|it| (Quantity::Displacement, it.numbers));
+        let v = values(&meanings, Role::Velocity, snapshot, dimension)?
+            .map(|it| (Quantity::Velocity, it.numbers));
+        let h = gradient(&meanings, snapshot, dimension)?
+            .map(|it| (Quantity::DisplacementGradient, it.numbers));
+        let values: Vec<_> = [u, v, h].into_iter().flatten().collect();
+        ensure!(
+            !values.is_empty(),
+            "{}: nothing to diagnose; expected u, v, F, accelerations or residuals; name them with `--map u=..`",
+            snapshot.path
+        );
+        level.snapshots.push(Instant { time: time(snapshot, reading, at)?, reference, values });
+    }
+    ensure!(!level.snapshots.is_empty(), "`{}`: no results", results.name);
+    Ok(level)
+}

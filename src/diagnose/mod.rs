@@ -1,0 +1,244 @@
+//! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
+
+mod evidence;
+
+use mms_diagnosis::answer::Diagnosis;
+use mms_diagnosis::changed::Without;
+use mms_diagnosis::evidence::{Frame, Mesh, Snapshot};
+use mms_diagnosis::exact::{Exact, vectors};
+use mms_diagnosis::hypothesis::{Hypothesis, all};
+use mms_diagnosis::smooth::Smooth;
+use mms_diagnosis::state::{self, Computed};
+use mms_diagnosis::table::{self, Measure, Table};
+use mms_diagnosis::{ordinary, patterns};
+use mms_runtime::ManufacturedField;
+use mms_runtime::body::bounding_box;
+use mms_runtime::scene::Scene;
+use mms_runtime::study::Solve;
+
+pub use evidence::{Reading, read};
+
+/// What there is to look at.
+pub enum Evidence {
+    /// Results of meshes, from coarse to fine.
+    Results(Vec<Mesh>),
+    /// Accelerations or residuals at an exact state, of the finest mesh.
+    State(StateOf),
+    /// Stresses beside H: numbers of points, tensors by rows.
+    Law(LawOf),
+}
+
+impl Evidence {
+    /// What it is, in words.
+    pub fn says(&self) -> String {
+        match self {
+            Evidence::Results(meshes) => {
+                let names = meshes.last().and_then(|it| it.snapshots.first());
+                let names = names
+                    .map_or(Vec::new(), |it| it.values.iter().map(|(it, _)| it.name()).collect());
+                format!("{} of {} mesh(es)", names.join(", "), meshes.len())
+            }
+            Evidence::State(StateOf { computed: Computed::Acceleration, time, .. }) => {
+                format!("accelerations at the exact state of t = {time}")
+            }
+            Evidence::State(StateOf { time, .. }) => {
+                format!("residuals at the exact state of t = {time}")
+            }
+            Evidence::Law(law) => format!(
+                "{} stresses, without a solver",
+                law.stress.len() / law.gradient.len().max(1)
+            ),
+        }
+    }
+}
+
+/// Accelerations or residuals.
+pub struct StateOf {
+    /// Which of them.
+    pub computed: Computed,
+    /// The time.
+    pub time: f64,
+    /// X.
+    pub reference: Vec<f64>,
+    /// The values.
+    pub values: Vec<f64>,
+    /// The volumes of points.
+    pub volumes: Option<Vec<f64>>,
+    /// h.
+    pub cell_size: f64,
+}
+
+/// The stresses of a law.
+pub struct LawOf {
+    /// X; none where it is not given.
+    pub reference: Vec<f64>,
+    /// H.
+    pub gradient: Vec<f64>,
+    /// What the stresses are said to be.
+    pub measure: Measure,
+    /// The stresses.
+    pub stress: Vec<f64>,
+    /// How far a number may be off, for how it was stored.
+    pub rounding: f64,
+}
+
+/// What is known of the solver.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Solver {
+    /// Its time step, if it is known.
+    pub time_step: Option<f64>,
+    /// What was left out.
+    pub without: Without,
+}
+
+/// Fewer points say too little.
+const FEWEST_POINTS: usize = 8;
+/// The Courant number of a solver whose time step is not known.
+const COURANT: f64 = 0.4;
+
+/// Diagnoses evidence of a field.
+///
+/// # Errors
+/// Evidence with which that is not possible.
+pub fn diagnose(
+    scene: &Scene<f64>,
+    evidence: &Evidence,
+    solver: Solver,
+) -> anyhow::Result<Diagnosis> {
+    match scene {
+        Scene::Line(field) => of(field.as_ref(), evidence, solver),
+        Scene::Plane(field) => of(field.as_ref(), evidence, solver),
+        Scene::Space(field) => of(field.as_ref(), evidence, solver),
+    }
+}
+
+/// What a hypothesis is, for a list of all.
+pub struct Listed {
+    /// Its name, with the face and which it is.
+    pub title: String,
+    /// What it is.
+    pub says: String,
+    /// Mistake or choice.
+    pub kind: &'static str,
+    /// What it changes, and so what shows it.
+    pub changes: &'static str,
+}
+
+/// All hypotheses about a field.
+pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
+    fn of<const D: usize>(field: &dyn ManufacturedField<f64, D>) -> Vec<Listed> {
+        let listed = |it: &Hypothesis<D>| Listed {
+            title: it.title(),
+            says: it.says.into(),
+            kind: it.kind.name(),
+            changes: it.change.name(),
+        };
+        let mut found: Vec<Listed> = all(&Exact::new(field, 1.0, 1.0)).iter().map(listed).collect();
+        found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
+            title: (*title).into(),
+            says: (*says).into(),
+            kind: "mistake",
+            changes: "output",
+        }));
+        found
+    }
+    match scene {
+        Scene::Line(field) => of(field.as_ref()),
+        Scene::Plane(field) => of(field.as_ref()),
+        Scene::Space(field) => of(field.as_ref()),
+    }
+}
+
+fn of<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    evidence: &Evidence,
+    solver: Solver,
+) -> anyhow::Result<Diagnosis>
+where
+    f64: Solve<D>,
+{
+    let cell_size = match evidence {
+        Evidence::Results(meshes) => meshes.last().map_or(1.0, |mesh| mesh.cell_size),
+        Evidence::State(state) => state.cell_size,
+        Evidence::Law(_) => 1.0,
+    };
+    let time_step = solver.time_step.unwrap_or_else(|| COURANT * cell_size / speed(field));
+    let exact = Exact::new(field, cell_size, time_step);
+    let hypotheses = all(&exact);
+    match evidence {
+        Evidence::Results(meshes) => of_results(&exact, meshes, &hypotheses),
+        Evidence::State(state) => {
+            let response = state::Response {
+                computed: state.computed,
+                time: state.time,
+                reference: state.reference.clone(),
+                values: state.values.clone(),
+                volumes: state.volumes.clone(),
+                without: solver.without,
+            };
+            Ok(state::diagnose(&exact, &response, &hypotheses)?)
+        }
+        Evidence::Law(law) => of_law(&exact, law, hypotheses),
+    }
+}
+
+/// The largest wave speed at a few points.
+fn speed<const D: usize>(field: &dyn ManufacturedField<f64, D>) -> f64 {
+    let places = Exact::new(field, 1.0, 1.0).places();
+    let mut speeds = vec![0.0; places.len()];
+    field.wave_speed(&places, &mut speeds);
+    speeds.into_iter().fold(f64::MIN_POSITIVE, f64::max)
+}
+
+fn of_results<const D: usize>(
+    exact: &Exact<'_, D>,
+    meshes: &[Mesh],
+    hypotheses: &[Hypothesis<D>],
+) -> anyhow::Result<Diagnosis>
+where
+    f64: Solve<D>,
+{
+    let snapshots: Vec<&Snapshot> =
+        meshes.last().map_or(Vec::new(), |it| it.snapshots.iter().collect());
+    if let Some(found) = patterns::diagnose(exact, &snapshots) {
+        return Ok(found);
+    }
+    let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
+    let points = points.min().unwrap_or(0);
+    anyhow::ensure!(
+        points >= FEWEST_POINTS,
+        "{points} points are too few to tell one mistake from another; expected {FEWEST_POINTS} at least, over all of the body"
+    );
+    let smooth = Smooth::new(&exact.domain.body, points)?;
+    let frame = Frame::new(exact, &snapshots, smooth);
+    anyhow::ensure!(
+        !frame.times.is_empty(),
+        "all results are at the start of the time window, where the state is given: expected results at a later time"
+    );
+    ordinary::diagnose(exact, &frame, meshes, hypotheses).ok_or_else(|| {
+        anyhow::anyhow!("the exact solution is not finite at a point of the results")
+    })
+}
+
+fn of_law<const D: usize>(
+    exact: &Exact<'_, D>,
+    law: &LawOf,
+    hypotheses: Vec<Hypothesis<D>>,
+) -> anyhow::Result<Diagnosis> {
+    let tensors = |numbers: &[f64]| {
+        let each = numbers.chunks_exact(D * D);
+        each.map(mms_runtime::Matrix::<f64, D>::from_row_slice).collect::<Vec<_>>()
+    };
+    let gradient = tensors(&law.gradient);
+    let reference = if law.reference.is_empty() {
+        let [lower, upper] = bounding_box(&exact.domain.body)?;
+        vec![(lower + upper) / 2.0; gradient.len()]
+    } else {
+        vectors(&law.reference)
+    };
+    let stress = tensors(&law.stress);
+    let table = Table { reference, gradient, measure: law.measure, stress, rounding: law.rounding };
+    table::diagnose(exact, &table, hypotheses).ok_or_else(|| {
+        anyhow::anyhow!("the exact stress is not finite at a row: is det F <= 0 there?")
+    })
+}

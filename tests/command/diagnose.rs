@@ -1,0 +1,127 @@
+//! `mms diagnose`: mistakes that are made here by hand, of numbers that `mms eval` gives.
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+use super::mms::{Folder, Run};
+
+/// Quantities of the field at points of an even grid, as `mms eval` gives them.
+fn grid(folder: &Folder, count: usize, time: f64) -> Vec<Value> {
+    let middle = |k: usize| (k as f64 + 0.5) / count as f64;
+    let points = (0..count * count).map(|k| [middle(k % count), middle(k / count)]);
+    let asked: String = points.map(|[x, y]| format!(" --at {x},{y}")).collect();
+    let arguments = format!("eval travelling_wave_2d --time {time} --json{asked}");
+    let document = folder.mms(&arguments).exits(0).json();
+    document["points"].as_array().unwrap().clone()
+}
+
+/// The numbers of a quantity.
+fn numbers(point: &Value, quantity: &str) -> Vec<f64> {
+    point[quantity].as_array().unwrap().iter().map(|it| it.as_f64().unwrap()).collect()
+}
+
+/// A table with these columns, made of points.
+fn table(header: &str, points: &[Value], row: impl Fn(&Value) -> Vec<f64>) -> String {
+    let mut text = format!("{header}\n");
+    for point in points {
+        let cells: Vec<_> = row(point).iter().map(|it| format!("{it:e}")).collect();
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    text
+}
+
+fn diagnose(folder: &Folder, text: &str, options: &str) -> Run {
+    folder.write("data.csv", text);
+    folder.mms(&format!("diagnose travelling_wave_2d data.csv {options}"))
+}
+
+#[test]
+fn a_law_alone_is_named() {
+    let folder = Folder::new();
+    let points = grid(&folder, 4, 0.005);
+    let header = "F11,F12,F21,F22,P11,P12,P21,P22";
+    let with = |stress: &dyn Fn(&Value) -> Vec<f64>| {
+        table(header, &points, |point| {
+            [numbers(point, "deformation_gradient"), stress(point)].concat()
+        })
+    };
+    let first = |point: &Value| numbers(point, "first_piola_kirchhoff");
+    let options = "--quantity stress";
+    diagnose(&folder, &with(&first), options).exits(0).prints("nothing");
+    let transposed = with(&|point| {
+        let p = first(point);
+        vec![p[0], p[2], p[1], p[3]]
+    });
+    diagnose(&folder, &transposed, options).exits(1).prints("named: stress_transposed (mistake)");
+    let cauchy = with(&|point| numbers(point, "cauchy_stress"));
+    diagnose(&folder, &cauchy, options).exits(1).prints("named: stress_cauchy");
+    let unit = with(&|point| first(point).iter().map(|it| it * 1e-6).collect());
+    diagnose(&folder, &unit, options).exits(1).prints("another unit: 10^-6");
+    // Six digits are the floor of what can be said.
+    let header = "F11,F12,F21,F22,sigma11,sigma12,sigma21,sigma22";
+    let rounded = table(header, &points, |point| {
+        [numbers(point, "deformation_gradient"), numbers(point, "cauchy_stress")].concat()
+    });
+    diagnose(&folder, &rounded, options).exits(0).prints("nothing");
+}
+
+#[test]
+fn accelerations_at_an_exact_state_name_a_term() {
+    let folder = Folder::new();
+    let points = grid(&folder, 16, 0.005);
+    let with = |of_a: f64, of_b: f64| {
+        table("X,Y,time,a_x,a_y", &points, |point| {
+            let pairs =
+                numbers(point, "acceleration").into_iter().zip(numbers(point, "body_force"));
+            let a = pairs.map(|(a, b)| of_a * a + of_b * b).collect();
+            [numbers(point, "at"), vec![0.005], a].concat()
+        })
+    };
+    diagnose(&folder, &with(1.0, 0.0), "").exits(0).prints("accelerations at an exact state");
+    diagnose(&folder, &with(1.0, -1.0), "").exits(1).prints("named: force_missing");
+    let sign = diagnose(&folder, &with(3.0, -2.0), "--json").exits(1).json();
+    assert_eq!(sign["finding"], "named");
+    let best = &sign["ranked"][0];
+    assert_eq!(best["hypothesis"], "force_sign");
+    let same: Vec<_> = best["equivalent_always"].as_array().unwrap().iter().collect();
+    assert!(same.contains(&&Value::from("moduli_factor")), "{same:?}");
+    // What was left out is not missed.
+    diagnose(&folder, &with(1.0, -1.0), "--without body_force").exits(0).prints("nothing");
+    let residual = table("X,Y,time,r_x,r_y", &points, |point| {
+        let b = numbers(point, "body_force");
+        [numbers(point, "at"), vec![0.005, -1000.0 * b[0], -1000.0 * b[1]]].concat()
+    });
+    // r = rho0 a - Div P - 2 rho0 b.
+    let named = diagnose(&folder, &residual, "").exits(1);
+    named.prints("residuals at an exact state").prints("named: force_twice");
+    diagnose(&folder, &residual, "--residual-sign -").exits(1).prints("named: force_missing");
+}
+
+#[test]
+fn files_that_say_too_little_are_refused() {
+    let folder = Folder::new();
+    let run = diagnose(&folder, "X,Y,time\n0.5,0.5,0\n0.2,0.3,0\n", "").exits(2);
+    run.complains("nothing to diagnose; expected u, v, F, accelerations or residuals");
+    let run = diagnose(&folder, "X,Y,u_x,u_y\n0.5,0.5,0,0\n0.2,0.3,0,0\n", "").exits(2);
+    run.complains("it has no time; give it with `--time`");
+    let run =
+        diagnose(&folder, "X,Y,u_x,u_y,time\n0.5,0.5,0,0,0.005\n0.2,0.3,0,0,0.005\n", "").exits(2);
+    run.complains("2 points are too few");
+    let rows: String = (1..9).map(|k| format!("0.{k},0.{k},0,0,0\n")).collect();
+    let run = diagnose(&folder, &format!("X,Y,u_x,u_y,time\n{rows}"), "").exits(2);
+    run.complains("all results are at the start of the time window");
+    let run = diagnose(&folder, "F11,F12,F21,F22\n1,0,0,1\n", "--quantity stress").exits(2);
+    run.complains("no stress: name its columns with `--map P=..`");
+    folder.mms("diagnose travelling_wave_2d").exits(2);
+}
+
+#[test]
+fn hypotheses_are_listed() {
+    let listed = Folder::new().mms("diagnose twisted_column --list --json").exits(0).json();
+    let names = listed["hypotheses"].as_array().unwrap().iter();
+    let names: Vec<_> = names.map(|it| it["hypothesis"].as_str().unwrap()).collect();
+    for name in ["force_sign", "stress_transposed", "moduli_swapped", "points_permuted"] {
+        assert!(names.contains(&name), "{name}");
+    }
+}
