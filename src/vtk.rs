@@ -5,18 +5,16 @@
 //! there can be opened. `.ci/states.py` reads them with meshio.
 
 use std::fmt::Write as _;
+use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
+use mms_results::Cells;
+use mms_results::write::{Column, Mesh, Shape, State, head, vtu};
 use mms_runtime::study::Frame;
 use mms_spec::foreign;
 
-use crate::report::write_own;
-
-/// The number of a vertex among the types of cells.
-const VERTEX: u8 = 1;
+use crate::report::{write_own, write_own_with};
 
 /// Writes states to a folder.
 pub struct Writer {
@@ -80,7 +78,7 @@ impl Writer {
     pub fn write(&mut self, frame: &Frame) -> anyhow::Result<()> {
         let file = format!("{}_{:04}.vtu", self.name, self.written.len());
         let path = self.folder.join(&file);
-        write_own(&path, &document(frame))
+        write_state(&path, &state(frame), &frame.position, &Cells::default())
             .with_context(|| format!("cannot write `{}`", foreign::path(&path)))?;
         self.written.push((frame.time, file));
         self.write_list()
@@ -92,16 +90,30 @@ impl Writer {
     }
 
     fn write_list(&self) -> anyhow::Result<()> {
-        let mut text = head("Collection");
-        text += "<Collection>\n";
-        for (time, file) in &self.written {
-            let file = attribute(file);
-            let _ = writeln!(text, r#"<DataSet timestep="{time:e}" file="{file}"/>"#);
-        }
-        text += "</Collection>\n</VTKFile>\n";
         let path = self.list();
-        write_own(&path, &text).with_context(|| format!("cannot write `{}`", foreign::path(&path)))
+        write_own(&path, &list(&self.written))
+            .with_context(|| format!("cannot write `{}`", foreign::path(&path)))
     }
+}
+
+/// Writes one state in a folder that was named.
+fn write_state(path: &Path, state: &State, position: &[f64], cells: &Cells) -> anyhow::Result<()> {
+    write_own_with(path, |file| {
+        let mut file = BufWriter::new(file);
+        vtu(state, Mesh { position, cells }, &mut file)?;
+        Ok(file.flush()?)
+    })
+}
+
+/// A list of files of one mesh at times, as `.pvd`.
+pub fn list(written: &[(f64, String)]) -> String {
+    let mut text = head("Collection");
+    text += "<Collection>\n";
+    for (time, file) in written {
+        let file = attribute(file);
+        let _ = writeln!(text, r#"<DataSet timestep="{time:e}" file="{file}"/>"#);
+    }
+    text + "</Collection>\n</VTKFile>\n"
 }
 
 /// The text as the value of an attribute.
@@ -109,97 +121,32 @@ fn attribute(text: &str) -> String {
     foreign::markup(text).replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-fn head(kind: &str) -> String {
-    format!(
-        "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-    )
-}
-
-/// A state as a grid of vertices.
-fn document(frame: &Frame) -> String {
-    let Frame { dimension, .. } = *frame;
-    let count = frame.position.len() / dimension;
-    let vector = |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, [1, 3]), 3);
-    let tensor =
-        |name: &str, values: &[f64]| numbers(name, &padded(values, dimension, [dimension, 9]), 9);
-    let whole = |name: &str, values: &mut dyn Iterator<Item = u64>| {
-        let bytes: Vec<u8> = values.flat_map(u64::to_le_bytes).collect();
-        array("UInt64", name, 1, &bytes)
+/// What is written of a frame.
+fn state(frame: &Frame) -> State {
+    let count = frame.position.len() / frame.dimension;
+    let column = |name: &str, shape, values: &[f64]| Column {
+        name: name.to_owned(),
+        shape,
+        values: values.to_vec(),
     };
-    let mut text = head("UnstructuredGrid");
-    text += "<UnstructuredGrid>\n";
-    let _ = writeln!(
-        text,
-        "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
-         format=\"ascii\">{:e}</DataArray>\n</FieldData>",
-        frame.time
-    );
-    let _ = writeln!(text, r#"<Piece NumberOfPoints="{count}" NumberOfCells="{count}">"#);
-    text += "<PointData>\n";
-    text += &whole("particle", &mut (0..count as u64));
-    text += &vector("displacement", &frame.displacement);
-    text += &vector("displacement_error", &frame.displacement_error);
-    text += &vector("velocity", &frame.velocity);
-    text += &tensor("deformation_gradient", &frame.deformation_gradient);
-    text += &tensor("cauchy_stress", &frame.cauchy_stress);
-    text += "</PointData>\n<Points>\n";
-    text += &vector("position", &frame.position);
-    text += "</Points>\n<Cells>\n";
-    text += &whole("connectivity", &mut (0..count as u64));
-    text += &whole("offsets", &mut (1..=count as u64));
-    text += &array("UInt8", "types", 1, &vec![VERTEX; count]);
-    text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    text
-}
-
-/// Tensors of `rows` rows of `dimension` components each, with what is missing of the `size` that they have in three
-/// dimensions: 0.
-fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64> {
-    let mut all = Vec::new();
-    for tensor in values.chunks(dimension * rows) {
-        let start = all.len();
-        all.resize(start + size, 0.0);
-        for (row, components) in tensor.chunks(dimension).enumerate() {
-            all[start + 3 * row..][..dimension].copy_from_slice(components);
-        }
+    let particles: Vec<f64> = (0..count).map(|particle| particle as f64).collect();
+    State {
+        time: frame.time,
+        dimension: frame.dimension,
+        columns: vec![
+            column("particle", Shape::Whole, &particles),
+            column("displacement", Shape::Vector, &frame.displacement),
+            column("displacement_error", Shape::Vector, &frame.displacement_error),
+            column("velocity", Shape::Vector, &frame.velocity),
+            column("deformation_gradient", Shape::Tensor, &frame.deformation_gradient),
+            column("cauchy_stress", Shape::Tensor, &frame.cauchy_stress),
+        ],
     }
-    all
-}
-
-fn numbers(name: &str, values: &[f64], components: usize) -> String {
-    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    array("Float64", name, components, &bytes)
-}
-
-/// A named array of numbers: how many bytes, and these.
-fn array(kind: &str, name: &str, components: usize, bytes: &[u8]) -> String {
-    let mut all = (bytes.len() as u64).to_le_bytes().to_vec();
-    all.extend_from_slice(bytes);
-    let text = STANDARD.encode(all);
-    format!(
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-         format=\"binary\">{text}</DataArray>\n"
-    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn missing_components_are_zero() {
-        assert_eq!(padded(&[1.0, 2.0], 1, [1, 3]), [1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
-        let lonely = padded(&[1.0, 2.0], 1, [1, 9]);
-        assert_eq!(
-            (lonely.len(), lonely[0], lonely[9], lonely.iter().sum::<f64>()),
-            (18, 1.0, 2.0, 3.0)
-        );
-        assert_eq!(
-            padded(&[1.0, 2.0, 3.0, 4.0], 2, [2, 9]),
-            [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0]
-        );
-    }
 
     #[test]
     fn names_are_written_as_text() {

@@ -1,14 +1,18 @@
 //! Variations of a field: another field that is made of it, to be evaluated at extremes that its own parameters do
-//! not reach.
+//! not reach, or simple enough that a consistent solver errs by round-off alone.
 //!
 //! A variation is made before anything is differentiated, so what follows from the varied field is derived as that
 //! of any other: s u(X, t) where there is no amplitude, u(X - s, t) for a body off the origin, another lambda/mu
-//! in the material. What the field claims is not looked at: its boundary may be another.
+//! in the material. What the field claims is not looked at, for its boundary may be another; but for the affine part,
+//! whose faces all get u or P N.
+
+use std::collections::BTreeMap;
 
 use mms_mechanics::model::{Body, Model};
 use mms_spec::source::{Sources, Spanned};
-use mms_spec::{FieldSpec, Formula, ParameterSpec};
-use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec};
+use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 
 /// What is changed of a field.
@@ -24,6 +28,9 @@ pub enum Variation {
     Shifted,
     /// The same, and the body of a box with it.
     Moved,
+    /// The affine part of the motion about the middle c of the body: u(c, t) + H(c, t) (X - c). Faces at rest are
+    /// prescribed then, and free ones given their traction; closed forms are left out.
+    Affine,
     /// The material has this ratio of lambda to mu, a number as field files write it.
     Moduli(String),
 }
@@ -52,6 +59,7 @@ impl Variation {
     pub(crate) fn rewrite(&self, sources: &mut Sources, field: &mut FieldSpec) {
         match self {
             Variation::Nothing => {}
+            Variation::Affine => give_data(field),
             Variation::Scaled => add_parameter(sources, field, "scale of u", "1"),
             Variation::Shifted | Variation::Moved => {
                 add_parameter(sources, field, "shift of X", "0")
@@ -62,10 +70,13 @@ impl Variation {
 
     /// Changes what the formulas mean.
     pub(crate) fn transform(&self, graph: &mut Graph, model: &mut Model) {
+        if *self == Variation::Affine {
+            return affine(graph, model);
+        }
         let Some(last) = model.parameters.len().checked_sub(1) else { return };
         let parameter = graph.symbol(Symbol::Parameter(last));
         match self {
-            Variation::Nothing | Variation::Moduli(_) => {}
+            Variation::Nothing | Variation::Affine | Variation::Moduli(_) => {}
             Variation::Scaled => {
                 for component in &mut model.displacement {
                     *component = graph.mul(parameter, *component);
@@ -127,6 +138,60 @@ fn set_moduli(sources: &mut Sources, field: &mut FieldSpec, ratio: &str) {
         field.material.arguments[replaced].1 = formula(text);
     } else if let Some(lambda) = field.lets.iter_mut().find(|it| it.name.value == "lambda") {
         lambda.value = formula(format!("({ratio})*mu"));
+    }
+}
+
+/// What faces claim of a motion is not true of its affine part: they get the data of that.
+fn give_data(field: &mut FieldSpec) {
+    for boundary in &mut field.boundary {
+        let claim = &mut boundary.claim.value;
+        *claim = match claim {
+            Claim::Fixed | Claim::Roller | Claim::Prescribed => Claim::Prescribed,
+            Claim::Free | Claim::Traction => Claim::Traction,
+        };
+    }
+    field.checks.clear();
+}
+
+/// u becomes u(c) + H(c) (X - c).
+fn affine(graph: &mut Graph, model: &mut Model) {
+    let middle = middle(graph, &model.domain.body);
+    let axes = || 0..middle.len();
+    let there: BTreeMap<_, _> =
+        axes().map(|axis| (Symbol::Coordinate(axis), middle[axis])).collect();
+    let mut affine = substitute(graph, &model.displacement, &there);
+    for axis in axes() {
+        let slopes = differentiate(graph, &model.displacement, Symbol::Coordinate(axis));
+        let slopes = substitute(graph, &slopes, &there);
+        let coordinate = graph.symbol(Symbol::Coordinate(axis));
+        let offset = graph.sub(coordinate, middle[axis]);
+        for (component, slope) in affine.iter_mut().zip(slopes) {
+            let part = graph.mul(slope, offset);
+            *component = graph.add(*component, part);
+        }
+    }
+    model.displacement = affine;
+}
+
+/// The point of a body halfway between its bounds, which of an annulus are those of radius and angle.
+fn middle(graph: &mut Graph, body: &Body) -> Vec<Expr> {
+    let mut half = |[lower, upper]: [Expr; 2]| {
+        let sum = graph.add(lower, upper);
+        graph.scale(sum, Rational::from_parts(1.into(), 2u8.into()))
+    };
+    match body {
+        Body::Box { lower, upper } => {
+            lower.iter().zip(upper).map(|(lower, upper)| half([*lower, *upper])).collect()
+        }
+        Body::Annulus { inner, outer, theta } => {
+            let [radius, angle] = [half([*inner, *outer]), half(*theta)];
+            [Function::Cos, Function::Sin]
+                .map(|function| {
+                    let direction = graph.call(function, &[angle]);
+                    graph.mul(radius, direction)
+                })
+                .to_vec()
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use mms_program::interpret::Number;
+use mms_spec::Face;
 use mms_symbolic::expr::Rational;
 
 /// What rounding makes of a bound, relative to the larger one.
@@ -97,6 +98,33 @@ impl Extent<f64> {
     }
 }
 
+impl Extent<f64> {
+    /// How far a point of the body is from a face of it, in the unit of lengths; infinitely far from one that the body does
+    /// not have.
+    pub fn distance_to(&self, face: Face, point: &[f64]) -> f64 {
+        match (self, face, point) {
+            (Extent::Box([lower, _]), Face::Min(axis), _) if axis < lower.len() => {
+                (point[axis] - lower[axis]).abs()
+            }
+            (Extent::Box([_, upper]), Face::Max(axis), _) if axis < upper.len() => {
+                (upper[axis] - point[axis]).abs()
+            }
+            (Extent::Annulus([inner, _], _), Face::Inner, [x, y]) => (x.hypot(*y) - inner).abs(),
+            (Extent::Annulus([_, outer], _), Face::Outer, [x, y]) => (outer - x.hypot(*y)).abs(),
+            (Extent::Annulus(_, [first, _]), Face::ThetaMin, [x, y]) => to_ray(*first, [*x, *y]),
+            (Extent::Annulus(_, [_, last]), Face::ThetaMax, [x, y]) => to_ray(*last, [*x, *y]),
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+/// How far a point is from the ray at an angle.
+fn to_ray(angle: f64, [x, y]: [f64; 2]) -> f64 {
+    let (sine, cosine) = angle.sin_cos();
+    let along = (x * cosine + y * sine).max(0.0);
+    (x - along * cosine).hypot(y - along * sine)
+}
+
 fn beyond(value: f64, lower: f64, upper: f64) -> f64 {
     (lower - value).max(value - upper).max(0.0)
 }
@@ -170,6 +198,11 @@ mod tests {
                 assert_eq!(found == 0.0, body.contains(&[x, y]), "{body:?}, {x}, {y}");
             }
         }
+        assert_eq!(bodies[0].distance_to(Face::Max(1), &[0.5, 0.75]), 0.25);
+        assert_eq!(bodies[0].distance_to(Face::Inner, &[0.5, 0.75]), f64::INFINITY);
+        assert!((bodies[1].distance_to(Face::Outer, &[-1.5, 0.0]) - 0.5).abs() < 1e-15);
+        assert!((bodies[1].distance_to(Face::ThetaMin, &[0.0, 2.0]) - 2f64.sqrt()).abs() < 1e-15);
+        assert!((bodies[1].distance_to(Face::ThetaMax, &[-1.0, -1.0]) - 1.0).abs() < 1e-15);
         assert_eq!(bodies[0].measure(), 4.0);
         assert!((bodies[2].measure() - 0.75 * PI).abs() < 1e-12);
     }

@@ -3,7 +3,7 @@
 //! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
 //! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
 //! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
-//! [cells](cell).
+//! [cells](cell). [`write`](mod@write) makes such files of a state that is known.
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 
@@ -14,6 +14,7 @@ pub mod names;
 pub mod norm;
 mod read;
 mod snapshot;
+pub mod write;
 
 pub use mistake::Mistake;
 pub use read::{Contents, parse, read};

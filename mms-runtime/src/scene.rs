@@ -3,9 +3,9 @@
 use crate::body::bounding_box;
 use crate::failure::Refusal;
 use crate::field::{Body, ManufacturedField};
-use crate::method::{Division, Method};
+use crate::method::{Division, Method, Setup};
 use crate::real::Real;
-use crate::solver::cell_size;
+use crate::solver::{cell_size, filling};
 use crate::study::{Level, Run};
 use crate::study::{Observer, Solve, Watch};
 
@@ -108,6 +108,18 @@ impl<T: Real> Scene<T> {
         }
     }
 
+    /// The particles that a run on such a grid starts from.
+    ///
+    /// # Errors
+    /// A body or a grid that cannot be filled.
+    pub fn layout(&self, setup: &Setup, cells: &Division) -> Result<Layout, Refusal> {
+        match self {
+            Scene::Line(field) => layout(&field.domain().body, setup, cells),
+            Scene::Plane(field) => layout(&field.domain().body, setup, cells),
+            Scene::Space(field) => layout(&field.domain().body, setup, cells),
+        }
+    }
+
     /// The longest edge of a cell of such a grid, whose length is that of a level of a study; 0 where there is none.
     pub fn cell_size(&self, cells: &Division) -> f64 {
         match self {
@@ -116,6 +128,25 @@ impl<T: Real> Scene<T> {
             Scene::Space(field) => longest_edge(&field.domain().body, cells),
         }
     }
+}
+
+/// Particles in the reference configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// X, the coordinates of a particle together.
+    pub reference: Vec<f64>,
+    /// V0.
+    pub volume: Vec<f64>,
+}
+
+fn layout<T: Real, const D: usize>(
+    body: &Body<T, D>,
+    setup: &Setup,
+    cells: &Division,
+) -> Result<Layout, Refusal> {
+    let filling = filling(body, setup, cells)?;
+    let reference = filling.position.iter().flat_map(|position| position.iter().copied());
+    Ok(Layout { reference: reference.collect(), volume: filling.volume })
 }
 
 fn edges<T: Real, const D: usize>(body: Body<T, D>) -> Option<Vec<f64>> {

@@ -82,7 +82,7 @@ pub use any::AnySolver;
 pub(crate) use any::of_method;
 pub use clock::Seconds;
 pub use present::Present;
-pub use setup::cell_size;
+pub use setup::{cell_size, filling};
 pub use state::State;
 
 /// After so many steps it is seen whether particles are to be put in order again, for bunches that share their nodes

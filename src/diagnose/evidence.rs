@@ -11,7 +11,8 @@ use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
 use mms_results::norm::Mesh;
 
 use super::{Evidence, LawOf, StateOf};
-use crate::judge::results::{Exact, Results, placed};
+use crate::judge::results::{Results, placed};
+use crate::session::exact::Exact;
 
 /// How results are read.
 pub struct Reading<'a> {

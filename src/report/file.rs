@@ -59,6 +59,14 @@ pub(crate) fn write_whole(path: &Path, content: &str) -> anyhow::Result<()> {
 /// The same, of a file in a folder that was named, by a name of ours. Nothing but a plain file is written to there: who
 /// named the folder named neither what is behind a link, nor a FIFO that may have no reader.
 pub(crate) fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
+    write_own_with(path, |file| Ok(file.write_all(content.as_bytes())?))
+}
+
+/// As [`write_own`], with whatever is written.
+pub(crate) fn write_own_with(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> anyhow::Result<()>,
+) -> anyhow::Result<()> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => {
             let what = read::what(found.file_type());
@@ -66,7 +74,7 @@ pub(crate) fn write_own(path: &Path, content: &str) -> anyhow::Result<()> {
                 "it is {what}, which is not written to: remove it, or name another folder"
             )
         }
-        _ => write_whole(path, content),
+        _ => write_with(path, write),
     }
 }
 

@@ -22,7 +22,7 @@ pub use phase::Phases;
 pub(crate) use results::{differences, with_baseline};
 pub use study::{Refused, Study};
 
-pub(crate) use file::{write_own, write_whole, write_with};
+pub(crate) use file::{write_own, write_own_with, write_whole, write_with};
 
 use std::path::Path;
 

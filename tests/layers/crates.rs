@@ -77,7 +77,7 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["accuracy operations period visibility"],
+        layers: &["accuracy operations period present visibility"],
     },
     Crate {
         name: "mms-emit",

@@ -162,6 +162,20 @@ pub fn cell_size<const D: usize>(
     }
 }
 
+/// The particles that a run with this grid starts from, in the reference configuration.
+///
+/// # Errors
+/// A body or a grid that cannot be filled.
+pub fn filling<T: Real, const D: usize>(
+    body: &Body<T, D>,
+    setup: &Setup,
+    cells: &Division,
+) -> Result<Filling<D>, Refusal> {
+    let [lower, upper] = bounding_box(body)?;
+    let cell_size = cell_size(&(upper - lower), cells)?;
+    fill(body, setup, &spacing::<D>(setup, &cell_size)?)
+}
+
 /// The distance between particles along each axis.
 fn spacing<const D: usize>(
     setup: &Setup,

@@ -12,10 +12,11 @@ use serde_json::{Map, Value, json};
 
 use super::super::{Outcome, say, this_command};
 use super::Judge;
-use crate::judge::results::{Baseline, Exact, Measurement, Reading, Results, measure, same};
+use crate::judge::results::{Baseline, Measurement, Reading, Results, measure, same};
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
+use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant, quantities};
 use crate::session::method::{finite, positive};
 

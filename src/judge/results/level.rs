@@ -9,8 +9,8 @@ use mms_results::norm::{Asked, Mesh, lengths, over_points};
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
-use super::exact::Exact;
 use super::files::placed;
+use crate::session::exact::Exact;
 
 /// Over what a norm is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

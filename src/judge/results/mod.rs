@@ -1,11 +1,10 @@
 //! Results of any solver against a field: their errors, as [`Measured`].
 //!
 //! [`files`] reads them, with `mms-results`; [`times`] finds those at which meshes can be compared; [`level`] measures a
-//! snapshot against [`exact`], which runs the field's program, and finds the floor that the rounding of the file makes;
+//! snapshot against the field's program ([`Exact`]), and finds the floor that the rounding of the file makes;
 //! [`baseline`] and [`same`] compare results with results.
 
 mod baseline;
-mod exact;
 mod files;
 mod level;
 mod same;
@@ -18,7 +17,6 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
-pub use exact::Exact;
 pub use files::{Results, placed};
 pub use level::{Reading, Sampling};
 pub use same::{Difference, same};
@@ -26,6 +24,7 @@ pub use same::{Difference, same};
 use self::level::{Errors, Found, Measure};
 use super::table::Orders;
 use super::{Measured, Norm, Run};
+use crate::session::exact::Exact;
 
 /// What was measured, and what is to be said of it.
 pub struct Measurement {

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use mms_mechanics::Output;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
+use mms_mechanics::{Output, Response};
 use mms_program::block::{Plan, Prepared, Room, Way};
+use mms_spec::Face;
 use mms_spec::quantity::Quantity;
 
-use crate::session::input::Input;
+use super::input::Input;
 
 /// A field with numbers for its parameters.
 pub struct Exact {
@@ -21,7 +22,7 @@ pub struct Exact {
     pub window: [f64; 2],
     /// Its body.
     pub body: Extent<f64>,
-    prepared: BTreeMap<Quantity, Prepared<f64>>,
+    prepared: BTreeMap<Output, Prepared<f64>>,
 }
 
 impl Exact {
@@ -49,14 +50,39 @@ impl Exact {
 
     /// A quantity at points X, whose coordinates stand one after the other.
     pub fn values(&mut self, quantity: Quantity, time: f64, points: &[f64]) -> Vec<f64> {
-        let (dimension, components) = (self.dimension, self.components(quantity));
+        let components = self.components(quantity);
+        self.output(Output::Quantity(quantity), components, time, [points, &[]])
+    }
+
+    /// rho0 at points X.
+    pub fn densities(&mut self, points: &[f64]) -> Vec<f64> {
+        let time = self.window[0];
+        self.output(Output::Response(Response::Density), 1, time, [points, &[]])
+    }
+
+    /// The tractions of a face at points X of it.
+    pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> Vec<f64> {
+        let dimension = self.dimension;
+        let normals =
+            self.input.compiled.normals(face, &self.parameters, points.chunks(dimension)).concat();
+        self.output(Output::Quantity(Quantity::Traction), dimension, time, [points, &normals])
+    }
+
+    fn output(
+        &mut self,
+        output: Output,
+        components: usize,
+        time: f64,
+        [points, normals]: [&[f64]; 2],
+    ) -> Vec<f64> {
         let (program, parameters) = (&self.input.compiled.program, &self.parameters);
-        let prepared = self.prepared.entry(quantity).or_insert_with(|| {
-            let plan = Plan::new(program, &[Output::Quantity(quantity)], Output::is_quantity);
+        let prepared = self.prepared.entry(output).or_insert_with(|| {
+            let plan = Plan::new(program, &[output], Output::is_quantity);
             Prepared::new(Arc::new(plan), Way::portable(), parameters)
         });
+        let dimension = self.dimension;
         let mut values = vec![0.0; points.len() / dimension * components];
-        prepared.at_points(&mut Room::default(), time, dimension, [points, &[]], &mut values);
+        prepared.at_points(&mut Room::default(), time, dimension, [points, normals], &mut values);
         values
     }
 }

@@ -1,0 +1,420 @@
+//! The inverse of a motion: X(x, t), the reference position of what is at x at a time t.
+//!
+//! The body is cut into tiles on each of which the motion is proved to be one to one: with Y near the inverse of F in the
+//! middle, I - Y F is bounded in interval arithmetic, and is a contraction where a row of it sums to less than 1. A
+//! point is looked for in every tile whose image may hold it. There the Krawczyk operator (Neumaier, Interval Methods
+//! for Systems of Equations, 1990, section 5.2)
+//!
+//! ```text
+//! K(B) = c - Y (x(c) - x) + (I - Y F(B)) (B - c)
+//! ```
+//!
+//! encloses each solution in B. If K(B) and B have nothing in common there is none; if K(B) lies within B there is exactly
+//! one. Newton's method finds it, and the test is made on a box of a few roundings about what was found. What can be
+//! decided in neither way is halved. So all X that a body has for a point are found, or it is said that this is not
+//! decided.
+
+use std::collections::BTreeMap;
+
+use mms_codegen::Compiled;
+use mms_math::Scalar as _;
+use mms_mechanics::extent::Extent;
+use mms_mechanics::sample::domain;
+use mms_mechanics::{Output, Program};
+use mms_program::interpret::{Interpreter, Number as _, Point};
+use mms_program::interval::Interval;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::Rational;
+
+/// How many tiles a body is cut into at most.
+const MOST_TILES: usize = 4096;
+
+/// How many tiles are halved for one point, at most.
+const MOST_HALVED: usize = 2000;
+
+/// A contraction that is slower is halved, too.
+const SLOWEST: f64 = 0.5;
+
+/// What part of its edges a tile is larger by, to each side, so that a solution on its boundary lies within.
+const MARGIN: f64 = 0.05;
+
+/// Steps of Newton's method.
+const STEPS: usize = 20;
+
+/// Why a point has no reference position that is known.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unplaced {
+    /// No point of the body is there at that time.
+    Outside,
+    /// Two points of the body are: two of its reference positions.
+    Several([Vec<f64>; 2]),
+    /// It is not decided whether one is: a place near which that may be.
+    Undecided(Vec<f64>),
+}
+
+/// The inverse of the motion of a field at one time.
+pub struct Inverse<'a> {
+    motion: Motion<'a>,
+    body: Extent<f64>,
+    tiles: Vec<Tile>,
+}
+
+/// The motion at one time, in intervals and in double precision.
+struct Motion<'a> {
+    plan: Vec<bool>,
+    bounds: Interpreter<'a, Interval, Output>,
+    values: Interpreter<'a, f64, Output>,
+}
+
+/// A part of the body.
+#[derive(Clone, Debug)]
+struct Tile {
+    /// Without its margin.
+    sides: Vec<Interval>,
+    /// x of all of it and its margin.
+    image: Vec<Interval>,
+    /// Where the motion is one to one.
+    contraction: Option<Contraction>,
+}
+
+/// Y near the inverse of F, and I - Y F over a tile with its margin.
+#[derive(Clone, Debug)]
+struct Contraction {
+    inverse: Vec<f64>,
+    rest: Vec<Interval>,
+}
+
+/// What is known of a point in a tile.
+enum Found {
+    Nothing,
+    One(Vec<f64>),
+    Undecided,
+}
+
+const POSITION: Output = Output::Quantity(Quantity::Position);
+const GRADIENT: Output = Output::Quantity(Quantity::DeformationGradient);
+
+impl<'a> Inverse<'a> {
+    /// Of a compiled field, of which position and deformation gradient are wanted, with some parameters set by position.
+    pub fn new(compiled: &'a Compiled, set: &BTreeMap<usize, Rational>, time: f64) -> Self {
+        let values = compiled.parameters::<f64>(set);
+        let (body, _) = domain(&compiled.program, &values);
+        let bounds = compiled.parameters::<Interval>(set);
+        let mut motion = Motion::new(&compiled.program, &bounds, &values, time);
+        let tiles = tiles(&mut motion, &body);
+        Inverse { motion, body, tiles }
+    }
+
+    /// X of the point that is at x; `rounding` is how far each of its coordinates may be from what was meant.
+    ///
+    /// # Errors
+    /// None, more than one, or nobody knows.
+    pub fn reference(&mut self, x: &[f64], rounding: f64) -> Result<Vec<f64>, Unplaced> {
+        let mut open: Vec<Tile> =
+            self.tiles.iter().filter(|tile| tile.may_hold(x)).cloned().collect();
+        let (mut found, mut halved) = (Vec::<Vec<f64>>::new(), 0);
+        while let Some(tile) = open.pop() {
+            match tile.solve(&mut self.motion, x) {
+                Found::Nothing => {}
+                Found::One(reference) => {
+                    let near = tile.reach(rounding, x);
+                    found.extend(self.in_body(reference, near).filter(|it| is_new(&found, it)));
+                }
+                Found::Undecided if halved == MOST_HALVED => {
+                    return Err(Unplaced::Undecided(middle(&tile.sides)));
+                }
+                Found::Undecided => {
+                    halved += 1;
+                    let halves = tile.halves().map(|sides| Tile::new(&mut self.motion, sides));
+                    open.extend(halves.into_iter().filter(|half| half.may_hold(x)));
+                }
+            }
+        }
+        match found.len() {
+            0 => Err(Unplaced::Outside),
+            1 => Ok(found.remove(0)),
+            _ => Err(Unplaced::Several([found.remove(0), found.remove(0)])),
+        }
+    }
+
+    /// A point within rounding of the body, on its boundary where it is beyond that.
+    fn in_body(&self, mut point: Vec<f64>, near: f64) -> Option<Vec<f64>> {
+        if self.body.contains(&point) || self.body.distance(&point) > near {
+            return self.body.contains(&point).then_some(point);
+        }
+        if let Extent::Box([lower, upper]) = &self.body {
+            let bounds = lower.iter().zip(upper);
+            point.iter_mut().zip(bounds).for_each(|(x, (a, b))| *x = x.clamp(*a, *b));
+        }
+        Some(point)
+    }
+}
+
+/// Whether a solution is none of those that were found in another tile.
+fn is_new(found: &[Vec<f64>], point: &[f64]) -> bool {
+    let size = |x: &[f64]| x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    let far = |other: &Vec<f64>| {
+        other.iter().zip(point).any(|(a, b)| {
+            (a - b).abs() > 1e-9 * size(point).max(size(other)).max(f64::MIN_POSITIVE)
+        })
+    };
+    found.iter().all(far)
+}
+
+impl<'a> Motion<'a> {
+    fn new(program: &'a Program, bounds: &[Interval], values: &[f64], time: f64) -> Self {
+        let mut bounds = Interpreter::new(program, bounds);
+        bounds.set_time(&Interval::from_f64(time));
+        let mut values = Interpreter::new(program, values);
+        values.set_time(&time);
+        Motion { plan: values.plan(&[POSITION, GRADIENT]), bounds, values }
+    }
+
+    /// x and F over a box.
+    fn over(&mut self, place: &[Interval]) -> [Vec<Interval>; 2] {
+        self.bounds.set_point(&self.plan, Point::at(place));
+        [POSITION, GRADIENT].map(|output| self.bounds.output(output))
+    }
+
+    /// x and F at a point.
+    fn at(&mut self, place: &[f64]) -> [Vec<f64>; 2] {
+        self.values.set_point(&self.plan, Point::at(place));
+        [POSITION, GRADIENT].map(|output| self.values.output(output))
+    }
+}
+
+/// Cuts the body until the motion is one to one on each part, or there are too many.
+fn tiles(motion: &mut Motion<'_>, body: &Extent<f64>) -> Vec<Tile> {
+    let all = match body {
+        Extent::Box([lower, upper]) => {
+            lower.iter().zip(upper).map(|(a, b)| Interval::new(*a, *b)).collect()
+        }
+        Extent::Annulus([_, outer], _) => vec![Interval::new(-*outer, *outer); 2],
+    };
+    let (mut open, mut done) = (vec![Tile::new(motion, all)], Vec::new());
+    while let Some(tile) = open.pop() {
+        if tile.contraction.is_some() || open.len() + done.len() >= MOST_TILES {
+            done.push(tile);
+            continue;
+        }
+        let halves = tile.halves().into_iter().filter(|sides| may_meet(body, sides));
+        // The largest are cut first.
+        halves.for_each(|sides| open.insert(0, Tile::new(motion, sides)));
+    }
+    done
+}
+
+/// Whether a box may have a point of the body.
+fn may_meet(body: &Extent<f64>, sides: &[Interval]) -> bool {
+    let Extent::Annulus([inner, outer], _) = body else { return true };
+    let squared = sides[0].square() + sides[1].square();
+    squared.upper() >= inner * inner && squared.lower() <= outer * outer
+}
+
+impl Tile {
+    fn new(motion: &mut Motion<'_>, sides: Vec<Interval>) -> Self {
+        let wide: Vec<Interval> = sides.iter().map(|side| widened(*side)).collect();
+        let middle: Vec<f64> = middle(&sides);
+        let [natural, gradient] = motion.over(&wide);
+        let [at_middle, _] = motion.over(&exact(&middle));
+        let dimension = sides.len();
+        let change = |row: usize| {
+            let terms = (0..dimension).map(|axis| {
+                gradient[row * dimension + axis] * (wide[axis] - Interval::from_f64(middle[axis]))
+            });
+            terms.fold(at_middle[row], |sum, term| sum + term)
+        };
+        let image = natural.iter().enumerate().map(|(row, whole)| whole.meet(change(row)));
+        let image = image.collect();
+        let [_, slope] = motion.at(&middle);
+        let contraction = Contraction::new(&slope, &gradient, dimension);
+        Tile { sides, image, contraction }
+    }
+
+    fn may_hold(&self, x: &[f64]) -> bool {
+        self.image.iter().zip(x).all(|(side, x)| !side.is_defined() || side.contains(*x))
+    }
+
+    /// How far a solution may be from where it was meant to be.
+    fn reach(&self, rounding: f64, x: &[f64]) -> f64 {
+        let size = x.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let largest = self.contraction.iter().flat_map(|it| &it.inverse);
+        let largest = largest.fold(1.0, |most: f64, it| most.max(it.abs()));
+        4.0 * x.len() as f64 * largest * (rounding + f64::EPSILON * size)
+    }
+
+    /// The two halves of its widest side.
+    fn halves(&self) -> [Vec<Interval>; 2] {
+        let width = |axis: &usize| self.sides[*axis].width();
+        let widest = (0..self.sides.len()).max_by(|a, b| width(a).total_cmp(&width(b)));
+        let widest = widest.unwrap_or(0);
+        let side = self.sides[widest];
+        [(side.lower(), side.middle()), (side.middle(), side.upper())].map(|(lower, upper)| {
+            let mut sides = self.sides.clone();
+            sides[widest] = Interval::new(lower, upper);
+            sides
+        })
+    }
+
+    /// The solution in the tile and its margin, where there is one.
+    fn solve(&self, motion: &mut Motion<'_>, x: &[f64]) -> Found {
+        let Some(contraction) = &self.contraction else { return Found::Undecided };
+        let [at_middle, _] = motion.over(&exact(&middle(&self.sides)));
+        let step = contraction.step(&at_middle, x);
+        let offset = |side: &Interval| *side - Interval::from_f64(side.middle());
+        let offsets: Vec<Interval> = self.sides.iter().map(offset).collect();
+        let moved = contraction.krawczyk(&step, &offsets);
+        let meets = |(side, moved): (&Interval, &Interval)| {
+            side.lower() <= moved.upper() && moved.lower() <= side.upper()
+        };
+        if !offsets.iter().zip(&moved).all(meets) {
+            return Found::Nothing;
+        }
+        let wide: Vec<Interval> = self.sides.iter().map(|side| widened(*side)).collect();
+        let start = self.sides.iter().zip(&moved).zip(&wide).map(|((side, moved), wide)| {
+            (side.middle() + moved.middle()).clamp(wide.lower(), wide.upper())
+        });
+        let found = newton(motion, x, start.collect(), &wide);
+        match found.and_then(|found| contraction.verify(motion, x, &found, &wide)) {
+            Some(found) => Found::One(found),
+            None => Found::Undecided,
+        }
+    }
+}
+
+impl Contraction {
+    /// Where I - Y F is one.
+    fn new(slope: &[f64], gradient: &[Interval], dimension: usize) -> Option<Self> {
+        let inverse = inverse(slope, dimension)?;
+        let entry = |row: usize, column: usize| {
+            let terms = (0..dimension).map(|axis| {
+                let factor = Interval::from_f64(inverse[row * dimension + axis]);
+                factor * gradient[axis * dimension + column]
+            });
+            let one = Interval::from_f64(if row == column { 1.0 } else { 0.0 });
+            terms.fold(one, |sum, term| sum - term)
+        };
+        let rest: Vec<Interval> =
+            (0..dimension * dimension).map(|at| entry(at / dimension, at % dimension)).collect();
+        let is_slow = |row: &[Interval]| {
+            let sum: f64 = row.iter().map(|entry| entry.farthest()).sum();
+            !(row.iter().all(|entry| entry.is_defined()) && sum <= SLOWEST)
+        };
+        (!rest.chunks(dimension).any(is_slow)).then_some(Contraction { inverse, rest })
+    }
+
+    /// Y (x(c) - x).
+    fn step(&self, at_middle: &[Interval], x: &[f64]) -> Vec<Interval> {
+        let rest: Vec<Interval> =
+            at_middle.iter().zip(x).map(|(at, x)| *at - Interval::from_f64(*x)).collect();
+        let rows = self.inverse.chunks(x.len());
+        rows.map(|row| {
+            let terms = row.iter().zip(&rest).map(|(y, rest)| Interval::from_f64(*y) * *rest);
+            terms.fold(Interval::from_f64(0.0), |sum, term| sum + term)
+        })
+        .collect()
+    }
+
+    /// K(B) - c = -Y (x(c) - x) + (I - Y F) (B - c).
+    fn krawczyk(&self, step: &[Interval], offsets: &[Interval]) -> Vec<Interval> {
+        let rows = self.rest.chunks(step.len()).zip(step);
+        rows.map(|(row, step)| {
+            let terms = row.iter().zip(offsets).map(|(rest, offset)| *rest * *offset);
+            terms.fold(-*step, |sum, term| sum + term)
+        })
+        .collect()
+    }
+
+    /// The middle of an enclosure of the one solution near a place, where that is proved within the tile.
+    fn verify(
+        &self,
+        motion: &mut Motion<'_>,
+        x: &[f64],
+        place: &[f64],
+        wide: &[Interval],
+    ) -> Option<Vec<f64>> {
+        let [at_place, _] = motion.over(&exact(place));
+        let step = self.step(&at_place, x);
+        // A contraction by a half leads from a box of four steps into one of three.
+        let radius = step.iter().fold(0.0, |most: f64, it| most.max(it.farthest()));
+        let offset = Interval::new(-4.0 * radius, 4.0 * radius);
+        let sides = place.iter().map(|it| Interval::from_f64(*it) + offset);
+        let is_in_tile = wide.iter().zip(sides).all(|(wide, side)| wide.encloses(side));
+        let moved = self.krawczyk(&step, &vec![offset; place.len()]);
+        let is_proved = moved.iter().all(|it| it.is_defined() && offset.encloses(*it));
+        let enclosed = place.iter().zip(&moved).map(|(place, moved)| place + moved.middle());
+        (is_in_tile && is_proved).then(|| enclosed.collect())
+    }
+}
+
+/// Newton's method, within a box.
+fn newton(
+    motion: &mut Motion<'_>,
+    x: &[f64],
+    mut place: Vec<f64>,
+    wide: &[Interval],
+) -> Option<Vec<f64>> {
+    let dimension = x.len();
+    for _ in 0..STEPS {
+        let [at, slope] = motion.at(&place);
+        let inverse = inverse(&slope, dimension)?;
+        let mut largest = 0.0_f64;
+        for axis in 0..dimension {
+            let row = &inverse[axis * dimension..][..dimension];
+            let step: f64 = row.iter().zip(at.iter().zip(x)).map(|(y, (at, x))| y * (at - x)).sum();
+            let to = (place[axis] - step).clamp(wide[axis].lower(), wide[axis].upper());
+            largest = largest.max((to - place[axis]).abs() / wide[axis].width());
+            place[axis] = to;
+        }
+        if largest.is_nan() {
+            return None;
+        }
+        if largest < 1e-15 {
+            break;
+        }
+    }
+    Some(place)
+}
+
+/// The inverse of a square matrix by Gauss-Jordan elimination with pivots; `None` where there is none.
+fn inverse(matrix: &[f64], size: usize) -> Option<Vec<f64>> {
+    let mut left = matrix.to_vec();
+    let mut right = vec![0.0; size * size];
+    (0..size).for_each(|k| right[k * size + k] = 1.0);
+    for k in 0..size {
+        let magnitude = |row: &usize| left[row * size + k].abs();
+        let pivot = (k..size).max_by(|a, b| magnitude(a).total_cmp(&magnitude(b)))?;
+        for matrix in [&mut left, &mut right] {
+            (0..size).for_each(|column| matrix.swap(k * size + column, pivot * size + column));
+        }
+        let scale = 1.0 / left[k * size + k];
+        if !scale.is_finite() {
+            return None;
+        }
+        for matrix in [&mut left, &mut right] {
+            matrix[k * size..][..size].iter_mut().for_each(|entry| *entry *= scale);
+        }
+        for row in (0..size).filter(|row| *row != k) {
+            let factor = left[row * size + k];
+            for matrix in [&mut left, &mut right] {
+                (0..size).for_each(|column| {
+                    matrix[row * size + column] -= factor * matrix[k * size + column];
+                });
+            }
+        }
+    }
+    right.iter().all(|it| it.is_finite()).then_some(right)
+}
+
+fn widened(side: Interval) -> Interval {
+    let margin = MARGIN * side.width();
+    Interval::new(side.lower() - margin, side.upper() + margin)
+}
+
+fn middle(sides: &[Interval]) -> Vec<f64> {
+    sides.iter().map(|side| side.middle()).collect()
+}
+
+fn exact(place: &[f64]) -> Vec<Interval> {
+    place.iter().map(|it| Interval::from_f64(*it)).collect()
+}

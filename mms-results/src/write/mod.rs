@@ -1,0 +1,67 @@
+//! States as files that codes read: tables, VTK in XML, NumPy. What is written here is read by [`read`](crate::read()) as it
+//! is.
+
+mod npz;
+mod table;
+mod vtu;
+
+use crate::Cells;
+
+pub use npz::npz;
+pub use table::csv;
+pub use vtu::{head, vtu};
+
+/// How many numbers a column has for each point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// One.
+    Scalar,
+    /// One, a whole number.
+    Whole,
+    /// One for each dimension.
+    Vector,
+    /// A square matrix, by rows.
+    Tensor,
+}
+
+impl Shape {
+    /// How many that is.
+    pub fn components(self, dimension: usize) -> usize {
+        match self {
+            Shape::Scalar | Shape::Whole => 1,
+            Shape::Vector => dimension,
+            Shape::Tensor => dimension * dimension,
+        }
+    }
+}
+
+/// Named numbers of all points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// How many numbers a point has.
+    pub shape: Shape,
+    /// The numbers, those of a point together.
+    pub values: Vec<f64>,
+}
+
+/// Some points at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// The time.
+    pub time: f64,
+    /// The dimension.
+    pub dimension: usize,
+    /// What is known of the points; the same columns at all times.
+    pub columns: Vec<Column>,
+}
+
+/// Where the points of a state are, and between which of them there are cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh<'a> {
+    /// Present positions, those of a point together.
+    pub position: &'a [f64],
+    /// The cells; where there are none, each point is a vertex.
+    pub cells: &'a Cells,
+}

@@ -1,0 +1,55 @@
+//! A table in CSV: a line for each point at each time. Numbers have the shortest digits that read back as the same number.
+
+use std::io::{self, Write};
+
+use super::{Column, Shape, State};
+
+/// Letters of axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Writes states with the same columns, one below the other.
+///
+/// # Errors
+/// What the writer says.
+pub fn csv(states: &[State], out: &mut dyn Write) -> io::Result<()> {
+    let Some(first) = states.first() else { return Ok(()) };
+    let names = first.columns.iter().flat_map(|column| names(column, first.dimension));
+    let header: Vec<String> = std::iter::once("time".to_owned()).chain(names).collect();
+    writeln!(out, "{}", header.join(","))?;
+    states.iter().try_for_each(|state| lines(state, out))
+}
+
+fn lines(state: &State, out: &mut dyn Write) -> io::Result<()> {
+    let sizes = state.columns.iter().map(|column| column.shape.components(state.dimension));
+    let sizes: Vec<usize> = sizes.collect();
+    let rows = state.columns.first().map_or(0, |column| column.values.len() / sizes[0]);
+    for row in 0..rows {
+        write!(out, "{:?}", state.time)?;
+        for (column, &size) in state.columns.iter().zip(&sizes) {
+            for value in &column.values[row * size..][..size] {
+                match column.shape {
+                    Shape::Whole => write!(out, ",{value}")?,
+                    _ => write!(out, ",{value:?}")?,
+                }
+            }
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and no axes in one dimension.
+fn names(column: &Column, dimension: usize) -> Vec<String> {
+    let name = &column.name;
+    let axes = || AXES[..dimension].iter();
+    match (column.shape, name.as_str()) {
+        (Shape::Vector, "X") => axes().map(|axis| axis.to_uppercase()).collect(),
+        (Shape::Vector, "x") => axes().map(|axis| (*axis).to_owned()).collect(),
+        (Shape::Scalar | Shape::Whole, _) => vec![name.clone()],
+        _ if dimension == 1 => vec![name.clone()],
+        (Shape::Vector, _) => axes().map(|axis| format!("{name}_{axis}")).collect(),
+        (Shape::Tensor, _) => {
+            axes().flat_map(|i| axes().map(move |j| format!("{name}_{i}{j}"))).collect()
+        }
+    }
+}

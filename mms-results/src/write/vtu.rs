@@ -1,0 +1,138 @@
+//! An unstructured grid of VTK in XML ("VTK File Formats", Kitware, 2023), its numbers in base64. Vectors have three
+//! components and tensors nine there: those that a dimension lacks are 0.
+
+use std::borrow::Cow;
+use std::io::{self, Write};
+
+use base64::engine::general_purpose::STANDARD;
+use base64::write::EncoderWriter;
+
+use super::{Mesh, Shape, State};
+use crate::Cells;
+
+/// The number of a vertex among the types of cells.
+const VERTEX: u8 = 1;
+
+/// The beginning of a file, up to what is in it.
+pub fn head(kind: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+    )
+}
+
+/// Writes a state of a mesh.
+///
+/// # Errors
+/// What the writer says.
+pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let dimension = state.dimension;
+    let points = mesh.position.len() / dimension;
+    let cells = or_vertices(mesh.cells, points);
+    writeln!(out, "{}<UnstructuredGrid>", head("UnstructuredGrid"))?;
+    writeln!(
+        out,
+        "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
+         format=\"ascii\">{:e}</DataArray>\n</FieldData>",
+        state.time
+    )?;
+    writeln!(out, r#"<Piece NumberOfPoints="{points}" NumberOfCells="{}">"#, cells.len())?;
+    out.write_all(b"<PointData>\n")?;
+    for column in &state.columns {
+        numbers(&column.name, column.shape, &column.values, dimension, out)?;
+    }
+    out.write_all(b"</PointData>\n<Points>\n")?;
+    numbers("position", Shape::Vector, mesh.position, dimension, out)?;
+    out.write_all(b"</Points>\n<Cells>\n")?;
+    let whole = |values: &[usize]| -> Vec<u8> {
+        values.iter().flat_map(|value| (*value as u64).to_le_bytes()).collect()
+    };
+    array("UInt64", "connectivity", 1, &whole(&cells.points), out)?;
+    array("UInt64", "offsets", 1, &whole(&cells.ends), out)?;
+    array("UInt8", "types", 1, &cells.types, out)?;
+    out.write_all(b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+}
+
+fn or_vertices(cells: &Cells, points: usize) -> Cow<'_, Cells> {
+    if !cells.is_empty() {
+        return Cow::Borrowed(cells);
+    }
+    Cow::Owned(Cells {
+        types: vec![VERTEX; points],
+        points: (0..points).collect(),
+        ends: (1..=points).collect(),
+    })
+}
+
+fn numbers(
+    name: &str,
+    shape: Shape,
+    values: &[f64],
+    dimension: usize,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let (kind, components, bytes): (_, _, Vec<u8>) = match shape {
+        Shape::Scalar => ("Float64", 1, bytes(values)),
+        Shape::Vector => ("Float64", 3, bytes(&padded(values, dimension, [1, 3]))),
+        Shape::Tensor => ("Float64", 9, bytes(&padded(values, dimension, [dimension, 9]))),
+        Shape::Whole => {
+            let bytes = values.iter().flat_map(|value| (*value as u64).to_le_bytes());
+            ("UInt64", 1, bytes.collect())
+        }
+    };
+    array(kind, name, components, &bytes, out)
+}
+
+/// Tensors of `rows` rows of `dimension` components each, with what is missing of the `size` that they have in three
+/// dimensions: 0.
+fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64> {
+    let mut all = Vec::with_capacity(values.len() / (dimension * rows) * size);
+    for tensor in values.chunks(dimension * rows) {
+        let start = all.len();
+        all.resize(start + size, 0.0);
+        for (row, components) in tensor.chunks(dimension).enumerate() {
+            all[start + 3 * row..][..dimension].copy_from_slice(components);
+        }
+    }
+    all
+}
+
+/// A named array of numbers: how many bytes, and these.
+fn array(
+    kind: &str,
+    name: &str,
+    components: usize,
+    bytes: &[u8],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    write!(
+        out,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">"
+    )?;
+    let mut encoder = EncoderWriter::new(&mut *out, &STANDARD);
+    encoder.write_all(&(bytes.len() as u64).to_le_bytes())?;
+    encoder.write_all(bytes)?;
+    encoder.finish()?;
+    drop(encoder);
+    out.write_all(b"</DataArray>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn missing_components_are_zero() {
+        assert_eq!(padded(&[1.0, 2.0], 1, [1, 3]), [1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        let lonely = padded(&[1.0, 2.0], 1, [1, 9]);
+        assert_eq!(
+            (lonely.len(), lonely[0], lonely[9], lonely.iter().sum::<f64>()),
+            (18, 1.0, 2.0, 3.0)
+        );
+        assert_eq!(
+            padded(&[1.0, 2.0, 3.0, 4.0], 2, [2, 9]),
+            [1.0, 2.0, 0.0, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0]
+        );
+    }
+}

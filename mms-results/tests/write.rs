@@ -1,0 +1,110 @@
+//! What is written is read back to the bit, by readers that are held to files of meshio, VTK and NumPy (`files.rs`).
+
+use mms_results::names::{Role, recognise};
+use mms_results::write::{Column, Mesh, Shape, State, csv, npz, vtu};
+use mms_results::{Cells, Contents, Snapshot, Stored, parse};
+
+const COUNT: usize = 7;
+
+/// Numbers that need all their digits, of any size and sign.
+fn number(seed: usize) -> f64 {
+    let seed = seed as f64 + 1.0;
+    (seed * 1.234_567_89).sin() * 10f64.powi((seed as i32 * 7) % 19 - 9)
+}
+
+fn column(name: &str, shape: Shape, dimension: usize) -> Column {
+    let count = COUNT * shape.components(dimension);
+    let value = |at| if shape == Shape::Whole { at as f64 } else { number(at + name.len()) };
+    Column { name: name.into(), shape, values: (0..count).map(value).collect() }
+}
+
+/// A state with names as tables have them, and with those of VTK.
+fn state(dimension: usize, time: f64, [x, u, f]: [&str; 3]) -> State {
+    let columns = vec![
+        column(x, Shape::Vector, dimension),
+        column(u, Shape::Vector, dimension),
+        column(f, Shape::Tensor, dimension),
+        column("volume", Shape::Scalar, dimension),
+        column("particle", Shape::Whole, dimension),
+    ];
+    State { time, dimension, columns }
+}
+
+const SYMBOLS: [&str; 3] = ["X", "u", "F"];
+const NAMES: [&str; 3] = ["reference_position", "displacement", "deformation_gradient"];
+
+fn snapshots(bytes: &[u8]) -> Vec<Snapshot> {
+    match parse(bytes).unwrap() {
+        Contents::Snapshots(snapshots) => snapshots,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[track_caller]
+fn holds(snapshot: &Snapshot, state: &State) {
+    assert_eq!(snapshot.time.map(|time| time.value), Some(state.time));
+    let found = recognise(snapshot, &[], &|_| true).unwrap();
+    let roles = [Role::Reference, Role::Displacement, Role::DeformationGradient, Role::Volume];
+    for (role, column) in roles.into_iter().zip(&state.columns) {
+        let meaning = found.iter().find(|it| it.role == role).unwrap_or_else(|| panic!("{role:?}"));
+        let values = meaning.values(snapshot, state.dimension).unwrap();
+        assert_eq!(values.numbers, column.values, "{role:?}");
+        assert_eq!(values.stored, Stored::Double, "{role:?}");
+    }
+    let particle = snapshot.of_points.iter().find(|it| it.name == "particle").unwrap();
+    assert_eq!(particle.values, state.columns[4].values);
+}
+
+#[test]
+fn tables_hold_all_times() {
+    for dimension in 1..=3 {
+        let states = [0.1, -3.0, 1e-300].map(|time| state(dimension, time, SYMBOLS));
+        let mut text = Vec::new();
+        csv(&states, &mut text).unwrap();
+        let found = snapshots(&text);
+        for (snapshot, time) in found.iter().zip([1, 2, 0]) {
+            holds(snapshot, &states[time]);
+        }
+    }
+}
+
+#[test]
+fn axes_have_their_letters_in_tables() {
+    let header = |dimension| {
+        let mut text = Vec::new();
+        csv(&[state(dimension, 0.0, SYMBOLS)], &mut text).unwrap();
+        String::from_utf8(text).unwrap().lines().next().unwrap().to_owned()
+    };
+    assert_eq!(header(1), "time,X,u,F,volume,particle");
+    assert_eq!(header(2), "time,X,Y,u_x,u_y,F_xx,F_xy,F_yx,F_yy,volume,particle");
+}
+
+#[test]
+fn arrays_of_numpy_are_read_back() {
+    for dimension in 1..=3 {
+        let state = state(dimension, 0.125, SYMBOLS);
+        let mut bytes = Vec::new();
+        npz(&state, &mut bytes).unwrap();
+        holds(&snapshots(&bytes)[0], &state);
+    }
+}
+
+#[test]
+fn grids_of_vtk_are_read_back_with_their_cells() {
+    let cells = Cells { types: vec![5, 3], points: vec![0, 1, 2, 3, 4], ends: vec![3, 5] };
+    for dimension in 1..=3 {
+        let state = state(dimension, 0.125, NAMES);
+        let position = column("", Shape::Vector, dimension).values;
+        for given in [&Cells::default(), &cells] {
+            let mut bytes = Vec::new();
+            vtu(&state, Mesh { position: &position, cells: given }, &mut bytes).unwrap();
+            let found = &snapshots(&bytes)[0];
+            holds(found, &state);
+            let points = found.points.as_ref().unwrap();
+            let flat = points.values.chunks(3).flat_map(|point| &point[..dimension]);
+            assert_eq!(flat.copied().collect::<Vec<_>>(), position);
+            let expected = if given.is_empty() { vec![1; COUNT] } else { cells.types.clone() };
+            assert_eq!(found.cells.types, expected);
+        }
+    }
+}
