@@ -24,6 +24,7 @@ mod rows;
 pub mod schema;
 mod session;
 mod shell;
+mod state;
 mod store;
 mod terminal;
 mod tradeoff;

@@ -111,7 +111,7 @@ pub fn list(written: &[(f64, String)]) -> String {
     text += "<Collection>\n";
     for (time, file) in written {
         let file = attribute(file);
-        let _ = writeln!(text, r#"<DataSet timestep="{time:e}" file="{file}"/>"#);
+        let _ = writeln!(text, r#"<DataSet timestep="{time:.16e}" file="{file}"/>"#);
     }
     text + "</Collection>\n</VTKFile>\n"
 }

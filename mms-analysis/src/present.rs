@@ -139,8 +139,8 @@ impl<'a> Inverse<'a> {
 
     /// A point within rounding of the body, on its boundary where it is beyond that.
     fn in_body(&self, mut point: Vec<f64>, near: f64) -> Option<Vec<f64>> {
-        if self.body.contains(&point) || self.body.distance(&point) > near {
-            return self.body.contains(&point).then_some(point);
+        if !self.body.contains(&point) && self.body.distance(&point) > near {
+            return None;
         }
         if let Extent::Box([lower, upper]) = &self.body {
             let bounds = lower.iter().zip(upper);

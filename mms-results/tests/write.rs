@@ -42,7 +42,9 @@ fn snapshots(bytes: &[u8]) -> Vec<Snapshot> {
 
 #[track_caller]
 fn holds(snapshot: &Snapshot, state: &State) {
-    assert_eq!(snapshot.time.map(|time| time.value), Some(state.time));
+    let time = snapshot.time.unwrap();
+    assert_eq!(time.value, state.time);
+    assert!(time.rounding <= f64::EPSILON * time.value.abs(), "{time:?}");
     let found = recognise(snapshot, &[], &|_| true).unwrap();
     let roles = [Role::Reference, Role::Displacement, Role::DeformationGradient, Role::Volume];
     for (role, column) in roles.into_iter().zip(&state.columns) {

@@ -9,14 +9,16 @@ use mms_mechanics::sample::domain;
 use mms_program::interpret::{Interpreter, Number, Point};
 use mms_program::precise::Precise;
 use mms_program::precision::Precision;
+use mms_results::names::Mapping;
 use mms_runtime::math::{Double, Scalar as _};
-use mms_spec::foreign::Foreign;
+use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::{Outcome, print, print_json, say};
 use crate::session::input::{Input, Variant, precision, quantities};
+use crate::state::points::Points;
 
 /// Evaluate quantities of a field at points.
 ///
@@ -27,8 +29,20 @@ pub struct Eval {
     /// A gallery name, or a path to a TOML file.
     field: String,
     /// A reference position, such as 0.37 or -0.3,0.2; may be repeated.
-    #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "X,Y",
+        required_unless_present = "points",
+        conflicts_with = "points",
+        allow_hyphen_values = true
+    )]
     at: Vec<String>,
+    /// At the points of this file instead, which are X, or x and u: CSV with a header, VTK or NumPy, by its content.
+    #[arg(long, value_name = "FILE")]
+    points: Option<String>,
+    /// A quantity of the points file, and the columns that it is in, as in X=x0,y0. May be repeated.
+    #[arg(long, value_name = "QUANTITY=COLUMN,..", requires = "points")]
+    map: Vec<Mapping>,
     /// The time.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: String,
@@ -177,8 +191,7 @@ impl Eval {
             bail!("`--time {}`: expected a finite number", self.time);
         }
         let dimension = input.compiled.field.dimension;
-        let points = self.at.iter().map(|at| coordinates::<T>("--at", at, dimension));
-        let points = points.collect::<anyhow::Result<Vec<_>>>()?;
+        let points = self.places::<T>(dimension)?;
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
@@ -188,12 +201,12 @@ impl Eval {
             quantities.iter().map(|quantity| Output::Quantity(*quantity)).collect();
         let plan = interpreter.plan(&outputs);
         let mut records = Vec::new();
-        for ((coordinates, at), normal) in points.iter().zip(&self.at).zip(&normals) {
+        for (index, (coordinates, normal)) in points.iter().zip(&normals).enumerate() {
             interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
             let mut record = Record(vec![("at", Numbers::new(coordinates))]);
             for quantity in quantities {
                 let components = interpreter.output(Output::Quantity(*quantity));
-                self.ensure_finite(input, *quantity, at, &components)?;
+                self.ensure_finite(input, *quantity, (index, coordinates), &components)?;
                 record.0.push((quantity.name(), Numbers::new(&components)));
             }
             records.push(record);
@@ -227,12 +240,7 @@ impl Eval {
         let points = points.iter().enumerate().filter(is_outside);
         let outside_body: Vec<_> = points.map(|(index, _)| index).collect();
         let outside_time = !is_between(first, last, time.near());
-        for at in outside_body.iter().map(|index| &self.at[*index]) {
-            say(format_args!(
-                "warning: `--at {at}` is outside the body: nothing is claimed or proved of `{}` there",
-                input.name.shown()
-            ));
-        }
+        self.warn_of_points(input, &outside_body);
         if outside_time {
             say(format_args!(
                 "warning: `--time {}` is outside the time window, {first:?} to {last:?}: nothing is claimed or proved of `{}` then",
@@ -241,6 +249,36 @@ impl Eval {
             ));
         }
         Outside { outside_body, outside_time }
+    }
+
+    /// The points that are asked for.
+    fn places<T: Digits>(&self, dimension: usize) -> anyhow::Result<Vec<Vec<T>>> {
+        let Some(path) = &self.points else {
+            return self.at.iter().map(|at| coordinates("--at", at, dimension)).collect();
+        };
+        let points = Points::of_file(path, &self.map, dimension, &|_| 0.0)?;
+        let point = |point: &[f64]| point.iter().map(|it| T::from_f64(*it)).collect();
+        Ok(points.reference.chunks(dimension).map(point).collect())
+    }
+
+    /// Warns of each point outside the body; of those of a file once.
+    fn warn_of_points(&self, input: &Input, outside: &[usize]) {
+        let claims = format!(
+            "outside the body: nothing is claimed or proved of `{}` there",
+            input.name.shown()
+        );
+        match (&self.points, outside) {
+            (_, []) => {}
+            (Some(path), [first, ..]) => say(format_args!(
+                "warning: `--points {}`: {} of its points, the first of them that of number {first}, counted from 0, \
+                 lie {claims}",
+                shown(path),
+                outside.len()
+            )),
+            (None, _) => outside.iter().for_each(|index| {
+                say(format_args!("warning: `--at {}` is {claims}", self.at[*index]));
+            }),
+        }
     }
 
     /// Refuses a normal that no quantity takes.
@@ -284,21 +322,27 @@ impl Eval {
         &self,
         input: &Input,
         quantity: Quantity,
-        at: &str,
+        (index, at): (usize, &[T]),
         components: &[T],
     ) -> anyhow::Result<()> {
         let odd = components.iter().map(T::near).find(|component| !component.is_finite());
         match odd {
             None => Ok(()),
             Some(odd) => bail!(
-                "{} of `{}` is {odd} at X = {at}, t = {}: not defined there, or beyond the range of {}",
+                "{} of `{}` is {odd} at X = {}, t = {}: not defined there, or beyond the range of {}",
                 quantity.name(),
                 input.name.shown(),
+                self.at.get(index).cloned().unwrap_or_else(|| written(at)),
                 self.time,
                 self.precision.name()
             ),
         }
     }
+}
+
+/// A point of a file, as it would be given.
+fn written<T: Digits>(at: &[T]) -> String {
+    at.iter().map(T::write).collect::<Vec<_>>().join(",")
 }
 
 /// A unit vector.

@@ -28,6 +28,7 @@ mod run;
 mod saved;
 mod schema;
 mod show;
+mod state;
 pub(crate) mod study;
 mod tradeoff;
 mod verify;
@@ -77,6 +78,7 @@ enum Command {
     Study(study::Study),
     Judge(judge::Judge),
     Diagnose(diagnose::Diagnose),
+    State(state::State),
     Verify(verify::Verify),
     Report(report::Report),
     Tradeoff(tradeoff::Tradeoff),
@@ -137,6 +139,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Study(study)) => study.run(&words(arguments)),
         Some(Command::Judge(judge)) => judge.run(),
         Some(Command::Diagnose(diagnose)) => diagnose.run(),
+        Some(Command::State(state)) => state.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),

@@ -182,6 +182,8 @@ fn documents_have_the_keys_of_the_page() {
         ("judge-same", "judge --same a.csv b.csv", 0),
         ("diagnose", "diagnose bar.toml law.csv --quantity stress", 1),
         ("hypotheses", "diagnose bar.toml --list", 0),
+        ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),
+        ("state", "state generalized_vortex --cells 2 --time 0.5 -o state.npz", 0),
         ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
         ("verify", "verify --quick --row startup/usl", 0),
         ("verify-list", "verify --list", 0),

@@ -25,6 +25,7 @@ mod rigid;
 mod run;
 mod saved;
 mod show;
+mod state;
 mod study;
 mod study_files;
 mod study_methods;

@@ -144,7 +144,7 @@ pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-results",
         knows: &[],
-        layers: &["cell mistake names snapshot", "motion norm read"],
+        layers: &["cell mistake names snapshot", "motion norm read write"],
     },
     Crate {
         name: "mms-runtime",
@@ -195,7 +195,7 @@ pub const CRATES: &[Crate] = &[
             "diagnose",
             "report",
             "history store vtk",
-            "checkpoint verify",
+            "checkpoint state verify",
             "trial",
             "cli page",
         ],

@@ -79,6 +79,8 @@ pub fn settle(arrays: &mut [&mut Array], single: &[bool]) {
             Stored::Digits(_) if most >= ALL_OF_DOUBLE => Stored::Double,
             Stored::Digits(_) => Stored::Digits(most),
             Stored::Fixed(decimals) if decimals >= ALL_OF_DOUBLE => Stored::Double,
+            // The shortest text of a whole number, as 0.0, beside others that have all their digits.
+            Stored::Fixed(1) if most >= ALL_OF_DOUBLE => Stored::Double,
             other => other,
         };
     }
@@ -110,6 +112,27 @@ mod tests {
         assert_eq!(stored(&["0.00123457", "-0.5"]), Stored::Digits(6));
         assert_eq!(stored(&["1.2346e-03", "1.0000e+00"]), Stored::Digits(5));
         assert_eq!(stored(&["0", "1e-5"]), Stored::Digits(1));
+    }
+
+    #[test]
+    fn whole_numbers_beside_others_are_as_exact_as_these() {
+        let array = |texts: &[&str]| Array {
+            name: String::new(),
+            components: 1,
+            values: Vec::new(),
+            stored: stored(texts),
+        };
+        let zeros = array(&["0.0", "-0.0", "1.0"]);
+        let settled = |mut one: Array, mut other: Array| {
+            settle(&mut [&mut one, &mut other], &[false; 2]);
+            one.stored
+        };
+        assert_eq!(settled(zeros.clone(), array(&["0.3669589318356906"])), Stored::Double);
+        assert_eq!(settled(zeros, array(&["0.366959"])), Stored::Fixed(1));
+        assert_eq!(
+            settled(array(&["0.00", "1.25"]), array(&["0.3669589318356906"])),
+            Stored::Fixed(2)
+        );
     }
 
     #[test]

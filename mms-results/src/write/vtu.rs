@@ -30,10 +30,11 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
     let points = mesh.position.len() / dimension;
     let cells = or_vertices(mesh.cells, points);
     writeln!(out, "{}<UnstructuredGrid>", head("UnstructuredGrid"))?;
+    // With all digits: fewer would say that the time is not known better.
     writeln!(
         out,
         "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
-         format=\"ascii\">{:e}</DataArray>\n</FieldData>",
+         format=\"ascii\">{:.16e}</DataArray>\n</FieldData>",
         state.time
     )?;
     writeln!(out, r#"<Piece NumberOfPoints="{points}" NumberOfCells="{}">"#, cells.len())?;

@@ -1,0 +1,205 @@
+//! `mms state`: exact states for any solver.
+
+use std::path::PathBuf;
+
+use anyhow::{bail, ensure};
+use clap::{ArgGroup, Args};
+use mms_codegen::variation::Variation;
+use mms_codegen::{Options, Selection};
+use mms_mechanics::extent::is_between;
+use mms_results::names::Mapping;
+use mms_runtime::Division;
+use mms_runtime::scene::usual_cells;
+use mms_spec::quantity::Quantity;
+use serde_json::json;
+
+use super::{Outcome, print, print_json, spare};
+use crate::session::exact::Exact;
+use crate::session::input::{Input, Variant, quantities};
+use crate::session::method::{finite, hold_division};
+use crate::state::domain::Domain;
+use crate::state::file::{Frame, Target};
+use crate::state::points::{Given, Places, Points};
+use crate::state::{Term, USUAL, Wanted};
+
+/// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
+///
+/// A state holds X, x, u, v, F, P, sigma, the density and b at points and times; tractions P N per reference area at the points
+/// of each face, as traction_FACE, which is 0 at all others; and, where volumes are known, present and reference volume and the
+/// mass, which is density times volume. `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK
+/// has words (reference_position, displacement), and its points are x.
+///
+/// Beside it stand the data of the field that a solver needs once: the time window, how far the motion goes, and what is
+/// claimed on each face.
+#[derive(Args)]
+#[command(group = ArgGroup::new("where").required(true))]
+pub struct State {
+    /// A gallery name, or a path to a TOML file.
+    field: String,
+    /// At the points of this file: CSV with a header, VTK or NumPy, by its content. They are X, or x and u; cells
+    /// between them are kept, and volumes, of the undeformed body.
+    #[arg(long, value_name = "FILE", group = "where")]
+    points: Option<String>,
+    /// At the particles of a grid: cells along the longest edge of the body, or along each axis as in 32x16.
+    #[arg(long, value_name = "N[xN..]", group = "where")]
+    cells: Option<Division>,
+    /// Particles per cell along each axis, as in 2 or 3x2.
+    #[arg(long, value_name = "N[xN..]", default_value = "2", conflicts_with = "points")]
+    particles_per_cell: Division,
+    /// A quantity of the points file, and the columns that it is in, as in X=x0,y0. May be repeated.
+    #[arg(long, value_name = "QUANTITY=COLUMN,..")]
+    map: Vec<Mapping>,
+    /// Take the given points as x, and find the X that are there at each time. That it is one, and one alone, is proved in
+    /// interval arithmetic; two are both named.
+    #[arg(long)]
+    at_present: bool,
+    /// The times.
+    #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, required = true, allow_hyphen_values = true)]
+    time: Vec<f64>,
+    /// The quantities beside X, separated by commas, or `all`.
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// Leave a term out of what the solver is given, so that its order must suffer: body_force (b = 0), stress (P, sigma and
+    /// their like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion
+    /// stays what it is: u, v and F are those of the field.
+    #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_enum)]
+    without: Vec<Term>,
+    /// Take the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). Where the material is
+    /// the same everywhere its stress is, too, and b is the acceleration alone: a consistent method errs by
+    /// round-off and by its steps in time. With --rigid a rigid motion is put on top.
+    #[arg(long)]
+    affine: bool,
+    /// Set a parameter; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    #[command(flatten)]
+    variant: Variant,
+    /// The file to write: .csv, .vtu or .npz. A table holds all times; of the others there is a file for each time, numbered,
+    /// and of VTK a list of them (.pvd).
+    #[arg(long, short, value_name = "FILE")]
+    output: Target,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+impl State {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
+        let options = Options { variation, ..self.variant.options(Selection::default()) };
+        let input = Input::find_with(&self.field, &options)?;
+        let read: Vec<PathBuf> =
+            input.files().into_iter().chain(self.points.iter().map(PathBuf::from)).collect();
+        spare("--output", self.output.path(), &read)?;
+        let quantities = match self.quantity.as_slice() {
+            [] => USUAL.to_vec(),
+            names => quantities(names)?,
+        };
+        let mut exact = Exact::new(input, &self.set)?;
+        self.hold_times(&exact)?;
+        let frames = self.frames(&mut exact, &quantities)?;
+        let written = self.output.write(&frames)?;
+        self.tell(&mut exact, &frames, &written)?;
+        Ok(Outcome::AsExpected)
+    }
+
+    fn hold_times(&self, exact: &Exact) -> anyhow::Result<()> {
+        let [first, last] = exact.window;
+        match self.time.iter().find(|time| !is_between(first, last, **time)) {
+            Some(time) => bail!(
+                "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved then",
+                exact.input().name.shown()
+            ),
+            None => Ok(()),
+        }
+    }
+
+    /// The states at all times.
+    fn frames(&self, exact: &mut Exact, quantities: &[Quantity]) -> anyhow::Result<Vec<Frame>> {
+        let wanted = Wanted { quantities, without: &self.without, names: self.output.names() };
+        let given = self.given(exact)?;
+        let mut frames = Vec::new();
+        for &time in &self.time {
+            let points = given.at(exact, &self.set, time)?;
+            if !self.quantity.is_empty() {
+                hold_faces(quantities, &points, exact)?;
+            }
+            let state = wanted.state(exact, &points, time)?;
+            let position = exact.values(Quantity::Position, time, &points.reference);
+            let (cells, how) = (points.cells.clone(), points.how.clone());
+            frames.push(Frame { state, position, cells, how });
+        }
+        Ok(frames)
+    }
+
+    fn given(&self, exact: &Exact) -> anyhow::Result<Given> {
+        let dimension = exact.dimension;
+        match (&self.points, &self.cells) {
+            (Some(path), _) if self.at_present => {
+                Ok(Given::Present(Places::of_file(path, &self.map, dimension)?))
+            }
+            (Some(path), _) => {
+                let outside = |point: &[f64]| exact.body.distance(point);
+                Ok(Given::Reference(Points::of_file(path, &self.map, dimension, &outside)?))
+            }
+            (None, _) if self.at_present || !self.map.is_empty() => {
+                let option = if self.at_present { "--at-present" } else { "--map" };
+                bail!("`{option}`: it is about points of a file; name one with `--points FILE`")
+            }
+            (None, cells) => {
+                let cells = cells.unwrap_or(Division::Uniform(usual_cells(dimension)));
+                hold_division("--cells", &cells, dimension)?;
+                hold_division("--particles-per-cell", &self.particles_per_cell, dimension)?;
+                let scene = exact.input().scene(&self.set, |code| code.double)?;
+                let points = Points::of_grid(&scene, &cells, self.particles_per_cell);
+                Ok(Given::Reference(points?))
+            }
+        }
+    }
+
+    fn tell(&self, exact: &mut Exact, frames: &[Frame], written: &[String]) -> anyhow::Result<()> {
+        let domain = Domain::of(exact);
+        let input = exact.input();
+        let first = &frames[0].state;
+        let names: Vec<&str> = first.columns.iter().map(|it| it.name.as_str()).collect();
+        let count = frames[0].position.len() / exact.dimension;
+        let points = if count == 1 { "1 point".to_owned() } else { format!("{count} points") };
+        if self.json {
+            let mut document = json!({
+                "field": input.name,
+                "files": written,
+                "source": frames[0].how,
+                "points": count,
+                "times": self.time,
+                "columns": names,
+                "without": self.without.iter().map(|it| it.name()).collect::<Vec<_>>(),
+                "affine": self.affine,
+            });
+            if let Some(document) = document.as_object_mut() {
+                document.extend(domain.document());
+            }
+            return print_json(&document);
+        }
+        let title = format!("{}: {}", input.name.shown(), input.compiled.field.title.shown());
+        let times: Vec<_> = self.time.iter().map(|time| format!("{time:?}")).collect();
+        let left_out = self.without.iter().map(|term| format!("\n0 here: {}", term.name()));
+        print(&format!(
+            "{title}\nX: {}\n{}\n{points} at t = {}: {}{}\nwrote {}",
+            frames[0].how,
+            domain.text(),
+            times.join(", "),
+            names.join(", "),
+            left_out.collect::<String>(),
+            written.join(", ")
+        ))
+    }
+}
+
+/// Refuses tractions that were asked for by name where no point has one.
+fn hold_faces(quantities: &[Quantity], points: &Points, exact: &Exact) -> anyhow::Result<()> {
+    ensure!(
+        !quantities.contains(&Quantity::Traction) || !points.faces(exact).is_empty(),
+        "`--quantity traction`: no point lies on a face of the body; give points that do"
+    );
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! What a solver needs to know of a field once: its time window, how far its motion goes, what is claimed on its faces.
+
+use mms_mechanics::extent::Extent;
+use mms_spec::quantity::Quantity;
+use mms_spec::{Claim, Face};
+use serde_json::{Map, Value, json};
+
+use crate::session::exact::Exact;
+
+/// How many samples the body has along each edge, in one to three dimensions.
+const ALONG: [usize; 3] = [257, 33, 9];
+
+/// How many times are looked at.
+const TIMES: usize = 65;
+
+/// The data of a field.
+pub struct Domain {
+    window: [f64; 2],
+    body: Extent<f64>,
+    /// The least and the greatest coordinates x of samples.
+    reach: [Vec<f64>; 2],
+    faces: Vec<(Face, Claim)>,
+}
+
+impl Domain {
+    /// Of a field with numbers for its parameters.
+    pub fn of(exact: &mut Exact) -> Self {
+        let field = &exact.input().compiled.field;
+        let claim = |face: Face| {
+            let claimed = field.boundary.iter().find(|it| it.face.value == face);
+            // What is not claimed is prescribed.
+            claimed.map_or(Claim::Prescribed, |it| it.claim.value)
+        };
+        let faces = Face::of(&field.domain.body, exact.dimension);
+        let faces = faces.into_iter().map(|face| (face, claim(face))).collect();
+        let (window, body) = (exact.window, exact.body.clone());
+        Domain { reach: reach(exact), window, body, faces }
+    }
+
+    /// In lines for a person.
+    pub fn text(&self) -> String {
+        let [first, last] = self.window;
+        let [lower, upper] = &self.reach;
+        let mut text = format!("time window: {first:?} to {last:?}\n");
+        text += &format!("motion: x from {lower:?} to {upper:?}, as far as samples show\n");
+        for (face, claim) in &self.faces {
+            text += &format!("{}: {}, {}\n", face.name(), claim.name(), claim.meaning());
+        }
+        text
+    }
+
+    /// As keys of a document.
+    pub fn document(&self) -> Map<String, Value> {
+        let body = match &self.body {
+            Extent::Box([lower, upper]) => json!({"lower": lower, "upper": upper}),
+            Extent::Annulus([inner, outer], theta) => {
+                json!({"inner": inner, "outer": outer, "theta": theta})
+            }
+        };
+        let faces = self
+            .faces
+            .iter()
+            .map(|(face, claim)| json!({"face": face.name(), "claim": claim.name()}));
+        let [lower, upper] = &self.reach;
+        let document = [
+            ("time_window", json!(self.window)),
+            ("body", body),
+            ("motion", json!({"lower": lower, "upper": upper})),
+            ("faces", faces.collect()),
+        ];
+        document.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+    }
+}
+
+/// The least and the greatest coordinates of samples of the body, its corners among them, over the time window.
+fn reach(exact: &mut Exact) -> [Vec<f64>; 2] {
+    let dimension = exact.dimension;
+    let along = ALONG[dimension - 1];
+    let fraction = |index: usize, count: usize| index as f64 / (count - 1) as f64;
+    let sample = |mut index: usize| {
+        let mut fractions = [0.0; 3];
+        for axis in 0..dimension {
+            fractions[axis] = fraction(index % along, along);
+            index /= along;
+        }
+        exact.body.point(&fractions)
+    };
+    let points: Vec<f64> = (0..along.pow(dimension as u32)).flat_map(sample).collect();
+    let [first, last] = exact.window;
+    let (mut lower, mut upper) =
+        (vec![f64::INFINITY; dimension], vec![f64::NEG_INFINITY; dimension]);
+    for index in 0..TIMES {
+        let time = first + (last - first) * fraction(index, TIMES);
+        for position in exact.values(Quantity::Position, time, &points).chunks(dimension) {
+            for axis in 0..dimension {
+                lower[axis] = lower[axis].min(position[axis]);
+                upper[axis] = upper[axis].max(position[axis]);
+            }
+        }
+    }
+    [lower, upper]
+}

@@ -1,0 +1,132 @@
+//! Where states are written, in which format, by the ending of the file.
+
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use anyhow::Context as _;
+use mms_results::Cells;
+use mms_results::write::{self, Mesh, State};
+use mms_spec::foreign;
+
+use super::Names;
+use crate::report::{write_whole, write_with};
+use crate::vtk;
+
+/// A file to write, or several of one stem.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    path: PathBuf,
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Csv,
+    Vtu,
+    Npz,
+}
+
+impl FromStr for Target {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let path = PathBuf::from(text);
+        let ending = path.extension().map(|it| it.to_string_lossy().to_lowercase());
+        let format = match ending.as_deref() {
+            Some("csv") => Format::Csv,
+            Some("vtu") => Format::Vtu,
+            Some("npz") => Format::Npz,
+            _ => return Err("expected a file that ends in .csv, .vtu or .npz"),
+        };
+        Ok(Target { path, format })
+    }
+}
+
+/// A state, and the mesh that it is on.
+pub struct Frame {
+    /// The state.
+    pub state: State,
+    /// x.
+    pub position: Vec<f64>,
+    /// The cells.
+    pub cells: Cells,
+    /// Where the points are from.
+    pub how: String,
+}
+
+impl Target {
+    /// The file, or what the files of several times are named after.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What columns are called there.
+    pub fn names(&self) -> Names {
+        match self.format {
+            Format::Csv | Format::Npz => Names::Symbols,
+            Format::Vtu => Names::Words,
+        }
+    }
+
+    /// Writes the states of all times: a table as one file, others as one for each time, and a list of those in VTK. Returns
+    /// the files, the one to open first.
+    ///
+    /// # Errors
+    /// A file that cannot be written, by its name.
+    pub fn write(&self, frames: &[Frame]) -> anyhow::Result<Vec<String>> {
+        match (self.format, frames) {
+            (Format::Csv, _) => {
+                let states: Vec<State> = frames.iter().map(|frame| frame.state.clone()).collect();
+                let written = self.one(&self.path, |out| Ok(write::csv(&states, out)?))?;
+                Ok(vec![written])
+            }
+            (_, [frame]) => Ok(vec![self.frame(&self.path, frame)?]),
+            _ => self.several(frames),
+        }
+    }
+
+    fn several(&self, frames: &[Frame]) -> anyhow::Result<Vec<String>> {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
+        let ending = self.path.extension().unwrap_or_default().to_string_lossy();
+        let mut times = Vec::new();
+        let mut written = Vec::new();
+        for (at, frame) in frames.iter().enumerate() {
+            let name = format!("{stem}_{at:04}.{ending}");
+            written.push(self.frame(&self.path.with_file_name(&name), frame)?);
+            times.push((frame.state.time, name));
+        }
+        if self.format == Format::Vtu {
+            let path = self.path.with_extension("pvd");
+            let shown = foreign::path(&path);
+            write_whole(&path, &vtk::list(&times))
+                .with_context(|| format!("cannot write `{shown}`"))?;
+            written.insert(0, shown);
+        }
+        Ok(written)
+    }
+
+    fn frame(&self, path: &Path, frame: &Frame) -> anyhow::Result<String> {
+        let Frame { state, position, cells, .. } = frame;
+        self.one(path, |out| match self.format {
+            Format::Npz => Ok(write::npz(state, out)?),
+            _ => Ok(write::vtu(state, Mesh { position, cells }, out)?),
+        })
+    }
+
+    fn one(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut BufWriter<&mut File>) -> anyhow::Result<()>,
+    ) -> anyhow::Result<String> {
+        let shown = foreign::path(path);
+        let written = write_with(path, |file| {
+            let mut out = BufWriter::new(file);
+            write(&mut out)?;
+            Ok(out.flush()?)
+        });
+        written.with_context(|| format!("cannot write `{shown}`"))?;
+        Ok(shown)
+    }
+}

@@ -1,0 +1,209 @@
+//! Exact states of a field, at any points and times, for any solver.
+//!
+//! [`points`] says where: at the points of a file, at the particles of a grid, or at what is at given places
+//! ([`present`](mms_analysis::present)). [`State`]s are made of the field's quantities there, and [`file`] writes them;
+//! [`domain`] tells beside them what a solver needs to know once.
+
+pub mod domain;
+pub mod file;
+pub mod points;
+
+use anyhow::bail;
+use mms_results::write::{Column, Shape, State};
+use mms_spec::Face;
+use mms_spec::quantity::{self, Quantity};
+
+use self::points::Points;
+use crate::session::exact::Exact;
+
+/// A term that a solver is not given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Term {
+    /// b, in all its forms.
+    BodyForce,
+    /// The stress in every measure, and what follows from it: divergences, pressure.
+    Stress,
+    /// Tractions on the faces.
+    Traction,
+}
+
+impl Term {
+    /// How the command calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Term::BodyForce => "body_force",
+            Term::Stress => "stress",
+            Term::Traction => "traction",
+        }
+    }
+
+    /// The term that a quantity belongs to.
+    fn of(quantity: Quantity) -> Option<Term> {
+        match quantity {
+            Quantity::BodyForce
+            | Quantity::BodyForceDensity
+            | Quantity::CurrentBodyForceDensity => Some(Term::BodyForce),
+            Quantity::FirstPiolaKirchhoff
+            | Quantity::NominalStress
+            | Quantity::CauchyStress
+            | Quantity::KirchhoffStress
+            | Quantity::DivP
+            | Quantity::DivSigma => Some(Term::Stress),
+            Quantity::Traction => Some(Term::Traction),
+            _ => None,
+        }
+    }
+}
+
+/// What columns are called: by symbols in tables and NumPy, in words in VTK, as `mms run --vtk` does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// X, u, F.
+    Symbols,
+    /// reference_position, displacement, deformation_gradient.
+    Words,
+}
+
+impl Names {
+    fn of(self, quantity: Quantity) -> &'static str {
+        match (self, quantity) {
+            (Names::Words, _) => quantity.name(),
+            (Names::Symbols, Quantity::MassDensity) => "density",
+            (Names::Symbols, _) => quantity.symbol(),
+        }
+    }
+
+    fn reference(self) -> &'static str {
+        match self {
+            Names::Symbols => "X",
+            Names::Words => "reference_position",
+        }
+    }
+}
+
+/// The quantities of a state that names none.
+pub const USUAL: [Quantity; 9] = [
+    Quantity::Position,
+    Quantity::Displacement,
+    Quantity::Velocity,
+    Quantity::DeformationGradient,
+    Quantity::FirstPiolaKirchhoff,
+    Quantity::CauchyStress,
+    Quantity::MassDensity,
+    Quantity::BodyForce,
+    Quantity::Traction,
+];
+
+/// What a state holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// The quantities; tractions are those of the faces that have points.
+    pub quantities: &'a [Quantity],
+    /// Terms that are 0 in it.
+    pub without: &'a [Term],
+    /// What columns are called.
+    pub names: Names,
+}
+
+impl Wanted<'_> {
+    /// The exact state at points X.
+    ///
+    /// # Errors
+    /// A quantity that is not finite somewhere.
+    pub fn state(&self, exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<State> {
+        let dimension = exact.dimension;
+        let mut columns = vec![Column {
+            name: self.names.reference().into(),
+            shape: Shape::Vector,
+            values: points.reference.clone(),
+        }];
+        for &quantity in self.quantities {
+            match quantity {
+                // The points of VTK are x.
+                Quantity::Position if self.names == Names::Words => {}
+                Quantity::Traction => {
+                    for (face, on_face) in points.faces(exact) {
+                        let values = self.tractions(exact, points, (face, &on_face), time)?;
+                        let name = format!("traction_{}", face.name());
+                        columns.push(Column { name, shape: Shape::Vector, values });
+                    }
+                }
+                _ => {
+                    let values = exact.values(quantity, time, &points.reference);
+                    let values =
+                        self.held(quantity, values, (&points.reference, dimension), time)?;
+                    let name = self.names.of(quantity).to_owned();
+                    columns.push(Column { name, shape: shape(quantity), values });
+                }
+            }
+        }
+        columns.extend(weights(exact, points, time));
+        Ok(State { time, dimension, columns })
+    }
+
+    /// P N at the points of a face; 0 at all others.
+    fn tractions(
+        &self,
+        exact: &mut Exact,
+        points: &Points,
+        (face, on_face): (Face, &[usize]),
+        time: f64,
+    ) -> anyhow::Result<Vec<f64>> {
+        let dimension = exact.dimension;
+        let place = |point: &usize| &points.reference[point * dimension..][..dimension];
+        let places: Vec<f64> = on_face.iter().flat_map(place).copied().collect();
+        let found = exact.tractions(face, time, &places);
+        let found = self.held(Quantity::Traction, found, (&places, dimension), time)?;
+        let mut all = vec![0.0; points.reference.len()];
+        for (point, traction) in on_face.iter().zip(found.chunks(dimension)) {
+            all[point * dimension..][..dimension].copy_from_slice(traction);
+        }
+        Ok(all)
+    }
+
+    /// The values, or 0 where their term is left out.
+    fn held(
+        &self,
+        quantity: Quantity,
+        mut values: Vec<f64>,
+        (points, dimension): (&[f64], usize),
+        time: f64,
+    ) -> anyhow::Result<Vec<f64>> {
+        if Term::of(quantity).is_some_and(|term| self.without.contains(&term)) {
+            values.fill(0.0);
+        }
+        let components = quantity.shape().components(dimension);
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            bail!(
+                "{} is {} at X = {:?}, t = {time}: not defined there, or beyond the range of f64",
+                quantity.name(),
+                values[at],
+                &points[at / components * dimension..][..dimension]
+            );
+        }
+        Ok(values)
+    }
+}
+
+fn shape(quantity: Quantity) -> Shape {
+    match quantity.shape() {
+        quantity::Shape::Scalar => Shape::Scalar,
+        quantity::Shape::Vector => Shape::Vector,
+        quantity::Shape::Tensor => Shape::Tensor,
+    }
+}
+
+/// Present and reference volume, and the mass, where volumes are known: mass = density x volume.
+fn weights(exact: &mut Exact, points: &Points, time: f64) -> Vec<Column> {
+    let Some(reference) = &points.volume else { return Vec::new() };
+    let stretched = exact.values(Quantity::Jacobian, time, &points.reference);
+    let density = exact.densities(&points.reference);
+    let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
+    let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };
+    vec![
+        column("volume", times(&stretched)),
+        column("reference_volume", reference.clone()),
+        column("mass", times(&density)),
+    ]
+}

@@ -1,0 +1,223 @@
+//! At which points a state is: of a file, of a grid, or those that are at given places.
+
+use std::borrow::Cow;
+
+use anyhow::{bail, ensure};
+use mms_analysis::present::{Inverse, Unplaced};
+use mms_results::motion::resolve;
+use mms_results::names::{Mapping, Role, Values, recognise};
+use mms_results::{Cells, Snapshot};
+use mms_runtime::scene::{Layout, Scene};
+use mms_runtime::{Division, Setup};
+use mms_spec::Face;
+use mms_spec::foreign::shown;
+
+use crate::judge::results::{Results, placed};
+use crate::session::exact::Exact;
+
+/// Points of a body.
+#[derive(Clone, Debug, Default)]
+pub struct Points {
+    /// X, the coordinates of a point together.
+    pub reference: Vec<f64>,
+    /// How far each coordinate may be from what was meant.
+    pub rounding: f64,
+    /// V0, where it is known.
+    pub volume: Option<Vec<f64>>,
+    /// Cells between them, where there are such.
+    pub cells: Cells,
+    /// Where they are from.
+    pub how: String,
+}
+
+/// Where points lie that are given as x.
+#[derive(Debug)]
+pub struct Places {
+    snapshot: Snapshot,
+    present: Values,
+    volume: Option<Vec<f64>>,
+}
+
+/// What a user gave to say where.
+pub enum Given {
+    /// Points, which are the same at all times.
+    Reference(Points),
+    /// Places x, where at each time other points are.
+    Present(Places),
+}
+
+impl Given {
+    /// The points at a time.
+    ///
+    /// # Errors
+    /// A place where no point of the body is, or two are; or where that is not decided.
+    pub fn at(
+        &self,
+        exact: &Exact,
+        settings: &[String],
+        time: f64,
+    ) -> anyhow::Result<Cow<'_, Points>> {
+        match self {
+            Given::Reference(points) => Ok(Cow::Borrowed(points)),
+            Given::Present(places) => {
+                let input = exact.input();
+                let mut inverse = Inverse::new(&input.compiled, &input.settings(settings)?, time);
+                Ok(Cow::Owned(places.points(&mut inverse, exact.dimension, time)?))
+            }
+        }
+    }
+}
+
+impl Points {
+    /// The particles that the solver of this project starts from.
+    ///
+    /// # Errors
+    /// A grid that cannot be filled.
+    pub fn of_grid(
+        scene: &Scene<f64>,
+        cells: &Division,
+        per_cell: Division,
+    ) -> anyhow::Result<Self> {
+        let setup = Setup { particles_per_cell: per_cell, ..Setup::default() };
+        let Layout { reference, volume } = scene.layout(&setup, cells)?;
+        let how = format!(
+            "the particles of a grid of {cells} cells, {per_cell} in each direction of a cell"
+        );
+        Ok(Points { reference, volume: Some(volume), how, ..Points::default() })
+    }
+
+    /// The points of a file. How far they are from the body is what `outside` says.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or points outside the body, and where.
+    pub fn of_file(
+        path: &str,
+        map: &[Mapping],
+        dimension: usize,
+        outside: &dyn Fn(&[f64]) -> f64,
+    ) -> anyhow::Result<Self> {
+        let mut snapshot = one(path)?;
+        let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
+        let motion = resolve(&snapshot, &meanings, dimension, outside).map_err(placed)?;
+        Ok(Points {
+            volume: volume(&snapshot, map)?,
+            cells: std::mem::take(&mut snapshot.cells),
+            reference: motion.reference.numbers,
+            rounding: motion.reference.rounding,
+            how: format!("`{}`: {}", shown(path), motion.how),
+        })
+    }
+
+    /// The points on each face that has such, by position.
+    pub fn faces(&self, exact: &Exact) -> Vec<(Face, Vec<usize>)> {
+        let dimension = exact.dimension;
+        let size = self.reference.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let near = 4.0 * self.rounding + 8.0 * f64::EPSILON * size;
+        let compiled = &exact.input().compiled.field;
+        let on = |face: &Face| -> Vec<usize> {
+            let points = self.reference.chunks(dimension).enumerate();
+            let is_on = |point: &[f64]| exact.body.distance_to(*face, point) <= near;
+            points.filter(|(_, point)| is_on(point)).map(|(at, _)| at).collect()
+        };
+        let faces = Face::of(&compiled.domain.body, dimension).into_iter();
+        faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
+    }
+}
+
+impl Places {
+    /// The points of a file, whatever it calls them, as places x.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn of_file(path: &str, map: &[Mapping], dimension: usize) -> anyhow::Result<Self> {
+        let snapshot = one(path)?;
+        let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
+        let named = |role| meanings.iter().find(move |it| it.role == role);
+        let roles = [Role::Position, Role::Place, Role::Reference];
+        let Some(found) = roles.into_iter().find_map(named) else {
+            bail!("`{}`: no positions; name them with `--map x=..`", shown(path))
+        };
+        let present = found.values(&snapshot, dimension).map_err(placed)?;
+        ensure!(
+            !present.is_of_cells,
+            "`{}`: positions are of points, and these are of cells",
+            shown(path)
+        );
+        Ok(Places { present, volume: volume(&snapshot, map)?, snapshot })
+    }
+
+    /// The points that are there at a time.
+    ///
+    /// # Errors
+    /// A place where no point of the body is, or two are; or where that is not decided.
+    pub fn points(
+        &self,
+        inverse: &mut Inverse<'_>,
+        dimension: usize,
+        time: f64,
+    ) -> anyhow::Result<Points> {
+        let Places { snapshot, present, volume } = self;
+        let mut reference = Vec::with_capacity(present.numbers.len());
+        for (at, x) in present.numbers.chunks(dimension).enumerate() {
+            match inverse.reference(x, present.rounding) {
+                Ok(found) => reference.extend(found),
+                Err(why) => bail!("{}: {}", snapshot.place(at), unplaced(x, time, &why)),
+            }
+        }
+        Ok(Points {
+            reference,
+            rounding: present.rounding,
+            volume: volume.clone(),
+            cells: snapshot.cells.clone(),
+            how: format!("`{}`: what is at these x", shown(&snapshot.path)),
+        })
+    }
+}
+
+fn unplaced(x: &[f64], time: f64, why: &Unplaced) -> String {
+    let here = format!("x = {x:?}, t = {time:?}");
+    match why {
+        Unplaced::Outside => format!(
+            "{here}: no point of the body is there at that time; is it a reference position? then leave out `--at-present`"
+        ),
+        Unplaced::Several([one, other]) => format!(
+            "{here}: two points of the body are there, X = {one:?} and X = {other:?}: the motion passes through itself; \
+             give X"
+        ),
+        Unplaced::Undecided(near) => format!(
+            "{here}: it is not decided whether a point near X = {near:?} is there, for bounds of the motion are too wide; \
+             give X"
+        ),
+    }
+}
+
+/// The one result of a file.
+fn one(path: &str) -> anyhow::Result<Snapshot> {
+    let mut found = Results::find(path)?.snapshots;
+    ensure!(
+        found.len() == 1,
+        "`{}`: results at {} times; expected points, which are the same at all times: name a file of one time",
+        shown(path),
+        found.len()
+    );
+    Ok(found.remove(0))
+}
+
+fn is_place(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Reference | Role::Position | Role::Place | Role::Displacement | Role::Volume
+    )
+}
+
+/// V0: the array of that name, or the volume, which is that of points at X.
+fn volume(snapshot: &Snapshot, map: &[Mapping]) -> anyhow::Result<Option<Vec<f64>>> {
+    let is_named = |name: &str| snapshot.of_points.iter().find(|array| array.name == name);
+    if let Some(array) = is_named("reference_volume") {
+        return Ok(Some(array.values.clone()));
+    }
+    let meanings = recognise(snapshot, map, &|role| role == Role::Volume).map_err(placed)?;
+    let Some(meaning) = meanings.iter().find(|it| it.role == Role::Volume) else { return Ok(None) };
+    let values = meaning.values(snapshot, 1).map_err(placed)?;
+    Ok((!values.is_of_cells).then_some(values.numbers))
+}
