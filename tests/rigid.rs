@@ -273,7 +273,10 @@ fn composed(inner: &Field, quantity: Quantity, at: &Sample<Precise>) -> Vec<Prec
         | Quantity::RightCauchyGreen
         | Quantity::GreenLagrange
         | Quantity::MassDensity
-        | Quantity::StrainEnergy => value,
+        | Quantity::StrainEnergy
+        | Quantity::SecondPiolaKirchhoff
+        | Quantity::Pressure
+        | Quantity::VonMises => value,
     }
 }
 

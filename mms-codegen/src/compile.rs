@@ -20,13 +20,14 @@ use mms_mechanics::boundary::Datum;
 use mms_mechanics::face;
 use mms_mechanics::model::{as_set, parameter_values};
 use mms_mechanics::resolve::Scope;
-use mms_mechanics::{Derivation, Model, Response, TooLarge, tangent};
+use mms_mechanics::{Derivation, Model, Response, TooLarge, requested, tangent};
 use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number, Point};
 use mms_program::schedule::schedule;
 use mms_spec::Form;
 use mms_spec::diagnostic;
 use mms_spec::diagnostic::Diagnostic;
+use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
@@ -231,6 +232,15 @@ impl Compiled {
         let components = tangent(&mut graph, &self.model)?;
         let output = Output::Response(Response::Tangent);
         Ok(schedule(&graph, &BTreeMap::from([(output, components)])))
+    }
+
+    /// A quantity on request at a point and a time: a program of its own, which costs nothing where it is not asked for. An
+    /// error where it is too large.
+    pub fn on_request(&self, quantity: Quantity) -> Result<Program, TooLarge> {
+        let mut graph = self.graph.clone();
+        graph.make_room();
+        let components = requested(&mut graph, &self.model, &self.derivation, quantity)?;
+        Ok(schedule(&graph, &BTreeMap::from([(Output::Quantity(quantity), components)])))
     }
 
     /// The face of that name; otherwise what is wrong with it, in one line.

@@ -66,10 +66,22 @@ pub enum Entry {
     Frozen,
 }
 
-/// The quantity of a name or alias; otherwise what is wrong with it, in one line.
+/// The quantity of a name or alias that fields are compiled with; otherwise what is wrong with it, in one line.
 pub fn quantity(name: &str) -> Result<Quantity, String> {
+    match evaluated(name)? {
+        found if found.is_on_request() => Err(format!(
+            "the quantity {} is not compiled; `mms eval`, `mms state` and `mms judge` derive it from cauchy_stress and \
+             first_piola_kirchhoff",
+            quoted(found.name())
+        )),
+        found => Ok(found),
+    }
+}
+
+/// The quantity of a name or alias, one on request as well; otherwise what is wrong with it, in one line.
+pub fn evaluated(name: &str) -> Result<Quantity, String> {
     Quantity::from_name(name).ok_or_else(|| {
-        let known = Quantity::ALL.iter().map(|quantity| quantity.name());
+        let known = Quantity::evaluated().map(|quantity| quantity.name());
         let advice = advice(name, known, |all| format!("the quantities are {all}"));
         format!("unknown quantity {}; {advice}", quoted(name))
     })

@@ -107,7 +107,7 @@ pub fn derive_settled(
     Ok(Some(quantities))
 }
 
-fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
+pub(crate) fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooLarge> {
     if graph.is_exhausted() { Err(TooLarge(what)) } else { Ok(()) }
 }
 

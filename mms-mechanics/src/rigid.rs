@@ -142,7 +142,10 @@ impl<'a> Twin<'a> {
             | Quantity::RightCauchyGreen
             | Quantity::GreenLagrange
             | Quantity::MassDensity
-            | Quantity::StrainEnergy => inner.clone(),
+            | Quantity::StrainEnergy
+            | Quantity::SecondPiolaKirchhoff
+            | Quantity::Pressure
+            | Quantity::VonMises => inner.clone(),
             Quantity::DivP | Quantity::DivSigma | Quantity::Traction => {
                 self.rotation.apply(graph, inner)
             }

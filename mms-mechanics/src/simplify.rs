@@ -277,7 +277,10 @@ fn is_fine(quantity: Quantity) -> bool {
         | Quantity::NominalStress
         | Quantity::CauchyStress
         | Quantity::KirchhoffStress
-        | Quantity::Traction => true,
+        | Quantity::Traction
+        | Quantity::SecondPiolaKirchhoff
+        | Quantity::Pressure
+        | Quantity::VonMises => true,
         Quantity::Position
         | Quantity::Velocity
         | Quantity::Acceleration

@@ -98,6 +98,11 @@ pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
             &[RHO, Tensor("b"), EQUALS, Over(&[RHO0, Tensor("b")], &[Scalar("J")])]
         }
         Quantity::Traction => &[Tensor("T"), EQUALS, Tensor("P"), Tensor("N")],
+        Quantity::SecondPiolaKirchhoff => &[Tensor("S"), EQUALS, Raised("F", "-1"), Tensor("P")],
+        Quantity::Pressure => {
+            &[Scalar("p"), EQUALS, MINUS, Over(&[Word("tr"), Tensor("sigma")], &[Scalar("3")])]
+        }
+        Quantity::VonMises => &[Word("von Mises"), EQUALS, Function("f", &[Tensor("sigma")])],
     }
 }
 

@@ -105,8 +105,8 @@ fn quantity<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Option<Spanned<Qu
             );
             None
         }
-        Some(value) => Some(Spanned { value, span }),
-        None => {
+        Some(value) if !value.is_on_request() => Some(Spanned { value, span }),
+        _ => {
             let names: Vec<_> = Quantity::pointwise().map(Quantity::name).collect();
             reader.report(unknown_word(&found, "quantity", &names));
             None

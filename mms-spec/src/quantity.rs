@@ -23,7 +23,11 @@ impl Shape {
 }
 
 macro_rules! quantities {
-    ($($variant:ident $name:literal $symbol:literal $shape:ident $unit:literal $doc:literal,)*) => {
+    (
+        compiled { $($compiled:ident,)* }
+        on_request { $($requested:ident,)* }
+        $($variant:ident $name:literal $symbol:literal $shape:ident $unit:literal $doc:literal,)*
+    ) => {
         /// What follows from a displacement field: the quantities a user can ask for.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Quantity {
@@ -31,8 +35,12 @@ macro_rules! quantities {
         }
 
         impl Quantity {
-            /// Every quantity, in the order of derivation.
-            pub const ALL: &[Quantity] = &[$(Quantity::$variant,)*];
+            /// Every quantity that a field is compiled with, in the order of derivation.
+            pub const ALL: &[Quantity] = &[$(Quantity::$compiled,)*];
+
+            /// Those that follow from the others by a few operations, and that no solver needs: they are derived where
+            /// they are asked for, so that a field that is compiled does not carry them.
+            pub const ON_REQUEST: &[Quantity] = &[$(Quantity::$requested,)*];
 
             /// The glossary's identifier, used in every target, in JSON and on the command line.
             pub fn name(self) -> &'static str {
@@ -63,6 +71,13 @@ macro_rules! quantities {
 }
 
 quantities! {
+    compiled {
+        Displacement, Position, Velocity, Acceleration, DisplacementGradient, DeformationGradient, Jacobian,
+        RightCauchyGreen, LeftCauchyGreen, GreenLagrange, MassDensity, StrainEnergy, FirstPiolaKirchhoff,
+        NominalStress, CauchyStress, KirchhoffStress, DivP, DivSigma, BodyForce, BodyForceDensity,
+        CurrentBodyForceDensity, Traction,
+    }
+    on_request { SecondPiolaKirchhoff, Pressure, VonMises, }
     Displacement "displacement" "u" Vector "m" "Displacement u(X, t).",
     Position "position" "x" Vector "m" "Current position x = X + u.",
     Velocity "velocity" "v" Vector "m/s" "Velocity v = du/dt at fixed X.",
@@ -85,6 +100,9 @@ quantities! {
     BodyForceDensity "body_force_density" "rho0_b" Vector "N/m^3" "Body force per unit reference volume rho0 b.",
     CurrentBodyForceDensity "current_body_force_density" "rho_b" Vector "N/m^3" "Body force per unit current volume rho b = rho0 b / J.",
     Traction "traction" "T" Vector "Pa" "Traction P N on reference area, for the reference unit normal N.",
+    SecondPiolaKirchhoff "second_piola_kirchhoff" "S" Tensor "Pa" "Second Piola-Kirchhoff stress S = F^-1 P.",
+    Pressure "pressure" "p" Scalar "Pa" "Pressure p = -tr(sigma)/3, the stress out of the plane included.",
+    VonMises "von_mises" "von_mises" Scalar "Pa" "Von Mises stress sqrt(3/2 s:s) of the deviator s of sigma in three dimensions.",
 }
 
 impl Quantity {
@@ -93,12 +111,29 @@ impl Quantity {
         Self::ALL.iter().copied().filter(|quantity| *quantity != Quantity::Traction)
     }
 
+    /// Those of a point and a time and those on request: all that can be evaluated.
+    pub fn evaluated() -> impl Iterator<Item = Quantity> + Clone {
+        Self::ALL.iter().chain(Self::ON_REQUEST).copied()
+    }
+
+    /// Whether it is derived where it is asked for.
+    pub fn is_on_request(self) -> bool {
+        Self::ON_REQUEST.contains(&self)
+    }
+
     /// The quantity of that identifier, or of one of the accepted aliases
-    /// `u x v a H F J C B E rho P sigma b W` (`div_p` and `div_sigma` are both).
+    /// `u x v a H F J C B E rho P PK1 S PK2 p sigma b W` (`div_p` and `div_sigma` are both).
     pub fn from_name(name: &str) -> Option<Quantity> {
-        const ALIASED: &[&str] =
-            &["u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "sigma", "b", "W"];
-        Self::ALL.iter().copied().find(|quantity| {
+        const ALIASED: &[&str] = &[
+            "u", "x", "v", "a", "H", "F", "J", "C", "B", "E", "rho", "P", "S", "p", "sigma", "b",
+            "W",
+        ];
+        let name = match name {
+            "PK1" => "P",
+            "PK2" => "S",
+            other => other,
+        };
+        Self::evaluated().find(|quantity| {
             quantity.name() == name || (ALIASED.contains(&name) && quantity.symbol() == name)
         })
     }

@@ -1,11 +1,13 @@
 //! `mms eval`: numbers.
 
+use std::borrow::Cow;
+
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
 use mms_codegen::compile::constant;
-use mms_mechanics::Output;
 use mms_mechanics::extent::is_between;
 use mms_mechanics::sample::domain;
+use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number, Point};
 use mms_program::precise::Precise;
 use mms_program::precision::Precision;
@@ -17,7 +19,7 @@ use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::{Outcome, print, print_json, say};
-use crate::session::input::{Input, Variant, precision, quantities};
+use crate::session::input::{Input, Variant, evaluated, precision};
 use crate::state::points::Points;
 
 /// Evaluate quantities of a field at points.
@@ -46,7 +48,8 @@ pub struct Eval {
     /// The time.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     time: String,
-    /// Quantities, separated by commas, or `all`.
+    /// Quantities, separated by commas, or `all` but second_piola_kirchhoff, pressure and von_mises, which are derived where
+    /// they are named.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
     /// The reference unit normal of the boundary, for the quantity `traction`.
@@ -172,7 +175,7 @@ struct Outside {
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let input = Input::find(&self.field, &self.variant)?;
-        let quantities = quantities(&self.quantity)?;
+        let quantities = evaluated(&self.quantity)?;
         self.hold_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),
@@ -195,17 +198,24 @@ impl Eval {
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
-        let mut interpreter = Interpreter::new(&input.compiled.program, &parameters);
-        interpreter.set_time(&time);
-        let outputs: Vec<_> =
-            quantities.iter().map(|quantity| Output::Quantity(*quantity)).collect();
-        let plan = interpreter.plan(&outputs);
+        let programs = programs(input, quantities)?;
+        let prepared = programs.iter().map(|(program, outputs)| {
+            let mut interpreter = Interpreter::new(&**program, &parameters);
+            interpreter.set_time(&time);
+            (interpreter.plan(outputs), interpreter)
+        });
+        let mut prepared: Vec<_> = prepared.collect();
         let mut records = Vec::new();
         for (index, (coordinates, normal)) in points.iter().zip(&normals).enumerate() {
-            interpreter.set_point(&plan, Point { coordinates, normal, gradient: &[] });
+            for (plan, interpreter) in &mut prepared {
+                interpreter.set_point(plan, Point { coordinates, normal, gradient: &[] });
+            }
             let mut record = Record(vec![("at", Numbers::new(coordinates))]);
             for quantity in quantities {
-                let components = interpreter.output(Output::Quantity(*quantity));
+                let output = Output::Quantity(*quantity);
+                let has = |(_, outputs): &(_, Vec<_>)| outputs.contains(&output);
+                let at = programs.iter().position(has).context("each quantity has a program")?;
+                let components = prepared[at].1.output(output);
                 self.ensure_finite(input, *quantity, (index, coordinates), &components)?;
                 record.0.push((quantity.name(), Numbers::new(&components)));
             }
@@ -338,6 +348,21 @@ impl Eval {
             ),
         }
     }
+}
+
+/// The programs of some quantities: one of all that the field was compiled with, and those of each on request.
+fn programs<'a>(
+    input: &'a Input,
+    quantities: &[Quantity],
+) -> anyhow::Result<Vec<(Cow<'a, Program>, Vec<Output>)>> {
+    let compiled = quantities.iter().filter(|quantity| !quantity.is_on_request());
+    let outputs = compiled.map(|quantity| Output::Quantity(*quantity)).collect();
+    let mut programs = vec![(Cow::Borrowed(&input.compiled.program), outputs)];
+    for quantity in quantities {
+        let own = input.on_request(*quantity)?;
+        programs.extend(own.map(|it| (Cow::Owned(it), vec![Output::Quantity(*quantity)])));
+    }
+    Ok(programs)
 }
 
 /// A point of a file, as it would be given.

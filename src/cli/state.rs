@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::{Outcome, print, print_json, spare};
 use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant, quantities};
+use crate::session::input::{Input, Variant, evaluated};
 use crate::session::method::{finite, hold_division};
 use crate::state::domain::Domain;
 use crate::state::file::{Frame, Target};
@@ -56,7 +56,8 @@ pub struct State {
     /// The times.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, required = true, allow_hyphen_values = true)]
     time: Vec<f64>,
-    /// The quantities beside X, separated by commas, or `all`.
+    /// The quantities beside X, separated by commas, or `all` but second_piola_kirchhoff, pressure and von_mises, which are
+    /// derived where they are named.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
     /// Leave a term out of what the solver is given, so that its order must suffer: body_force (b = 0), stress (P, sigma and
@@ -93,7 +94,7 @@ impl State {
         spare("--output", self.output.path(), &read)?;
         let quantities = match self.quantity.as_slice() {
             [] => USUAL.to_vec(),
-            names => quantities(names)?,
+            names => evaluated(names)?,
         };
         let mut exact = Exact::new(input, &self.set)?;
         self.hold_times(&exact)?;
@@ -125,7 +126,7 @@ impl State {
                 hold_faces(quantities, &points, exact)?;
             }
             let state = wanted.state(exact, &points, time)?;
-            let position = exact.values(Quantity::Position, time, &points.reference);
+            let position = exact.values(Quantity::Position, time, &points.reference)?;
             let (cells, how) = (points.cells.clone(), points.how.clone());
             frames.push(Frame { state, position, cells, how });
         }
@@ -158,7 +159,7 @@ impl State {
     }
 
     fn tell(&self, exact: &mut Exact, frames: &[Frame], written: &[String]) -> anyhow::Result<()> {
-        let domain = Domain::of(exact);
+        let domain = Domain::of(exact)?;
         let input = exact.input();
         let first = &frames[0].state;
         let names: Vec<&str> = first.columns.iter().map(|it| it.name.as_str()).collect();

@@ -1,6 +1,7 @@
 //! The exact solution at many points.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use mms_mechanics::extent::Extent;
@@ -49,19 +50,33 @@ impl Exact {
     }
 
     /// A quantity at points X, whose coordinates stand one after the other.
-    pub fn values(&mut self, quantity: Quantity, time: f64, points: &[f64]) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// A quantity on request that is too large to derive.
+    pub fn values(
+        &mut self,
+        quantity: Quantity,
+        time: f64,
+        points: &[f64],
+    ) -> anyhow::Result<Vec<f64>> {
         let components = self.components(quantity);
         self.output(Output::Quantity(quantity), components, time, [points, &[]])
     }
 
     /// rho0 at points X.
-    pub fn densities(&mut self, points: &[f64]) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// None: see [`values`](Self::values).
+    pub fn densities(&mut self, points: &[f64]) -> anyhow::Result<Vec<f64>> {
         let time = self.window[0];
         self.output(Output::Response(Response::Density), 1, time, [points, &[]])
     }
 
     /// The tractions of a face at points X of it.
-    pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// None: see [`values`](Self::values).
+    pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
         let dimension = self.dimension;
         let normals =
             self.input.compiled.normals(face, &self.parameters, points.chunks(dimension)).concat();
@@ -74,15 +89,24 @@ impl Exact {
         components: usize,
         time: f64,
         [points, normals]: [&[f64]; 2],
-    ) -> Vec<f64> {
-        let (program, parameters) = (&self.input.compiled.program, &self.parameters);
-        let prepared = self.prepared.entry(output).or_insert_with(|| {
-            let plan = Plan::new(program, &[output], Output::is_quantity);
-            Prepared::new(Arc::new(plan), Way::portable(), parameters)
-        });
+    ) -> anyhow::Result<Vec<f64>> {
+        let prepared = match self.prepared.entry(output) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
+        };
         let dimension = self.dimension;
         let mut values = vec![0.0; points.len() / dimension * components];
         prepared.at_points(&mut Room::default(), time, dimension, [points, normals], &mut values);
-        values
+        Ok(values)
     }
+}
+
+fn prepared(input: &Input, parameters: &[f64], output: Output) -> anyhow::Result<Prepared<f64>> {
+    let own = match output {
+        Output::Quantity(quantity) => input.on_request(quantity)?,
+        _ => None,
+    };
+    let program = own.as_ref().unwrap_or(&input.compiled.program);
+    let plan = Plan::new(program, &[output], Output::is_quantity);
+    Ok(Prepared::new(Arc::new(plan), Way::portable(), parameters))
 }

@@ -9,9 +9,10 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use dashu_ratio::RBig;
 use mms_codegen::compile::{Failure, Loader, compile_unproved};
-use mms_codegen::selection::quantity;
+use mms_codegen::selection::{self, quantity};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
+use mms_mechanics::{Program, TooLarge};
 use mms_program::block::Blockwise;
 use mms_program::precision::Precision;
 use mms_runtime::Real;
@@ -208,6 +209,24 @@ impl Input {
         }
     }
 
+    /// The program of a quantity on request; none of one that the field was compiled with.
+    ///
+    /// # Errors
+    /// One that is too large.
+    pub fn on_request(&self, quantity: Quantity) -> anyhow::Result<Option<Program>> {
+        if !quantity.is_on_request() {
+            return Ok(None);
+        }
+        let program = self.compiled.on_request(quantity);
+        program.map(Some).map_err(|TooLarge(what)| {
+            anyhow!(
+                "{} of `{}`: the {what} is too large; allow more nodes, with `--max-nodes`",
+                quantity.name(),
+                self.name.shown()
+            )
+        })
+    }
+
     /// The parameters that `name=value` settings set, by position.
     pub fn settings(&self, settings: &[String]) -> anyhow::Result<BTreeMap<usize, RBig>> {
         let parameters = &self.compiled.model.parameters;
@@ -372,15 +391,28 @@ pub fn precision() -> impl TypedValueParser<Value = Precision> {
     names.try_map(|name| Precision::from_name(&name).ok_or("no precision"))
 }
 
-/// The quantities of some names or aliases, each once; `all` stands for those of a point and a time.
+/// The quantities of some names or aliases that fields are compiled with, each once; `all` stands for those of a point and a
+/// time.
 pub fn quantities(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(names, quantity)
+}
+
+/// The same, those on request as well, which `all` leaves out.
+pub fn evaluated(names: &[String]) -> anyhow::Result<Vec<Quantity>> {
+    named(names, selection::evaluated)
+}
+
+fn named(
+    names: &[String],
+    known: fn(&str) -> Result<Quantity, String>,
+) -> anyhow::Result<Vec<Quantity>> {
     let mut quantities = Vec::new();
     for name in names.iter().map(|name| name.trim()) {
         if name == "all" {
             quantities.extend(Quantity::pointwise());
             continue;
         }
-        quantities.push(quantity(name).map_err(Error::msg)?);
+        quantities.push(known(name).map_err(Error::msg)?);
     }
     let mut seen = Vec::new();
     quantities.retain(|quantity| {

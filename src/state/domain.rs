@@ -24,7 +24,10 @@ pub struct Domain {
 
 impl Domain {
     /// Of a field with numbers for its parameters.
-    pub fn of(exact: &mut Exact) -> Self {
+    ///
+    /// # Errors
+    /// A motion that cannot be evaluated.
+    pub fn of(exact: &mut Exact) -> anyhow::Result<Self> {
         let field = &exact.input().compiled.field;
         let claim = |face: Face| {
             let claimed = field.boundary.iter().find(|it| it.face.value == face);
@@ -34,7 +37,7 @@ impl Domain {
         let faces = Face::of(&field.domain.body, exact.dimension);
         let faces = faces.into_iter().map(|face| (face, claim(face))).collect();
         let (window, body) = (exact.window, exact.body.clone());
-        Domain { reach: reach(exact), window, body, faces }
+        Ok(Domain { reach: reach(exact)?, window, body, faces })
     }
 
     /// In lines for a person.
@@ -73,7 +76,7 @@ impl Domain {
 }
 
 /// The least and the greatest coordinates of samples of the body, its corners among them, over the time window.
-fn reach(exact: &mut Exact) -> [Vec<f64>; 2] {
+fn reach(exact: &mut Exact) -> anyhow::Result<[Vec<f64>; 2]> {
     let dimension = exact.dimension;
     let along = ALONG[dimension - 1];
     let fraction = |index: usize, count: usize| index as f64 / (count - 1) as f64;
@@ -91,12 +94,12 @@ fn reach(exact: &mut Exact) -> [Vec<f64>; 2] {
         (vec![f64::INFINITY; dimension], vec![f64::NEG_INFINITY; dimension]);
     for index in 0..TIMES {
         let time = first + (last - first) * fraction(index, TIMES);
-        for position in exact.values(Quantity::Position, time, &points).chunks(dimension) {
+        for position in exact.values(Quantity::Position, time, &points)?.chunks(dimension) {
             for axis in 0..dimension {
                 lower[axis] = lower[axis].min(position[axis]);
                 upper[axis] = upper[axis].max(position[axis]);
             }
         }
     }
-    [lower, upper]
+    Ok([lower, upper])
 }

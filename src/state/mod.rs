@@ -48,6 +48,9 @@ impl Term {
             | Quantity::NominalStress
             | Quantity::CauchyStress
             | Quantity::KirchhoffStress
+            | Quantity::SecondPiolaKirchhoff
+            | Quantity::Pressure
+            | Quantity::VonMises
             | Quantity::DivP
             | Quantity::DivSigma => Some(Term::Stress),
             Quantity::Traction => Some(Term::Traction),
@@ -130,7 +133,7 @@ impl Wanted<'_> {
                     }
                 }
                 _ => {
-                    let values = exact.values(quantity, time, &points.reference);
+                    let values = exact.values(quantity, time, &points.reference)?;
                     let values =
                         self.held(quantity, values, (&points.reference, dimension), time)?;
                     let name = self.names.of(quantity).to_owned();
@@ -138,7 +141,7 @@ impl Wanted<'_> {
                 }
             }
         }
-        columns.extend(weights(exact, points, time));
+        columns.extend(weights(exact, points, time)?);
         Ok(State { time, dimension, columns })
     }
 
@@ -153,7 +156,7 @@ impl Wanted<'_> {
         let dimension = exact.dimension;
         let place = |point: &usize| &points.reference[point * dimension..][..dimension];
         let places: Vec<f64> = on_face.iter().flat_map(place).copied().collect();
-        let found = exact.tractions(face, time, &places);
+        let found = exact.tractions(face, time, &places)?;
         let found = self.held(Quantity::Traction, found, (&places, dimension), time)?;
         let mut all = vec![0.0; points.reference.len()];
         for (point, traction) in on_face.iter().zip(found.chunks(dimension)) {
@@ -195,15 +198,15 @@ fn shape(quantity: Quantity) -> Shape {
 }
 
 /// Present and reference volume, and the mass, where volumes are known: mass = density x volume.
-fn weights(exact: &mut Exact, points: &Points, time: f64) -> Vec<Column> {
-    let Some(reference) = &points.volume else { return Vec::new() };
-    let stretched = exact.values(Quantity::Jacobian, time, &points.reference);
-    let density = exact.densities(&points.reference);
+fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
+    let Some(reference) = &points.volume else { return Ok(Vec::new()) };
+    let stretched = exact.values(Quantity::Jacobian, time, &points.reference)?;
+    let density = exact.densities(&points.reference)?;
     let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
     let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };
-    vec![
+    Ok(vec![
         column("volume", times(&stretched)),
         column("reference_volume", reference.clone()),
         column("mass", times(&density)),
-    ]
+    ])
 }

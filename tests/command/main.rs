@@ -21,6 +21,7 @@ mod new;
 mod overview;
 mod reading;
 mod report;
+mod requested;
 mod rigid;
 mod run;
 mod saved;

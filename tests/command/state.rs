@@ -78,7 +78,7 @@ fn every_format_is_judged_exact_to_round_off() {
             let stem = format!("{ending}{cells}");
             let command = format!(
                 "state generalized_vortex --cells {cells} --time 0.3,0.5 -o {stem}.{ending} \
-                 --quantity u,v,a,F,P,sigma,kirchhoff_stress,b,rho,J,W,E"
+                 --quantity u,v,a,F,P,sigma,kirchhoff_stress,b,rho,J,W,E,S,p,von_mises"
             );
             folder.mms(&command).exits(0);
             files.push(given.replace('N', &stem));
@@ -86,7 +86,7 @@ fn every_format_is_judged_exact_to_round_off() {
         let judge = format!("judge generalized_vortex {} --json", files.join(" "));
         let document = folder.mms(&judge).exits(1).json();
         let quantities = document["quantities"].as_array().expect("quantities");
-        assert_eq!(quantities.len(), 12, "{ending}");
+        assert_eq!(quantities.len(), 15, "{ending}");
         for quantity in quantities {
             for norm in quantity["norms"].as_array().expect("norms") {
                 for level in norm["levels"].as_array().expect("levels") {
@@ -98,7 +98,7 @@ fn every_format_is_judged_exact_to_round_off() {
         let floors = document["warnings"].as_array().expect("warnings").iter();
         let exact =
             floors.filter(|it| it.as_str().is_some_and(|it| it.contains("exact to round-off")));
-        assert_eq!(exact.count(), 12, "{ending}");
+        assert_eq!(exact.count(), 15, "{ending}");
         let notes = document["notes"].to_string();
         assert!(notes.contains("double precision") && !notes.contains("digits"), "{notes}");
     }

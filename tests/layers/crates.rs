@@ -51,7 +51,7 @@ pub const CRATES: &[Crate] = &[
             "kinematics",
             "finite material small_strain",
             "derivation",
-            "boundary rigid simplify",
+            "boundary requested rigid simplify",
             "output",
             "sample",
         ],

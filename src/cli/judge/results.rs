@@ -17,7 +17,7 @@ use crate::judge::table::Orders;
 use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
 use crate::session::exact::Exact;
-use crate::session::input::{Input, Variant, quantities};
+use crate::session::input::{Input, Variant, evaluated};
 use crate::session::method::{finite, positive};
 
 /// How results are read.
@@ -90,7 +90,7 @@ impl Judge {
         let options = &self.results;
         let wanted = match options.quantity.as_slice() {
             [] => Vec::new(),
-            names => quantities(names)?,
+            names => evaluated(names)?,
         };
         let all =
             self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;

@@ -6,7 +6,7 @@ use anyhow::{anyhow, bail};
 use mms_results::motion::{Motion, hold_distinct, resolve};
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
 use mms_results::norm::{Asked, Mesh, lengths, over_points};
-use mms_results::{Snapshot, Stored};
+use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
 use super::files::placed;
@@ -260,9 +260,9 @@ impl Taken<'_> {
                 quantity.name()
             );
         }
-        let exact = self.exact.values(quantity, self.time, places);
+        let exact = self.exact.values(quantity, self.time, places)?;
         self.hold_finite(quantity, &exact)?;
-        let floor = self.floor(quantity, values, places, &exact);
+        let floor = self.floor(quantity, values, places, &exact)?;
         let sampling = match (values.is_of_cells, self.is_mesh, weights) {
             (true, ..) => Sampling::Middles,
             (false, _, Some(_)) => Sampling::Weighted,
@@ -307,11 +307,12 @@ impl Taken<'_> {
             (quantity == Quantity::Displacement).then_some(Quantity::DisplacementGradient);
         let exact = &mut *self.exact;
         let mut asked = |asked: Asked, places: &[f64]| {
-            Ok(match (asked, gradient) {
+            let found = match (asked, gradient) {
                 (Asked::Values, _) => exact.values(quantity, time, places),
                 (Asked::Gradients, Some(gradient)) => exact.values(gradient, time, places),
-                (Asked::Gradients, None) => vec![0.0; places.len() * components],
-            })
+                (Asked::Gradients, None) => Ok(vec![0.0; places.len() * components]),
+            };
+            found.map_err(|error| Mistake::new(format!("{error:#}")))
         };
         let measured = self.mesh.measure(&values.numbers, components, &mut asked);
         let found = measured.map_err(|mistake| placed(mistake.of(&self.snapshot.path)))?;
@@ -360,23 +361,36 @@ impl Taken<'_> {
     }
 
     /// What rounding may make of the error: that of the values, of X, and of the time, and that of double precision.
-    fn floor(&mut self, quantity: Quantity, values: &Values, places: &[f64], exact: &[f64]) -> f64 {
+    fn floor(
+        &mut self,
+        quantity: Quantity,
+        values: &Values,
+        places: &[f64],
+        exact: &[f64],
+    ) -> anyhow::Result<f64> {
         let components = self.exact.components(quantity);
-        let largest = exact.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let largest = match quantity {
+            // Components of sigma cancel in them.
+            Quantity::Pressure | Quantity::VonMises => {
+                largest(&self.exact.values(Quantity::CauchyStress, self.time, places)?)
+            }
+            _ => largest(exact),
+        };
         let arithmetic = ARITHMETIC * f64::EPSILON * largest;
         let mut floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
         let reference = &self.motion.reference;
         // u = x - X has the rounding of X already, and of it what the exact u makes besides.
         if !matches!(reference.stored, Stored::Double | Stored::Whole) {
             let moved: Vec<f64> = places.iter().map(|x| x + reference.rounding).collect();
-            floor +=
-                largest_change(&self.exact.values(quantity, self.time, &moved), exact, components);
+            let there = self.exact.values(quantity, self.time, &moved)?;
+            floor += largest_change(&there, exact, components);
         }
         if self.rounding > ARITHMETIC * f64::EPSILON * self.time.abs() {
-            let later = self.exact.values(quantity, self.time + self.rounding, places);
+            let later = self.exact.values(quantity, self.time + self.rounding, places)?;
             floor += largest_change(&later, exact, components);
         }
-        floor
+        Ok(floor)
     }
 }
 
