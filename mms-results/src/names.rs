@@ -90,9 +90,11 @@ const UNCLEAR: &[(&str, [Role; 2])] = &[
 ];
 
 impl Role {
-    /// The role of an identifier or a symbol.
+    /// The role of an identifier, a symbol, or what codes call it.
     pub fn from_name(name: &str) -> Option<Role> {
-        Role::ALL.iter().copied().find(|role| role.name() == name || role.symbol() == name)
+        let all = || Role::ALL.iter().copied();
+        let exact = all().find(|role| role.name() == name || role.symbol() == name);
+        exact.or_else(|| all().find(|role| role.is_called(name)))
     }
 
     fn is_called(self, name: &str) -> bool {

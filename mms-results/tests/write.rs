@@ -62,7 +62,7 @@ fn tables_hold_all_times() {
     for dimension in 1..=3 {
         let states = [0.1, -3.0, 1e-300].map(|time| state(dimension, time, SYMBOLS));
         let mut text = Vec::new();
-        csv(&states, &mut text).unwrap();
+        csv(&states.each_ref(), &mut text).unwrap();
         let found = snapshots(&text);
         for (snapshot, time) in found.iter().zip([1, 2, 0]) {
             holds(snapshot, &states[time]);
@@ -74,7 +74,7 @@ fn tables_hold_all_times() {
 fn axes_have_their_letters_in_tables() {
     let header = |dimension| {
         let mut text = Vec::new();
-        csv(&[state(dimension, 0.0, SYMBOLS)], &mut text).unwrap();
+        csv(&[&state(dimension, 0.0, SYMBOLS)], &mut text).unwrap();
         String::from_utf8(text).unwrap().lines().next().unwrap().to_owned()
     };
     assert_eq!(header(1), "time,X,u,F,volume,particle");

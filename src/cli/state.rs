@@ -14,9 +14,10 @@ use mms_spec::quantity::Quantity;
 use serde_json::json;
 
 use super::{Outcome, print, print_json, spare};
+use crate::report::bytes;
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant, evaluated};
-use crate::session::method::{finite, hold_division};
+use crate::session::method::{finite, hold_division, memory};
 use crate::state::domain::Domain;
 use crate::state::file::{Frame, Target};
 use crate::state::points::{Given, Places, Points};
@@ -122,6 +123,7 @@ impl State {
         let mut frames = Vec::new();
         for &time in &self.time {
             let points = given.at(exact, &self.set, time)?;
+            self.hold_memory(exact, quantities, points.reference.len() / exact.dimension)?;
             if !self.quantity.is_empty() {
                 hold_faces(quantities, &points, exact)?;
             }
@@ -131,6 +133,27 @@ impl State {
             frames.push(Frame { state, position, cells, how });
         }
         Ok(frames)
+    }
+
+    /// Refuses states that do not fit into what memory is free.
+    fn hold_memory(
+        &self,
+        exact: &Exact,
+        quantities: &[Quantity],
+        points: usize,
+    ) -> anyhow::Result<()> {
+        let numbers: usize = quantities.iter().map(|it| exact.components(*it)).sum();
+        // X and x for the file, two volumes and the mass.
+        let numbers = numbers + 2 * exact.dimension + 3;
+        let need = 8.0 * numbers as f64 * points as f64 * self.time.len() as f64;
+        ensure!(
+            need < memory() as f64,
+            "{points} points at {} times take {} of memory, and {} are free; give fewer at once",
+            self.time.len(),
+            bytes(need),
+            bytes(memory() as f64)
+        );
+        Ok(())
     }
 
     fn given(&self, exact: &Exact) -> anyhow::Result<Given> {

@@ -78,7 +78,7 @@ impl Target {
     pub fn write(&self, frames: &[Frame]) -> anyhow::Result<Vec<String>> {
         match (self.format, frames) {
             (Format::Csv, _) => {
-                let states: Vec<State> = frames.iter().map(|frame| frame.state.clone()).collect();
+                let states: Vec<&State> = frames.iter().map(|frame| &frame.state).collect();
                 let written = self.one(&self.path, |out| Ok(write::csv(&states, out)?))?;
                 Ok(vec![written])
             }

@@ -131,7 +131,10 @@ fn they_are_judged() {
         changed += &(words.join(",") + "\n");
     }
     folder.write("changed.csv", &changed);
-    let document = folder.mms("judge axis_aligned_2d changed.csv --json").exits(1).json();
+    let document = folder.mms(
+        "judge axis_aligned_2d changed.csv --map PK2=S_xx,S_xy,S_yx,S_yy --expected-order PK2=1 --json",
+    );
+    let document = document.exits(1).json();
     let error = |name: &str| -> f64 {
         let quantities = document["quantities"].as_array().expect("quantities");
         let found = quantities.iter().find(|it| it["name"] == name).expect("the quantity");

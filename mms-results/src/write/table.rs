@@ -11,7 +11,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 /// What the writer says.
-pub fn csv(states: &[State], out: &mut dyn Write) -> io::Result<()> {
+pub fn csv(states: &[&State], out: &mut dyn Write) -> io::Result<()> {
     let Some(first) = states.first() else { return Ok(()) };
     let names = first.columns.iter().flat_map(|column| names(column, first.dimension));
     let header: Vec<String> = std::iter::once("time".to_owned()).chain(names).collect();

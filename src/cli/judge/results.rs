@@ -8,6 +8,7 @@ use mms_convergence::Verdict;
 use mms_results::names::{Mapping, Role};
 use mms_spec::foreign;
 use mms_spec::foreign::{Foreign, shown};
+use mms_spec::quantity::Quantity;
 use serde_json::{Map, Value, json};
 
 use super::super::{Outcome, say, this_command};
@@ -71,7 +72,12 @@ impl Judge {
         }
         let input = Input::find(field, &options.variant)?;
         let mut exact = Exact::new(input, &options.set)?;
-        let orders = self.orders();
+        let mut orders = self.orders();
+        for (name, _) in &mut orders.named {
+            // PK1 is P.
+            let quantity = Quantity::from_name(name).filter(|it| it.symbol() != *name);
+            *name = quantity.map_or_else(|| name.clone(), |it| it.name().to_owned());
+        }
         let measurement = self.measured(&mut exact, &orders)?;
         measurement.warnings.iter().for_each(|warning| say(format_args!("warning: {warning}")));
         let input = exact.input();
