@@ -112,6 +112,15 @@ impl State {
                 "`--time {time}`: outside the time window of `{}`, {first:?} to {last:?}: nothing is claimed or proved then",
                 exact.input().name.shown()
             ),
+            None => self.hold_single(),
+        }
+    }
+
+    /// Refuses a time that is given twice: two states of one time are no course of a motion.
+    fn hold_single(&self) -> anyhow::Result<()> {
+        let is_twice = |(at, time): &(usize, &f64)| self.time[..*at].contains(time);
+        match self.time.iter().enumerate().find(is_twice) {
+            Some((_, time)) => bail!("`--time`: {time} is given twice; name each time once"),
             None => Ok(()),
         }
     }

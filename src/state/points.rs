@@ -6,7 +6,7 @@ use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_results::motion::resolve;
 use mms_results::names::{Mapping, Role, Values, recognise};
-use mms_results::{Cells, Snapshot};
+use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
 use mms_runtime::{Division, Setup};
 use mms_spec::Face;
@@ -212,12 +212,22 @@ fn is_place(role: Role) -> bool {
 
 /// V0: the array of that name, or the volume, which is that of points at X.
 fn volume(snapshot: &Snapshot, map: &[Mapping]) -> anyhow::Result<Option<Vec<f64>>> {
-    let is_named = |name: &str| snapshot.of_points.iter().find(|array| array.name == name);
-    if let Some(array) = is_named("reference_volume") {
-        return Ok(Some(array.values.clone()));
+    let is_named = |array: &&Array| array.name == "reference_volume" && array.components == 1;
+    let own = snapshot.of_points.iter().find(is_named).map(|array| array.values.clone());
+    let found = match own {
+        Some(values) => Some(values),
+        None => {
+            let meanings =
+                recognise(snapshot, map, &|role| role == Role::Volume).map_err(placed)?;
+            let meaning = meanings.iter().find(|it| it.role == Role::Volume);
+            let values = meaning.map(|it| it.values(snapshot, 1)).transpose().map_err(placed)?;
+            values.filter(|it| !it.is_of_cells).map(|it| it.numbers)
+        }
+    };
+    let is_odd = |value: &f64| !(value.is_finite() && *value > 0.0);
+    if let Some(at) = found.iter().flatten().position(is_odd) {
+        let value = found.iter().flatten().nth(at).copied().unwrap_or(f64::NAN);
+        bail!("{}: the volume is {value}; expected a positive number", snapshot.place(at));
     }
-    let meanings = recognise(snapshot, map, &|role| role == Role::Volume).map_err(placed)?;
-    let Some(meaning) = meanings.iter().find(|it| it.role == Role::Volume) else { return Ok(None) };
-    let values = meaning.values(snapshot, 1).map_err(placed)?;
-    Ok((!values.is_of_cells).then_some(values.numbers))
+    Ok(found)
 }

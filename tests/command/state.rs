@@ -287,6 +287,7 @@ fn cells_and_volumes_of_a_file_are_kept() {
 fn what_cannot_be_written_is_refused() {
     let folder = Folder::with_bar("bar.toml");
     folder.write("points.csv", "X\n0.5\n1.25\n");
+    folder.write("negative.csv", "X,volume\n0.5,1\n0.75,-1\n");
     folder.write("twice.csv", "time,X\n0,0.5\n1,0.5\n");
     for (arguments, said) in [
         ("bar.toml --cells 4 --time 0 -o s.txt", "expected a file that ends in .csv, .vtu or .npz"),
@@ -304,6 +305,11 @@ fn what_cannot_be_written_is_refused() {
             "that file is read, and would be lost",
         ),
         ("bar.toml --points twice.csv --time 0 -o s.csv", "results at 2 times"),
+        ("bar.toml --cells 4 --time 0,0.01,0 -o s.csv", "`--time`: 0 is given twice"),
+        (
+            "bar.toml --points negative.csv --time 0 -o s.csv",
+            "negative.csv:3: the volume is -1; expected a positive number",
+        ),
         ("bar.toml --cells 4x4 --time 0 -o s.csv", "`--cells 4x4`: 2 numbers for 1 dimension(s)"),
         (
             "bar.toml --cells 4 --at-present --time 0 -o s.csv",
