@@ -66,7 +66,7 @@ impl Exact {
     /// rho0 at points X.
     ///
     /// # Errors
-    /// None: see [`values`](Self::values).
+    /// As of [`values`](Self::values).
     pub fn densities(&mut self, points: &[f64]) -> anyhow::Result<Vec<f64>> {
         let time = self.window[0];
         self.output(Output::Response(Response::Density), 1, time, [points, &[]])
@@ -75,7 +75,7 @@ impl Exact {
     /// The tractions of a face at points X of it.
     ///
     /// # Errors
-    /// None: see [`values`](Self::values).
+    /// As of [`values`](Self::values).
     pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
         let dimension = self.dimension;
         let normals =
