@@ -8,6 +8,7 @@
 #![warn(clippy::disallowed_methods)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+mod campaign;
 mod checkpoint;
 pub mod cli;
 mod diagnose;

@@ -24,6 +24,10 @@ pub enum Kind {
     Field,
     /// A saved study.
     Study,
+    /// How a solver is run.
+    Campaign,
+    /// A program, or what it is given.
+    Program,
     /// A table of errors.
     Errors,
     /// What a solver wrote.
@@ -46,6 +50,8 @@ impl Kind {
         match self {
             Kind::Field => "a field or material file",
             Kind::Study => "a study file",
+            Kind::Campaign => "a campaign file",
+            Kind::Program => "a program or its input",
             Kind::Errors => "a table of errors",
             Kind::Results => "a file of results",
             Kind::Result => "a result",
@@ -59,8 +65,8 @@ impl Kind {
     /// How many bytes it may have.
     pub fn most(self) -> u64 {
         match self {
-            Kind::Field | Kind::Study | Kind::Errors => MAX_FILE as u64,
-            Kind::Result | Kind::Stored | Kind::States => 16 << 20,
+            Kind::Field | Kind::Study | Kind::Campaign | Kind::Errors => MAX_FILE as u64,
+            Kind::Result | Kind::Stored | Kind::States | Kind::Program => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
             Kind::Results => 8 << 30,
         }
@@ -73,6 +79,10 @@ impl Kind {
                 "is it the file that was meant? then write its formulas shorter, with [let]"
             }
             Kind::Study => "is it the file that was meant? its keys are the options of `mms study`",
+            Kind::Campaign => {
+                "is it the file that was meant? it has [solver] and a [[study]] for each field"
+            }
+            Kind::Program => "it is told from others by when it was written",
             Kind::Errors => "is it the file that was meant? it has a row for each run",
             Kind::Results => "write fewer times to a file, or fewer quantities",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",
@@ -252,7 +262,9 @@ mod tests {
     fn no_file_is_read_beyond_what_its_kind_may_hold() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x");
-        for kind in [Kind::Field, Kind::Study, Kind::Result, Kind::Stored, Kind::States] {
+        for kind in
+            [Kind::Field, Kind::Study, Kind::Campaign, Kind::Result, Kind::Stored, Kind::States]
+        {
             sparse(&path, kind.most());
             assert_eq!(bytes(&path, kind).unwrap().len() as u64, kind.most());
             for length in [kind.most() + 1, 3 << 30] {

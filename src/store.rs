@@ -1,17 +1,19 @@
 //! A cache of results of runs, kept in a folder as they finish.
 //!
 //! A result depends on its key: what tells this program from any other (its version, its length and when it was
-//! built), the field's text, method, precision and form, cells, parameters and motion, the deliberate mistake if
-//! there is one, and of what errors are measured. There is one file per result, named by a digest of the key, with
-//! the key and a checksum in it. A file appears whole or not at all, and is trusted only if its checksum, its key
-//! and its name agree. Opening a store checks every file in it: one that is cut off, changed, of another format,
-//! or not what its name says is renamed to `.aside1` and so on, said to be, and neither read again nor deleted.
-//! Processes may share a folder: each locks a file beside a result while it computes it. Locks end with their
-//! process, however that ends; others make what is left and then wait.
+//! built), the field's text, method, precision and form, cells, parameters and motion, the deliberate mistake if there
+//! is one, and of what errors are measured; what one of a campaign depends on says `src/campaign/plan.rs`. There is
+//! one file per result, named by a digest of the key, with the key and a checksum in it. A file appears whole or not
+//! at all, and is trusted only if its checksum, its key and its name agree. Opening a store checks every file in it:
+//! one that is cut off, changed, of another format, or not what its name says is renamed to `.aside1` and so on, said
+//! to be, and neither read again nor deleted. Processes may share a folder: each locks a file beside a result while it
+//! computes it. Locks end with their process, however that ends; others make what is left and then wait.
 
 use std::fs::{self, File};
 use std::io;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::SystemTime;
 
 use anyhow::Context as _;
@@ -209,6 +211,41 @@ fn set_aside(path: &Path, reason: &str) -> anyhow::Result<String> {
         _ => {}
     }
     Ok(format!("`{shown}` is not trusted: {reason}; it is now `{}`", foreign::path(&aside)))
+}
+
+/// What `one` makes of jobs, on several threads, in their order. It is asked first for what nobody has begun, and makes
+/// nothing of what another process has claimed; then once more for that, and waits.
+///
+/// # Errors
+/// The first that it makes.
+pub fn side_by_side<J: Sync, R: Send>(
+    jobs: &[J],
+    threads: NonZero<usize>,
+    one: impl Fn(&J, bool) -> anyhow::Result<Option<R>> + Sync,
+) -> anyhow::Result<Vec<R>> {
+    let mut results: Vec<Option<R>> = jobs.iter().map(|_| None).collect();
+    for wait in [false, true] {
+        let left: Vec<usize> = (0..jobs.len()).filter(|&at| results[at].is_none()).collect();
+        let next = AtomicUsize::new(0);
+        let worker = || {
+            let mut done = Vec::new();
+            while let Some(&at) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
+                done.push((at, one(&jobs[at], wait)?));
+            }
+            anyhow::Ok(done)
+        };
+        let all = std::thread::scope(|scope| {
+            let count = threads.get().min(left.len());
+            let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
+            workers.into_iter().map(|worker| worker.join()).collect::<Vec<_>>()
+        });
+        for done in all {
+            let done = done.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+            done.into_iter().for_each(|(at, result)| results[at] = result);
+        }
+    }
+    // With waiting, nothing is left out.
+    Ok(results.into_iter().flatten().collect())
 }
 
 /// What tells this program from any other: no result outlives the code that computed it.

@@ -8,8 +8,8 @@ use mms_results::names::Mapping;
 use super::{Outcome, print, print_json, say, this_command};
 use crate::diagnose::{self, Reading, Solver};
 use crate::judge::results::Results;
-use crate::session::exact::Exact;
 use crate::report::{Diagnosed, Hypotheses};
+use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant};
 use crate::session::method::{finite, positive};
 

@@ -37,7 +37,8 @@ impl Interrupted {
         Ok(Interrupted(flag))
     }
 
-    fn is_set(&self) -> bool {
+    /// Whether somebody does.
+    pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }

@@ -3,7 +3,6 @@
 mod results;
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use anyhow::Context as _;
 use clap::Args;
@@ -12,11 +11,11 @@ use mms_spec::foreign;
 use serde_json::Value;
 
 use super::{Outcome, hold_output, print, print_json, this_command};
-use crate::judge::table::{self, Orders};
+use crate::judge::table::{self, Order, Orders};
 use crate::provenance::Input;
 use crate::read::{self, Kind};
 use crate::report::Judgements;
-use crate::session::method::{finite, positive};
+use crate::session::method::positive;
 use crate::store::digest;
 
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
@@ -63,24 +62,6 @@ pub struct Judge {
     json: bool,
 }
 
-/// An order, and of what.
-#[derive(Clone, Debug)]
-struct Order {
-    name: Option<String>,
-    order: f64,
-}
-
-impl FromStr for Order {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, &'static str> {
-        Ok(match text.rsplit_once('=') {
-            Some((name, order)) => Self { name: Some(name.to_owned()), order: finite(order)? },
-            None => Self { name: None, order: finite(text)? },
-        })
-    }
-}
-
 impl Judge {
     pub fn run(self) -> anyhow::Result<Outcome> {
         self.output.as_deref().map_or(Ok(()), hold_output)?;
@@ -121,12 +102,6 @@ impl Judge {
     }
 
     fn orders(&self) -> Orders {
-        let usual = self.expected_order.iter().rev().find(|it| it.name.is_none());
-        let named = self.expected_order.iter().rev();
-        Orders {
-            usual: usual.map_or(2.0, |it| it.order),
-            named: named.filter_map(|it| Some((it.name.clone()?, it.order))).collect(),
-            tolerance: self.tolerance,
-        }
+        Orders::new(&self.expected_order, self.tolerance)
     }
 }

@@ -13,6 +13,7 @@
 //! same number.
 
 mod accuracy;
+mod campaign;
 mod check;
 mod diagnose;
 mod emit;
@@ -79,6 +80,7 @@ enum Command {
     Judge(judge::Judge),
     Diagnose(diagnose::Diagnose),
     State(state::State),
+    Campaign(campaign::Campaign),
     Verify(verify::Verify),
     Report(report::Report),
     Tradeoff(tradeoff::Tradeoff),
@@ -140,6 +142,7 @@ fn answer() -> anyhow::Result<Outcome> {
         Some(Command::Judge(judge)) => judge.run(),
         Some(Command::Diagnose(diagnose)) => diagnose.run(),
         Some(Command::State(state)) => state.run(),
+        Some(Command::Campaign(campaign)) => campaign.run(),
         Some(Command::Verify(verify)) => verify.run(),
         Some(Command::Report(report)) => report.run(),
         Some(Command::Tradeoff(tradeoff)) => tradeoff.run(),

@@ -1,6 +1,7 @@
 //! Tables of errors: CSV, TSV, or columns between blanks, with a header.
 
 use std::path::Path;
+use std::str::FromStr;
 
 use anyhow::{Context as _, anyhow, bail};
 use csv::{ReaderBuilder, StringRecord};
@@ -11,6 +12,25 @@ use mms_spec::suggest::did_you_mean;
 
 use super::names::Column;
 use super::{Measured, Norm, Quantity, Run};
+use crate::session::method::finite;
+
+/// An order, and of what, as in `2` or `H1=1`.
+#[derive(Clone, Debug)]
+pub struct Order {
+    name: Option<String>,
+    order: f64,
+}
+
+impl FromStr for Order {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, &'static str> {
+        Ok(match text.rsplit_once('=') {
+            Some((name, order)) => Self { name: Some(name.to_owned()), order: finite(order)? },
+            None => Self { name: None, order: finite(text)? },
+        })
+    }
+}
 
 /// The orders that are expected: of all norms, or of those that a name is given of.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +47,13 @@ pub struct Orders {
 const TIME: &str = "time";
 
 impl Orders {
+    /// Of what was given; the last of a name counts, and 2 where no order is given of all.
+    pub fn new(given: &[Order], tolerance: f64) -> Self {
+        let usual = given.iter().rev().find(|it| it.name.is_none());
+        let named = given.iter().rev().filter_map(|it| Some((it.name.clone()?, it.order)));
+        Orders { usual: usual.map_or(2.0, |it| it.order), named: named.collect(), tolerance }
+    }
+
     fn find(&self, names: &[&str]) -> Option<f64> {
         self.named.iter().find(|(name, _)| names.contains(&name.as_str())).map(|(_, order)| *order)
     }

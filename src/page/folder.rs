@@ -12,8 +12,7 @@ use crate::read::{self, Kind};
 use crate::store;
 
 impl Page {
-    /// All results in a folder and in the folders in it. What is none is set aside; what a store of `mms verify`
-    /// holds is counted.
+    /// All results in a folder and in the folders in it. What is none is set aside; what a store holds is counted.
     ///
     /// # Errors
     /// A folder that is not there, cannot be read, or has no results.
@@ -41,11 +40,12 @@ impl Page {
         }
         if stored > 0 {
             set_aside.push(format!(
-                "{stored} results of single runs, kept by `mms verify --store`; `mms verify --output` writes the matrix"
+                "{stored} results of single runs, kept by `mms verify --store` or `mms campaign`; `--output` of these writes \
+                 what they say together"
             ));
         }
         if entries.is_empty() {
-            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `run`, `verify`, `tradeoff`, `extremes` and `accuracy` write theirs with `--output`"));
+            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `judge`, `campaign`, `run`, `verify`, `tradeoff`, `extremes` and `accuracy` write theirs with `--output`"));
             bail!("{}", set_aside.join("\n"));
         }
         let name = folder.canonicalize().ok();

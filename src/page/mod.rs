@@ -10,6 +10,7 @@
 //! A kind of result is one file that implements [`Section`], and one line in [`KINDS`].
 
 mod accuracy;
+mod campaign;
 mod comparison;
 mod defects;
 mod extremes;
@@ -17,6 +18,7 @@ mod field;
 mod folder;
 mod frame;
 pub mod gallery;
+mod judge;
 mod mark;
 mod method;
 mod motion;
@@ -107,6 +109,8 @@ impl Kind {
 /// The kinds of documents, in their order on a page.
 const KINDS: &[Kind] = &[
     Kind { name: "study", heading: "Convergence studies", read: study::read },
+    Kind::of::<judge::Judgement>("judge", "Judged results"),
+    Kind::of::<campaign::Campaign>("campaign", "Campaigns"),
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
     Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),
     Kind::of::<extremes::Extremes>("extremes", "At the limits"),

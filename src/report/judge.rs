@@ -4,12 +4,15 @@ use std::path::Path;
 
 use comfy_table::Table;
 use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
+use mms_spec::foreign::{Foreign, shown};
 use serde_json::{Map, Value, json};
 
 use super::picture::{Line, Picture};
 use super::{plain, pretty, to_the_right, write_files};
+use crate::judge::results::Measurement;
 use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
 use crate::provenance::Provenance;
+use crate::session::exact::Exact;
 
 /// Errors with what they say.
 pub struct Judgements {
@@ -27,6 +30,16 @@ pub struct Judgements {
     pub more: Map<String, Value>,
     /// Where the verdicts are from.
     pub provenance: Provenance,
+}
+
+/// What decides over several quantities.
+pub struct Deciding {
+    /// The expected order.
+    pub expected: f64,
+    /// The observed order with its interval, where there is one.
+    pub observed: Option<String>,
+    /// The quantity and the norm.
+    pub of: String,
 }
 
 /// The norms that levels have in the document of a study.
@@ -57,6 +70,21 @@ impl Judgements {
         })
     }
 
+    /// Judges what was measured of results in files.
+    ///
+    /// # Errors
+    /// Runs that cannot be compared.
+    pub fn of_results(
+        exact: &Exact,
+        files: &[String],
+        measurement: Measurement,
+        provenance: Provenance,
+    ) -> anyhow::Result<Self> {
+        let more = more(&exact.input().name, files, &measurement);
+        let report = Self::of(exact.title(), measurement.measured, provenance)?;
+        Ok(Self { notes: measurement.notes, more, ..report })
+    }
+
     /// The quantity that decides, its position and the verdict.
     fn decided(&self) -> (usize, Verdict) {
         worst(&self.judged).unwrap_or((0, Verdict::NotAsymptotic))
@@ -65,6 +93,19 @@ impl Judgements {
     /// The worst verdict.
     pub fn verdict(&self) -> Verdict {
         self.decided().1
+    }
+
+    /// What decides: its expected order, and what was observed of which norm.
+    pub fn deciding(&self) -> Option<Deciding> {
+        let (at, _) = self.decided();
+        let (quantity, judged) = self.each().nth(at)?;
+        let deciding = judged.judgement.deciding();
+        let observed = deciding.finding.estimate.map(|it| match it.interval {
+            Some([low, high]) => format!("{:.2} ({low:.2} to {high:.2})", it.order),
+            None => order(Some(it.order)),
+        });
+        let of = format!("{} {}", quantity.name.shown(), shown(&deciding.norm));
+        Some(Deciding { expected: deciding.expected.order, observed, of })
     }
 
     fn each(&self) -> impl Iterator<Item = (&Quantity, &Judged)> {
@@ -243,6 +284,11 @@ impl Judgements {
         self.levels(norm).iter().map(level).collect()
     }
 
+    /// Writes convergence.svg and .csv into a folder, and returns their paths.
+    pub fn write_parts(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        write_files(folder, "convergence", [("svg", self.picture().svg()?), ("csv", self.csv()?)])
+    }
+
     /// Writes convergence.svg, .csv and .json into a folder, and returns their paths.
     pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
         let files = [
@@ -312,6 +358,21 @@ impl Judgements {
         let levels = levels.levels().iter().filter(|it| !it.errors.is_empty());
         levels.map(|it| (it.length, it.error())).filter(|(_, error)| *error > 0.0).collect()
     }
+}
+
+/// What the document of results has besides.
+fn more(field: &Foreign, files: &[String], measurement: &Measurement) -> Map<String, Value> {
+    let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
+    let samplings = names.zip(measurement.samplings.iter().map(|it| json!(it.name())));
+    let document = json!({
+        "field": field,
+        "files": files,
+        "times": measurement.times,
+        "samplings": samplings.map(|(name, it)| (name.to_owned(), it)).collect::<Map<_, _>>(),
+        "notes": measurement.notes,
+        "warnings": measurement.warnings,
+    });
+    if let Value::Object(document) = document { document } else { Map::new() }
 }
 
 /// The texts of a row of a table.

@@ -56,13 +56,14 @@ pub(crate) fn pretty(document: &Value) -> anyhow::Result<String> {
 }
 
 /// A table without lines.
-fn plain<const N: usize>(header: [&str; N]) -> Table {
+pub(crate) fn plain<const N: usize>(header: [&str; N]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING).set_header(header);
     table
 }
 
-fn to_the_right(mut table: Table) -> Table {
+/// The same, with all columns to the right.
+pub(crate) fn to_the_right(mut table: Table) -> Table {
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }

@@ -44,6 +44,11 @@ impl Exact {
         &self.input
     }
 
+    /// Its name and its title, for a person.
+    pub fn title(&self) -> String {
+        format!("{}: {}", self.input.name.shown(), self.input.compiled.field.title.shown())
+    }
+
     /// The numbers of a quantity in a point.
     pub fn components(&self, quantity: Quantity) -> usize {
         quantity.shape().components(self.dimension)

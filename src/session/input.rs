@@ -116,6 +116,7 @@ fn motion(text: &str) -> Result<String, String> {
 }
 
 /// A field that the user named: of the gallery, or of a file.
+#[derive(Clone)]
 pub struct Input {
     /// Its name.
     pub name: Foreign,
@@ -167,6 +168,19 @@ impl Input {
             given: field.to_owned(),
             options: options.clone(),
         }
+    }
+
+    /// The same field with other defaults of parameters, for who emits code of it.
+    ///
+    /// # Errors
+    /// Settings that are none.
+    pub fn with_defaults(&self, settings: &[String]) -> anyhow::Result<Input> {
+        if settings.is_empty() {
+            return Ok(self.clone());
+        }
+        let selection =
+            Selection { set: self::settings(settings)?, ..self.options.selection.clone() };
+        Self::find_with(&self.given, &Options { selection, ..self.options.clone() })
     }
 
     /// The files that it was read from; none of the gallery.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use mms_runtime::scene::{Scene, Solvable};
@@ -15,7 +14,7 @@ use super::matrix::{Quantity, Row};
 use super::plan::Job;
 use crate::session::input::{Input, Variant};
 use crate::session::method::Precision;
-use crate::store::{Entry, Store};
+use crate::store::{Entry, Store, side_by_side};
 
 /// l1, l2 and linf, the largest over all steps.
 pub type Norms = [f64; 3];
@@ -152,33 +151,7 @@ pub fn outcomes<B: Bench>(
     watcher: &dyn Watcher,
 ) -> anyhow::Result<Vec<B::Result>> {
     let work = Work { store, bench, watcher };
-    // First what nobody has begun; then what another process had begun, and may have ended without.
-    let mut outcomes: Vec<Option<B::Result>> = vec![None; jobs.len()];
-    for wait in [false, true] {
-        let left: Vec<usize> = (0..jobs.len()).filter(|&at| outcomes[at].is_none()).collect();
-        let next = AtomicUsize::new(0);
-        let worker = || {
-            let mut done = Vec::new();
-            while let Some(&at) = left.get(next.fetch_add(1, Ordering::Relaxed)) {
-                done.push((at, work.outcome(&jobs[at], wait)?));
-            }
-            anyhow::Ok(done)
-        };
-        let results = std::thread::scope(|scope| {
-            let count = threads.get().min(left.len());
-            let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
-            let results = workers.into_iter().map(|worker| worker.join());
-            results.collect::<Vec<_>>()
-        });
-        for result in results {
-            let done = result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-            for (at, outcome) in done {
-                outcomes[at] = outcome;
-            }
-        }
-    }
-    // With waiting, nothing is left out.
-    Ok(outcomes.into_iter().flatten().collect())
+    side_by_side(jobs, threads, |job, wait| work.outcome(job, wait))
 }
 
 struct Work<'a, B> {

@@ -143,6 +143,18 @@ quantity = "jacobian"
 equals = ["1"]
 "#;
 
+/// A solver that copies a table, and fails on another mesh than that.
+const CAMPAIGN: &str = r#"
+[solver]
+run = "cp a.csv {output}/{cells}.csv"
+output = "{output}/8.csv"
+can = { dimensions = [1], start_moving = true, start_deformed = true, loads = ["traction"] }
+[[study]]
+field = "bar.toml"
+cells = [8, 16]
+time = [0.001]
+"#;
+
 #[test]
 fn documents_have_the_keys_of_the_page() {
     let tables = Tables::read();
@@ -156,6 +168,7 @@ fn documents_have_the_keys_of_the_page() {
     }
     folder.write("law.csv", "F,P\n1.1,3e5\n1.2,6e5\n0.9,-3e5\n");
     folder.write("broken.toml", "[field]\ntitle = 1\n");
+    folder.write("campaign.toml", CAMPAIGN);
     for (heading, arguments, code) in [
         ("list", "list", 0),
         ("show", "show bar.toml", 0),
@@ -184,6 +197,10 @@ fn documents_have_the_keys_of_the_page() {
         ("hypotheses", "diagnose bar.toml --list", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),
         ("state", "state generalized_vortex --cells 2 --time 0.5 -o state.npz", 0),
+        ("campaign-runs", "campaign campaign.toml --dry-run", 0),
+        ("campaign", "campaign campaign.toml", 3),
+        ("campaign-runs", "campaign campaign.toml --list", 0),
+        ("campaign-suggest", "campaign campaign.toml --suggest", 0),
         ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
         ("verify", "verify --quick --row startup/usl", 0),
         ("verify-list", "verify --list", 0),

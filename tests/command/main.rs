@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bound;
+mod campaign;
 mod check;
 mod checkpoint;
 mod diagnose;

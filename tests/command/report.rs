@@ -29,9 +29,25 @@ static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
         "accuracy bar_1d --quantity J,P --regime declared,displacement_1e-8 --points 40 --json";
     folder.write("all/accuracy/printed.json", &folder.mms(accuracy).exits(0).stdout);
     folder.write("all/defects.json", &defects("true"));
+    folder.write("errors.csv", "h,u_l2,u_max,v_l2\n8,6400,1,64\n4,1600,0.25,16\n2,400,0.0625,4\n");
+    folder.mms("judge --errors errors.csv --output all/judged").exits(0);
+    folder.write("campaign.toml", CAMPAIGN);
+    folder.mms("campaign campaign.toml --output all/campaign").exits(0);
     folder.mms("report all").exits(0);
     folder
 });
+
+/// A solver that writes the exact u of a bar at the end of its window, plus C h^2.
+const CAMPAIGN: &str = r#"
+[solver]
+name = "a <solver>"
+run = """awk -v n={cells} -v file={output}/u.csv 'BEGIN {{ print "X,u" > file
+    for (i = 0; i < n; i++) {{ X = (i + 0.5)/n; print X "," 0.2*X*(2 - X) + 0.1/n^2 > file }} }}'"""
+output = "{output}/u.csv"
+[[study]]
+field = "bar_1d"
+cells = [4, 8, 16]
+"#;
 
 /// What `mms verify --defects` writes, in a program that has some, of two that one row catches.
 fn defects(caught: &str) -> String {
@@ -204,6 +220,61 @@ fn the_numbers_of_several_methods_are_those_of_their_document() {
             assert_shows(cell, &level["l2"], "l2");
         }
     }
+}
+
+/// Asserts that a table has the levels of a judged quantity.
+fn assert_judged(table: &Table, quantity: &Value) {
+    let norms = array(&quantity["norms"]);
+    assert_eq!(table.columns.len(), 2 + 2 * norms.len());
+    for (at, norm) in norms.iter().enumerate() {
+        assert_eq!(table.columns[2 + 2 * at], norm["norm"].as_str().expect("a norm"));
+        let levels = array(&norm["levels"]);
+        assert_eq!(table.rows.len(), levels.len());
+        for (cells, level) in table.rows.iter().zip(levels) {
+            assert_shows(&cells[0], &level["length"], "length");
+            assert_shows(&cells[2 + 2 * at], &level["error"], "error");
+            assert_shows(&cells[3 + 2 * at], &level["order"], "order");
+        }
+    }
+}
+
+#[test]
+fn the_numbers_of_judged_errors_are_those_of_their_document() {
+    let (page, judged) = (parse(&PAGE), document("judged/convergence"));
+    let mut tables = tables(&page, "errors.csv");
+    for quantity in array(&judged["quantities"]) {
+        let name = quantity["name"].as_str().expect("a name");
+        assert_judged(&tables.remove(&format!("Errors of {name}")).expect("levels"), quantity);
+        for sentence in array(&quantity["says"]) {
+            assert!(PAGE.contains(sentence.as_str().expect("a sentence")), "{sentence}");
+        }
+    }
+    assert!(tables.is_empty(), "{:?}", tables.keys());
+}
+
+#[test]
+fn the_numbers_of_a_campaign_are_those_of_its_document() {
+    let (page, campaign) = (parse(&PAGE), document("campaign/campaign"));
+    let mut tables = tables(&page, "a <solver>: 1 studies");
+    let study = &campaign["studies"][0];
+    let judgement = &study["judgement"];
+    let matrix = tables.remove("Studies").expect("the matrix");
+    assert_rows(
+        &matrix,
+        array(&campaign["studies"]),
+        &["name", "field", "", "", "", "", "verdict"],
+    );
+    let row = &matrix.rows[0];
+    assert_eq!(row[2].0, "3 of 3");
+    assert_shows(&row[3], &judgement["expected_order"], "expected");
+    assert_shows(&row[4], &judgement["observed_order"], "observed");
+    assert_eq!(row[5].0, "displacement l2");
+    let runs = tables.remove("Runs of bar_1d").expect("runs");
+    let keys = ["level", "cells", "cell_size", "time_step", "seconds", "status"];
+    assert_rows(&runs, array(&study["runs"]), &keys);
+    let levels = tables.remove("Errors").expect("levels");
+    assert_judged(&levels, &judgement["quantities"][0]);
+    assert!(tables.is_empty(), "{:?}", tables.keys());
 }
 
 #[test]
@@ -404,7 +475,7 @@ fn the_summary_has_every_result_and_its_verdict() {
         .skip(1)
         .map(|row| row.children().filter(Node::is_element).map(text).collect())
         .collect();
-    assert_eq!(rows.len(), 10, "{rows:?}");
+    assert_eq!(rows.len(), 12, "{rows:?}");
     assert!(rows.iter().any(|row| row[0].starts_with("bar_1d") && row[2].ends_with("pass")));
     assert!(rows.iter().any(|row| row[1] == "Verification matrix" && row[2].contains("1 of 1")));
     let head = named(page.root(), "header").next().expect("a header");

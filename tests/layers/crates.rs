@@ -147,6 +147,11 @@ pub const CRATES: &[Crate] = &[
         layers: &["cell mistake names snapshot", "motion norm read write"],
     },
     Crate {
+        name: "mms-campaign",
+        knows: &["mms-spec"],
+        layers: &["cover process table template", "can", "file"],
+    },
+    Crate {
         name: "mms-runtime",
         knows: &["mms-convergence", "mms-math"],
         layers: &[
@@ -174,6 +179,7 @@ pub const CRATES: &[Crate] = &[
         name: "mms",
         knows: &[
             "mms-analysis",
+            "mms-campaign",
             "mms-codegen",
             "mms-convergence",
             "mms-emit",
@@ -195,7 +201,7 @@ pub const CRATES: &[Crate] = &[
             "diagnose",
             "report",
             "history store vtk",
-            "checkpoint state verify",
+            "campaign checkpoint state verify",
             "trial",
             "cli page",
         ],

@@ -1,11 +1,11 @@
 """The material point method in Taichi, total Lagrangian with linear weights, on travelling_wave_2d.
 
     mms emit travelling_wave_2d --target numpy -o FOLDER
-    PYTHONPATH=FOLDER python3 examples/solvers/taichi/mpm.py
+    PYTHONPATH=FOLDER python3 examples/solvers/taichi/mpm.py CELLS STEPS END FILE
 
 The grid is that of the reference body, with 2 x 2 particles of neo-Hookean material in each cell.
 Velocities live between the times of positions. b at the particles, the motion of the sides and the start
-are the field's. Exits 1 where the order in u is not 2.
+are the field's. X and u of the particles at the end go to a file of NumPy.
 """
 
 import sys
@@ -83,8 +83,10 @@ class Body:
                 self.H[p] += dt * self.velocity[node].outer_product(gradient)
 
 
-def run(n, field, parameters):
-    """The root mean square of the errors in u, after a quarter of the time window."""
+def run(n, steps, end):
+    """X and u of the particles, after so many steps from the first time on."""
+    parameters = travelling_wave_2d.Parameters()
+    field = travelling_wave_2d.prepare(parameters)
     body = Body(n, parameters)
     ticks = (np.arange(2 * n) + 0.5) * body.h / 2.0
     particles = np.array(np.meshgrid(ticks, ticks)).reshape(2, -1)
@@ -94,9 +96,8 @@ def run(n, field, parameters):
         """Components last, as Taichi takes vectors."""
         return np.ascontiguousarray(np.moveaxis(values, 0, -1))
 
-    begin, last = field.time_window()
-    steps = 2 * n
-    dt = (last - begin) / 4.0 / steps
+    begin, _ = field.time_window()
+    dt = (end - begin) / steps
     start = field.at_time(begin)
     body.X.from_numpy(columns(particles))
     body.u.from_numpy(columns(start.displacement(*particles)))
@@ -108,21 +109,12 @@ def run(n, field, parameters):
         body.gather(columns(field.at_time(t).body_force(*particles)))
         body.move(dt, columns(field.at_time(t + dt / 2.0).velocity(*nodes)))
         body.scatter(dt)
-    exact = field.at_time(begin + steps * dt).displacement(*particles)
-    return np.sqrt(np.mean(np.sum((body.u.to_numpy().T - exact) ** 2, axis=0)))
+    return particles.T, body.u.to_numpy()
 
 
-def main():
-    parameters = travelling_wave_2d.Parameters()
-    field = travelling_wave_2d.prepare(parameters)
-    print("material points, linear weights, order 2 expected")
-    errors = []
-    for n in (8, 16, 32, 64):
-        errors.append(run(n, field, parameters))
-        orders = np.log2(np.divide(errors[:-1], errors[1:]))
-        print(f"{n:6d} {errors[-1]:10.3e}" + "".join(f" {order:6.2f}" for order in orders[-1:]))
-    # Not `abs(...) > 0.15`: that would let a number pass that is none.
-    sys.exit(not abs(orders[-1] - 2.0) <= 0.15)
+def main(cells, steps, end, path):
+    X, u = run(int(cells), int(steps), float(end))
+    np.savez(path, X=X, u=u)
 
 
-main()
+main(*sys.argv[1:])

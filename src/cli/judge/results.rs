@@ -7,13 +7,12 @@ use clap::Args;
 use mms_convergence::Verdict;
 use mms_results::names::{Mapping, Role};
 use mms_spec::foreign;
-use mms_spec::foreign::{Foreign, shown};
+use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
-use serde_json::{Map, Value, json};
 
 use super::super::{Outcome, say, this_command};
 use super::Judge;
-use crate::judge::results::{Baseline, Measurement, Reading, Results, measure, same};
+use crate::judge::results::{Baseline, Measurement, Reading, Results, measure, same, weight};
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
@@ -55,11 +54,6 @@ pub struct Options {
     same: Vec<String>,
 }
 
-fn weight(text: &str) -> Result<Role, &'static str> {
-    let role = Role::from_name(text).filter(|it| matches!(it, Role::Volume | Role::Mass));
-    role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
-}
-
 impl Judge {
     /// Judges results, or compares two.
     pub(super) fn results(&self, field: &str) -> anyhow::Result<Outcome> {
@@ -80,15 +74,11 @@ impl Judge {
         }
         let measurement = self.measured(&mut exact, &orders)?;
         measurement.warnings.iter().for_each(|warning| say(format_args!("warning: {warning}")));
-        let input = exact.input();
-        let title = format!("{}: {}", input.name.shown(), input.compiled.field.title.shown());
-        let provenance = this_command("judge", input.provenance(&options.set));
         if let Some(path) = &options.baseline {
-            return self.against(path, &title, &measurement);
+            return self.against(path, &exact.title(), &measurement);
         }
-        let more = self.more(&input.name, &measurement);
-        let report = Judgements::of(title, measurement.measured, provenance)?;
-        let report = Judgements { notes: measurement.notes, more, ..report };
+        let provenance = this_command("judge", exact.input().provenance(&options.set));
+        let report = Judgements::of_results(&exact, &self.files, measurement, provenance)?;
         self.tell(&report)
     }
 
@@ -102,21 +92,6 @@ impl Judge {
             self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
         let reading = Reading { map: &options.map, wanted: &wanted, weight: options.weight };
         measure(all, &reading, exact, &options.h, &options.time, orders)
-    }
-
-    /// What the document of results has besides.
-    fn more(&self, field: &Foreign, measurement: &Measurement) -> Map<String, Value> {
-        let names = measurement.measured.quantities.iter().map(|quantity| quantity.name.raw());
-        let samplings = names.zip(measurement.samplings.iter().map(|it| json!(it.name())));
-        let document = json!({
-            "field": field,
-            "files": self.files,
-            "times": measurement.times,
-            "samplings": samplings.map(|(name, it)| (name.to_owned(), it)).collect::<Map<_, _>>(),
-            "notes": measurement.notes,
-            "warnings": measurement.warnings,
-        });
-        if let Value::Object(document) = document { document } else { Map::new() }
     }
 
     fn against(

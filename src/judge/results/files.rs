@@ -21,6 +21,18 @@ pub struct Results {
 }
 
 impl Results {
+    /// The files that are named.
+    ///
+    /// # Errors
+    /// There are none.
+    pub fn paths(given: &str) -> anyhow::Result<Vec<PathBuf>> {
+        let found = paths(given)?;
+        match found.iter().find(|path| !path.is_file()) {
+            Some(path) => bail!("`{}`: no such file", foreign::path(path)),
+            None => Ok(found),
+        }
+    }
+
     /// Reads what was named.
     ///
     /// # Errors

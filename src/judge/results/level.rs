@@ -107,6 +107,15 @@ pub struct Found {
     pub passed_over: Vec<&'static str>,
 }
 
+/// What means may be taken by.
+///
+/// # Errors
+/// It is no such column.
+pub fn weight(text: &str) -> Result<Role, &'static str> {
+    let role = Role::from_name(text).filter(|it| matches!(it, Role::Volume | Role::Mass));
+    role.ok_or("expected volume or mass; `--map volume=NAME` says which column that is")
+}
+
 /// The quantity of the compiler that this is.
 fn quantity(role: Role) -> Option<Quantity> {
     Quantity::from_name(role.name())

@@ -18,7 +18,7 @@ use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
 pub use files::{Results, placed};
-pub use level::{Reading, Sampling};
+pub use level::{Reading, Sampling, weight};
 pub use same::{Difference, same};
 
 use self::level::{Errors, Found, Measure};

@@ -1,0 +1,104 @@
+//! What a solver says that it can.
+
+use mms_spec::BODIES;
+use mms_spec::diagnostic::{Diagnostic, quoted};
+use mms_spec::source::Spanned;
+use mms_spec::suggest::advice;
+use toml::de::DeTable;
+
+use crate::table::{Reader, Table};
+
+/// What a solver says that it can, in `can`. What it does not say, it cannot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Can {
+    /// The dimensions, 1 to 3.
+    pub dimensions: Vec<usize>,
+    /// The laws, by the names of materials; neo-Hookean where nothing is said.
+    pub materials: Vec<String>,
+    /// The shapes of bodies, one of `BODIES`; boxes where nothing is said.
+    pub bodies: Vec<String>,
+    /// Whether it takes tractions on faces.
+    pub tractions: bool,
+    /// Whether faces may move as they are told.
+    pub moving_walls: bool,
+    /// Whether it can start with v other than 0.
+    pub start_moving: bool,
+    /// Whether it can start with u other than 0.
+    pub start_deformed: bool,
+    /// Whether moduli or the density may depend on X.
+    pub graded: bool,
+    /// Whether bodies may move at all, as they may where nothing is said; else all is at rest.
+    pub dynamics: bool,
+}
+
+const KEYS: &[&str] = &[
+    "dimensions",
+    "materials",
+    "bodies",
+    "loads",
+    "moving_walls",
+    "start_moving",
+    "start_deformed",
+    "graded",
+    "dynamics",
+];
+
+/// What a solver may say of loads.
+const LOADS: &[&str] = &["traction"];
+
+pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Can> {
+    let value = table.get("can")?;
+    let span = reader.span(value);
+    let Some(entries) = value.get_ref().as_table() else {
+        reader.expect(span, "can", "a table, as in { dimensions = [2] }");
+        return None;
+    };
+    let table = of(reader, entries, span);
+    let words = |reader: &mut Reader, key: &str, known: &[&str]| {
+        let found = reader.texts(&table, key);
+        found.iter().for_each(|word| hold(reader, key, word, known));
+        found.into_iter().map(|word| word.value).collect::<Vec<_>>()
+    };
+    let bodies = words(reader, "bodies", BODIES);
+    let loads = words(reader, "loads", LOADS);
+    let materials = reader.texts(&table, "materials");
+    let materials: Vec<_> = materials.into_iter().map(|word| word.value).collect();
+    let or = |words: Vec<String>, usual: &str| {
+        if words.is_empty() { vec![usual.to_owned()] } else { words }
+    };
+    let is_dimension = |it: f64| [1.0, 2.0, 3.0].contains(&it);
+    let dimensions =
+        reader.numbers(&table, "dimensions", "some of 1, 2 and 3, as in [2]", is_dimension);
+    if table.get("dimensions").is_none() {
+        reader.missing(&table, "dimensions", "dimensions = [2]");
+    }
+    Some(Can {
+        dimensions: dimensions.unwrap_or_default().into_iter().map(|it| it as usize).collect(),
+        materials: or(materials, "neo_hookean"),
+        bodies: or(bodies, "box"),
+        tractions: !loads.is_empty(),
+        moving_walls: reader.flag(&table, "moving_walls", false),
+        start_moving: reader.flag(&table, "start_moving", false),
+        start_deformed: reader.flag(&table, "start_deformed", false),
+        graded: reader.flag(&table, "graded", false),
+        dynamics: reader.flag(&table, "dynamics", true),
+    })
+}
+
+fn of<'a>(
+    reader: &mut Reader,
+    entries: &'a DeTable<'a>,
+    span: mms_spec::source::Span,
+) -> Table<'a> {
+    reader.table(entries, "`can`", span, KEYS)
+}
+
+/// Refuses a word that is none of those that are known.
+pub(crate) fn hold(reader: &mut Reader, key: &str, word: &Spanned<String>, known: &[&str]) {
+    if known.contains(&word.value.as_str()) {
+        return;
+    }
+    let help = advice(&word.value, known.iter().copied(), |all| format!("expected one of {all}"));
+    let message = format!("`{key}`: no {}", quoted(&word.value));
+    reader.report(Diagnostic::error(word.span, message).label("unknown").help(help));
+}

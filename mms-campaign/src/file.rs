@@ -1,0 +1,472 @@
+//! What a campaign file says.
+
+use std::fmt;
+use std::num::NonZero;
+use std::time::Duration;
+
+use mms_spec::diagnostic::{Diagnostic, quoted, render};
+use mms_spec::source::{Sources, Span, Spanned};
+use toml::de::{DeTable, DeValue};
+
+use crate::can::{self, Can, hold};
+use crate::table::{Reader, Table, digits, number};
+use crate::template::{Placeholder, Template, Wrong};
+
+/// The formats of exact states.
+pub const STATES: &[&str] = &["vtu", "npz", "csv"];
+
+/// Seconds that a run may take where nothing is said.
+const TIME_LIMIT: f64 = 3600.0;
+
+/// The Courant number of time steps where nothing is said.
+const COURANT: f64 = 0.4;
+
+/// Half the width that the interval of an order may have where nothing is said.
+const TOLERANCE: f64 = 0.15;
+
+/// A solver, and what it is run on.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// The text, for messages about it.
+    pub sources: Sources,
+    /// How the solver is run.
+    pub solver: Solver,
+    /// What it is run on, each by a name of its own.
+    pub studies: Vec<Study>,
+}
+
+/// How a solver is run.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    /// What it is called.
+    pub name: String,
+    /// What tells it from what it was before.
+    pub version: Option<String>,
+    /// Files that its results depend on, besides those that the command names: paths and patterns.
+    pub sources: Vec<Spanned<String>>,
+    /// The words of its command line.
+    pub run: Vec<Template>,
+    /// Where it is run; in the folder of the file, if nothing is said.
+    pub directory: Option<Template>,
+    /// Which files are its results: a path or a pattern.
+    pub output: Template,
+    /// How many threads a run takes.
+    pub threads: NonZero<usize>,
+    /// How long a run may take.
+    pub time_limit: Duration,
+    /// The language that the field is written in before a run.
+    pub emit: Option<Spanned<String>>,
+    /// The format of the exact state, one of [`STATES`], where it asks for one.
+    pub state: Option<Spanned<String>>,
+    /// What it can.
+    pub can: Option<Can>,
+}
+
+/// A field, and the meshes that a solver is run on.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// Its name.
+    pub name: String,
+    /// A gallery name, or the path of a field file.
+    pub field: Spanned<String>,
+    /// Cells along the longest edge of the body, on each level.
+    pub cells: Vec<usize>,
+    /// dt on each level, where the file says it.
+    pub time_steps: Option<Vec<f64>>,
+    /// The Courant number that makes dt where the file does not say it.
+    pub courant: f64,
+    /// The last time; that of the field, where nothing is said.
+    pub end: Option<f64>,
+    /// The expected orders, as `mms judge` takes them.
+    pub order: Vec<Spanned<String>>,
+    /// Half the width that the interval of the order may have.
+    pub tolerance: f64,
+    /// What is judged; all that is found, where nothing is said.
+    pub quantity: Vec<Spanned<String>>,
+    /// What names of columns mean, as `mms judge` takes it.
+    pub map: Vec<Spanned<String>>,
+    /// h on each level, where it is not that of the cells.
+    pub h: Option<Vec<f64>>,
+    /// The times that are judged.
+    pub time: Vec<f64>,
+    /// The column that means are taken by.
+    pub weight: Option<Spanned<String>>,
+    /// Parameters, as `name=value`.
+    pub set: Vec<String>,
+    /// Its table.
+    pub span: Span,
+}
+
+impl Study {
+    /// How many runs it takes.
+    pub fn levels(&self) -> usize {
+        self.cells.len().max(self.time_steps.as_ref().map_or(0, Vec::len))
+    }
+}
+
+/// What is wrong with a file.
+#[derive(Clone, Debug)]
+pub struct Mistakes {
+    sources: Sources,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl std::error::Error for Mistakes {}
+
+impl fmt::Display for Mistakes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = render(&self.sources, &self.diagnostics);
+        write!(f, "the campaign file has mistakes\n{}", text.trim_end())
+    }
+}
+
+impl Campaign {
+    /// A mistake at a place of the file.
+    pub fn mistake(&self, span: Span, message: impl Into<String>, label: &str) -> Mistakes {
+        let diagnostic = Diagnostic::error(span, message).label(label);
+        Mistakes { sources: self.sources.clone(), diagnostics: vec![diagnostic] }
+    }
+
+    /// Whether a command or its results ask for something.
+    pub fn asks_for(&self, placeholder: Placeholder) -> bool {
+        self.solver.templates().any(|it| it.placeholders().any(|own| own == placeholder))
+    }
+}
+
+impl Solver {
+    fn templates(&self) -> impl Iterator<Item = &Template> {
+        self.run.iter().chain(&self.directory).chain([&self.output])
+    }
+}
+
+const SOLVER: &[&str] = &[
+    "name",
+    "version",
+    "sources",
+    "run",
+    "directory",
+    "output",
+    "threads",
+    "time_limit",
+    "emit",
+    "state",
+    "can",
+];
+
+const STUDY: &[&str] = &[
+    "name",
+    "field",
+    "cells",
+    "time_steps",
+    "courant",
+    "end",
+    "order",
+    "tolerance",
+    "quantity",
+    "map",
+    "h",
+    "time",
+    "weight",
+    "set",
+];
+
+/// Reads a text with the path that messages show for it.
+///
+/// # Errors
+/// Every mistake of form, at its place.
+pub fn read(path: &str, text: &str) -> Result<Campaign, Mistakes> {
+    let (mut reader, root) = Reader::new(path, text);
+    if !reader.diagnostics.is_empty() {
+        return Err(Mistakes { sources: reader.sources, diagnostics: reader.diagnostics });
+    }
+    let start = reader.sources.span(reader.source, 0, 0);
+    let root = reader.table(root.get_ref(), "a campaign file", start, &["solver", "study"]);
+    let solver = solver(&mut reader, &root);
+    let studies = studies(&mut reader, &root);
+    match solver {
+        Some(solver) if reader.diagnostics.is_empty() => {
+            Ok(Campaign { sources: reader.sources, solver, studies })
+        }
+        _ => Err(Mistakes { sources: reader.sources, diagnostics: reader.diagnostics }),
+    }
+}
+
+fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
+    let Some(value) = root.get("solver") else {
+        let example =
+            "[solver] has run = \"./solver {cells} {output}\" and output = \"{output}/*.csv\"";
+        let found = Diagnostic::error(root.span, "missing table [solver]");
+        reader.report(found.label("it says how the solver is run").help(example));
+        return None;
+    };
+    let span = reader.span(value);
+    let Some(entries) = value.get_ref().as_table() else {
+        reader.expect(span, "solver", "a table, [solver]");
+        return None;
+    };
+    let table = reader.table(entries, "[solver]", span, SOLVER);
+    let run = run(reader, &table);
+    let output = template(reader, &table, "output");
+    if table.get("output").is_none() {
+        reader.missing(&table, "output", "as in output = \"{output}/*.vtu\"");
+    }
+    let state = reader.text(&table, "state");
+    state.iter().for_each(|word| hold(reader, "state", word, STATES));
+    let found = Solver {
+        name: reader.text(&table, "name").map_or_else(|| "solver".to_owned(), |it| it.value),
+        version: reader.text(&table, "version").map(|it| it.value),
+        sources: reader.texts(&table, "sources"),
+        run: run?,
+        directory: template(reader, &table, "directory"),
+        output: output?,
+        threads: threads(reader, &table),
+        time_limit: limit(reader, &table),
+        emit: reader.text(&table, "emit"),
+        state,
+        can: can::read(reader, &table),
+    };
+    hold_emitted(reader, &table, &found);
+    hold_output(reader, &table, &found);
+    Some(found)
+}
+
+/// Holds `{emitted}` to `emit`.
+fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
+    let asks = solver.templates().any(|it| it.placeholders().any(|it| it == Placeholder::Emitted));
+    if asks && solver.emit.is_none() && table.get("emit").is_none() {
+        reader.missing(
+            table,
+            "emit",
+            "`{emitted}` is the folder that it fills, as in emit = \"numpy\"",
+        );
+    }
+}
+
+/// Refuses results in a place that all runs share: those of one would be taken for those of another.
+fn hold_output(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
+    let names = |template: &Template| template.placeholders().any(|it| it == Placeholder::Output);
+    if names(&solver.output) || solver.directory.as_ref().is_some_and(names) {
+        return;
+    }
+    let span = table.get("output").map_or(table.span, |value| reader.span(value));
+    let message = "`output`: all runs would write to the same place";
+    let help = "begin it with {output}, the folder of the run, and give that to the solver; for one that writes where it \
+                is run, directory = \"{output}\"";
+    reader.report(Diagnostic::error(span, message).label("no {output} in it").help(help));
+}
+
+/// The words of the command: split here, or an array.
+fn run(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<Template>> {
+    let Some(value) = table.get("run") else {
+        reader.missing(table, "run", "as in run = \"./solver --cells {cells} --out {output}\"");
+        return None;
+    };
+    let words = match value.get_ref() {
+        DeValue::String(text) => Template::words(text).map(Some),
+        DeValue::Array(items) if !items.is_empty() => {
+            let words = items.iter().map(|item| item.get_ref().as_str().map(Template::new));
+            words.map(Option::transpose).collect()
+        }
+        _ => Ok(None),
+    };
+    let span = reader.span(value);
+    match words {
+        Ok(Some(words)) => return Some(words),
+        Ok(None) => reader.expect(span, "run", "a command in quotes, or an array of its words"),
+        Err(wrong) => wrong_template(reader, span, "run", &wrong),
+    }
+    None
+}
+
+fn template(reader: &mut Reader, table: &Table<'_>, key: &str) -> Option<Template> {
+    let text = reader.text(table, key)?;
+    match Template::new(&text.value) {
+        Ok(template) => Some(template),
+        Err(wrong) => {
+            wrong_template(reader, text.span, key, &wrong);
+            None
+        }
+    }
+}
+
+fn wrong_template(reader: &mut Reader, span: Span, key: &str, wrong: &Wrong) {
+    let known: Vec<_> = Placeholder::ALL.iter().map(|it| it.name()).collect();
+    let help = match wrong {
+        Wrong::Unknown(name) => {
+            let all = |all: &str| format!("the placeholders are {all}");
+            let near = mms_spec::suggest::did_you_mean(name, known.iter().copied());
+            let near = near.map_or(String::new(), |it| format!("did you mean `{{{it}}}`? "));
+            near + &all(&known.join(", "))
+        }
+        Wrong::Unpaired(_) => format!("the placeholders are {}", known.join(", ")),
+        Wrong::Unclosed | Wrong::Empty => {
+            "the words are split as a POSIX shell does; or give an array of them".into()
+        }
+    };
+    let message = format!("`{key}`: {wrong}");
+    reader.report(Diagnostic::error(span, message).label("in this text").help(help));
+}
+
+fn threads(reader: &mut Reader, table: &Table<'_>) -> NonZero<usize> {
+    let count = table.get("threads").map(|value| (reader.span(value), whole(value)));
+    match count {
+        None => NonZero::<usize>::MIN,
+        Some((_, Some(count))) => count,
+        Some((span, None)) => {
+            reader.expect(span, "threads", "a whole number from 1 on");
+            NonZero::<usize>::MIN
+        }
+    }
+}
+
+fn limit(reader: &mut Reader, table: &Table<'_>) -> Duration {
+    let seconds = reader.positive(table, "time_limit").unwrap_or(TIME_LIMIT);
+    Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
+}
+
+/// A whole number from 1 on.
+fn whole(value: &toml::Spanned<DeValue<'_>>) -> Option<NonZero<usize>> {
+    let DeValue::Integer(digits) = value.get_ref() else { return None };
+    usize::from_str_radix(digits.as_str(), digits.radix()).ok().and_then(NonZero::new)
+}
+
+fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
+    let Some(value) = root.get("study") else { return Vec::new() };
+    let span = reader.span(value);
+    let Some(items) = value.get_ref().as_array() else {
+        reader.expect(span, "study", "an array of tables, [[study]]");
+        return Vec::new();
+    };
+    let mut studies: Vec<Study> = Vec::new();
+    for item in items.iter() {
+        let span = reader.span(item);
+        let Some(entries) = item.get_ref().as_table() else {
+            reader.expect(span, "study", "a table, [[study]]");
+            continue;
+        };
+        let Some(study) = study(reader, entries, span) else { continue };
+        if studies.iter().any(|other| other.name == study.name) {
+            let message = format!("two studies are called {}", quoted(&study.name));
+            let found = Diagnostic::error(span, message).label("the second of them");
+            reader.report(found.help("give it a `name` of its own"));
+        }
+        studies.push(study);
+    }
+    studies
+}
+
+fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study> {
+    let table = reader.table(entries, "[[study]]", span, STUDY);
+    let field = reader.text(&table, "field");
+    if table.get("field").is_none() {
+        reader.missing(&table, "field", "a name of the gallery, or the path of a field file");
+    }
+    let cells = cells(reader, &table);
+    let is_positive = |it: f64| it > 0.0;
+    let positive = "an array of positive numbers";
+    let time_steps = reader.numbers(&table, "time_steps", positive, is_positive);
+    let h = reader.numbers(&table, "h", positive, is_positive);
+    let time = reader.numbers(&table, "time", "an array of numbers", f64::is_finite);
+    let name = name(reader, &table, field.as_ref());
+    let study = Study {
+        name: name?,
+        field: field?,
+        cells: cells?,
+        time_steps,
+        courant: reader.positive(&table, "courant").unwrap_or(COURANT),
+        end: reader.number(&table, "end"),
+        order: orders(reader, &table),
+        tolerance: reader.positive(&table, "tolerance").unwrap_or(TOLERANCE),
+        quantity: reader.texts(&table, "quantity"),
+        map: reader.texts(&table, "map"),
+        h,
+        time: time.unwrap_or_default(),
+        weight: reader.text(&table, "weight"),
+        set: settings(reader, &table),
+        span,
+    };
+    hold_levels(reader, &table, &study);
+    Some(study)
+}
+
+/// The name of a study, which is that of a folder too: its own, or that of its field.
+fn name(reader: &mut Reader, table: &Table<'_>, field: Option<&Spanned<String>>) -> Option<String> {
+    let name = match reader.text(table, "name") {
+        Some(name) => name,
+        None => of_field(field?),
+    };
+    let is_odd = |c: char| c.is_control() || matches!(c, '/' | '\\');
+    let text = name.value.as_str();
+    if text.is_empty() || text.starts_with('.') || text.contains(is_odd) || text.len() > 100 {
+        let expected = "the name of a folder: no slash, no dot in front, at most 100 characters";
+        reader.expect(name.span, "name", expected);
+    }
+    Some(name.value)
+}
+
+/// What stands behind the last slash of a path, without what files end with.
+fn of_field(field: &Spanned<String>) -> Spanned<String> {
+    let file = field.value.rsplit(['/', '\\']).next().unwrap_or_default();
+    let stem = file.strip_suffix(".toml").unwrap_or(file);
+    Spanned { value: stem.to_owned(), span: field.span }
+}
+
+fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
+    let Some(value) = table.get("cells") else {
+        reader.missing(
+            table,
+            "cells",
+            "as in cells = [8, 16, 32]: cells along the longest edge, on each level",
+        );
+        return None;
+    };
+    let items = value.get_ref().as_array().filter(|items| !items.is_empty());
+    let found =
+        items.and_then(|items| items.iter().map(|it| whole(it).map(NonZero::get)).collect());
+    if found.is_none() {
+        let span = reader.span(value);
+        reader.expect(span, "cells", "an array of whole numbers from 1 on, one for each level");
+    }
+    found
+}
+
+/// As many of each as there are levels; or one mesh for all time steps.
+fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
+    let levels = study.levels();
+    let lengths = [
+        ("cells", Some(study.cells.len()).filter(|length| *length != 1)),
+        ("time_steps", study.time_steps.as_ref().map(Vec::len)),
+        ("h", study.h.as_ref().map(Vec::len)),
+    ];
+    for (key, length) in lengths {
+        let Some(length) = length.filter(|length| *length != levels) else { continue };
+        let span = table.get(key).map_or(table.span, |value| reader.span(value));
+        let message = format!("`{key}` has {length} values, and there are {levels} levels");
+        let help = "as many for each; or one number of cells for several time steps";
+        reader.report(Diagnostic::error(span, message).label("counted here").help(help));
+    }
+}
+
+/// A number, or as `--expected-order` takes it.
+fn orders(reader: &mut Reader, table: &Table<'_>) -> Vec<Spanned<String>> {
+    let plain = table.get("order").filter(|value| number(value).is_some());
+    match plain.and_then(|value| Some((value, digits(value)?))) {
+        Some((value, value_text)) => vec![Spanned { value: value_text, span: reader.span(value) }],
+        None => reader.texts(table, "order"),
+    }
+}
+
+/// Parameters by their names.
+fn settings(reader: &mut Reader, table: &Table<'_>) -> Vec<String> {
+    let Some(value) = table.get("set") else { return Vec::new() };
+    let found = value.get_ref().as_table().and_then(|table| {
+        let pairs = table
+            .iter()
+            .map(|(name, value)| Some(format!("{}={}", name.get_ref(), digits(value)?)));
+        pairs.collect()
+    });
+    found.unwrap_or_else(|| {
+        reader.expect(reader.span(value), "set", "a table of numbers, as in { young = 1e6 }");
+        Vec::new()
+    })
+}

@@ -1,0 +1,184 @@
+//! Texts with placeholders, such as `--cells {cells}`.
+
+use std::fmt;
+
+macro_rules! placeholders {
+    ($($variant:ident $name:literal $is_path:literal $doc:literal,)*) => {
+        /// What a text may have that is another one in each run.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Placeholder {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl Placeholder {
+            /// All of them.
+            pub const ALL: &[Placeholder] = &[$(Placeholder::$variant),*];
+
+            /// The word between the braces.
+            pub fn name(self) -> &'static str {
+                match self { $(Placeholder::$variant => $name,)* }
+            }
+
+            /// Whether it is a path, which is no part of what a run is.
+            pub fn is_path(self) -> bool {
+                match self { $(Placeholder::$variant => $is_path,)* }
+            }
+        }
+    };
+}
+
+placeholders! {
+    Name "name" false "The name of the study.",
+    Field "field" false "The name of its field.",
+    Level "level" false "The level, from 1 on.",
+    Cells "cells" false "How many cells there are along the longest edge of the body.",
+    CellSize "cell_size" false "h, the longest edge of a cell.",
+    TimeStep "time_step" false "dt.",
+    Steps "steps" false "How many time steps lead from the start to the end.",
+    Start "start" false "The first time.",
+    End "end" false "The last time.",
+    Output "output" true "The folder for the results of the run.",
+    Emitted "emitted" true "The folder with the source of the field.",
+    State "state" true "The file with the exact state at the start.",
+    Here "here" true "The folder of the campaign file.",
+}
+
+/// A text with placeholders.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Template(Vec<Piece>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Piece {
+    Text(String),
+    Value(Placeholder),
+}
+
+/// Why a text is no template.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Wrong {
+    /// Nothing is called so.
+    Unknown(String),
+    /// A brace that has no other.
+    Unpaired(char),
+    /// A quote that is not closed, or a backslash at the end.
+    Unclosed,
+    /// There is nothing in it.
+    Empty,
+}
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Wrong::Unknown(name) => write!(f, "unknown placeholder `{{{name}}}`"),
+            Wrong::Unpaired(brace) => {
+                write!(f, "a lone `{brace}`; write `{brace}{brace}` for the character")
+            }
+            Wrong::Unclosed => f.write_str("a quote is not closed, or a backslash ends it"),
+            Wrong::Empty => f.write_str("it has no word"),
+        }
+    }
+}
+
+impl Template {
+    /// Reads `{name}` as a placeholder, and `{{` and `}}` as braces.
+    ///
+    /// # Errors
+    /// A name that is none, a brace alone.
+    pub fn new(text: &str) -> Result<Self, Wrong> {
+        let (mut pieces, mut plain, mut rest) = (Vec::new(), String::new(), text);
+        while let Some(at) = rest.find(['{', '}']) {
+            let (before, behind) = rest.split_at(at);
+            plain += before;
+            rest = match behind.as_bytes() {
+                [b'{', b'{', ..] | [b'}', b'}', ..] => {
+                    plain += &behind[..1];
+                    &behind[2..]
+                }
+                [b'{', ..] => {
+                    let (name, rest) = behind[1..].split_once('}').ok_or(Wrong::Unpaired('{'))?;
+                    let found = Placeholder::ALL.iter().find(|it| it.name() == name);
+                    let found = found.ok_or_else(|| Wrong::Unknown(name.to_owned()))?;
+                    pieces.push(Piece::Text(std::mem::take(&mut plain)));
+                    pieces.push(Piece::Value(*found));
+                    rest
+                }
+                _ => return Err(Wrong::Unpaired('}')),
+            };
+        }
+        pieces.push(Piece::Text(plain + rest));
+        Ok(Template(pieces))
+    }
+
+    /// The words of a command line, split as POSIX does, before anything is put in.
+    ///
+    /// # Errors
+    /// A quote that is not closed, no word, a placeholder that is none.
+    pub fn words(text: &str) -> Result<Vec<Self>, Wrong> {
+        match shlex::split(text) {
+            None => Err(Wrong::Unclosed),
+            Some(words) if words.is_empty() => Err(Wrong::Empty),
+            Some(words) => words.iter().map(|word| Self::new(word)).collect(),
+        }
+    }
+
+    /// The placeholders in it.
+    pub fn placeholders(&self) -> impl Iterator<Item = Placeholder> {
+        self.0.iter().filter_map(|piece| match piece {
+            Piece::Text(_) => None,
+            Piece::Value(placeholder) => Some(*placeholder),
+        })
+    }
+
+    /// The text, with values in the place of placeholders.
+    pub fn fill(&self, value: impl Fn(Placeholder) -> String) -> String {
+        let text = |piece: &Piece| match piece {
+            Piece::Text(text) => text.clone(),
+            Piece::Value(placeholder) => value(*placeholder),
+        };
+        self.0.iter().map(text).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(text: &str) -> Result<Vec<String>, Wrong> {
+        let value = |it: Placeholder| match it {
+            Placeholder::Cells => "8".to_owned(),
+            Placeholder::Output => "a b/it's \"$HOME\"".to_owned(),
+            other => other.name().to_uppercase(),
+        };
+        Ok(Template::words(text)?.iter().map(|word| word.fill(value)).collect())
+    }
+
+    #[test]
+    fn words_are_split_before_values_are_put_in() {
+        let output = "a b/it's \"$HOME\"";
+        for (text, words) in [
+            ("run --cells {cells}", vec!["run", "--cells", "8"]),
+            ("run --out={output}", vec!["run", &format!("--out={output}")]),
+            ("run '{output}'", vec!["run", output]),
+            (r#"run "a b"\ c '$HOME' ''"#, vec!["run", "a b c", "$HOME", ""]),
+            ("run {{cells}} }}{cells}{{", vec!["run", "{cells}", "}8{"]),
+            ("echo $HOME; rm *", vec!["echo", "$HOME;", "rm", "*"]),
+        ] {
+            assert_eq!(filled(text).unwrap(), words, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        for (text, wrong) in [
+            ("run {cels}", Wrong::Unknown("cels".into())),
+            ("run {", Wrong::Unpaired('{')),
+            ("run }", Wrong::Unpaired('}')),
+            ("run {}", Wrong::Unknown(String::new())),
+            ("run 'x", Wrong::Unclosed),
+            ("run x\\", Wrong::Unclosed),
+            (" ", Wrong::Empty),
+        ] {
+            assert_eq!(filled(text), Err(wrong), "{text}");
+        }
+    }
+}

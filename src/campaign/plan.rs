@@ -1,0 +1,466 @@
+//! The runs of a campaign.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, anyhow, bail};
+use mms_campaign::template::{Placeholder, Template};
+use mms_campaign::{Campaign, Study};
+use mms_emit::{TARGETS, Target};
+use mms_mechanics::sample::domain;
+use mms_results::names::{Mapping, Role};
+use mms_runtime::Division;
+use mms_spec::foreign;
+use mms_spec::quantity::Quantity;
+use mms_spec::source::Spanned;
+use mms_spec::suggest::advice;
+use serde::Serialize;
+
+use crate::judge::results::weight;
+use crate::judge::table::{Order, Orders};
+use crate::read::{self, Kind};
+use crate::session::input::{Input, Variant, quantities};
+use crate::session::stability::sound;
+use crate::store::digest;
+
+/// A campaign, ready to be run.
+pub struct Plan {
+    /// What the file says.
+    pub campaign: Campaign,
+    /// The folder of the file.
+    pub here: PathBuf,
+    /// The language that fields are written in.
+    pub target: Option<&'static Target>,
+    /// The studies that were asked for.
+    pub studies: Vec<Planned>,
+}
+
+/// A study, with what its words mean.
+pub struct Planned {
+    /// What the file says.
+    pub study: Study,
+    /// Its field.
+    pub input: Input,
+    /// The first and the last time.
+    pub window: [f64; 2],
+    /// How its results are judged.
+    pub options: Judging,
+    /// Its runs, those that were asked for.
+    pub jobs: Vec<Job>,
+}
+
+/// What the options of `mms judge` say.
+pub struct Judging {
+    /// What is judged; all that is found, if there is none.
+    pub quantities: Vec<Quantity>,
+    /// What names of columns mean.
+    pub map: Vec<Mapping>,
+    /// The expected orders.
+    pub orders: Orders,
+    /// The column that means are taken by.
+    pub weight: Option<Role>,
+}
+
+impl Planned {
+    /// Whether all of its levels were asked for, so that it can be judged.
+    pub fn is_whole(&self) -> bool {
+        self.jobs.len() == self.study.levels()
+    }
+}
+
+/// One run.
+pub struct Job {
+    /// `study/level`.
+    pub name: String,
+    /// The level, from 1 on.
+    pub level: usize,
+    /// Cells along the longest edge of the body.
+    pub cells: usize,
+    /// h.
+    pub cell_size: f64,
+    /// dt.
+    pub time_step: f64,
+    /// How many there are.
+    pub steps: u64,
+    /// What its result depends on.
+    pub key: Key,
+}
+
+/// Everything that the result of a run depends on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Key {
+    /// Of this program.
+    pub version: &'static str,
+    /// Of the solver, as the file says it.
+    pub solver: Option<String>,
+    /// The words of the command, with paths that are this program's choice as placeholders.
+    pub command: Vec<String>,
+    /// Where it is run.
+    pub directory: String,
+    /// Which files are its results.
+    pub output: String,
+    /// Digests of the files that words of the command name, and of those that the file lists.
+    pub files: Vec<(String, String)>,
+    /// The language that the field is written in.
+    pub emit: Option<&'static str>,
+    /// The format of the exact state.
+    pub state: Option<String>,
+    /// The digest of the field's text, and of its own material's.
+    pub field: String,
+    /// Parameters.
+    pub set: Vec<String>,
+}
+
+/// Which runs are asked for: a study, or a level of one.
+pub struct Only(String);
+
+impl Only {
+    fn study(&self) -> &str {
+        self.0.rsplit_once('/').map_or(&self.0, |(study, _)| study)
+    }
+
+    fn takes(&self, study: &str, level: usize) -> bool {
+        self.0 == study || self.0 == format!("{study}/{level}")
+    }
+}
+
+impl From<String> for Only {
+    fn from(name: String) -> Self {
+        Only(name)
+    }
+}
+
+impl Plan {
+    /// The runs of a file, all or some.
+    ///
+    /// # Errors
+    /// What is wrong with the file, at its place.
+    pub fn new(path: &Path, campaign: Campaign, only: &[Only]) -> anyhow::Result<Self> {
+        hold_only(&campaign, only)?;
+        hold_state(&campaign)?;
+        let here = folder_of(path)?;
+        let target = target(&campaign)?;
+        let sources = sources(&campaign, &here)?;
+        let mut studies = Vec::new();
+        for study in &campaign.studies {
+            let is_asked = |level: &usize| {
+                only.is_empty() || only.iter().any(|it| it.takes(&study.name, *level))
+            };
+            let levels: Vec<usize> = (1..=study.levels()).filter(is_asked).collect();
+            if !levels.is_empty() {
+                let setting =
+                    Setting { campaign: &campaign, here: &here, target, sources: &sources };
+                studies.push(setting.planned(study, &levels)?);
+            }
+        }
+        Ok(Plan { campaign, here, target, studies })
+    }
+}
+
+/// The folder of a file, whatever the working directory of a run will be.
+fn folder_of(path: &Path) -> anyhow::Result<PathBuf> {
+    let folder = path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().with_context(|| format!("no folder `{}`", foreign::path(folder)))
+}
+
+/// Refuses names of what is not there.
+fn hold_only(campaign: &Campaign, only: &[Only]) -> anyhow::Result<()> {
+    for it in only {
+        let study = campaign.studies.iter().find(|study| study.name == it.study());
+        let known = study.is_some_and(|study| {
+            it.0 == study.name || (1..=study.levels()).any(|level| it.takes(&study.name, level))
+        });
+        if !known {
+            let names = campaign.studies.iter().map(|study| study.name.as_str());
+            let levels =
+                |study: &Study| format!("`{}` has levels 1 to {}", study.name, study.levels());
+            let help = study.map_or_else(
+                || advice(it.study(), names, |all| format!("the studies are {all}")),
+                levels,
+            );
+            bail!(
+                "`--only {}`: no such study or level; {}",
+                foreign::shown(&it.0),
+                foreign::shown(&help)
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Exact states are written nowhere yet. Who writes them asks for them in `Work::prepare`, and this goes.
+fn hold_state(campaign: &Campaign) -> anyhow::Result<()> {
+    let solver = &campaign.solver;
+    if solver.state.is_none() && !campaign.asks_for(Placeholder::State) {
+        return Ok(());
+    }
+    bail!(
+        "`{{state}}`: this version of mms writes no file with the exact state at the start; let the solver compute it from \
+         the emitted field (`emit = \"numpy\"`, `{{emitted}}`)"
+    )
+}
+
+/// The language that fields are written in.
+fn target(campaign: &Campaign) -> anyhow::Result<Option<&'static Target>> {
+    let Some(word) = &campaign.solver.emit else { return Ok(None) };
+    Target::find(&word.value).map(Some).ok_or_else(|| {
+        let names = TARGETS.iter().map(|target| target.name);
+        let help = advice(&word.value, names, |all| format!("the targets are {all}"));
+        let message = format!("`emit`: no target `{}`; {help}", foreign::shown(&word.value));
+        campaign.mistake(word.span, message, "unknown").into()
+    })
+}
+
+/// The files that results depend on besides, each with a digest of what is in it.
+fn sources(campaign: &Campaign, here: &Path) -> anyhow::Result<Vec<(String, String)>> {
+    let mut all = Vec::new();
+    for word in &campaign.solver.sources {
+        let missing = |why: &str| campaign.mistake(word.span, format!("`sources`: {why}"), "this");
+        let pattern = Path::new(&glob::Pattern::escape(&text(here)?)).join(&word.value);
+        let found = glob::glob(&text(&pattern)?).map_err(|error| missing(error.msg))?;
+        let files = found.filter_map(Result::ok).filter_map(|path| {
+            let digest = content(&path)?;
+            Some((path.strip_prefix(here).unwrap_or(&path).to_string_lossy().into_owned(), digest))
+        });
+        let before = all.len();
+        all.extend(files);
+        if all.len() == before {
+            return Err(missing("there is no such file").into());
+        }
+    }
+    Ok(all)
+}
+
+/// What all studies of a file share.
+struct Setting<'a> {
+    campaign: &'a Campaign,
+    here: &'a Path,
+    target: Option<&'static Target>,
+    sources: &'a [(String, String)],
+}
+
+impl Setting<'_> {
+    /// What an option of `mms judge` makes of a word of the file.
+    fn option<T>(
+        &self,
+        word: &Spanned<String>,
+        key: &str,
+        value: Result<T, String>,
+    ) -> anyhow::Result<T> {
+        value.map_err(|why| {
+            self.campaign.mistake(word.span, format!("`{key}`: {why}"), "this").into()
+        })
+    }
+
+    fn options<T>(
+        &self,
+        words: &[Spanned<String>],
+        key: &str,
+        value: impl Fn(&str) -> Result<T, String>,
+    ) -> anyhow::Result<Vec<T>> {
+        words.iter().map(|word| self.option(word, key, value(&word.value))).collect()
+    }
+
+    /// The field of a study; a path is one from the folder of the file.
+    fn field(&self, study: &Study) -> anyhow::Result<Input> {
+        let field = &study.field;
+        let path = self.here.join(&field.value);
+        let is_path = field.value.ends_with(".toml");
+        let named = if is_path { path.to_string_lossy() } else { field.value.as_str().into() };
+        let input = Input::find(&named, &Variant::default());
+        let input = input.and_then(|input| input.hold(&study.set).map(|()| input));
+        input.map_err(|error| {
+            let why = format!("{error:#}");
+            let (first, rest) = why.split_once('\n').unwrap_or((&why, ""));
+            let mistake = self.campaign.mistake(field.span, format!("`field`: {first}"), "this");
+            anyhow!("{mistake}\n{rest}")
+        })
+    }
+
+    fn planned(&self, study: &Study, levels: &[usize]) -> anyhow::Result<Planned> {
+        let input = self.field(study)?;
+        let settings = input.settings(&study.set)?;
+        let parameters = input.compiled.parameters::<f64>(&settings);
+        let (_, [first, last]) = domain(&input.compiled.program, &parameters);
+        let end = study.end.unwrap_or(last);
+        if !(end > first && end <= last) {
+            let message = format!("`end`: the time window of the field is {first:?} to {last:?}");
+            return Err(self.campaign.mistake(study.span, message, "of this study").into());
+        }
+        let speed = sound(&input.compiled, &settings)[1];
+        let place = Place { setting: self, study, input: &input, window: [first, end], speed };
+        let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
+        let options = self.judging(study)?;
+        Ok(Planned { study: study.clone(), window: [first, end], options, jobs, input })
+    }
+
+    fn judging(&self, study: &Study) -> anyhow::Result<Judging> {
+        let text = |word: &str| quantities(&[word.to_owned()]).map_err(|error| error.to_string());
+        let quantities = self.options(&study.quantity, "quantity", text)?.concat();
+        let map = self.options(&study.map, "map", |word| word.parse::<Mapping>())?;
+        let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
+        let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
+        let of = |word: &Spanned<String>| {
+            self.option(word, "weight", weight(&word.value).map_err(str::to_owned))
+        };
+        let weight = study.weight.as_ref().map(of).transpose()?;
+        Ok(Judging { quantities, map, orders, weight })
+    }
+}
+
+/// What all runs of a study share.
+struct Place<'a> {
+    setting: &'a Setting<'a>,
+    study: &'a Study,
+    input: &'a Input,
+    window: [f64; 2],
+    /// The greatest c0.
+    speed: f64,
+}
+
+impl Place<'_> {
+    fn job(&self, level: usize) -> anyhow::Result<Job> {
+        let study = self.study;
+        let at = level - 1;
+        let cells = study.cells.get(at).copied().unwrap_or(study.cells[0]);
+        let scene = self.input.scene::<f64>(&study.set, |code| code.double)?;
+        let cell_size = scene.cell_size(&Division::Uniform(cells));
+        let (time_step, steps) = self.steps(at, cell_size)?;
+        let name = format!("{}/{level}", study.name);
+        let key = Key {
+            version: env!("CARGO_PKG_VERSION"),
+            solver: None,
+            command: Vec::new(),
+            directory: String::new(),
+            output: String::new(),
+            files: Vec::new(),
+            emit: self.setting.target.map(|target| target.name),
+            state: self.setting.campaign.solver.state.as_ref().map(|it| it.value.clone()),
+            field: self.input.compiled.input_hash(),
+            set: study.set.clone(),
+        };
+        let job = Job { name, level, cells, cell_size, time_step, steps, key };
+        Ok(self.with_command(job))
+    }
+
+    /// dt as the file says it, or the longest of the Courant number that divides the window; and how many there are.
+    fn steps(&self, at: usize, cell_size: f64) -> anyhow::Result<(f64, u64)> {
+        let duration = self.window[1] - self.window[0];
+        let given = self.study.time_steps.as_ref().and_then(|steps| steps.get(at));
+        let longest = given.copied().unwrap_or(self.study.courant * cell_size / self.speed);
+        // Round-off must not add a step to a whole number of steps.
+        let steps = (duration / longest * (1.0 - 1e-6)).ceil().max(1.0);
+        if !(steps.is_finite() && steps < 1e12) {
+            bail!(
+                "`{}`: level {} would take {steps:e} steps of {longest:e}; give `time_steps`, or fewer `cells`",
+                foreign::shown(&self.study.name),
+                at + 1
+            );
+        }
+        Ok((given.copied().unwrap_or(duration / steps), steps as u64))
+    }
+
+    /// Says what the result depends on.
+    fn with_command(&self, mut job: Job) -> Job {
+        let Setting { campaign, here, .. } = *self.setting;
+        let solver = &campaign.solver;
+        let value = |it: Placeholder| match it.is_path() {
+            true => format!("{{{}}}", it.name()),
+            false => self.value(&job, it),
+        };
+        let command: Vec<String> = solver.run.iter().map(|word| word.fill(value)).collect();
+        let directory = solver.directory.as_ref().map_or("{here}".to_owned(), |it| it.fill(value));
+        let output = solver.output.fill(value);
+        let named = |word: &String| {
+            let path = here.join(word.replace("{here}", &here.to_string_lossy()));
+            Some((word.clone(), content(&path)?))
+        };
+        let named = command.iter().filter_map(named);
+        job.key.files = named.chain(self.setting.sources.iter().cloned()).collect();
+        job.key.solver = solver.version.clone();
+        (job.key.command, job.key.directory, job.key.output) = (command, directory, output);
+        job
+    }
+
+    fn value(&self, job: &Job, placeholder: Placeholder) -> String {
+        value(self.study, self.input, self.window, job, placeholder)
+    }
+}
+
+/// What stands for a placeholder that is no path.
+fn value(
+    study: &Study,
+    input: &Input,
+    [start, end]: [f64; 2],
+    job: &Job,
+    placeholder: Placeholder,
+) -> String {
+    match placeholder {
+        Placeholder::Name => study.name.clone(),
+        Placeholder::Field => input.name.raw().to_owned(),
+        Placeholder::Level => job.level.to_string(),
+        Placeholder::Cells => job.cells.to_string(),
+        Placeholder::CellSize => format!("{:?}", job.cell_size),
+        Placeholder::TimeStep => format!("{:?}", job.time_step),
+        Placeholder::Steps => job.steps.to_string(),
+        Placeholder::Start => format!("{start:?}"),
+        Placeholder::End => format!("{end:?}"),
+        Placeholder::Output | Placeholder::Emitted | Placeholder::State | Placeholder::Here => {
+            String::new()
+        }
+    }
+}
+
+/// The folders and files of a run that its command may name.
+pub struct Paths {
+    /// For its results.
+    pub output: String,
+    /// With the source of the field.
+    pub emitted: String,
+    /// The exact state at the start.
+    pub state: String,
+    /// That of the campaign file.
+    pub here: String,
+}
+
+impl Planned {
+    /// A text of the file for one of the runs.
+    pub fn fill(&self, template: &Template, job: &Job, paths: &Paths) -> String {
+        template.fill(|it| self.value(job, paths, it))
+    }
+
+    /// The same, where what is put in is taken literally in a pattern.
+    pub fn pattern(&self, template: &Template, job: &Job, paths: &Paths) -> String {
+        let plain = self.fill(template, job, paths);
+        let own = template.fill(|_| String::new());
+        if !own.contains(['*', '?', '[']) {
+            return plain;
+        }
+        template.fill(|it| glob::Pattern::escape(&self.value(job, paths, it)))
+    }
+
+    fn value(&self, job: &Job, paths: &Paths, placeholder: Placeholder) -> String {
+        match placeholder {
+            Placeholder::Output => paths.output.clone(),
+            Placeholder::Emitted => paths.emitted.clone(),
+            Placeholder::State => paths.state.clone(),
+            Placeholder::Here => paths.here.clone(),
+            other => value(&self.study, &self.input, self.window, job, other),
+        }
+    }
+}
+
+/// What is in a file that a word names, if it names one: a program or an input that has changed makes another run.
+fn content(path: &Path) -> Option<String> {
+    let found = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
+    match read::bytes(path, Kind::Program) {
+        Ok(bytes) => Some(digest([bytes])),
+        // One that is too long is told from others by when it was written.
+        Err(_) => Some(format!("{} bytes, {:?}", found.len(), found.modified().ok())),
+    }
+}
+
+/// A path as a text, which it has to be to stand in a command.
+pub fn text(path: &Path) -> anyhow::Result<String> {
+    let text = path.to_str().map(str::to_owned);
+    text.ok_or_else(|| anyhow!("`{}`: expected a path in UTF-8", foreign::path(path)))
+}

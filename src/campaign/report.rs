@@ -1,0 +1,200 @@
+//! What is said of a campaign: text and JSON document.
+
+use std::path::Path;
+
+use mms_convergence::Verdict;
+use mms_spec::foreign::{one_line, shown};
+use serde_json::{Value, json};
+
+use super::judged::Judged;
+use super::plan::{Job, Plan, Planned};
+use super::work::Outcome;
+use crate::provenance::Provenance;
+use crate::report::{Judgements, duration, plain, pretty, to_the_right, write_files};
+
+/// A campaign that was carried out, or what was asked for of it.
+pub struct Report<'a> {
+    /// What was asked for.
+    pub plan: &'a Plan,
+    /// What is said of each study.
+    pub studies: Vec<Judged<'a>>,
+    /// Where it is from.
+    pub provenance: Provenance,
+}
+
+impl Report<'_> {
+    fn outcomes(&self) -> impl Iterator<Item = (&Job, &Outcome)> {
+        self.studies.iter().flat_map(|it| it.planned.jobs.iter().zip(&it.outcomes))
+    }
+
+    /// Whether a run did not come to its end, or its results say nothing.
+    pub fn has_failed(&self) -> bool {
+        let failed = |(_, outcome): (&Job, &Outcome)| !matches!(outcome, Outcome::Finished(_));
+        self.outcomes().any(failed) || self.studies.iter().any(|it| it.mistake.is_some())
+    }
+
+    /// Whether a verdict is no pass.
+    pub fn is_refuted(&self) -> bool {
+        let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
+        verdicts.any(|verdict| verdict != Verdict::Pass)
+    }
+
+    /// All of it for a terminal.
+    pub fn text(&self) -> String {
+        let mut parts: Vec<String> = self.studies.iter().flat_map(Judged::parts).collect();
+        if self.studies.iter().any(|it| it.planned.is_whole()) {
+            parts.push(self.matrix());
+        }
+        parts.push(self.tally());
+        parts.join("\n\n")
+    }
+
+    /// A row for each study.
+    fn matrix(&self) -> String {
+        let mut table = plain(["study", "field", "expected", "observed", "of", "verdict"]);
+        for judged in self.studies.iter().filter(|it| it.planned.is_whole()) {
+            table.add_row(judged.row());
+        }
+        to_the_right(table).to_string()
+    }
+
+    fn tally(&self) -> String {
+        let finished = self.outcomes().filter(|(_, it)| matches!(it, Outcome::Finished(_))).count();
+        let runs = format!("{finished} of {} runs are done", self.outcomes().count());
+        let judged: Vec<_> = self.studies.iter().filter(|it| it.planned.is_whole()).collect();
+        let passed = judged.iter().filter(|it| it.verdict() == Some(Verdict::Pass)).count();
+        match judged.len() {
+            0 => runs,
+            all => format!("{runs}; {passed} of {all} studies pass"),
+        }
+    }
+
+    /// The JSON document.
+    pub fn document(&self) -> Value {
+        let solver = &self.plan.campaign.solver;
+        let document = json!({
+            "solver": solver.name,
+            "solver_version": solver.version,
+            "studies": self.studies.iter().map(Judged::document).collect::<Vec<_>>(),
+            "passed": self.studies.iter().filter(|it| it.verdict() == Some(Verdict::Pass)).count(),
+        });
+        self.provenance.sign(document)
+    }
+
+    /// Writes campaign.json, and for each study its picture and its table; returns their paths.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<Vec<String>> {
+        let mut paths = write_files(folder, "campaign", [("json", pretty(&self.document())?)])?;
+        for judged in &self.studies {
+            if let Some(judgements) = &judged.judgements {
+                paths.extend(judgements.write_parts(&folder.join(&judged.planned.study.name))?);
+            }
+        }
+        Ok(paths)
+    }
+}
+
+impl Judged<'_> {
+    /// The verdict; none where there are no results, or where these say nothing.
+    fn verdict(&self) -> Option<Verdict> {
+        self.judgements.as_ref().map(Judgements::verdict)
+    }
+
+    fn parts(&self) -> Vec<String> {
+        let mut parts = Vec::new();
+        let failed = self.planned.jobs.iter().zip(&self.outcomes);
+        parts.extend(failed.filter_map(|(job, outcome)| failure(job, outcome)));
+        parts.extend(self.mistake.as_ref().map(|it| format!("{}: {it}", self.name())));
+        parts.extend(
+            self.judgements.as_ref().map(|it| format!("{}\n{}", self.heading(), it.table())),
+        );
+        parts
+    }
+
+    fn name(&self) -> String {
+        shown(&self.planned.study.name)
+    }
+
+    fn heading(&self) -> String {
+        format!("study {}", self.name())
+    }
+
+    fn row(&self) -> Vec<String> {
+        let dash = || "-".to_owned();
+        let deciding = self.judgements.as_ref().and_then(|it| it.deciding());
+        let word = match (self.verdict(), &self.mistake) {
+            (Some(verdict), _) => verdict.to_string(),
+            (None, Some(_)) => "not judged: its results say nothing".into(),
+            (None, None) => "not judged: no results".into(),
+        };
+        vec![
+            self.name(),
+            self.planned.input.name.shown(),
+            deciding.as_ref().map_or_else(dash, |it| it.expected.to_string()),
+            deciding.as_ref().and_then(|it| it.observed.clone()).unwrap_or_else(dash),
+            deciding.map_or_else(dash, |it| it.of),
+            word,
+        ]
+    }
+
+    fn document(&self) -> Value {
+        let Planned { study, input, jobs, .. } = self.planned;
+        let runs = jobs.iter().zip(&self.outcomes).map(|(job, outcome)| run(job, outcome));
+        json!({
+            "name": study.name,
+            "field": input.name,
+            "runs": runs.collect::<Vec<_>>(),
+            "mistake": self.mistake,
+            "verdict": self.verdict().map(|it| it.to_string()),
+            "judgement": self.judgements.as_ref().map(|it| it.document()),
+        })
+    }
+}
+
+/// What is said of a run that did not come to its end.
+fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
+    let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
+    let words: String = last_words.iter().map(|line| format!("\n    {}", one_line(line))).collect();
+    let words = if words.is_empty() { "\n    (it printed nothing)".to_owned() } else { words };
+    Some(format!(
+        "{} failed: {}{words}\n  all of it is in {}",
+        shown(&job.name),
+        reason,
+        shown(folder)
+    ))
+}
+
+/// A run that ended, in a line.
+pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
+    let name = shown(&job.name);
+    match outcome {
+        Outcome::Finished(it) if is_new => format!("{name}: done in {}", duration(it.seconds)),
+        Outcome::Finished(_) => format!("{name}: was done before"),
+        Outcome::Failed { reason, .. } => format!("{name}: {reason}"),
+        Outcome::Interrupted => format!("{name}: interrupted"),
+    }
+}
+
+fn run(job: &Job, outcome: &Outcome) -> Value {
+    let (status, reason, last_words, folder, seconds) = match outcome {
+        Outcome::Finished(it) => ("done", None, None, Some(&it.folder), Some(it.seconds)),
+        Outcome::Failed { reason, last_words, folder } => {
+            ("failed", Some(reason), Some(last_words), Some(folder), None)
+        }
+        Outcome::Interrupted => ("interrupted", None, None, None, None),
+    };
+    json!({
+        "level": job.level,
+        "cells": job.cells,
+        "cell_size": job.cell_size,
+        "time_step": job.time_step,
+        "steps": job.steps,
+        "status": status,
+        "reason": reason,
+        "last_words": last_words,
+        "folder": folder,
+        "seconds": seconds,
+    })
+}

@@ -1,0 +1,322 @@
+//! Makes the runs of a campaign that the store does not hold.
+
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use anyhow::{Context as _, anyhow};
+use mms_campaign::STATES;
+use mms_campaign::process::{Ended, Folder, Order};
+use mms_codegen::rust::File;
+use mms_emit::{Subject, Target};
+use mms_spec::foreign;
+use serde::{Deserialize, Serialize};
+
+use super::plan::{Job, Paths, Plan, Planned, text};
+use crate::judge::results::Results;
+use crate::report::write_own;
+use crate::shell::quoted;
+use crate::store::{Entry, Store, digest, side_by_side};
+
+/// A run that came to its end, as it is stored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finished {
+    /// Its folder, below the store.
+    pub folder: String,
+    /// How long it took.
+    pub seconds: f64,
+    /// Its results, each with how many bytes it has.
+    pub results: Vec<(String, u64)>,
+}
+
+/// What came of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It came to its end, now or before.
+    Finished(Finished),
+    /// It did not.
+    Failed {
+        /// Why.
+        reason: String,
+        /// The last lines that it printed.
+        last_words: Vec<String>,
+        /// Where all of them are.
+        folder: String,
+    },
+    /// Somebody interrupted it, or it was not begun.
+    Interrupted,
+}
+
+/// What is said while runs go on.
+pub trait Watcher: Sync {
+    /// A run has ended, or was in the store.
+    fn done(&self, job: &Job, outcome: &Outcome, is_new: bool);
+    /// A file of the store was set aside.
+    fn set_aside(&self, what: &str);
+    /// Whether all is to end.
+    fn is_interrupted(&self) -> bool;
+}
+
+/// A plan, and where it is carried out.
+pub struct Work<'a> {
+    /// The runs.
+    pub plan: &'a Plan,
+    /// Where results are kept.
+    pub store: &'a Store,
+    /// The folder of the store.
+    pub folder: &'a Path,
+    /// Who is told.
+    pub watcher: &'a dyn Watcher,
+    /// The sources of fields, by study.
+    emitted: Mutex<BTreeMap<String, Arc<Vec<File>>>>,
+}
+
+impl<'a> Work<'a> {
+    /// Nothing is done yet.
+    pub fn new(
+        plan: &'a Plan,
+        store: &'a Store,
+        folder: &'a Path,
+        watcher: &'a dyn Watcher,
+    ) -> Self {
+        Work { plan, store, folder, watcher, emitted: Mutex::default() }
+    }
+
+    /// What came of the runs of each study, so many side by side.
+    ///
+    /// # Errors
+    /// The store cannot be read or written.
+    pub fn outcomes(&self, jobs: NonZero<usize>) -> anyhow::Result<Vec<Vec<Outcome>>> {
+        let all: Vec<_> = self
+            .plan
+            .studies
+            .iter()
+            .flat_map(|it| it.jobs.iter().map(move |job| (it, job)))
+            .collect();
+        let done =
+            side_by_side(&all, jobs, |(planned, job), wait| self.outcome(planned, job, wait))?;
+        let mut done = done.into_iter();
+        Ok(self.plan.studies.iter().map(|it| done.by_ref().take(it.jobs.len()).collect()).collect())
+    }
+
+    /// What is stored of a run, if its results are still there.
+    ///
+    /// # Errors
+    /// The store cannot be read.
+    pub fn stored(&self, job: &Job) -> anyhow::Result<Option<Finished>> {
+        Ok(match self.store.load::<Finished>(&job.key)? {
+            Entry::Stored(finished) => Some(finished).filter(|it| self.is_there(it)),
+            Entry::Missing => None,
+            Entry::SetAside(what) => {
+                self.watcher.set_aside(&what);
+                None
+            }
+        })
+    }
+
+    fn is_there(&self, finished: &Finished) -> bool {
+        let folder = self.folder.join(&finished.folder);
+        finished.results.iter().all(|(path, length)| {
+            folder.join(path).metadata().is_ok_and(|found| found.len() == *length)
+        })
+    }
+
+    /// What came of a run; nothing, if another process is at it and there is to be no waiting.
+    fn outcome(&self, planned: &Planned, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
+        if let Some(finished) = self.stored(job)? {
+            return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
+        }
+        let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
+        // Whoever held the claim before may have finished.
+        if let Some(finished) = self.stored(job)? {
+            return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
+        }
+        if self.watcher.is_interrupted() {
+            return Ok(Some(Outcome::Interrupted));
+        }
+        let outcome =
+            self.run(planned, job).with_context(|| format!("`{}`", foreign::shown(&job.name)))?;
+        if let Outcome::Finished(finished) = &outcome {
+            self.store.save(&job.key, finished)?;
+        }
+        Ok(Some(self.told(job, outcome, true)))
+    }
+
+    fn told(&self, job: &Job, outcome: Outcome, is_new: bool) -> Outcome {
+        self.watcher.done(job, &outcome, is_new);
+        outcome
+    }
+
+    fn run(&self, planned: &Planned, job: &Job) -> anyhow::Result<Outcome> {
+        let parent = self.parent(planned, job)?;
+        let folder = Folder::free(&parent)
+            .with_context(|| format!("cannot make a folder in `{}`", foreign::path(&parent)))?;
+        let paths = self.paths(&folder.path)?;
+        self.prepare(planned, &paths)?;
+        let started = Instant::now();
+        let ended = self.start(planned, job, &paths, &folder)?;
+        let seconds = started.elapsed().as_secs_f64();
+        let own = text(folder.path.strip_prefix(self.folder).unwrap_or(&folder.path))?;
+        let failed = |reason: String| Outcome::Failed {
+            reason,
+            last_words: folder.last_words(),
+            folder: own.clone(),
+        };
+        Ok(match ended {
+            Ended::Interrupted => Outcome::Interrupted,
+            Ended::Badly(reason) => failed(reason),
+            Ended::Well => match self.results(planned, job, &paths, &folder.path) {
+                Ok(results) => Outcome::Finished(Finished { folder: own, seconds, results }),
+                Err(error) => failed(format!("it ended well, but {error:#}")),
+            },
+        })
+    }
+
+    /// Runs the command in the folder of the run, and keeps its words there.
+    fn start(
+        &self,
+        planned: &Planned,
+        job: &Job,
+        paths: &Paths,
+        folder: &Folder,
+    ) -> anyhow::Result<Ended> {
+        let solver = &self.plan.campaign.solver;
+        let words: Vec<String> =
+            solver.run.iter().map(|word| planned.fill(word, job, paths)).collect();
+        let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+        write_own(&folder.path.join("command.txt"), &(line + "\n"))?;
+        let order = Order {
+            words: &words,
+            directory: &self.directory(planned, job, paths),
+            variables: &[("OMP_NUM_THREADS", solver.threads.to_string())],
+            limit: solver.time_limit,
+        };
+        Ok(folder.run(&order, &|| self.watcher.is_interrupted())?)
+    }
+
+    /// The folder for the folders of a run, told by its key from what the same level was before.
+    fn parent(&self, planned: &Planned, job: &Job) -> anyhow::Result<PathBuf> {
+        let digest = digest([serde_json::to_string(&job.key)?]);
+        let own = format!("{}-{}", job.level, &digest[..8]);
+        Ok(self.folder.join(&planned.study.name).join(own))
+    }
+
+    /// The paths of a run in its folder.
+    fn paths(&self, folder: &Path) -> anyhow::Result<Paths> {
+        Ok(Paths {
+            output: text(&folder.join("output"))?,
+            emitted: text(&folder.join("emitted"))?,
+            state: text(&folder.join("state").with_extension(self.state()))?,
+            here: text(&self.plan.here)?,
+        })
+    }
+
+    /// The format of the exact state.
+    fn state(&self) -> &str {
+        self.plan.campaign.solver.state.as_ref().map_or(STATES[0], |word| &word.value)
+    }
+
+    /// Makes the folder for results, and writes what the run gets.
+    fn prepare(&self, planned: &Planned, paths: &Paths) -> anyhow::Result<()> {
+        make(Path::new(&paths.output))?;
+        let Some(target) = self.plan.target else { return Ok(()) };
+        let folder = Path::new(&paths.emitted);
+        make(folder)?;
+        for file in self.sources(planned, target)?.iter() {
+            let path = folder.join(&file.name);
+            write_own(&path, &file.text)
+                .with_context(|| format!("cannot write `{}`", foreign::path(&path)))?;
+        }
+        Ok(())
+    }
+
+    /// The source of the field of a study, with its parameters as defaults; written once for all of its runs.
+    fn sources(&self, planned: &Planned, target: &Target) -> anyhow::Result<Arc<Vec<File>>> {
+        // Whoever else needs it has to wait for it anyway.
+        let mut all = self.emitted.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(files) = all.get(&planned.study.name) {
+            return Ok(files.clone());
+        }
+        let input = planned.input.with_defaults(&planned.study.set)?;
+        let bundle = (target.emit)(&Subject::new(&input.compiled));
+        let files = Arc::new(bundle.sources().to_vec());
+        all.insert(planned.study.name.clone(), files.clone());
+        Ok(files)
+    }
+
+    fn directory(&self, planned: &Planned, job: &Job, paths: &Paths) -> PathBuf {
+        let own = self.plan.campaign.solver.directory.as_ref();
+        let own = own.map_or(String::new(), |it| planned.fill(it, job, paths));
+        self.plan.here.join(own)
+    }
+
+    /// What `mms judge` takes for the results of a run.
+    fn given(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<String> {
+        let pattern = planned.pattern(&self.plan.campaign.solver.output, job, paths);
+        text(&self.directory(planned, job, paths).join(pattern))
+    }
+
+    /// The same, of a run that came to its end.
+    ///
+    /// # Errors
+    /// A path that is no text.
+    pub fn results_of(
+        &self,
+        planned: &Planned,
+        job: &Job,
+        finished: &Finished,
+    ) -> anyhow::Result<String> {
+        let paths = self.paths(&self.folder.join(&finished.folder))?;
+        self.given(planned, job, &paths)
+    }
+
+    /// The files with the results of a run, which have to be there.
+    fn results(
+        &self,
+        planned: &Planned,
+        job: &Job,
+        paths: &Paths,
+        folder: &Path,
+    ) -> anyhow::Result<Vec<(String, u64)>> {
+        let found = Results::paths(&self.given(planned, job, paths)?)?;
+        let file = |path: &PathBuf| {
+            let length = path
+                .metadata()
+                .with_context(|| format!("cannot look at `{}`", foreign::path(path)))?
+                .len();
+            Ok((text(path.strip_prefix(folder).unwrap_or(path))?, length))
+        };
+        found.iter().map(file).collect()
+    }
+
+    /// The words of a run, in the folder that it has if it is the first.
+    ///
+    /// # Errors
+    /// A path that is no text.
+    pub fn command(&self, planned: &Planned, job: &Job) -> anyhow::Result<Vec<String>> {
+        let paths = self.paths(&self.parent(planned, job)?.join("1"))?;
+        let words = self.plan.campaign.solver.run.iter();
+        Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
+    }
+}
+
+fn make(folder: &Path) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| anyhow!("cannot make the folder `{}`: {error}", foreign::path(folder)))
+}
+
+/// How many runs go side by side where nothing is said: as many as there are processors for.
+pub fn side_by_side_of(plan: &Plan) -> NonZero<usize> {
+    let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let jobs = processors / plan.campaign.solver.threads.get();
+    NonZero::new(jobs).unwrap_or(NonZero::<usize>::MIN)
+}
+
+/// The fields of a plan, for what a result is of.
+pub fn hash(plan: &Plan, file: &str) -> String {
+    let fields = plan.studies.iter().map(|it| it.input.compiled.input_hash());
+    digest([file, &fields.collect::<String>()])
+}

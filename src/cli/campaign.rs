@@ -1,0 +1,262 @@
+//! `mms campaign`: somebody else's solver on the meshes of several studies.
+
+mod suggest;
+
+use std::fmt::Display;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use anyhow::{Context as _, bail};
+use clap::Args;
+use mms_campaign::Campaign as File;
+use mms_spec::foreign;
+use serde_json::{Value, json};
+
+use super::follow::Interrupted;
+use super::{Outcome, hold_output, print, print_json, say, this_command};
+use crate::campaign::judged::Judged;
+use crate::campaign::plan::{Job, Only, Plan, Planned};
+use crate::campaign::report::{Report, line};
+use crate::campaign::work::{self, Watcher, Work, hash, side_by_side_of};
+use crate::provenance::{Input, Provenance};
+use crate::read::{self, Kind};
+use crate::shell::{command, quoted};
+use crate::store::Store;
+
+/// Run your own solver on the meshes of several studies, and judge each as `mms judge` does it.
+///
+/// FILE says how the solver is run ([solver]: run, output) and on what ([[study]]: field, cells, order). There is no
+/// shell. Placeholders of `run`, `directory` and `output` are {name}, {field}, {level}, {cells}, {cell_size},
+/// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}; docs/guide/campaign.md has them all.
+///
+/// Each run has a folder of its own in the store, with what it printed, and is kept when it has come to its end: nothing
+/// is done twice unless the command, a file that it names, the field or a version changes. Interrupted or killed, the
+/// same command goes on with what is left. A run that fails is named with the last lines that it printed, ends no other,
+/// and is tried again the next time.
+///
+/// Exit codes: 0 all studies pass; 1 another verdict; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
+#[derive(Args)]
+pub struct Campaign {
+    /// The campaign file.
+    file: PathBuf,
+    /// Only this study, or this level of it, as in bar_1d/3; may be repeated. A study is judged if all of its levels are
+    /// asked for.
+    #[arg(long, value_name = "STUDY[/LEVEL]")]
+    only: Vec<String>,
+    /// How many runs go side by side; by default as many as there are processors for `threads` each.
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZero<usize>>,
+    /// Show what would be run, and what is done already; run nothing.
+    #[arg(long)]
+    dry_run: bool,
+    /// Print a command for each run that is not done yet, which makes it and keeps its result, for whatever runs commands on
+    /// other machines; run nothing. They share the folder of --store.
+    #[arg(long, conflicts_with = "dry_run")]
+    list: bool,
+    /// Propose studies from what the solver says that it `can`: the fewest fields of the gallery that show all which any
+    /// shows that it can run, and what stays unseen; run nothing.
+    #[arg(long, conflicts_with_all = ["dry_run", "list", "only", "output"])]
+    suggest: bool,
+    /// Where runs and their results are kept; target/mms/campaign/NAME by default, with the name of FILE.
+    #[arg(long, value_name = "DIR")]
+    store: Option<PathBuf>,
+    /// Write campaign.json there, and convergence.svg and .csv to a folder for each study.
+    #[arg(long, short, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON document.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Campaign {
+    pub fn run(self) -> anyhow::Result<Outcome> {
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        let text = read::text(&self.file, Kind::Campaign)?;
+        let file = mms_campaign::read(&self.file.to_string_lossy(), &text)?;
+        if self.suggest {
+            return self.propose(&file);
+        }
+        if file.studies.is_empty() {
+            bail!(
+                "`{}`: it has no [[study]]; `mms campaign FILE --suggest` proposes some",
+                foreign::path(&self.file)
+            );
+        }
+        let only: Vec<Only> = self.only.iter().cloned().map(Only::from).collect();
+        let plan = Plan::new(&self.file, file, &only)?;
+        let given = self.folder();
+        let (store, set_aside) = Store::open(&given)?;
+        let folder = given.canonicalize().with_context(|| read::cannot_read(&given))?;
+        let progress = Progress::new(&plan)?;
+        set_aside.iter().for_each(|what| progress.set_aside(what));
+        let work = Work::new(&plan, &store, &folder, &progress);
+        match (self.dry_run, self.list) {
+            (true, _) => self.show(&work),
+            (_, true) => self.commands(&work),
+            _ => self.carry_out(&work, &plan, &text),
+        }
+    }
+
+    /// The folder of the store.
+    fn folder(&self) -> PathBuf {
+        let name = self.file.file_stem().unwrap_or_default();
+        self.store.clone().unwrap_or_else(|| Path::new("target/mms/campaign").join(name))
+    }
+
+    fn carry_out(&self, work: &Work<'_>, plan: &Plan, text: &str) -> anyhow::Result<Outcome> {
+        let jobs = self.jobs.unwrap_or_else(|| side_by_side_of(plan));
+        let outcomes = work.outcomes(jobs)?;
+        let mut studies = Vec::new();
+        for (planned, outcomes) in plan.studies.iter().zip(outcomes) {
+            studies.push(Judged::new(work, planned, outcomes, &signed)?);
+        }
+        for (study, warning) in
+            studies.iter().flat_map(|it| it.warnings.iter().map(move |w| (it, w)))
+        {
+            say(format_args!("warning: {}: {warning}", study.planned.study.name));
+        }
+        let input = Input { field: None, rigid: None, set: Vec::new(), hash: hash(plan, text) };
+        let report = Report { plan, studies, provenance: this_command("campaign", input) };
+        self.tell(&report, work)
+    }
+
+    fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
+        if self.json {
+            print_json(&report.document())?;
+        } else {
+            print(&report.text())?;
+        }
+        if let Some(folder) = &self.output {
+            let written = report.write(folder)?;
+            if !self.json {
+                print(&format!("\nwrote {}", written.join(", ")))?;
+            }
+        }
+        if work.watcher.is_interrupted() {
+            say("interrupted; what is done is kept, and the same command goes on from there");
+        }
+        Ok(match (report.has_failed(), report.is_refuted()) {
+            (true, _) => Outcome::RunFailed,
+            (false, true) => Outcome::Refuted,
+            (false, false) => Outcome::AsExpected,
+        })
+    }
+
+    /// Shows the runs, and which of them are done.
+    fn show(&self, work: &Work<'_>) -> anyhow::Result<Outcome> {
+        let describe = |planned: &Planned, job: &Job, is_done: bool, words: Vec<String>| {
+            let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+            let state = if is_done { "done" } else { "to do" };
+            let Job { name, cells, time_step, steps, .. } = job;
+            let text = format!(
+                "{}: {state}; {cells} cells, h {:.3e}, dt {time_step:.3e}, {steps} steps\n  {line}",
+                foreign::shown(name),
+                planned.size(job)
+            );
+            (text, listed(job, is_done, &words))
+        };
+        self.each(work, "", |planned, job, is_done| {
+            Ok(Some(describe(planned, job, is_done, work.command(planned, job)?)))
+        })
+    }
+
+    /// Prints a command for each run that is not done.
+    fn commands(&self, work: &Work<'_>) -> anyhow::Result<Outcome> {
+        let [file, store] =
+            [&self.file, &self.folder()].map(|it| it.to_string_lossy().into_owned());
+        let head = ["campaign".to_owned(), file, format!("--store={store}")];
+        let words = |job: &Job| [head.as_slice(), &[format!("--only={}", job.name)]].concat();
+        self.each(work, "all runs are done", |_, job, is_done| {
+            let words = words(job);
+            let all = [&["mms".to_owned()], words.as_slice()].concat();
+            Ok((!is_done).then(|| (command(&words), listed(job, is_done, &all))))
+        })
+    }
+
+    /// Prints what is said of each run; or `none`, if nothing is.
+    fn each(
+        &self,
+        work: &Work<'_>,
+        none: &str,
+        say_of: impl Fn(&Planned, &Job, bool) -> anyhow::Result<Option<(String, Value)>>,
+    ) -> anyhow::Result<Outcome> {
+        let (mut lines, mut documents) = (Vec::new(), Vec::new());
+        for planned in &work.plan.studies {
+            for job in &planned.jobs {
+                let is_done = work.stored(job)?.is_some();
+                if let Some((line, document)) = say_of(planned, job, is_done)? {
+                    lines.push(line);
+                    documents.push(document);
+                }
+            }
+        }
+        match (self.json, lines.is_empty()) {
+            (true, _) => print_json(&json!({ "runs": documents }))?,
+            (false, true) => say(none),
+            (false, false) => print(&lines.join("\n"))?,
+        }
+        Ok(Outcome::AsExpected)
+    }
+
+    fn propose(&self, file: &File) -> anyhow::Result<Outcome> {
+        let Some(can) = &file.solver.can else {
+            bail!(
+                "`{}`: `--suggest` asks what the solver can; say it in [solver], as in can = {{ dimensions = [2] }}",
+                foreign::path(&self.file)
+            );
+        };
+        suggest::propose(can, self.json)
+    }
+}
+
+/// What made a judgement of a campaign.
+fn signed(planned: &Planned) -> Provenance {
+    this_command("judge", planned.input.provenance(&planned.study.set))
+}
+
+fn listed(job: &Job, is_done: bool, words: &[String]) -> Value {
+    json!({
+        "name": job.name,
+        "level": job.level,
+        "cells": job.cells,
+        "cell_size": job.cell_size,
+        "time_step": job.time_step,
+        "steps": job.steps,
+        "done": is_done,
+        "command": words,
+    })
+}
+
+/// A line on stderr for each run that ends.
+struct Progress {
+    all: usize,
+    ended: AtomicUsize,
+    interrupted: Interrupted,
+}
+
+impl Progress {
+    fn new(plan: &Plan) -> anyhow::Result<Self> {
+        let all = plan.studies.iter().map(|it| it.jobs.len()).sum();
+        Ok(Self { all, ended: AtomicUsize::new(0), interrupted: Interrupted::listen()? })
+    }
+
+    fn say(&self, what: impl Display) {
+        let ended = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
+        say(format_args!("{ended} of {} runs: {what}", self.all));
+    }
+}
+
+impl Watcher for Progress {
+    fn done(&self, job: &Job, outcome: &work::Outcome, is_new: bool) {
+        self.say(line(job, outcome, is_new));
+    }
+
+    fn set_aside(&self, what: &str) {
+        say(format_args!("warning: {what}"));
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupted.is_set()
+    }
+}

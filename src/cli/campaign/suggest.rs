@@ -1,0 +1,111 @@
+//! `mms campaign FILE --suggest`: studies to paste.
+
+use mms_campaign::Can;
+use serde_json::json;
+
+use super::super::{Outcome, print, print_json};
+use crate::campaign::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
+
+/// Prints what is proposed.
+pub fn propose(can: &Can, as_json: bool) -> anyhow::Result<Outcome> {
+    let found = suggest(can)?;
+    if as_json {
+        print_json(&document(&found))?;
+    } else {
+        print(&text(&found))?;
+    }
+    Ok(Outcome::AsExpected)
+}
+
+/// Lines of TOML, of which those that are no keys are comments.
+fn text(found: &Suggestion) -> String {
+    let mut parts: Vec<String> = found.fields.iter().map(block).collect();
+    if found.fields.is_empty() {
+        parts.push(NONE.into());
+    }
+    let none = "# time alone: the gallery has no affine motion that this solver can run";
+    parts.push(found.affine.as_ref().map_or(none.into(), in_time));
+    if !found.unseen.is_empty() {
+        let lines = found.unseen.iter().map(unseen);
+        parts.push(format!("# not seen:\n{}", lines.collect::<Vec<_>>().join("\n")));
+    }
+    parts.join("\n\n")
+}
+
+/// What is said to whom the gallery has nothing for: mostly solvers that start at rest and undeformed.
+const NONE: &str = "# no field of the gallery is one that this solver can run; write your own (`mms new NAME`):\n\
+    # u times 1 - cos(w*t) starts at rest and undeformed, with an acceleration";
+
+/// Keeps a line to the width of a page.
+const WIDTH: usize = 100;
+
+/// Words after each other in lines of comment.
+fn comment(words: &[String]) -> String {
+    let mut lines = vec!["#".to_owned()];
+    for (at, word) in words.iter().enumerate() {
+        let word = if at + 1 < words.len() { format!(" {word},") } else { format!(" {word}") };
+        match lines.last_mut() {
+            Some(line) if line.len() + word.len() <= WIDTH => line.push_str(&word),
+            _ => lines.push(format!("#{word}")),
+        }
+    }
+    lines.join("\n")
+}
+
+fn block(proposed: &Proposed) -> String {
+    let cells: Vec<_> = proposed.cells.iter().map(usize::to_string).collect();
+    let shows = comment(&proposed.shows);
+    format!(
+        "{shows}\n[[study]]\nfield = \"{}\"\ncells = [{}]\norder = 2",
+        proposed.name,
+        cells.join(", ")
+    )
+}
+
+fn in_time(affine: &Affine) -> String {
+    let steps: Vec<_> = affine.time_steps.iter().map(|step| format!("{step:?}")).collect();
+    let note = match affine.is_quadratic {
+        true => {
+            "; it is quadratic in t, which an integrator of constant acceleration holds as well"
+        }
+        false => "",
+    };
+    format!(
+        "# time alone: linear shape functions hold this motion{note}\n[[study]]\nname = \"{name} in time\"\n\
+         field = \"{name}\"\ncells = [4]\ntime_steps = [{}]\norder = 2",
+        steps.join(", "),
+        name = affine.name
+    )
+}
+
+fn unseen(unseen: &Unseen) -> String {
+    let by = unseen.shown_by.as_ref().map_or(String::new(), |by| {
+        let keys: Vec<_> = by.keys.iter().map(|key| format!("`{key}`")).collect();
+        format!(" ({} shows it, and needs {})", by.field, keys.join(", "))
+    });
+    format!("#   {}: {}{by}", unseen.term, unseen.means)
+}
+
+fn document(found: &Suggestion) -> serde_json::Value {
+    let fields = found
+        .fields
+        .iter()
+        .map(|it| json!({ "field": it.name, "cells": it.cells, "shows": it.shows }));
+    let affine = found.affine.as_ref().map(|it| {
+        json!({ "field": it.name, "time_steps": it.time_steps, "exact_in_time": it.is_quadratic })
+    });
+    let unseen = found.unseen.iter().map(|it| {
+        let by = it.shown_by.as_ref();
+        json!({
+            "term": it.term,
+            "means": it.means,
+            "shown_by": by.map(|it| &it.field),
+            "needs": by.map(|it| &it.keys),
+        })
+    });
+    json!({
+        "fields": fields.collect::<Vec<_>>(),
+        "affine": affine,
+        "unseen": unseen.collect::<Vec<_>>(),
+    })
+}
