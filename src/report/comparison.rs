@@ -8,7 +8,8 @@ use comfy_table::{CellAlignment, Table};
 use mms_convergence::Verdict;
 use serde_json::{Value, json};
 
-use super::{Study, picture, pretty, write_files};
+use super::text::{pretty, write_files};
+use super::{Study, picture};
 use crate::provenance::Provenance;
 
 /// Studies of one field with methods that differ.

@@ -4,7 +4,7 @@ use mms_diagnosis::answer::{Diagnosis, Finding, Ranked};
 use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
-use super::plain;
+use super::text::plain;
 use crate::diagnose::Listed;
 use crate::provenance::Provenance;
 

@@ -6,7 +6,8 @@ use mms_runtime::Method;
 use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
-use super::{method, tally};
+use super::method;
+use super::text::tally;
 use crate::extremes::rows::Row;
 use crate::extremes::verdict::{Declared, Seen, Verdict, bound};
 use crate::provenance::Provenance;

@@ -8,7 +8,7 @@ use mms_spec::foreign::{Foreign, shown};
 use serde_json::{Map, Value, json};
 
 use super::picture::{Line, Picture};
-use super::{plain, pretty, to_the_right, write_files};
+use super::text::{plain, pretty, to_the_right, write_files};
 use crate::judge::results::Measurement;
 use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
 use crate::provenance::Provenance;

@@ -6,7 +6,7 @@ use mms_runtime::study::{Phase, Refinement};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{plain, to_the_right};
+use super::text::{plain, to_the_right};
 
 /// What was measured in some periods.
 pub struct Phases {

@@ -4,7 +4,7 @@ use mms_convergence::Verdict;
 use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
-use super::{plain, to_the_right};
+use super::text::{plain, to_the_right};
 use crate::judge::results::{Compared, Difference};
 
 /// Errors and what they were.

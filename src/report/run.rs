@@ -7,7 +7,8 @@ use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
 use serde_json::{Map, Value, json};
 
-use super::{Refused, duration, method};
+use super::text::duration;
+use super::{Refused, method};
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;
 

@@ -13,7 +13,8 @@ use serde_json::{Map, Value, json};
 
 use super::judge::norms_judged;
 use super::run::quantities;
-use super::{Phases, duration, method, picture, plain, pretty, to_the_right, write_files};
+use super::text::{duration, plain, pretty, to_the_right, write_files};
+use super::{Phases, method, picture};
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;
 

@@ -13,7 +13,7 @@ use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 use serde_json::{Value, json};
 
-use super::{pretty, write_files};
+use super::text::{pretty, write_files};
 use crate::provenance::Provenance;
 use crate::workbench::Time;
 

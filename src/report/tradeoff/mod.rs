@@ -11,7 +11,7 @@ use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::front::front;
-use super::{bytes, duration, pretty, write_files};
+use super::text::{bytes, duration, pretty, write_files};
 use crate::provenance::Provenance;
 use crate::tradeoff::search::{Cost, Found, Goal, Plan, Trial, cost};
 use crate::tradeoff::setting::{Axis, Setting};
