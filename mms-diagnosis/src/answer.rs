@@ -111,6 +111,9 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("moduli_factor", None), ("density_factor", None)],
 ];
 
+/// A hypothesis of a size that it cannot have may leave less of the error than the one that is named, but not by more than
+/// this factor.
+const NEARER: f64 = 1.3;
 /// By how much a response may have to be scaled in a mistake that has no size, besides what it leaves of the error.
 const SCALED: f64 = 0.06;
 /// Which part of the error may be left by a mistake that is named, where the method makes next to nothing of it; and what it
@@ -136,12 +139,21 @@ fn is_plausible<const D: usize>(hypothesis: &Hypothesis<D>, explained: &Explaine
     scaled && explained.scale > 0.0 && hypothesis.allows(&explained.size)
 }
 
-/// What is found where the best hypothesis is this, of an error that is so many times that of the method.
-pub fn finding(best: Option<&Ranked>, excess: f64) -> Finding {
+/// What is found where hypotheses explain so much of an error that is so many times that of the method.
+pub fn finding(ranked: &[Ranked], excess: f64) -> Finding {
     let most = LEFT + LEFT_BY_METHOD / excess;
-    match best {
+    // What comes nearer to the error with a size that it cannot have says that something like it is at work.
+    let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
+    let nearest = others.fold(f64::INFINITY, f64::min);
+    match ranked.first() {
         _ if excess <= 1.0 => Finding::Nothing,
-        Some(best) if best.is_plausible && left(best.explained) <= most => Finding::Named,
+        Some(best)
+            if best.is_plausible
+                && left(best.explained) <= most
+                && left(best.explained) <= NEARER * nearest =>
+        {
+            Finding::Named
+        }
         _ => Finding::Unexplained,
     }
 }

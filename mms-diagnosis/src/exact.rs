@@ -102,6 +102,14 @@ impl<'a, const D: usize> Exact<'a, D> {
         exact
     }
 
+    /// The largest wave speed at a few points.
+    pub fn wave_speed(&self) -> f64 {
+        let places = self.places();
+        let mut speeds = vec![0.0; places.len()];
+        self.field.wave_speed(&places, &mut speeds);
+        speeds.into_iter().fold(f64::MIN_POSITIVE, f64::max)
+    }
+
     /// rho0, where it is the same everywhere.
     pub fn uniform_density(&self) -> Option<f64> {
         let density = self.density(&self.places());

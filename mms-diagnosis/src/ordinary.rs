@@ -11,7 +11,7 @@ use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis, Size};
 use crate::rank::{Error, SAME};
-use crate::run::{Plan, written};
+use crate::run::{Obstacle, Plan, written};
 use crate::smooth::{less, size};
 
 /// How often the size of a hypothesis is mended.
@@ -47,15 +47,19 @@ where
         frame: &'a Frame<D>,
         meshes: &'a [Mesh],
         hypotheses: &'a [Hypothesis<D>],
-    ) -> Option<Self> {
-        let plan = Plan::new(exact, frame, Without::default());
-        let mesh = meshes.last()?;
-        let all_of = frame.errors_of(exact, mesh)?.coefficients;
+    ) -> Result<Self, Obstacle> {
+        let plan = Plan::new(exact, frame, Without::default())?;
+        let mesh = meshes.last().ok_or(Obstacle::NotFinite)?;
+        let of = |mesh: &Mesh| {
+            let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
+            Ok(seen.coefficients)
+        };
+        let all_of = of(mesh)?;
         let right = [0, 1].map(|method| plan.right(method).unwrap_or(vec![0.0; all_of.len()]));
         let method = match meshes {
             [.., coarse, fine] if coarse.cell_size > 1.2 * fine.cell_size => {
                 let ratio = (coarse.cell_size / fine.cell_size).powi(2) - 1.0;
-                let coarse = frame.errors_of(exact, coarse)?.coefficients;
+                let coarse = of(coarse)?;
                 less(&coarse, 1.0, &all_of).iter().map(|it| it / ratio).collect()
             }
             _ => {
@@ -63,7 +67,7 @@ where
                 right[0].iter().map(|it| it * ratio).collect()
             }
         };
-        Some(Look {
+        Ok(Look {
             exact,
             frame,
             mesh,
@@ -193,13 +197,16 @@ where
 const NAMED: f64 = 3.0;
 const UNEXPLAINED: f64 = 8.0;
 
-/// Diagnoses ordinary results of meshes, from coarse to fine. `None` where their errors are not finite.
+/// Diagnoses ordinary results of meshes, from coarse to fine.
+///
+/// # Errors
+/// Results with which that is not possible.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
-) -> Option<Diagnosis>
+) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
@@ -219,7 +226,7 @@ where
     needs.push("accelerations at an exact state");
     let cannot_be_seen = unseen(hypotheses, &explained, size(&look.error.method).max(1e-9));
     let ranked = ranked(exact, hypotheses, explained, &needs);
-    let finding = match finding(ranked.first(), look.error.excess()) {
+    let finding = match finding(&ranked, look.error.excess()) {
         // With one mesh, what the user's method makes is known from ours alone.
         Finding::Named if meshes.len() < 2 && error <= NAMED * expected => Finding::Nothing,
         Finding::Unexplained if meshes.len() < 2 && error <= UNEXPLAINED * expected => {
@@ -227,7 +234,7 @@ where
         }
         found => found,
     };
-    Some(Diagnosis {
+    Ok(Diagnosis {
         finding,
         evidence: "results",
         ranked,

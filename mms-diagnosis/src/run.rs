@@ -1,5 +1,7 @@
 //! The errors that mistakes make, in runs of this project's own solver.
 
+use std::fmt;
+
 use mms_runtime::body::bounding_box;
 use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
@@ -14,6 +16,35 @@ use crate::hypothesis::{Change, Given, Hypothesis};
 
 /// Cells along the longest edge, at least and at most, in one to three dimensions.
 const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 24], [4, 8]];
+
+/// Steps times particles that a run may take: some seconds.
+const MOST_WORK: f64 = 3e6;
+
+/// Why results cannot be diagnosed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// A value of the exact solution at a point of the results is not finite.
+    NotFinite,
+    /// A run of our own would take so many steps even on the coarsest grid.
+    TooManySteps(f64),
+}
+
+impl std::error::Error for Obstacle {}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Obstacle::NotFinite => {
+                write!(f, "the exact solution is not finite at a point of the results")
+            }
+            Obstacle::TooManySteps(steps) => write!(
+                f,
+                "waves cross the body so often until then that each run would take {steps:.0} steps: give results of an \
+                 earlier time, or accelerations at an exact state"
+            ),
+        }
+    }
+}
 
 /// How the responses are found.
 pub struct Plan<'a, const D: usize> {
@@ -50,12 +81,34 @@ impl<'a, const D: usize> Plan<'a, D>
 where
     f64: Solve<D>,
 {
-    /// For a solver with cells of this size, in a frame.
-    pub fn new(exact: &'a Exact<'a, D>, frame: &'a Frame<D>, without: Without) -> Self {
-        let edges = bounding_box(&exact.domain.body).map(|[lower, upper]| upper - lower);
-        let longest = edges.map_or(1.0, |edges| edges.max());
+    /// For a solver with cells of this size, in a frame: on a grid that is coarser, if its runs would take too long.
+    ///
+    /// # Errors
+    /// They would take too long on any.
+    pub fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &'a Frame<D>,
+        without: Without,
+    ) -> Result<Self, Obstacle> {
+        let [lower, upper] = bounding_box(&exact.domain.body).map_err(|_| Obstacle::NotFinite)?;
+        let longest = (upper - lower).max();
         let [least, most] = CELLS[D - 1];
-        let cells = (longest / exact.cell_size).round().clamp(least as f64, most as f64) as usize;
+        let wanted = (longest / exact.cell_size).round().clamp(least as f64, most as f64) as usize;
+        let [start, stop] = [
+            exact.domain.time[0],
+            frame.times.iter().copied().fold(exact.domain.time[0], f64::max),
+        ];
+        let steps = |cells: usize| {
+            (stop - start) * exact.wave_speed()
+                / (Setup::default().courant * longest / cells as f64)
+        };
+        let particles = |cells: usize| {
+            let along = |edge: f64| (2.0 * cells as f64 * edge / longest).max(1.0);
+            (upper - lower).iter().copied().map(along).product::<f64>()
+        };
+        let fits = |cells: &usize| steps(*cells) * particles(*cells) <= MOST_WORK;
+        let cells =
+            (least..=wanted).rev().find(fits).ok_or(Obstacle::TooManySteps(steps(least)))?;
         let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
         let setup = Setup { end_time: Some(end), ..Setup::default() };
         let method = |shape, transfer| Method {
@@ -69,7 +122,7 @@ where
             method(ShapeName::Linear, Transfer::FLIP),
             method(ShapeName::QuadraticBspline, Transfer::Apic),
         ];
-        Plan { exact, frame, without, cells, methods }
+        Ok(Plan { exact, frame, without, cells, methods })
     }
 
     /// h of the runs.

@@ -328,7 +328,7 @@ pub fn diagnose<const D: usize>(
         explained,
         &["another term left out (`--without`)", "another field"],
     );
-    let finding = finding(ranked.first(), excess);
+    let finding = finding(&ranked, excess);
     let notes = Vec::new();
     let evidence = match response.computed {
         Computed::Acceleration => "accelerations at an exact state",

@@ -129,7 +129,8 @@ pub fn diagnose<const D: usize>(
     let ranked = ranked(exact, hypotheses, explained, &["other F: with shear, and of other sizes"]);
     let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
-    let finding = finding(ranked.first().filter(|it| is_exact(it)), excess);
+    let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
+    let finding = finding(exact_ones, excess);
     Some(Diagnosis {
         finding,
         evidence: "the law alone",
