@@ -1,11 +1,17 @@
 //! The shipped fields: the folder `fields/` is the list.
 
+use std::collections::BTreeMap;
+
 use mms_codegen::compile::Failure;
 use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
+use mms_mechanics::Model;
 use mms_runtime::scene::Code;
 use mms_spec::source::Sources;
 use mms_spec::{FieldSpec, MaterialSpec, read_field, read_material};
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::pass::substitute::substitute;
 
 /// A shipped field.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +65,25 @@ pub fn fields() -> Vec<FieldSpec> {
         read_field(&sources, source, entry.name, &mut Vec::new())
     });
     fields.collect()
+}
+
+/// How a motion starts, in a few words: where no formula says that u or v is 0 at the first time, it is not. `None` of a field
+/// with mistakes.
+pub fn start(field: &FieldSpec, material: &MaterialSpec) -> Option<&'static str> {
+    let mut graph = Graph::default();
+    let model = Model::resolve(&mut graph, field, Some(material), &mut Vec::new())?;
+    let velocity = differentiate(&mut graph, &model.displacement, Symbol::Time);
+    let first = BTreeMap::from([(Symbol::Time, model.domain.time[0])]);
+    let mut vanishes = |components: &[Expr]| {
+        let first = substitute(&mut graph, components, &first);
+        first.iter().all(|component| graph.is_zero(*component))
+    };
+    Some(match [&model.displacement, &velocity].map(|it| vanishes(it)) {
+        [true, true] => "undeformed, at rest",
+        [true, false] => "undeformed, moving",
+        [false, true] => "deformed, at rest",
+        [false, false] => "deformed, moving",
+    })
 }
 
 /// The shipped materials, read, in the order of their names.

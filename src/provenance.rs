@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mms_codegen::Compiled;
+use mms_codegen::{Compiled, Selection};
 use mms_spec::MAX_FILE;
 use mms_spec::twin::Twin;
 use serde::{Deserialize, Serialize};
@@ -33,6 +33,8 @@ pub struct Input {
     pub field: Option<String>,
     /// The rigid motion on top, as `--rigid` takes it; empty for the standard one.
     pub rigid: Option<String>,
+    /// The time window, where it is not that of the file.
+    pub window: Option<[String; 2]>,
     /// Parameters that were set.
     pub set: Vec<String>,
     /// What tells the texts of field and material from others.
@@ -41,13 +43,14 @@ pub struct Input {
 
 impl Input {
     /// A field, taken in some way.
-    pub fn new(field: &str, rigid: &Twin, set: &[String], compiled: &Compiled) -> Self {
-        let rigid = match rigid {
+    pub fn new(field: &str, selection: &Selection, set: &[String], compiled: &Compiled) -> Self {
+        let rigid = match &selection.twin {
             Twin::Nothing => None,
             Twin::Standard => Some(String::new()),
             Twin::Given(keys) => Some(keys.clone()),
         };
-        Self { field: Some(field.into()), rigid, set: set.to_vec(), hash: compiled.input_hash() }
+        let (window, hash) = (selection.window.clone(), compiled.input_hash());
+        Self { field: Some(field.into()), rigid, window, set: set.to_vec(), hash }
     }
 
     /// The motion on top of the field.

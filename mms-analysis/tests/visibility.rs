@@ -38,6 +38,22 @@ fn a_vortex_has_no_volume_change_no_lambda_and_a_symmetric_stress() {
     }
 }
 
+/// As Poisson's ratio of 1/4 makes them.
+#[test]
+fn equal_moduli_hide_a_swap_of_the_two() {
+    let term = "unequal_moduli".to_string();
+    for (moduli, is_hidden) in [
+        ("lambda = 2\nmu = 2", true),
+        ("young = 3\nnu = 0.25", true),
+        ("young = 3\nnu = 0.3", false),
+    ] {
+        let material = format!("model = \"neo_hookean\"\n{moduli}");
+        let [present, zero, negligible] = seen(&field(2, PLANE, &material, "1"));
+        assert_eq!(zero.contains(&term) || negligible.contains(&term), is_hidden, "{moduli}");
+        assert_eq!(present.contains(&term), !is_hidden, "{moduli}");
+    }
+}
+
 /// The sine of twice an angle in one component, twice sine times cosine in the other.
 #[test]
 fn a_divergence_that_is_0_by_an_identity_leaves_no_lambda() {

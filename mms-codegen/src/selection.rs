@@ -40,6 +40,8 @@ pub struct Selection {
     pub freeze: Freeze,
     /// A rigid motion on top of the field.
     pub twin: Twin,
+    /// The first and the last time in place of the file's: formulas in the parameters.
+    pub window: Option<[String; 2]>,
 }
 
 /// Which parameters become constants, at their default values. They are then no parameters of the
@@ -148,6 +150,10 @@ impl Selection {
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         self.apply_values(sources, field, diagnostics);
+        if let Some(window) = &self.window {
+            field.domain.time = moved(sources, window);
+            field.domain.is_moved = true;
+        }
         self.twin.apply(sources, field, diagnostics);
     }
 
@@ -256,6 +262,8 @@ impl Compiled {
             let names: Vec<_> = quantities.iter().map(|quantity| quantity.name()).collect();
             lines.push(format!("Quantities: {}", names.join(", ")));
         }
+        let window = self.selection.window.iter();
+        lines.extend(window.map(|[from, to]| format!("Time window: {from} to {to}")));
         lines.extend(
             self.selection.twin.text(&self.field).map(|keys| format!("Rigid motion: {keys}")),
         );
@@ -276,6 +284,15 @@ impl Compiled {
         }
         lines
     }
+}
+
+/// The formulas of a time window, which become a source of their own.
+fn moved(sources: &mut Sources, [from, to]: &[String; 2]) -> [Formula; 2] {
+    let source = sources.add("window", format!("{from},{to}"));
+    let formula = |text: &String, start: usize| {
+        Formula::plain(text, sources.span(source, start, start + text.len()))
+    };
+    [formula(from, 0), formula(to, from.len() + 1)]
 }
 
 /// The parameters that become constants.

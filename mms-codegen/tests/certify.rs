@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use mms_codegen::certify::certificate::{Certificate, certify, wave_speed};
 use mms_codegen::certify::claims::Finding;
+use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::{Frame, Rates};
@@ -22,6 +23,9 @@ use proptest::prelude::*;
 
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
 const BOXES: usize = 1000;
+
+/// How many honest fields are not proved to be strongly elliptic.
+const UNPROVED: usize = 5;
 
 fn honest_fields() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -54,7 +58,7 @@ fn bounds(certificate: &Certificate) -> ([f64; 2], Rates) {
 #[test]
 fn honest_fields_are_proved_cheaply_and_sharply() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (mut boxes, mut gallery) = (0, Vec::new());
+    let (mut boxes, mut unproved, mut gallery) = (0, 0, Vec::new());
     let files = honest_fields();
     for file in &files {
         let compiled = compiled(&fs::read_to_string(file).expect("a readable file"));
@@ -62,6 +66,7 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
         let shown = file.display();
         assert!(certificate.objections(&compiled).is_empty(), "{shown}: {certificate:?}");
         assert_eq!(certificate.finite, Finite::Proved, "{shown}");
+        unproved += usize::from(certificate.ellipticity == Ellipticity::Unproved);
         for (claim, finding) in &certificate.claims {
             assert_eq!(*finding, Finding::Proved, "{shown}: {}", claim.face.value.name());
         }
@@ -70,6 +75,8 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
             gallery.push(excess(&compiled, &bounds(&certificate).1));
         }
     }
+    // Bounds of dP/dF are wide in three dimensions, and of fibres.
+    assert!(unproved <= UNPROVED, "{unproved} of {} are strongly elliptic unproved", files.len());
     assert!(boxes <= BOXES * files.len(), "{boxes} boxes for {} fields", files.len());
     for (rate, most) in EXCESS.into_iter().enumerate() {
         let logarithms = gallery.iter().map(|excess| excess[rate].ln()).sum::<f64>();
@@ -208,6 +215,13 @@ proptest! {
             let [j, f] = outputs.map(|output| {
                 interpreter.output(output).iter().map(Precise::to_f64).collect::<Vec<_>>()
             });
+            let x = Output::Quantity(Quantity::Position);
+            let plan = interpreter.plan(&[x]);
+            interpreter.set_point(&plan, Point::at(&point.coordinates));
+            for (x, [least, most]) in interpreter.output(x).iter().zip(&certificate.reach) {
+                let x = x.to_f64();
+                prop_assert!(*least <= x && x <= *most, "{x} {least} {most}");
+            }
             prop_assert!(jacobian[0] <= j[0] && j[0] <= jacobian[1], "{} {jacobian:?}", j[0]);
             // The stretch of any direction, and the speed of any wave.
             let at: Vec<_> =
@@ -222,7 +236,11 @@ proptest! {
                 let stretched = [f[0] * n[0] + f[1] * n[1], f[2] * n[0] + f[3] * n[1]];
                 let stretch = stretched[0].hypot(stretched[1]);
                 prop_assert!(stretch <= rates.principal_stretch, "{stretch} {rates:?}");
-                let speed = (quadratic(&tangent, &m, &n).max(0.0) / density).sqrt();
+                let modulus = quadratic(&tangent, &m, &n);
+                if let Ellipticity::Strong(least) = certificate.ellipticity {
+                    prop_assert!(least > 0.0 && least <= modulus, "{modulus} {least}");
+                }
+                let speed = (modulus.max(0.0) / density).sqrt();
                 prop_assert!(speed <= rates.reference_wave_speed, "{speed} {rates:?}");
                 // n in the deformed body is F^T n in the reference configuration.
                 let pulled = [f[0] * n[0] + f[2] * n[1], f[1] * n[0] + f[3] * n[1]];

@@ -48,7 +48,7 @@ pub mod simplify;
 mod small_strain;
 pub mod tensor;
 
-pub use derivation::{Derivation, Response, TooLarge, derive, tangent};
+pub use derivation::{Derivation, Response, TooLarge, at_rest, derive, tangent};
 pub use model::{Domain, Model};
 pub use output::{Bound, Output, Program};
 pub use requested::requested;

@@ -46,6 +46,8 @@ pub struct DomainSpec {
     pub body: Body,
     /// The first and the last time.
     pub time: [Formula; 2],
+    /// Whether they are not the file's, but were given in its place: then a number is one in the unit of t.
+    pub is_moved: bool,
 }
 
 /// A named part of a body's boundary.
@@ -175,7 +177,7 @@ pub const BODIES: &[&str] = &["box", "annulus"];
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
     let corner = vec![Formula::reported(span); dimension];
     let body = Body::Box { lower: corner.clone(), upper: corner };
-    DomainSpec { body, time: [Formula::reported(span), Formula::reported(span)] }
+    DomainSpec { body, time: [Formula::reported(span), Formula::reported(span)], is_moved: false }
 }
 
 /// Reads `[domain]`.
@@ -207,7 +209,7 @@ pub(super) fn domain<'a>(
         Some(time) => reader.pair(&time, "expected the first and the last time"),
         None => [Formula::reported(table.span), Formula::reported(table.span)],
     };
-    DomainSpec { body, time }
+    DomainSpec { body, time, is_moved: false }
 }
 
 fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Body {

@@ -109,8 +109,7 @@ impl Accuracy {
             true => timed(&text, &request),
             false => None,
         };
-        let twin = &options.selection.twin;
-        let input = Input::new(&self.field, twin, &self.set, &compiled);
+        let input = Input::new(&self.field, &options.selection, &self.set, &compiled);
         let report = Report {
             field: text.name().clone(),
             points: request.points,

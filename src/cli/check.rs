@@ -1,6 +1,7 @@
 //! `mms check`: every mistake of a file, and every claim it makes.
 
 mod proof;
+pub mod stability;
 
 use std::path::PathBuf;
 
@@ -17,6 +18,9 @@ use mms_codegen::selection::{Entry, Freeze, Selection};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
+use mms_stability::judge;
+use mms_stability::solve::solve;
+use mms_stability::warnings::warnings;
 use serde_json::{Value, json};
 
 use super::{Outcome, print, print_json, say, say_styled};
@@ -31,7 +35,11 @@ use crate::session::input::{Variant, read, settings};
 /// quantity without a finite value or that f64 does not compute as one, and a closed form that differs or was compared
 /// nowhere. What takes more steps than a budget allows is said not to be proved. What f32 computes is a line of its own. A
 /// stress at rest (P not 0 at F = I) is a warning. Bounds are given of J, the principal stretch, the strain rate, the wave
-/// speed, and the time step that waves allow, and of the digits that sums such as X + c*t leave of angles.
+/// speed, and the time step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
+///
+/// Whether a solver can follow the motion is looked at on a sample, for the defaults of the parameters: waves in the body
+/// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), and long waves
+/// (least eigenvalue on a coarse mesh). What grows is a warning, and does not change the exit code.
 #[derive(Args)]
 pub struct Check {
     /// Field files.
@@ -41,6 +49,9 @@ pub struct Check {
     /// alone, not for the parameter's range; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Run Newton's method on static fields, on a coarse mesh: does it stay at the exact state, and come to it from zero?
+    #[arg(long)]
+    solve: bool,
     #[command(flatten)]
     variant: Variant,
     /// Print one JSON document.
@@ -119,16 +130,24 @@ impl Check {
         certificate.spent.extend(unseen(compiled, &rest));
         let objections = certificate.objections(compiled);
         // What was looked at nowhere passes for nothing.
+        let stability = judge(compiled);
+        certificate
+            .spent
+            .extend(stability.is_spent.then(|| "what grows on the motion".to_string()));
+        let warnings = warnings(compiled, &stability);
+        let solved = self.solve.then(|| solve(compiled));
         let is_seen = written::points(compiled) > 0 && comparisons.iter().all(agrees);
         let refuted = !objections.is_empty() || !gaps.is_empty() || !is_seen;
         if !self.json {
-            let warning = rest.warning(compiled);
-            if !objections.is_empty() || warning.is_some() {
-                let all: Vec<_> = objections.iter().cloned().chain(warning).collect();
+            let others = rest.warning(compiled).into_iter().chain(warnings.iter().cloned());
+            let all: Vec<_> = objections.iter().cloned().chain(others).collect();
+            if !all.is_empty() {
                 say_styled(&render_styled(&compiled.sources, &all));
             }
             let mut proofs = proof::text(compiled, &certificate);
             proofs.extend(rest_line(&rest));
+            proofs.extend(stability::text(&stability, &certificate));
+            proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
             print(&text(path, compiled, proofs, &gaps, &comparisons))?;
         }
         let claims: Vec<_> = certificate.claims.iter().map(proof::claim).collect();
@@ -147,6 +166,10 @@ impl Check {
                 "checks": checks,
                 "undefined": gaps,
                 "rest_stress": rest.stress(),
+                "moduli_at_rest": stability::moduli(stability.material.as_ref()),
+                "stability": stability::document(&stability, &warnings, solved),
+                "extent": certificate.reach,
+                "shortest_wavelength": stability.shortest_wavelength,
                 "budget_spent": certificate.spent,
                 "simplified": compiled.simplified,
             }),

@@ -76,7 +76,8 @@ impl Judge {
         let text = read::text(table, Kind::Errors)?;
         let measured = table::read(table, &text, &self.orders())?;
         let source = foreign::path(table);
-        let input = Input { field: None, rigid: None, set: Vec::new(), hash: digest([text]) };
+        let input =
+            Input { field: None, rigid: None, window: None, set: Vec::new(), hash: digest([text]) };
         let provenance = this_command("judge", input);
         self.tell(&Judgements::of(source.clone(), measured, provenance).context(source)?)
     }

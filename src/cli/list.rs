@@ -14,7 +14,7 @@ use crate::gallery;
 /// List the fields, materials and methods.
 ///
 /// Of each field: its dimension, its material, the shape of its body, what it claims on the faces,
-/// and what it is. `--json` tells face by face, and which closed forms and studies the file has.
+/// whether its body is deformed and moves at first, and what it is. `--json` tells face by face, and which closed forms and studies the file has.
 #[derive(Args)]
 pub struct List {
     /// Print one JSON document.
@@ -60,7 +60,7 @@ impl List {
 fn table(fields: &[FieldSpec]) -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING);
-    table.set_header(["field", "dimension", "material", "body", "faces", "title"]);
+    table.set_header(["field", "dimension", "material", "body", "faces", "starts", "title"]);
     for field in fields {
         table.add_row([
             field.name.shown(),
@@ -68,10 +68,18 @@ fn table(fields: &[FieldSpec]) -> Table {
             field.material.model.value.shown(),
             field.domain.body.name().into(),
             claims(field),
+            start(field).unwrap_or_default().into(),
             field.title.shown(),
         ]);
     }
     table
+}
+
+/// How a field starts.
+fn start(field: &FieldSpec) -> Option<&'static str> {
+    let materials = gallery::materials();
+    let material = materials.iter().find(|it| it.name == field.material.model.value)?;
+    gallery::start(field, material)
 }
 
 /// The claims of a field, each once.
@@ -95,6 +103,7 @@ fn document(field: &FieldSpec) -> Value {
         "reference": field.reference,
         "body": field.domain.body.name(),
         "boundary": boundary.collect::<Map<_, _>>(),
+        "starts": start(field),
         "checks": checks.collect::<Vec<_>>(),
         "studies": field.studies.iter().map(study).collect::<Vec<_>>(),
     })

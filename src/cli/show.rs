@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use mms_analysis::operations::Operations;
 use mms_analysis::visibility::{POINTS, Span, Status, Term, Visibility};
 use mms_codegen::Compiled;
+use mms_codegen::certify::certificate::reach;
 use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
 use mms_mechanics::Output;
@@ -16,13 +17,18 @@ use mms_show::language::Language;
 use mms_show::{Document, Line, Section, latex, mathml, sympy, text};
 use mms_spec::diagnostic::render_styled;
 use mms_spec::quantity::Quantity;
+use mms_stability::resting::Material;
+use mms_stability::wavelength::shortest_wavelength;
 use serde_json::{Map, Value, json};
 
+use super::check::stability;
 use super::{Outcome, print, print_json, say};
 use crate::session::input::{Input, Variant, quantities};
 
 /// Show what follows from a field: its derivation with every step named, its claims, how many
 /// operations each quantity takes, and which terms of the equations it can and cannot see.
+///
+/// At its end stand the moduli at F = I, bounds of x, and the shortest wavelength of u (of a sample).
 ///
 /// A material with a stress at rest (P not 0 at F = I) is warned of on stderr; rest_stress in --json has the components.
 ///
@@ -103,12 +109,26 @@ impl Show {
         }
         match self.format {
             _ if self.json => print_json(&json(&input.compiled, &document, &rest))?,
-            Format::Text => print(&text::page(&document))?,
+            Format::Text => {
+                let mut lines = vec![text::page(&document)];
+                if self.quantity.is_empty() {
+                    lines.extend(at_rest(&input.compiled));
+                }
+                print(&lines.join("\n"))?;
+            }
             Format::Latex => print(&latex::page(&document))?,
             Format::Mathml => print(&mathml::page(&document))?,
         }
         Ok(Outcome::AsExpected)
     }
+}
+
+/// The material at rest and the extent of the motion, below a heading.
+fn at_rest(compiled: &Compiled) -> Vec<String> {
+    let mut lines = vec![String::new(), "at rest and in motion".into()];
+    lines.extend(Material::of(compiled).as_ref().map(stability::at_rest));
+    lines.push(stability::extent(&reach(compiled), shortest_wavelength(compiled)));
+    lines
 }
 
 fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
@@ -132,6 +152,9 @@ fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
         "strain_energy": compiled.material.strain_energy.text,
         "material_parameters": formulas(document, &material.arguments),
         "rest_stress": rest.stress(),
+        "moduli_at_rest": stability::moduli(Material::of(compiled).as_ref()),
+        "extent": reach(compiled),
+        "shortest_wavelength": shortest_wavelength(compiled),
         "density": density.map(|line| document.formula(line.value, &Language)),
         "definitions": definitions,
         "boundary": claims,

@@ -185,7 +185,7 @@ impl Verify {
 fn input() -> provenance::Input {
     let fields = FIELDS.iter().map(|entry| entry.text).collect::<String>();
     let hash = digest([MATRIX, &fields]);
-    provenance::Input { field: None, rigid: None, set: Vec::new(), hash }
+    provenance::Input { field: None, rigid: None, window: None, set: Vec::new(), hash }
 }
 
 /// A bar on a terminal, a line per run elsewhere.

@@ -53,7 +53,8 @@ pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<Show
 
 fn content(input: &Input) -> Result<Content, String> {
     let field = input.field.as_deref().unwrap_or_default();
-    let selection = Selection { twin: input.twin(), ..Selection::default() };
+    let window = input.window.clone();
+    let selection = Selection { twin: input.twin(), window, ..Selection::default() };
     let options = Options { selection, ..Options::default() };
     let found = input::Input::find_with(field, &options)
         .map_err(|error| format!("{error:#}").lines().next().unwrap_or_default().to_owned())?;

@@ -33,6 +33,10 @@ const SELECTED: &str = "the field does not compile as selected";
 /// Which motion is taken, and within which limits.
 #[derive(Clone, Debug, PartialEq, Args)]
 pub struct Motion {
+    /// Take another time window: two numbers, or formulas in the parameters, as in '0,length/c'. Everything is of it: claims,
+    /// proofs, runs, and what is emitted.
+    #[arg(long, value_name = "FROM,TO", value_parser = window, allow_hyphen_values = true)]
+    window: Option<Window>,
     /// Take the rigid twin of the field: the same motion, followed by a rotation about the origin and
     /// a translation. MOTION has the keys of [rigid], as in 'rotation = "pi*t", translation = ["t",
     /// "0"]'; without it the motion is a large and accelerated one. Faces that were at rest are then
@@ -47,7 +51,7 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Motion { rigid: None, max_nodes: Options::default().max_nodes as u32 }
+        Motion { window: None, rigid: None, max_nodes: Options::default().max_nodes as u32 }
     }
 }
 
@@ -57,6 +61,9 @@ impl Motion {
         let mut arguments = Vec::new();
         if self.max_nodes != Motion::default().max_nodes {
             arguments.push(format!("--max-nodes={}", self.max_nodes));
+        }
+        if let Some(Window([from, to])) = &self.window {
+            arguments.push(format!("--window={from},{to}"));
         }
         match self.rigid.as_deref() {
             None => {}
@@ -73,7 +80,8 @@ impl Motion {
             Some("") => Twin::Standard,
             Some(motion) => Twin::Given(motion.into()),
         };
-        let selection = Selection { twin, ..selection };
+        let window = self.window.as_ref().map(|Window(window)| window.clone());
+        let selection = Selection { twin, window, ..selection };
         Options { selection, max_nodes: self.max_nodes as usize, ..Options::default() }
     }
 }
@@ -113,6 +121,23 @@ fn motion(text: &str) -> Result<String, String> {
         return Ok(text.to_string());
     }
     Err("expected keys such as 'translation = [\"t\", \"0\"]'; without a value, `--rigid` goes behind the field".into())
+}
+
+/// A first and a last time.
+#[derive(Clone, Debug, PartialEq)]
+struct Window([String; 2]);
+
+/// Two formulas, parted by the comma that stands in no parentheses.
+fn window(text: &str) -> Result<Window, String> {
+    let mut depth = 0;
+    let commas = text.char_indices().filter(|(_, char)| {
+        depth += i32::from(*char == '(') - i32::from(*char == ')');
+        *char == ',' && depth == 0
+    });
+    match commas.map(|(at, _)| at).collect::<Vec<_>>()[..] {
+        [comma] => Ok(Window([&text[..comma], &text[comma + 1..]].map(|part| part.trim().into()))),
+        _ => Err("expected the first and the last time, as in 0,0.02".into()),
+    }
 }
 
 /// A field that the user named: of the gallery, or of a file.
@@ -158,6 +183,7 @@ impl Input {
 
     fn new(field: &str, text: &Text, compiled: Compiled, options: &Options) -> Input {
         let as_it_is = options.selection.twin == Twin::Nothing
+            && options.selection.window.is_none()
             && options.form == Form::Stable
             && options.variation == Variation::Nothing;
         let code = text.entry().and_then(Entry::code).filter(|_| as_it_is);
@@ -196,8 +222,7 @@ impl Input {
 
     /// What a result of the field, with some settings, is of.
     pub fn provenance(&self, settings: &[String]) -> provenance::Input {
-        let twin = &self.options.selection.twin;
-        provenance::Input::new(&self.given, twin, settings, &self.compiled)
+        provenance::Input::new(&self.given, &self.options.selection, settings, &self.compiled)
     }
 
     /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters

@@ -155,12 +155,34 @@ cells = [8, 16]
 time = [0.001]
 "#;
 
+/// A square with a load.
+const LOADED: &str = r#"
+[field]
+title = "Loaded"
+dimension = 2
+[displacement]
+u = ["0.1*X*Y*t", "0.1*X*t"]
+[material]
+model = "neo_hookean"
+lambda = 1
+mu = 2
+density = 1
+[domain]
+shape = "box"
+lower = [0, 0]
+upper = [1, 1]
+time = [0, 1]
+[boundary]
+x_max = "traction"
+"#;
+
 #[test]
 fn documents_have_the_keys_of_the_page() {
     let tables = Tables::read();
     let mut reader = Reader { tables: &tables, met: BTreeSet::new() };
     let folder = Folder::with_bar("bar.toml");
     folder.write("faulty.toml", FAULTY);
+    folder.write("loaded.toml", LOADED);
     folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
     folder.write("steps.csv", "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n");
     for name in ["a.csv", "b.csv", "c.csv"] {
@@ -172,7 +194,7 @@ fn documents_have_the_keys_of_the_page() {
     for (heading, arguments, code) in [
         ("list", "list", 0),
         ("show", "show bar.toml", 0),
-        ("check", "check bar.toml faulty.toml broken.toml", 2),
+        ("check", "check bar.toml faulty.toml loaded.toml broken.toml", 2),
         ("eval", "eval bar.toml --at 0.5 --at 7 --time 99", 0),
         ("emit", "emit bar.toml --target c --quantity u", 0),
         ("emit", "emit bar.toml --target c --quantity u -o emitted --check", 1),

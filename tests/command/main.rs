@@ -28,6 +28,7 @@ mod run;
 mod saved;
 mod show;
 mod state;
+mod stability;
 mod study;
 mod study_files;
 mod study_methods;

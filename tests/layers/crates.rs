@@ -80,6 +80,18 @@ pub const CRATES: &[Crate] = &[
         layers: &["accuracy operations period present visibility"],
     },
     Crate {
+        name: "mms-stability",
+        knows: &["mms-codegen", "mms-mechanics", "mms-program", "mms-spec", "mms-symbolic"],
+        layers: &[
+            "chart elasticity least pencil wavelength",
+            "impedance mesh subject",
+            "modes resting waves",
+            "faces growth solve",
+            "stability",
+            "warnings",
+        ],
+    },
+    Crate {
         name: "mms-emit",
         knows: &[
             "mms-analysis",
@@ -191,6 +203,7 @@ pub const CRATES: &[Crate] = &[
             "mms-runtime",
             "mms-show",
             "mms-spec",
+            "mms-stability",
             "mms-symbolic",
         ],
         layers: &[

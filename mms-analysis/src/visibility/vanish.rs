@@ -7,6 +7,7 @@
 //! | shape functions that hold u | u_i,JK; u_i,JJ; u_i,JKL |
 //! | cross terms | the part of dP_iJ/dH_kL u_k,LJ with kL other than iJ |
 //! | transposed stress | Div P - Div P^T |
+//! | unequal moduli | lambda - mu at F = I |
 //! | graded moduli, density | dP_iJ/dX_J at fixed H, drho0/dX |
 //! | parameter p of the material | p d(Div P)/dp, of a second derivation with p exp(s) for p |
 //! | traction on a face | P N, with X replaced by its projection to the face |
@@ -16,11 +17,12 @@ use std::collections::BTreeMap;
 use super::term::Term;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::face;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::kinematics::Route;
 use mms_mechanics::model::energy_with;
 use mms_mechanics::model::parameter_values;
 use mms_mechanics::tensor::dot;
-use mms_mechanics::{Model, Response, TooLarge, derive};
+use mms_mechanics::{Model, Response, TooLarge, at_rest, derive};
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Spanned;
 use mms_spec::{Face, Formula};
@@ -35,6 +37,7 @@ pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     terms.extend(strain(graph, compiled));
     let stress = Stress::new(graph, compiled);
     terms.extend(stress.terms(graph));
+    terms.extend(moduli(graph, compiled));
     let density = compiled.model.density;
     terms.push((Term::GradedDensity, gradient(graph, &[density], compiled.field.dimension)));
     terms.push((Term::BodyForce, quantity(compiled, Quantity::BodyForce).to_vec()));
@@ -45,6 +48,18 @@ pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
 
 fn quantity(compiled: &Compiled, quantity: Quantity) -> &[Expr] {
     &compiled.derivation.quantities[&quantity]
+}
+
+/// lambda - mu = dP_11/dF_22 - dP_12/dF_12 + P_22 at F = I; a material with fibres has more than two moduli.
+fn moduli(graph: &mut Graph, compiled: &Compiled) -> Option<(Term, Vec<Expr>)> {
+    if matches!(compiled.model.kind, Kind::Fibrous(_)) {
+        return None;
+    }
+    let [stress, tangent] = at_rest(graph, &compiled.model);
+    let place = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
+    let [lambda, mu] = [place([0, 0, 1, 1]), place([0, 1, 0, 1])];
+    let terms = [(lambda, Rational::ONE), (mu, Rational::NEG_ONE), (stress[4], Rational::ONE)];
+    Some((Term::UnequalModuli, vec![graph.sum(terms)]))
 }
 
 /// The derivatives of every expression by every coordinate: those of one expression stand together.

@@ -5,11 +5,13 @@ use std::collections::BTreeMap;
 use super::branches::{self, Exit};
 use super::claims::{self, Finding};
 use super::computed::{self, AsComputed};
+use super::ellipticity::{self, Ellipticity};
 use super::finite::{self, Finite};
 use super::jacobian::{self, Jacobian};
 use super::message;
 use super::motion::Motion;
-use super::rates::{self, Frame, Rates};
+use super::rates::{self, Frame, Rates, Searches};
+use super::reach;
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::witness::Witness;
@@ -26,11 +28,12 @@ pub const CELLS: usize = 2000;
 /// How many cells a rate may take: its bound holds however many there were.
 const CELLS_OF_RATES: usize = 500;
 
-/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, the rates, finite
-/// values, branches, the program in two precisions, and all claims.
+/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, the rates, bounds of
+/// x, finite values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;
 const RATES: u64 = 300_000_000;
+const REACH: u64 = 20_000_000;
 const FINITE: u64 = 60_000_000;
 const BRANCHES: u64 = 60_000_000;
 const COMPUTED: u64 = 80_000_000;
@@ -70,6 +73,10 @@ pub struct Certificate {
     pub computed: [AsComputed; 2],
     /// The largest stretch, strain rate and wave speed; only of a field with J > 0.
     pub rates: Option<Rates>,
+    /// Whether waves run in every direction; not looked at without J > 0.
+    pub ellipticity: Ellipticity,
+    /// Bounds of x by axis.
+    pub reach: Vec<[f64; 2]>,
     /// How many cells it took.
     pub boxes: usize,
     /// What was left before its end, since its budget was spent.
@@ -92,16 +99,26 @@ pub fn certify(compiled: &Compiled) -> Certificate {
             None => jacobian::bound(&chart, &formulas, CELLS),
         }
     });
-    let mut rates = None;
+    let (mut rates, mut ellipticity) = (None, Ellipticity::Unproved);
     let mut least = 0.0;
     if let Jacobian::Positive(bounds) = jacobian {
         let part = "stretch, rate and wave speed";
-        let (bound, cells) = budget.part(&mut graph, RATES, part, |graph| {
-            rates::bound(graph, &chart, &motion, bounds, CELLS_OF_RATES)
+        let searches = Searches::new(&chart, &motion, bounds, CELLS_OF_RATES);
+        let (stretches, (bound, cells)) = budget.part(&mut graph, RATES, part, |graph| {
+            let stretches = searches.stretches(graph);
+            let found = rates::bound(graph, &searches, &stretches);
+            (stretches, found)
         });
-        (rates, boxes, least) = (Some(bound), boxes + cells, bounds[0]);
+        (rates, boxes, least) = (Some(bound), boxes + stretches.cells + cells, bounds[0]);
+        let (found, cells) = budget.part(&mut graph, RATES, "strong ellipticity", |graph| {
+            ellipticity::bound(graph, &searches, &stretches)
+        });
+        (ellipticity, boxes) = (found, boxes + cells);
     }
     let positive = rates.is_some().then_some(&motion);
+    let reach = budget.part(&mut graph, REACH, "where the motion leads", |graph| {
+        reach::bound(graph, &chart, compiled)
+    });
     let (exits, cells) = budget.part(&mut graph, BRANCHES, "branches of functions", |graph| {
         branches::exits(graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES])
     });
@@ -128,7 +145,19 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         claims.push((claim.clone(), finding));
         boxes += cells;
     }
-    Certificate { claims, jacobian, exits, finite, computed, rates, boxes, spent: budget.spent }
+    let spent = budget.spent;
+    Certificate {
+        claims,
+        jacobian,
+        exits,
+        finite,
+        computed,
+        rates,
+        ellipticity,
+        reach,
+        boxes,
+        spent,
+    }
 }
 
 /// The budgets of the parts, and those that were spent.
@@ -183,6 +212,14 @@ pub fn wave_speed(
     let wanted = (frame, speed);
     let bound = rates::wave_speed(&mut graph, &chart, &motion, bounds, CELLS, wanted);
     bound.is_finite().then_some(bound)
+}
+
+/// Bounds of x by axis over body, window and ranges; infinite where none is found.
+pub fn reach(compiled: &Compiled) -> Vec<[f64; 2]> {
+    let mut graph = room(compiled);
+    graph.work().allow(REACH);
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    reach::bound(&mut graph, &chart, compiled)
 }
 
 /// What a precision does not compute at a corner or in the middle of the domain of a field, though it has a value there.

@@ -9,7 +9,7 @@ use mms_math::Scalar as _;
 use mms_program::interval::Interval;
 
 /// What rounding may have taken from a bound, relative to it.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// How often a matrix is squared: tr (A^32)^(1/32) exceeds the largest eigenvalue by 3.5 % at most
 /// in three dimensions.
@@ -148,7 +148,7 @@ fn transposed(matrix: &[f64]) -> Vec<f64> {
 
 /// The eigenvalues of a symmetric matrix of numbers, by rotations that make one entry after the
 /// other vanish (Jacobi 1846; Golub & Van Loan, Matrix Computations, 2013, section 8.5).
-fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
+pub(super) fn diagonal(mut matrix: Vec<f64>) -> Vec<f64> {
     const SWEEPS: usize = 12;
     let order = matrix.len().isqrt();
     for _ in 0..SWEEPS {

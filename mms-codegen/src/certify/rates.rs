@@ -60,21 +60,16 @@ pub enum Frame {
     Deformed,
 }
 
-/// Bounds all four where J lies within `jacobian`, with at most `limit` cells each, and says how
-/// many there were.
-pub fn bound(
+/// Bounds all four, and says how many cells it took beside those of the stretches.
+pub(super) fn bound(
     graph: &mut Graph,
-    chart: &Chart,
-    motion: &Motion,
-    jacobian: [f64; 2],
-    limit: usize,
+    searches: &Searches<'_>,
+    stretches: &Stretches,
 ) -> (Rates, usize) {
-    let searches = Searches::new(chart, motion, jacobian, limit);
-    let stretches = searches.stretches(graph);
     let rate = searches.strain_rate(graph, stretches.least);
     let [reference, deformed] = [Frame::Reference, Frame::Deformed]
-        .map(|frame| searches.wave_speed(graph, &stretches, frame, 0.0));
-    let principal_stretch = stretches.principal(motion);
+        .map(|frame| searches.wave_speed(graph, stretches, frame, 0.0));
+    let principal_stretch = stretches.principal(searches.motion);
     let rates = Rates {
         principal_stretch,
         strain_rate: rate.bound,
@@ -82,7 +77,7 @@ pub fn bound(
         wave_speed: deformed.bound.min(reference.bound * principal_stretch),
         reference_wave_speed: reference.bound,
     };
-    (rates, stretches.cells + rate.cells + reference.cells + deformed.cells)
+    (rates, rate.cells + reference.cells + deformed.cells)
 }
 
 /// A bound of the speed of waves in a frame, where J lies within `jacobian`; no sharper than it takes to
@@ -101,23 +96,23 @@ pub fn wave_speed(
 }
 
 /// What the search for each rate starts from.
-struct Searches<'a> {
-    chart: &'a Chart,
-    motion: &'a Motion,
+pub(super) struct Searches<'a> {
+    pub chart: &'a Chart,
+    pub motion: &'a Motion,
     /// J, H and C - I, with which the formulas of every search begin.
-    strain: Vec<Expr>,
+    pub strain: Vec<Expr>,
     /// The bounds of J everywhere.
-    volume: Interval,
+    pub volume: Interval,
     /// How many cells each may take.
-    limit: usize,
+    pub limit: usize,
 }
 
 /// Bounds of the principal stretches.
-struct Stretches {
-    least: f64,
-    greatest: f64,
+pub(super) struct Stretches {
+    pub least: f64,
+    pub greatest: f64,
     /// How many cells it took.
-    cells: usize,
+    pub cells: usize,
 }
 
 impl Stretches {
@@ -128,20 +123,20 @@ impl Stretches {
 }
 
 impl<'a> Searches<'a> {
-    fn new(chart: &'a Chart, motion: &'a Motion, jacobian: [f64; 2], limit: usize) -> Self {
+    pub fn new(chart: &'a Chart, motion: &'a Motion, jacobian: [f64; 2], limit: usize) -> Self {
         let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
         let volume = Interval::new(jacobian[0], jacobian[1]);
         Searches { chart, motion, strain, volume, limit }
     }
 
     /// The deformation, from bounds of the formulas.
-    fn state(&self, values: &[Interval]) -> State {
+    pub fn state(&self, values: &[Interval]) -> State {
         let (gradient, right) = values[1..self.strain.len()].split_at(self.motion.gradient.len());
         State::new(values[0].meet(self.volume), gradient, right)
     }
 
     /// The least and the largest principal stretch.
-    fn stretches(&self, graph: &mut Graph) -> Stretches {
+    pub fn stretches(&self, graph: &mut Graph) -> Stretches {
         let formulas = Formulas::new(graph, self.chart, &self.strain);
         let all = 0..self.strain.len();
         let squeeze = search(self.chart, &formulas, self.limit, all.clone(), |values, _, _| {
@@ -201,10 +196,7 @@ impl<'a> Searches<'a> {
         let steering = 0..seen.len();
         let measure = |values: &[Interval], place: &[Interval], enough: f64| {
             let (state, density) = (self.state(values), values[known]);
-            let gradient = match &values[known + 1..] {
-                [] => state.principal_gradient(stretches),
-                oriented => oriented.to_vec(),
-            };
+            let gradient = state.gradient(&values[known + 1..], stretches);
             let speed = |tangent: &[Interval]| match frame {
                 Frame::Reference => wave_speed_of(&grid, tangent, density),
                 Frame::Deformed => {
@@ -217,7 +209,8 @@ impl<'a> Searches<'a> {
                 _ => speed(&tangent.sharpen(coarse, &gradient, place)),
             }
         };
-        search_until(self.chart, &formulas, self.limit, steering, speed, measure)
+        let sharp = |value: f64| if value > speed { value * (1.0 + SHARPNESS) } else { speed };
+        search_until(self.chart, &formulas, self.limit, steering, sharp, measure)
     }
 }
 
@@ -231,20 +224,20 @@ fn search(
     steering: Range<usize>,
     measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
-    search_until(chart, formulas, limit, steering, 0.0, measure)
+    let sharp = |value: f64| if value > 0.0 { value * (1.0 + SHARPNESS) } else { 0.0 };
+    search_until(chart, formulas, limit, steering, sharp, measure)
 }
 
-/// The same, where all that matters is whether the measure is at most `least`: sharper is only what exceeds it.
-fn search_until(
+/// The same, where `sharp` tells which bound of a value is sharp enough.
+pub(super) fn search_until(
     chart: &Chart,
     formulas: &Formulas,
     limit: usize,
     steering: Range<usize>,
-    least: f64,
+    sharp: impl Fn(f64) -> f64,
     mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let mut bounds = formulas.run::<Interval>(chart);
-    let sharp = |value: f64| if value > least { value * (1.0 + SHARPNESS) } else { least };
     let enough = |bound: f64, value: f64| bound <= sharp(value);
     let mut greatest = 0.0_f64;
     largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
@@ -269,7 +262,7 @@ fn search_until(
 }
 
 /// What is known of the deformation in a cell.
-struct State {
+pub(super) struct State {
     /// C.
     right: Vec<Interval>,
     /// F.
@@ -278,7 +271,7 @@ struct State {
     /// sharply where it is small.
     stretches: Vec<Interval>,
     /// J.
-    volume: Interval,
+    pub volume: Interval,
 }
 
 impl State {
@@ -304,6 +297,11 @@ impl State {
         let square = squared.meet(Interval::new(0.0, f64::INFINITY)) / self.volume.square();
         let rate = (square / Interval::from_f64(2.0)).sqrt();
         if rate.is_defined() { rate.upper() } else { f64::INFINITY }
+    }
+
+    /// H of a material that is told by it, else one of the same principal stretches.
+    pub fn gradient(&self, oriented: &[Interval], all: Interval) -> Vec<Interval> {
+        if oriented.is_empty() { self.principal_gradient(all) } else { oriented.to_vec() }
     }
 
     /// The principal stretches less 1, as a gradient: with a material that sees nothing but them, a

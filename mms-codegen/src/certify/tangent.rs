@@ -19,6 +19,14 @@ pub struct Tangent<'a> {
     second: Run<'a, Fan<Dual<Interval>>, ()>,
 }
 
+/// dP/dF is its value in the middle and, for each entry of H that varies, its slope times what that departs from the middle.
+pub struct MeanValue {
+    /// In the middle of H.
+    pub centre: Vec<Interval>,
+    /// By how much an entry departs at most, and bounds of the slopes.
+    pub slopes: Vec<(f64, Vec<Interval>)>,
+}
+
 /// By so many entries of H at most, dP/dF is differentiated: beyond, that does not pay.
 const DIRECTIONS: usize = 4;
 
@@ -57,25 +65,37 @@ impl<'a> Tangent<'a> {
         gradient: &[Interval],
         place: &[Interval],
     ) -> Vec<Interval> {
+        let whole = tangent.iter().all(|entry| entry.is_defined());
+        let Some(form) = whole.then(|| self.mean_value(gradient, place)).flatten() else {
+            return tangent;
+        };
+        let MeanValue { centre: mut entries, slopes } = form;
+        for (half, slopes) in slopes {
+            let side = Interval::new(-half, half);
+            for (entry, slope) in entries.iter_mut().zip(slopes) {
+                *entry = *entry + slope * side;
+            }
+        }
+        tangent.iter_mut().zip(entries).for_each(|(entry, form)| *entry = entry.meet(form));
+        tangent
+    }
+
+    /// The mean-value form about the middle of a gradient; `None` where nothing varies, or too much does.
+    pub fn mean_value(&mut self, gradient: &[Interval], place: &[Interval]) -> Option<MeanValue> {
         let varies = |entry: &usize| gradient[*entry].width() > 0.0;
         let directions: Vec<usize> = (0..gradient.len()).filter(varies).collect();
-        let whole = tangent.iter().all(|entry| entry.is_defined());
-        if directions.is_empty() || directions.len() > DIRECTIONS || !whole {
-            return tangent;
+        if directions.is_empty() || directions.len() > DIRECTIONS {
+            return None;
         }
         let middle = |entry: &Interval| Interval::from_f64(entry.middle());
         let centre: Vec<Interval> = gradient.iter().map(middle).collect();
         let anywhere = Interval::new(f64::NEG_INFINITY, f64::INFINITY);
-        let mut form = self.enclose(&centre, anywhere, place);
-        for direction in directions {
-            let slopes = self.slopes(gradient, place, direction);
+        let form = self.enclose(&centre, anywhere, place);
+        let slopes = directions.into_iter().map(|direction| {
             let side = gradient[direction] - centre[direction];
-            for (entry, slope) in form.iter_mut().zip(slopes) {
-                *entry = *entry + slope * side;
-            }
-        }
-        tangent.iter_mut().zip(form).for_each(|(entry, form)| *entry = entry.meet(form));
-        tangent
+            (side.farthest(), self.slopes(gradient, place, direction))
+        });
+        Some(MeanValue { slopes: slopes.collect(), centre: form })
     }
 
     /// The derivative of dP/dH by one entry of H.

@@ -222,7 +222,13 @@ impl Checker<'_> {
             }
         }
         let message = "the ends of the time window must be times";
-        self.expect(&domain.time, Dimension::time(), message, None);
+        match domain.is_moved {
+            false => self.expect(&domain.time, Dimension::time(), message, None),
+            true => {
+                let time = domain.time.iter();
+                time.for_each(|end| self.value(end, &Dimension::time(), message.into()));
+            }
+        }
     }
 
     fn closed_form(&mut self, check: &CheckSpec) {

@@ -4,6 +4,7 @@ use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::claims;
 use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
+use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::Rates;
@@ -184,6 +185,7 @@ pub fn document(certificate: &Certificate) -> Value {
         "wave_speed": rates.map(|it| it.wave_speed),
         "reference_wave_speed": rates.map(|it| it.reference_wave_speed),
         "time_step_per_cell_size": rates.map(|it| it.time_step_per_cell_size()),
+        "strongly_elliptic": certificate.ellipticity != Ellipticity::Unproved,
         "boxes": certificate.boxes,
     })
 }

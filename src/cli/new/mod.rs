@@ -39,6 +39,10 @@ pub struct New {
     /// A shipped material; see `mms list`.
     #[arg(long, value_name = "NAME", default_value = "neo_hookean")]
     material: String,
+    /// Let the motion start where production codes can: with u = v = 0 and an acceleration that is not 0. Without it the body
+    /// is deformed at first.
+    #[arg(long)]
+    undeformed: bool,
     /// The folder to write to; `fields` by default where there is one, else the current folder.
     #[arg(long, short, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -64,6 +68,7 @@ impl New {
             dimension,
             body: self.shape,
             material: &material,
+            is_undeformed: self.undeformed,
             schema: folder.join(SCHEMA).is_file().then_some(SCHEMA),
         };
         write_new(&path, &template.text())?;

@@ -62,6 +62,8 @@ pub struct Template<'a> {
     pub body: Body,
     /// The material.
     pub material: &'a MaterialSpec,
+    /// Whether the body is undeformed and at rest at first.
+    pub is_undeformed: bool,
     /// The JSON Schema of field files, relative to the file, where there is one.
     pub schema: Option<&'a str>,
 }
@@ -122,6 +124,7 @@ impl Template<'_> {
             "schema" => self.schema_line(),
             "name" => self.name.into(),
             "path" => self.path.into(),
+            "motion" => motion(self.is_undeformed).into(),
             "dimension" => self.dimension.to_string(),
             "coordinates" => ["X", "Y", "Z"][..self.dimension].join(" "),
             "functions" => FUNCTIONS.join(" "),
@@ -176,6 +179,14 @@ impl Template<'_> {
         });
         let fibre = self.material.has_fibres().then(|| "fibre   = [1, 0, 0]".to_string());
         lines.chain(fibre).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// How much of the displacement there is in time.
+fn motion(is_undeformed: bool) -> &'static str {
+    match is_undeformed {
+        true => "amplitude*(1 - cos(2*pi*t/period))/2",
+        false => "amplitude*cos(2*pi*t/period)",
     }
 }
 

@@ -1,3 +1,4 @@
+use mms_analysis::visibility::{Term, Visibility};
 use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
 use mms_codegen::compile::Failure;
 use mms_codegen::{Compiled, compile};
@@ -39,14 +40,20 @@ fn materials() -> Vec<MaterialSpec> {
 }
 
 fn text(body: Body, dimension: usize, material: &MaterialSpec) -> String {
-    Template { name: "fresh", path: "fresh.toml", dimension, body, material, schema: None }.text()
+    started(body, dimension, material, false)
+}
+
+fn started(body: Body, dimension: usize, material: &MaterialSpec, is_undeformed: bool) -> String {
+    let (name, path, schema) = ("fresh", "fresh.toml", None);
+    Template { name, path, dimension, body, material, is_undeformed, schema }.text()
 }
 
 /// Every text that the template gives.
 fn texts() -> Vec<String> {
     let materials = materials();
     let all = BODIES.iter().flat_map(|(body, dimension)| {
-        materials.iter().map(|material| text(*body, *dimension, material))
+        let of = |material| [false, true].map(|start| started(*body, *dimension, material, start));
+        materials.iter().flat_map(of)
     });
     all.collect()
 }
@@ -150,10 +157,16 @@ fn the_texts_name_every_key_and_every_claim() {
 #[test]
 fn the_schema_is_in_the_first_line_where_there_is_one() {
     let material = material(NEO_HOOKEAN).expect("a shipped material");
-    let (path, schema) = ("fields/fresh.toml", Some("../docs/field.schema.json"));
-    let (body, dimension) = (Body::Box, 1);
-    let text =
-        Template { name: "fresh", path, dimension, body, material: &material, schema }.text();
+    let template = Template {
+        name: "fresh",
+        path: "fields/fresh.toml",
+        dimension: 1,
+        body: Body::Box,
+        material: &material,
+        is_undeformed: false,
+        schema: Some("../docs/field.schema.json"),
+    };
+    let text = template.text();
     assert!(text.starts_with("#:schema ../docs/field.schema.json\n"), "{text}");
     assert!(text.contains("#     mms check fields/fresh.toml\n"), "{text}");
 }
@@ -165,4 +178,17 @@ fn an_unknown_material_gets_the_nearest_one() {
     assert!(
         complaint("mud").contains("there are ") && complaint("mud").contains(", neo_hookean, ")
     );
+}
+
+/// u and v are 0 at the first time, and a is not.
+#[test]
+fn undeformed_bodies_start_at_rest_and_accelerate() {
+    for (body, dimension) in BODIES {
+        let material = &gallery::materials()[0];
+        let text = started(body, dimension, material, true);
+        let compiled = compiled(&text).unwrap_or_else(|failure| panic!("{failure}"));
+        let seen = Visibility::of(&compiled).expect("few terms");
+        assert!(seen.lacks(&Term::InitialDisplacement) && seen.lacks(&Term::InitialVelocity));
+        assert!(!seen.lacks(&Term::InitialAcceleration) && !seen.lacks(&Term::FinalDisplacement));
+    }
 }

@@ -1,0 +1,55 @@
+//! Where the motion leads: bounds of x over body, window and ranges, which a background grid has to hold.
+
+use mms_math::Scalar as _;
+
+use crate::bounds::chart::Chart;
+use crate::bounds::enclosure::Formulas;
+use crate::bounds::search::{Measure, largest};
+use crate::compile::Compiled;
+use mms_program::interval::Interval;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Graph};
+
+/// A bound that exceeds a value by no more than this part of the distance between both bounds is sharp enough.
+const SHARPNESS: f64 = 0.01;
+
+/// How many cells each bound may take: it holds however many there were.
+const CELLS: usize = 100;
+
+/// The least and the greatest x by axis; infinite where no bound is found.
+pub(super) fn bound(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Vec<[f64; 2]> {
+    let position = compiled.derived.quantities[&Quantity::Position].clone();
+    let position = chart.pull_back(graph, &position);
+    position.into_iter().map(|component| ends(graph, chart, component)).collect()
+}
+
+fn ends(graph: &mut Graph, chart: &Chart, component: Expr) -> [f64; 2] {
+    let formulas = Formulas::new(graph, chart, &[component]);
+    let anywhere = greatest(chart, &formulas, 1.0, f64::INFINITY)
+        + greatest(chart, &formulas, -1.0, f64::INFINITY);
+    let [upper, lower] =
+        [1.0, -1.0].map(|sign| greatest(chart, &formulas, sign, SHARPNESS * anywhere));
+    [-lower, upper]
+}
+
+/// A bound of a component times a sign, within an excess; one cell will do where that is infinite.
+fn greatest(chart: &Chart, formulas: &Formulas, sign: f64, excess: f64) -> f64 {
+    let mut bounds = formulas.run::<Interval>(chart);
+    let mut values = formulas.run::<f64>(chart);
+    let signed = Interval::from_f64(sign);
+    let enough = |bound: f64, value: f64| excess.is_infinite() || bound - value <= excess;
+    let found = largest(chart.variables().len(), chart.limit(CELLS), enough, |cell| {
+        let place = chart.place(&cell.0);
+        let enclosure = bounds.enclose(&place);
+        let value = enclosure.values[0] * signed;
+        let at = cell.centre();
+        let attained = sign * values.values(&chart.place(&at))[0];
+        Measure {
+            bound: if value.is_defined() { value.upper() } else { f64::INFINITY },
+            attained: if attained.is_nan() { f64::NEG_INFINITY } else { attained },
+            split: cell.steepest(&chart.changes(cell, &place, &enclosure.slopes)),
+            at,
+        }
+    });
+    found.bound
+}

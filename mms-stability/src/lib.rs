@@ -1,0 +1,31 @@
+//! Whether a compiled field is fit to verify with: a stable solution of its own problem, which a solver can follow.
+//!
+//! Three kinds of disturbances can grow on an exact motion, and then no solver follows it, however right it is:
+//!
+//! | of | grows where | here |
+//! |---|---|---|
+//! | short waves in the body | an acoustic tensor is not positive definite | `waves` |
+//! | short waves on a face that can move | the surface impedance is not positive definite | `faces`, `impedance` |
+//! | long waves | the tangent on a coarse mesh has a negative eigenvalue | `growth` |
+//!
+//! What is looked at here is sampled, at the defaults of the parameters: what is said of it proves nothing. The proof of
+//! strong ellipticity is `mms_codegen::certify`'s.
+
+mod chart;
+pub mod elasticity;
+pub mod faces;
+pub mod growth;
+pub mod impedance;
+mod least;
+mod mesh;
+mod modes;
+mod pencil;
+pub mod resting;
+pub mod solve;
+pub mod stability;
+pub mod subject;
+pub mod warnings;
+pub mod wavelength;
+pub mod waves;
+
+pub use stability::{Stability, judge};

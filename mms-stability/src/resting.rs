@@ -1,0 +1,112 @@
+//! What a material is at F = I: the moduli that another code should be given.
+
+use mms_codegen::compile::Compiled;
+
+use crate::elasticity::Elasticity;
+use crate::subject::{Formulas, Resting, Subject};
+
+/// What differs from an isotropic tangent by less than this part of it is isotropic.
+const ISOTROPIC: f64 = 1e-9;
+
+/// The material of a field at F = I.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// In the middle of the body.
+    pub middle: Resting,
+    /// Whether it is another in a corner.
+    pub is_graded: bool,
+}
+
+impl Material {
+    /// Of a compiled field; `None` where it is not finite.
+    pub fn of(compiled: &Compiled) -> Option<Self> {
+        let formulas = Formulas::new(compiled);
+        match compiled.field.dimension {
+            1 => Self::of_subject(&mut Subject::<1>::new(compiled, &formulas)),
+            2 => Self::of_subject(&mut Subject::<2>::new(compiled, &formulas)),
+            _ => Self::of_subject(&mut Subject::<3>::new(compiled, &formulas)),
+        }
+    }
+
+    pub(crate) fn of_subject<const D: usize>(subject: &mut Subject<'_, D>) -> Option<Self> {
+        let [corner, middle] = [0.0, 0.5].map(|part| subject.chart.place(&[part; D]));
+        let (middle, corner) = (subject.resting(&middle)?, subject.resting(&corner));
+        let is_graded = corner.is_some_and(|corner| corner != middle);
+        Some(Material { middle, is_graded })
+    }
+
+    /// The word for what moduli are measured by.
+    pub fn modulus(&self) -> &'static str {
+        match self.middle.moduli() {
+            Some(moduli) if moduli.mu == 0.0 => "lambda",
+            Some(_) => "mu",
+            None => "times the mean shear modulus",
+        }
+    }
+}
+
+/// Moduli of an isotropic material at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moduli {
+    /// The first Lame parameter.
+    pub lambda: f64,
+    /// The second one, the shear modulus.
+    pub mu: f64,
+}
+
+impl Moduli {
+    /// Young's modulus.
+    pub fn young(&self) -> f64 {
+        self.mu * (3.0 * self.lambda + 2.0 * self.mu) / (self.lambda + self.mu)
+    }
+
+    /// Poisson's ratio.
+    pub fn nu(&self) -> f64 {
+        self.lambda / (2.0 * (self.lambda + self.mu))
+    }
+
+    /// lambda d_iJ d_kL + mu (d_ik d_JL + d_iL d_Jk).
+    fn tangent(&self) -> Elasticity<3> {
+        let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
+        Elasticity::from_fn(|[i, j, k, l]| {
+            self.lambda * delta(i, j) * delta(k, l)
+                + self.mu * (delta(i, k) * delta(j, l) + delta(i, l) * delta(j, k))
+        })
+    }
+}
+
+impl Resting {
+    /// Of a material that is isotropic at rest, its moduli.
+    pub fn moduli(&self) -> Option<Moduli> {
+        let stiffness = self.stiffness();
+        let (moduli, size) = (average(&stiffness), stiffness.norm());
+        let rest = moduli.tangent();
+        let difference = Elasticity::<3>::from_fn(|at| stiffness.at(at) - rest.at(at));
+        (difference.norm() <= ISOTROPIC * size).then_some(moduli)
+    }
+
+    /// What other moduli are measured by: mu, or lambda where mu is 0; of a material that is not isotropic, their
+    /// averages over all directions (Voigt 1928).
+    pub fn modulus(&self) -> f64 {
+        let Moduli { lambda, mu } = average(&self.stiffness());
+        if mu.abs() > ISOTROPIC * lambda.abs() { mu } else { lambda }
+    }
+
+    /// dP/dF less what a stress at rest adds to it, P_JL d_ik.
+    fn stiffness(&self) -> Elasticity<3> {
+        Elasticity::from_fn(|[i, j, k, l]| {
+            let stress = if i == k { self.stress[j * 3 + l] } else { 0.0 };
+            self.tangent.at([i, j, k, l]) - stress
+        })
+    }
+}
+
+/// The isotropic moduli that are nearest: those of the average over all directions.
+fn average(stiffness: &Elasticity<3>) -> Moduli {
+    let sum = |pick: fn(usize, usize) -> [usize; 4]| -> f64 {
+        let pairs = (0..3).flat_map(|a| (0..3).map(move |b| (a, b)));
+        pairs.map(|(a, b)| stiffness.at(pick(a, b))).sum()
+    };
+    let (bulk, shear) = (sum(|a, b| [a, a, b, b]), sum(|a, b| [a, b, a, b]));
+    Moduli { lambda: (2.0 * bulk - shear) / 15.0, mu: (3.0 * shear - bulk) / 30.0 }
+}

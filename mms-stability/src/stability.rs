@@ -1,0 +1,52 @@
+//! All that is known of the stability of a field.
+
+use mms_codegen::compile::Compiled;
+
+use crate::faces::{Surface, surfaces};
+use crate::growth::{Growth, growth};
+use crate::resting::Material;
+use crate::subject::{Formulas, Subject};
+use crate::wavelength::shortest_wavelength;
+use crate::waves::{Waves, waves};
+
+/// What is known of the stability of a field, at the defaults of its parameters.
+#[derive(Clone, Debug)]
+pub struct Stability {
+    /// The material at F = I; `None` where it is not finite.
+    pub material: Option<Material>,
+    /// Short waves in the body; `None` where no state is finite.
+    pub waves: Option<Waves>,
+    /// Short waves on every face that is loaded, free or on rollers.
+    pub surfaces: Vec<Surface>,
+    /// Long waves; `None` where nothing is free to move.
+    pub growth: Option<Growth>,
+    /// Whether the budget ended first: what was not looked at may grow.
+    pub is_spent: bool,
+    /// Whether u does not depend on t.
+    pub is_static: bool,
+    /// The shortest wavelength of u; `None` where u is linear along all axes.
+    pub shortest_wavelength: Option<f64>,
+}
+
+/// Looks for disturbances that grow.
+pub fn judge(compiled: &Compiled) -> Stability {
+    let formulas = Formulas::new(compiled);
+    match compiled.field.dimension {
+        1 => judged::<1>(compiled, &formulas),
+        2 => judged::<2>(compiled, &formulas),
+        _ => judged::<3>(compiled, &formulas),
+    }
+}
+
+fn judged<const D: usize>(compiled: &Compiled, formulas: &Formulas) -> Stability {
+    let mut subject = Subject::<D>::new(compiled, formulas);
+    Stability {
+        material: Material::of_subject(&mut subject),
+        waves: waves(&mut subject),
+        surfaces: surfaces(compiled, &mut subject),
+        growth: growth(compiled, &mut subject),
+        is_spent: formulas.is_spent(),
+        is_static: subject.is_static,
+        shortest_wavelength: shortest_wavelength(compiled),
+    }
+}

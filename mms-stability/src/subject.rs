@@ -1,0 +1,228 @@
+//! The state of a compiled field at a place and a time, with the defaults of its parameters.
+
+use std::collections::BTreeMap;
+
+use mms_codegen::compile::Compiled;
+use mms_mechanics::sample::domain;
+use mms_mechanics::{Response, at_rest};
+use mms_program::Program;
+use mms_program::dual::Dual;
+use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::schedule::schedule_plainly;
+use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::work::Work;
+use nalgebra::{SMatrix, SVector};
+
+use crate::chart::Chart;
+use crate::elasticity::Elasticity;
+
+/// What all states of a field may take together, in the steps of [`mms_symbolic::work`].
+const STEPS: u64 = 100_000_000;
+
+/// What its program computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Output {
+    Position,
+    Gradient,
+    Density,
+    /// P at a gradient that is supplied.
+    Stress,
+    /// P and dP/dF in space at F = I.
+    RestStress,
+    RestTangent,
+}
+
+/// What states of a field are computed by.
+#[derive(Debug)]
+pub struct Formulas {
+    program: Program<Output>,
+    parameters: Vec<f64>,
+    /// What all that is evaluated may take together.
+    work: Work,
+    /// Whether u does not depend on t.
+    is_static: bool,
+}
+
+impl Formulas {
+    /// Of a compiled field.
+    pub fn new(compiled: &Compiled) -> Self {
+        let mut graph = compiled.graph.clone();
+        graph.make_room();
+        graph.work().allow(STEPS);
+        let derived = &compiled.derived;
+        let quantity = |quantity| derived.quantities[&quantity].clone();
+        let response = |response| derived.responses[&response].clone();
+        let [stress, tangent] = at_rest(&mut graph, &compiled.model);
+        let position = quantity(Quantity::Position);
+        let is_static = is_static(&mut graph, &position);
+        let outputs = BTreeMap::from([
+            (Output::Position, position),
+            (Output::Gradient, quantity(Quantity::DisplacementGradient)),
+            (Output::Density, response(Response::Density)),
+            (Output::Stress, response(Response::FirstPiolaKirchhoff)),
+            (Output::RestStress, stress),
+            (Output::RestTangent, tangent),
+        ]);
+        let program = schedule_plainly(&graph, &outputs);
+        let work = graph.work().share();
+        Formulas { program, parameters: compiled.parameters(&BTreeMap::new()), work, is_static }
+    }
+
+    /// Whether evaluating more takes too long: then no state has a value.
+    pub fn is_spent(&self) -> bool {
+        self.work.is_over()
+    }
+}
+
+fn is_static(graph: &mut Graph, position: &[Expr]) -> bool {
+    let velocity = differentiate(graph, position, Symbol::Time);
+    velocity.iter().all(|component| graph.is_zero(*component))
+}
+
+/// A state of the body.
+#[derive(Clone, Debug)]
+pub struct State<const D: usize> {
+    /// F.
+    pub deformation: SMatrix<f64, D, D>,
+    /// P.
+    pub stress: SMatrix<f64, D, D>,
+    /// dP/dF.
+    pub elasticity: Elasticity<D>,
+    /// rho0.
+    pub density: f64,
+    /// What moduli are measured by: mu at rest, or lambda where that is 0.
+    pub modulus: f64,
+}
+
+/// The material at F = I, in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resting {
+    /// P, row-major.
+    pub stress: Vec<f64>,
+    /// dP/dF, the last index fastest.
+    pub tangent: Elasticity<3>,
+}
+
+/// A compiled field, evaluated.
+pub struct Subject<'a, const D: usize> {
+    /// Its body.
+    pub chart: Chart<D>,
+    /// Its time window.
+    pub window: [f64; 2],
+    /// Whether u does not depend on t.
+    pub is_static: bool,
+    work: &'a Work,
+    field: Evaluated<'a, f64>,
+    material: Evaluated<'a, Dual<f64>>,
+}
+
+struct Evaluated<'a, T: Number> {
+    interpreter: Interpreter<'a, T, Output>,
+    /// That of the last evaluation.
+    time: Option<T>,
+    plans: BTreeMap<Output, Vec<bool>>,
+}
+
+impl<'a, T: Number> Evaluated<'a, T> {
+    fn new(formulas: &'a Formulas, parameters: &[T]) -> Self {
+        let interpreter = Interpreter::within(&formulas.work, &formulas.program, parameters);
+        let plan = |output: &Output| (*output, interpreter.plan(&[*output]));
+        let plans = formulas.program.outputs.keys().map(plan).collect();
+        Evaluated { interpreter, time: None, plans }
+    }
+
+    fn at(&mut self, output: Output, point: Point<'_, T>) -> Vec<T> {
+        self.interpreter.set_point(&self.plans[&output], point);
+        self.interpreter.output(output)
+    }
+}
+
+impl<'a, const D: usize> Subject<'a, D> {
+    /// Of a compiled field of that dimension.
+    pub fn new(compiled: &Compiled, formulas: &'a Formulas) -> Self {
+        let (extent, window) = domain(&compiled.program, &formulas.parameters);
+        let duals: Vec<_> = formulas.parameters.iter().copied().map(Dual::constant).collect();
+        Subject {
+            chart: Chart::new(&extent),
+            window,
+            is_static: formulas.is_static,
+            work: &formulas.work,
+            field: Evaluated::new(formulas, &formulas.parameters),
+            material: Evaluated::new(formulas, &duals),
+        }
+    }
+
+    /// The time at a fraction of the window.
+    pub fn time(&self, fraction: f64) -> f64 {
+        self.window[0] + (self.window[1] - self.window[0]) * fraction
+    }
+
+    /// x.
+    pub fn position(&mut self, place: &SVector<f64, D>, time: f64) -> SVector<f64, D> {
+        SVector::from_vec(self.value(Output::Position, place, time))
+    }
+
+    /// The state at X and t; `None` where it is not finite.
+    pub fn state(&mut self, place: &SVector<f64, D>, time: f64) -> Option<State<D>> {
+        if self.work.is_over() {
+            return None;
+        }
+        let gradient = self.value(Output::Gradient, place, time);
+        let (stress, elasticity) = self.response(place, &gradient);
+        let density = self.value(Output::Density, place, time)[0];
+        let modulus = self.resting(place)?.modulus();
+        let is_finite = elasticity.is_finite() && density.is_finite() && modulus > 0.0;
+        is_finite.then(|| State {
+            deformation: SMatrix::identity() + SMatrix::from_row_slice(&gradient),
+            stress,
+            elasticity,
+            density,
+            modulus,
+        })
+    }
+
+    /// The material at rest at X; `None` where it is not finite.
+    pub fn resting(&mut self, place: &SVector<f64, D>) -> Option<Resting> {
+        let stress = self.value(Output::RestStress, place, self.window[0]);
+        let tangent = self.value(Output::RestTangent, place, self.window[0]);
+        let at = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
+        let resting = Resting { stress, tangent: Elasticity::from_fn(at) };
+        let is_finite =
+            resting.tangent.is_finite() && resting.stress.iter().all(|it| it.is_finite());
+        is_finite.then_some(resting)
+    }
+
+    /// P and dP/dF at a displacement gradient, by dual numbers in each of its entries.
+    pub fn response(
+        &mut self,
+        place: &SVector<f64, D>,
+        gradient: &[f64],
+    ) -> (SMatrix<f64, D, D>, Elasticity<D>) {
+        let coordinates: Vec<_> = place.iter().copied().map(Dual::constant).collect();
+        let mut stress = SMatrix::zeros();
+        let mut columns = Vec::with_capacity(D * D);
+        for entry in 0..D * D {
+            let moved = |(at, value): (usize, &f64)| match at == entry {
+                true => Dual::variable(*value),
+                false => Dual::constant(*value),
+            };
+            let gradient: Vec<_> = gradient.iter().enumerate().map(moved).collect();
+            let point = Point { coordinates: &coordinates, normal: &[], gradient: &gradient };
+            let components = self.material.at(Output::Stress, point);
+            stress = SMatrix::from_fn(|row, column| components[row * D + column].value);
+            columns.push(components);
+        }
+        let slope = |[i, j, k, l]: [usize; 4]| columns[k * D + l][i * D + j].slope;
+        (stress, Elasticity::from_fn(slope))
+    }
+
+    fn value(&mut self, output: Output, place: &SVector<f64, D>, time: f64) -> Vec<f64> {
+        if self.field.time != Some(time) {
+            self.field.interpreter.set_time(&time);
+            self.field.time = Some(time);
+        }
+        self.field.at(output, Point::at(place.as_slice()))
+    }
+}

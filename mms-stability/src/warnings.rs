@@ -1,0 +1,107 @@
+//! What a user should hear of the stability of a field.
+
+use mms_codegen::compile::Compiled;
+use mms_spec::Claim;
+use mms_spec::diagnostic::Diagnostic;
+
+use crate::faces::Surface;
+use crate::growth::Growth;
+use crate::resting::Material;
+use crate::stability::Stability;
+use crate::waves::Waves;
+
+/// A disturbance that grows by more than this over the window outgrows errors.
+const GROWTH: f64 = 10.0;
+
+/// What lies below 0 by no more than this part of the modulus at rest is 0.
+const ROUNDING: f64 = 1e-9;
+
+/// A warning for each way in which a disturbance grows, at the place in the file that says what it is about.
+pub fn warnings(compiled: &Compiled, stability: &Stability) -> Vec<Diagnostic> {
+    let modulus = stability.material.as_ref().map_or("", Material::modulus);
+    let mut warnings = Vec::new();
+    let waves = stability.waves.iter().filter(|waves| waves.least <= ROUNDING);
+    warnings.extend(waves.map(|waves| not_elliptic(compiled, waves, modulus)));
+    let faces = stability.surfaces.iter().filter(|surface| surface.least < -ROUNDING);
+    warnings.extend(faces.map(|surface| growing_face(compiled, surface, modulus)));
+    let growth = stability.growth.iter();
+    warnings.extend(growth.filter_map(|growth| growing(compiled, growth, stability.is_static)));
+    warnings
+}
+
+fn not_elliptic(compiled: &Compiled, waves: &Waves, modulus: &str) -> Diagnostic {
+    let Waves { least, at, time, direction } = waves;
+    let message = "strong ellipticity is lost: an acoustic tensor is not positive definite";
+    Diagnostic::warning(compiled.field.displacement[0].span, message)
+        .label(format!(
+            "its least eigenvalue is {} {modulus} at X = {}, t = {}, for waves along N = {}",
+            short(*least),
+            list(at),
+            short(*time),
+            list(direction)
+        ))
+        .help("short waves grow there without a bound, and no mesh converges: take a smaller amplitude, or another material")
+}
+
+fn growing_face(compiled: &Compiled, surface: &Surface, modulus: &str) -> Diagnostic {
+    let Surface { face, claim, least, at, time, direction, .. } = surface;
+    let claimed = compiled.field.boundary.iter().find(|it| it.face.value == *face);
+    let span = claimed.map_or(compiled.field.displacement[0].span, |it| it.claim.span);
+    let kind = match claim {
+        Claim::Traction => "loaded",
+        Claim::Roller => "rolling",
+        _ => "free",
+    };
+    let warning = Diagnostic::warning(
+        span,
+        format!("short waves may grow on the {kind} face {}: its surface impedance is not positive", face.name()),
+    )
+    .label(format!(
+        "its least eigenvalue is {} {modulus} at X = {}, t = {}, for waves along m = {}",
+        short(*least),
+        list(at),
+        short(*time),
+        list(direction)
+    ))
+    .help("they grow the faster, the finer the mesh is, and take the order of accuracy: take a smaller amplitude, or give u on this face")
+    .help("this is no verdict: values little below 0 near a corner or for a short time may grow nothing that is seen");
+    match surface.follower {
+        Some(least) if least > 0.0 => warning.help(format!(
+            "the load is that of a pressure: where it follows the face the least eigenvalue is {} {modulus}",
+            short(least)
+        )),
+        _ => warning,
+    }
+}
+
+fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diagnostic> {
+    let span = compiled.field.displacement[0].span;
+    let found = format!("least eigenvalue w^2 = {} 1/s^2", short(growth.least));
+    if is_static && growth.least < 0.0 {
+        let message = "this state is an unstable equilibrium: the second variation of its energy is not positive";
+        let warning = Diagnostic::warning(span, message).label(found);
+        return Some(warning.help(
+            "a static solver may go elsewhere, and a dynamic one leaves it: take a smaller amplitude, or give u on more faces",
+        ));
+    }
+    (growth.factor > GROWTH).then(|| {
+        let factor = short(growth.factor);
+        let message = format!("a disturbance of this motion grows by a factor of about {factor} over the time window");
+        Diagnostic::warning(span, message)
+            .label(format!("{found} at t = {}", short(growth.time)))
+            .help("errors of a right solver grow as much: take a smaller amplitude or a shorter window, or give u on more faces")
+    })
+}
+
+/// Numbers in four digits.
+pub fn list(numbers: &[f64]) -> String {
+    let numbers: Vec<_> = numbers.iter().map(|number| short(*number)).collect();
+    format!("[{}]", numbers.join(", "))
+}
+
+/// A number in four digits.
+pub fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    let is_plain = rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs());
+    if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
+}

@@ -1,0 +1,145 @@
+//! What `mms check` says of the stability of a field.
+
+use mms_codegen::certify::certificate::Certificate;
+use mms_codegen::certify::ellipticity::Ellipticity;
+use mms_spec::diagnostic::Diagnostic;
+use mms_stability::Stability;
+use mms_stability::faces::Surface;
+use mms_stability::growth::Growth;
+use mms_stability::resting::Material;
+use mms_stability::solve::Solved;
+use mms_stability::warnings::{list, short};
+use mms_stability::waves::Waves;
+use serde_json::{Value, json};
+
+/// One line for each thing that was looked at.
+pub fn text(stability: &Stability, certificate: &Certificate) -> Vec<String> {
+    let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
+    lines.push(extent(&certificate.reach, stability.shortest_wavelength));
+    let modulus = stability.material.as_ref().map_or("", Material::modulus);
+    lines.extend(stability.waves.iter().map(|waves| body(waves, certificate.ellipticity, modulus)));
+    lines.extend(stability.surfaces.iter().map(|surface| face(surface, modulus)));
+    lines.extend(stability.growth.iter().map(|growth| long(growth, stability.is_static)));
+    lines
+}
+
+/// What another code should call its moduli.
+pub fn at_rest(material: &Material) -> String {
+    let Some(moduli) = material.middle.moduli() else {
+        return "  rest   not isotropic at F = I: it has no E and nu".into();
+    };
+    let [young, nu] = [moduli.young(), moduli.nu()].map(short);
+    let [lambda, mu] = [moduli.lambda, moduli.mu].map(short);
+    let middle = if material.is_graded { ", in the middle of the body" } else { "" };
+    format!("  rest   E = {young}, nu = {nu}, lambda = {lambda}, mu = {mu} at F = I{middle}")
+}
+
+/// What a grid has to hold, and a mesh to resolve.
+pub fn extent(reach: &[[f64; 2]], shortest_wavelength: Option<f64>) -> String {
+    let side = |(axis, [least, most]): (usize, &[f64; 2])| {
+        format!("{} <= {} <= {}", short(*least), ["x", "y", "z"][axis], short(*most))
+    };
+    let sides: Vec<_> = reach.iter().enumerate().map(side).collect();
+    let wave = match shortest_wavelength {
+        Some(length) => format!("shortest wavelength {} (sampled)", short(length)),
+        None => "no wavelength, as where u is linear along each axis".into(),
+    };
+    format!("  extent {}; {wave}", sides.join(", "))
+}
+
+fn body(waves: &Waves, ellipticity: Ellipticity, modulus: &str) -> String {
+    let proved = match ellipticity {
+        Ellipticity::Strong(_) => "proved",
+        Ellipticity::Unproved => "not proved",
+    };
+    let Waves { least, at, time, direction } = waves;
+    format!(
+        "  waves  acoustic tensors are positive definite: {proved}; {} {modulus} at X = {}, t = {} along {} is the least of a sample",
+        short(*least),
+        list(at),
+        short(*time),
+        list(direction)
+    )
+}
+
+fn face(surface: &Surface, modulus: &str) -> String {
+    let Surface { face, least, at, time, direction, follower, .. } = surface;
+    let follower = follower.map_or(String::new(), |least| {
+        format!("; {} as a pressure that follows the face", short(least))
+    });
+    format!(
+        "  face   {}: surface impedance {} {modulus} at X = {}, t = {} along {} is the least of a sample{follower}",
+        face.name(),
+        short(*least),
+        list(at),
+        short(*time),
+        list(direction)
+    )
+}
+
+fn long(growth: &Growth, is_static: bool) -> String {
+    let elements: Vec<_> = growth.elements.iter().map(usize::to_string).collect();
+    let times = if is_static { "at rest".into() } else { format!("{} times", growth.times) };
+    let what = match growth.factor > 1.0 {
+        false => "no long wave grows".into(),
+        true => {
+            format!("a disturbance grows by a factor of {} over the window", short(growth.factor))
+        }
+    };
+    format!(
+        "  growth {what}: least w^2 {} 1/s^2 at t = {} ({} quadratic elements, {times})",
+        short(growth.least),
+        short(growth.time),
+        elements.join(" x ")
+    )
+}
+
+/// The same, and what is warned of.
+pub fn document(stability: &Stability, warnings: &[Diagnostic], solved: Option<Solved>) -> Value {
+    let waves = stability.waves.as_ref();
+    let growth = stability.growth.as_ref();
+    json!({
+        "least_acoustic_eigenvalue": waves.map(|waves| waves.least),
+        "softest_wave": waves.map(|waves| json!({
+            "at": waves.at,
+            "time": waves.time,
+            "direction": waves.direction,
+        })),
+        "faces": stability.surfaces.iter().map(face_document).collect::<Vec<_>>(),
+        "growth": growth.map(|growth| growth.factor),
+        "slowest_mode": growth.map(|growth| json!({
+            "omega_squared": growth.least,
+            "time": growth.time,
+            "elements": growth.elements,
+            "times": growth.times,
+        })),
+        "solve": solved.map(Solved::name),
+        "warnings": warnings.iter().map(sentence).collect::<Vec<_>>(),
+    })
+}
+
+fn face_document(surface: &Surface) -> Value {
+    json!({
+        "face": surface.face.name(),
+        "least_impedance": surface.least,
+        "least_impedance_follower": surface.follower,
+        "at": surface.at,
+        "time": surface.time,
+        "direction": surface.direction,
+    })
+}
+
+fn sentence(warning: &Diagnostic) -> String {
+    format!("{}: {}", warning.message, warning.label)
+}
+
+/// Moduli at rest; null of a material that is not isotropic there.
+pub fn moduli(material: Option<&Material>) -> Option<Value> {
+    let moduli = material?.middle.moduli()?;
+    Some(json!({
+        "lambda": moduli.lambda,
+        "mu": moduli.mu,
+        "young": moduli.young(),
+        "nu": moduli.nu(),
+    }))
+}

@@ -1,0 +1,125 @@
+//! Whether a field is fit to verify with, as `mms check` and `mms show` say it; and windows that are moved.
+
+use serde_json::Value;
+
+use super::mms::Folder;
+
+/// A square of lambda = 1.5 and mu = 1, with its u and what it claims.
+fn square(u: &str, boundary: &str) -> Folder {
+    let folder = Folder::new();
+    let text = format!(
+        r#"
+[field]
+title = "square"
+dimension = 2
+[displacement]
+u = {u}
+[material]
+model = "neo_hookean"
+lambda = 1.5
+mu = 1
+density = 1
+[domain]
+shape = "box"
+lower = [0, 0]
+upper = [1, 1]
+time = [0, 1]
+[boundary]
+{boundary}
+"#
+    );
+    folder.write("square.toml", &text);
+    folder
+}
+
+fn stability(folder: &Folder, arguments: &str) -> Value {
+    let run = folder.mms(&format!("check square.toml {arguments} --json")).exits(0);
+    run.json()["files"][0]["stability"].clone()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+/// At rest the impedance of a free face is 2 mu (lambda + mu)/(lambda + 3 mu), and nothing grows.
+#[test]
+fn a_body_at_rest_is_stable() {
+    let folder = square(r#"["0", "0"]"#, "x_min = \"fixed\"\ny_max = \"free\"");
+    let found = stability(&folder, "");
+    assert!((number(&found["least_acoustic_eigenvalue"]) - 1.0).abs() < 1e-9, "{found}");
+    assert!((number(&found["faces"][0]["least_impedance"]) - 5.0 / 4.5).abs() < 1e-7, "{found}");
+    assert_eq!(found["faces"][0]["face"], "y_max");
+    assert_eq!(found["growth"], 1.0);
+    assert_eq!(found["warnings"], serde_json::json!([]));
+    let moduli = &folder.mms("show square.toml --json").exits(0).json()["moduli_at_rest"];
+    assert!((number(&moduli["nu"]) - 0.3).abs() < 1e-12, "{moduli}");
+    assert!((number(&moduli["young"]) - 2.6).abs() < 1e-12, "{moduli}");
+}
+
+/// A square that dead loads compress to half its width: what grows is warned of, and the file still passes.
+#[test]
+fn what_grows_is_a_warning_with_its_place() {
+    let folder = square(
+        r#"["-0.55*t*X", "0.2*t*Y"]"#,
+        "x_min = \"roller\"\nx_max = \"traction\"\ny_min = \"traction\"\ny_max = \"traction\"",
+    );
+    let run = folder.mms("check square.toml").exits(0);
+    run.complains("warning: short waves may grow on the loaded face y_max").complains("t = 1");
+    run.complains("a disturbance of this motion grows").prints("proof  J > 0");
+    let found = stability(&folder, "");
+    assert!(number(&found["growth"]) > 10.0, "{found}");
+    assert!(found["warnings"].as_array().expect("a list").len() >= 2, "{found}");
+    // Before that nothing grows.
+    let found = stability(&folder, "--window 0,0.05");
+    assert_eq!(found["warnings"], serde_json::json!([]), "{found}");
+}
+
+/// x = X + A sin(2 pi X) reaches beyond the body by nothing, and its wavelength is 1.
+#[test]
+fn extent_and_wavelength_are_those_of_the_motion() {
+    let folder = square(r#"["0.05*sin(2*pi*X)*t", "0.25*t"]"#, "");
+    let files = folder.mms("check square.toml --json").exits(0).json();
+    let file = &files["files"][0];
+    let [x, y] = [0, 1].map(|axis| [0, 1].map(|end| number(&file["extent"][axis][end])));
+    assert!(x[0] <= 0.0 && x[0] > -0.02 && x[1] >= 1.0 && x[1] < 1.02, "{x:?}");
+    assert!(y[0] <= 0.0 && y[0] > -0.02 && y[1] >= 1.25 && y[1] < 1.27, "{y:?}");
+    assert!((number(&file["shortest_wavelength"]) - 1.0).abs() < 0.02, "{file}");
+}
+
+#[test]
+fn newton_is_run_where_that_is_asked_for() {
+    let folder = square(r#"["0.03*sin(2*X)*Y", "0.02*X*Y"]"#, "x_min = \"traction\"");
+    folder.mms("check square.toml --solve").exits(0).prints("comes to the exact state from zero");
+    assert_eq!(stability(&folder, "")["solve"], Value::Null);
+    assert_eq!(stability(&folder, "--solve")["solve"], "comes");
+}
+
+/// A window that is given is that of all commands, and of what is emitted.
+#[test]
+fn windows_can_be_moved() {
+    let folder = Folder::with_bar("bar.toml");
+    folder
+        .mms("emit bar.toml --target python --window 0,length/c")
+        .exits(0)
+        .prints("0 to length/c");
+    folder.mms("eval bar.toml --at 0.5 --time 0.03 --window 0,0.02").complains("outside");
+    folder.mms("check bar.toml --window 0,0.02").exits(0);
+    folder.mms("check bar.toml --window 0.02,0").exits(2).complains("the time window is empty");
+    folder.mms("check bar.toml --window 1").exits(2).complains("the first and the last time");
+    folder.mms("check bar.toml --window 0,young").exits(2).complains("must be times");
+}
+
+#[test]
+fn lists_say_how_fields_start() {
+    let folder = Folder::with_bar("bar.toml");
+    let fields = folder.mms("list --json").exits(0).json();
+    let starts = |name: &str| {
+        let fields = fields["fields"].as_array().expect("a list");
+        let field = fields.iter().find(|it| it["name"] == name).expect("a field");
+        field["starts"].as_str().expect("a text").to_string()
+    };
+    assert_eq!(starts("bar_1d"), "deformed, at rest");
+    assert_eq!(starts("axis_aligned_2d"), "deformed, moving");
+    folder.mms("new start --dimension 2 --undeformed").exits(0);
+    folder.mms("check start.toml").exits(0).prints("proof  J > 0");
+}

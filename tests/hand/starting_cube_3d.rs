@@ -1,0 +1,20 @@
+//! A clamped cube set in motion; derived in `starting.rs`.
+
+use std::f64::consts::PI;
+
+use mms_gallery::starting_cube_3d::{Parameters, prepare};
+
+use crate::starting::{Start, sine};
+use crate::support::generated;
+
+#[test]
+fn the_generated_start_is_the_one_on_paper() {
+    let odd = Parameters::<f64> { length: 1.7, nu: 0.21, amplitude: 0.11, ..Parameters::default() };
+    for parameters in [Parameters::default(), odd] {
+        let Parameters { length, young, nu, rho0, amplitude } = parameters;
+        let direction = [1.0, -0.5, 1.0 / 3.0];
+        let start = Start { length, young, nu, rho0, amplitude, direction };
+        let k = PI / length;
+        start.assert_is(generated!(prepare(&parameters)), |x| x.map(|x| sine(k, x)));
+    }
+}
