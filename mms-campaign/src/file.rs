@@ -56,7 +56,7 @@ pub struct Solver {
     pub time_limit: Duration,
     /// The language that the field is written in before a run.
     pub emit: Option<Spanned<String>>,
-    /// The format of the exact state, one of [`STATES`], where it asks for one.
+    /// The format of the exact state, one of [`STATES`], where the file says it.
     pub state: Option<Spanned<String>>,
     /// What it can.
     pub can: Option<Can>,
@@ -126,14 +126,20 @@ impl Campaign {
         let diagnostic = Diagnostic::error(span, message).label(label);
         Mistakes { sources: self.sources.clone(), diagnostics: vec![diagnostic] }
     }
-
-    /// Whether a command or its results ask for something.
-    pub fn asks_for(&self, placeholder: Placeholder) -> bool {
-        self.solver.templates().any(|it| it.placeholders().any(|own| own == placeholder))
-    }
 }
 
 impl Solver {
+    /// The format of the exact state that a run gets; none, if it gets no such file.
+    pub fn state(&self) -> Option<&str> {
+        let named = self.state.as_ref().map(|it| it.value.as_str());
+        named.or_else(|| self.asks_for(Placeholder::State).then_some(STATES[0]))
+    }
+
+    /// Whether the command, its folder or its results name a placeholder.
+    fn asks_for(&self, placeholder: Placeholder) -> bool {
+        self.templates().any(|it| it.placeholders().any(|own| own == placeholder))
+    }
+
     fn templates(&self) -> impl Iterator<Item = &Template> {
         self.run.iter().chain(&self.directory).chain([&self.output])
     }
@@ -232,8 +238,8 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
 
 /// Holds `{emitted}` to `emit`.
 fn hold_emitted(reader: &mut Reader, table: &Table<'_>, solver: &Solver) {
-    let asks = solver.templates().any(|it| it.placeholders().any(|it| it == Placeholder::Emitted));
-    if asks && solver.emit.is_none() && table.get("emit").is_none() {
+    if solver.asks_for(Placeholder::Emitted) && solver.emit.is_none() && table.get("emit").is_none()
+    {
         reader.missing(
             table,
             "emit",

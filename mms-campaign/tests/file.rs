@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mms_campaign::template::{Placeholder, Template};
+use mms_campaign::template::Template;
 use mms_campaign::{Campaign, read};
 
 /// The first file that a user writes.
@@ -30,7 +30,7 @@ fn the_first_file_is_read() {
     assert_eq!((solver.name.as_str(), solver.threads.get()), ("my code", 1));
     assert_eq!(solver.time_limit, Duration::from_secs(3600));
     assert_eq!(solver.run.len(), 12);
-    assert!(campaign.asks_for(Placeholder::State) && !campaign.asks_for(Placeholder::Emitted));
+    assert_eq!(solver.state(), Some("vtu"), "as nothing is said of its format");
     let can = solver.can.as_ref().expect("what it can");
     assert_eq!(
         (can.dimensions.as_slice(), can.materials.as_slice()),
@@ -76,6 +76,7 @@ fn all_keys_are_read() {
     let words: Vec<_> =
         campaign.solver.run.iter().map(|word| word.fill(|it| it.name().into())).collect();
     assert_eq!(words, ["a b", "{cells}", ""]);
+    assert_eq!(campaign.solver.state(), Some("npz"));
     let study = &campaign.studies[0];
     assert_eq!((study.name.as_str(), study.levels(), study.end), ("it's one", 2, Some(1.0)));
     assert_eq!(study.time_steps, Some(vec![0.1, 0.05]));

@@ -20,6 +20,7 @@ use crate::judge::table::{Order, Orders};
 use crate::read::{self, Kind};
 use crate::session::input::{Input, Variant, quantities};
 use crate::session::stability::sound;
+use crate::state::points::PER_CELL;
 use crate::store::digest;
 
 /// A campaign, ready to be run.
@@ -102,12 +103,29 @@ pub struct Key {
     pub files: Vec<(String, String)>,
     /// The language that the field is written in.
     pub emit: Option<&'static str>,
-    /// The format of the exact state.
-    pub state: Option<String>,
+    /// The exact state that it starts from, where it gets one.
+    pub state: Option<Start>,
     /// The digest of the field's text, and of its own material's.
     pub field: String,
     /// Parameters.
     pub set: Vec<String>,
+}
+
+/// What is not said of an exact state at the start by the field and its parameters.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Start {
+    /// The format of its file.
+    pub format: String,
+    /// Cells of the grid whose particles are its points.
+    pub cells: usize,
+    /// Particles in each direction of a cell.
+    pub per_cell: String,
+}
+
+impl Start {
+    fn new(format: &str, cells: usize) -> Self {
+        Start { format: format.to_owned(), cells, per_cell: PER_CELL.to_string() }
+    }
 }
 
 /// Which runs are asked for: a study, or a level of one.
@@ -136,7 +154,6 @@ impl Plan {
     /// What is wrong with the file, at its place.
     pub fn new(path: &Path, campaign: Campaign, only: &[Only]) -> anyhow::Result<Self> {
         hold_only(&campaign, only)?;
-        hold_state(&campaign)?;
         let here = folder_of(path)?;
         let target = target(&campaign)?;
         let sources = sources(&campaign, &here)?;
@@ -185,18 +202,6 @@ fn hold_only(campaign: &Campaign, only: &[Only]) -> anyhow::Result<()> {
         }
     }
     Ok(())
-}
-
-/// Exact states are written nowhere yet. Who writes them asks for them in `Work::prepare`, and this goes.
-fn hold_state(campaign: &Campaign) -> anyhow::Result<()> {
-    let solver = &campaign.solver;
-    if solver.state.is_none() && !campaign.asks_for(Placeholder::State) {
-        return Ok(());
-    }
-    bail!(
-        "`{{state}}`: this version of mms writes no file with the exact state at the start; let the solver compute it from \
-         the emitted field (`emit = \"numpy\"`, `{{emitted}}`)"
-    )
 }
 
 /// The language that fields are written in.
@@ -334,7 +339,7 @@ impl Place<'_> {
             output: String::new(),
             files: Vec::new(),
             emit: self.setting.target.map(|target| target.name),
-            state: self.setting.campaign.solver.state.as_ref().map(|it| it.value.clone()),
+            state: self.setting.campaign.solver.state().map(|format| Start::new(format, cells)),
             field: self.input.compiled.input_hash(),
             set: study.set.clone(),
         };

@@ -7,17 +7,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use anyhow::{Context as _, anyhow};
-use mms_campaign::STATES;
 use mms_campaign::process::{Ended, Folder, Order};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
+use mms_runtime::Division;
 use mms_spec::foreign;
 use serde::{Deserialize, Serialize};
 
 use super::plan::{Job, Paths, Plan, Planned, text};
 use crate::judge::results::Results;
 use crate::report::write_own;
+use crate::session::exact::Exact;
 use crate::shell::quoted;
+use crate::state::file::{self, Frame};
+use crate::state::points::{PER_CELL, Points};
+use crate::state::{USUAL, Wanted};
 use crate::store::{Entry, Store, digest, side_by_side};
 
 /// A run that came to its end, as it is stored.
@@ -155,16 +159,18 @@ impl<'a> Work<'a> {
         let folder = Folder::free(&parent)
             .with_context(|| format!("cannot make a folder in `{}`", foreign::path(&parent)))?;
         let paths = self.paths(&folder.path)?;
-        self.prepare(planned, &paths)?;
-        let started = Instant::now();
-        let ended = self.start(planned, job, &paths, &folder)?;
-        let seconds = started.elapsed().as_secs_f64();
         let own = text(folder.path.strip_prefix(self.folder).unwrap_or(&folder.path))?;
         let failed = |reason: String| Outcome::Failed {
             reason,
             last_words: folder.last_words(),
             folder: own.clone(),
         };
+        if let Err(error) = self.prepare(planned, job, &paths) {
+            return Ok(failed(format!("it was not started: {error:#}")));
+        }
+        let started = Instant::now();
+        let ended = self.start(planned, job, &paths, &folder)?;
+        let seconds = started.elapsed().as_secs_f64();
         Ok(match ended {
             Ended::Interrupted => Outcome::Interrupted,
             Ended::Badly(reason) => failed(reason),
@@ -209,20 +215,32 @@ impl<'a> Work<'a> {
         Ok(Paths {
             output: text(&folder.join("output"))?,
             emitted: text(&folder.join("emitted"))?,
-            state: text(&folder.join("state").with_extension(self.state()))?,
+            state: text(&folder.join("state").with_extension(self.state().unwrap_or_default()))?,
             here: text(&self.plan.here)?,
         })
     }
 
-    /// The format of the exact state.
-    fn state(&self) -> &str {
-        self.plan.campaign.solver.state.as_ref().map_or(STATES[0], |word| &word.value)
+    /// The format of the exact state that runs get, if they get one.
+    fn state(&self) -> Option<&str> {
+        self.plan.campaign.solver.state()
     }
 
     /// Makes the folder for results, and writes what the run gets.
-    fn prepare(&self, planned: &Planned, paths: &Paths) -> anyhow::Result<()> {
+    fn prepare(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<()> {
         make(Path::new(&paths.output))?;
-        let Some(target) = self.plan.target else { return Ok(()) };
+        if let Some(target) = self.plan.target {
+            self.emit(planned, target, paths)?;
+        }
+        match self.state() {
+            Some(_) => {
+                write_state(planned, job, &paths.state).context("the exact state at the start")
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the source of the field.
+    fn emit(&self, planned: &Planned, target: &Target, paths: &Paths) -> anyhow::Result<()> {
         let folder = Path::new(&paths.emitted);
         make(folder)?;
         for file in self.sources(planned, target)?.iter() {
@@ -301,6 +319,19 @@ impl<'a> Work<'a> {
         let words = self.plan.campaign.solver.run.iter();
         Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
     }
+}
+
+/// Writes the exact state at the start, at the particles of a grid of the level.
+fn write_state(planned: &Planned, job: &Job, path: &str) -> anyhow::Result<()> {
+    let Planned { study, input, window: [start, _], .. } = planned;
+    let file: file::Target = path.parse().map_err(anyhow::Error::msg)?;
+    let scene = input.scene(&study.set, |code| code.double)?;
+    let points = Points::of_grid(&scene, &Division::Uniform(job.cells), PER_CELL)?;
+    let mut exact = Exact::new(input.clone(), &study.set)?;
+    let wanted = Wanted { quantities: &USUAL, without: &[], names: file.names() };
+    wanted.hold_memory(&exact, &points, 1)?;
+    file.write(&[Frame::new(&wanted, &mut exact, &points, *start)?])?;
+    Ok(())
 }
 
 fn make(folder: &Path) -> anyhow::Result<()> {

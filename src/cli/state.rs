@@ -14,13 +14,12 @@ use mms_spec::quantity::Quantity;
 use serde_json::json;
 
 use super::{Outcome, print, print_json, spare};
-use crate::report::bytes;
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant, evaluated};
-use crate::session::method::{finite, hold_division, memory};
+use crate::session::method::{finite, hold_division};
 use crate::state::domain::Domain;
 use crate::state::file::{Frame, Target};
-use crate::state::points::{Given, Places, Points};
+use crate::state::points::{Given, PER_CELL, Places, Points};
 use crate::state::{Term, USUAL, Wanted};
 
 /// Write exact states: to start a solver in the middle of a motion, to look at, or to feed a solver that reads tables.
@@ -45,7 +44,7 @@ pub struct State {
     #[arg(long, value_name = "N[xN..]", group = "where")]
     cells: Option<Division>,
     /// Particles per cell along each axis, as in 2 or 3x2.
-    #[arg(long, value_name = "N[xN..]", default_value = "2", conflicts_with = "points")]
+    #[arg(long, value_name = "N[xN..]", default_value_t = PER_CELL, conflicts_with = "points")]
     particles_per_cell: Division,
     /// A quantity of the points file, and the columns that it is in, as in X=x0,y0. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
@@ -132,37 +131,13 @@ impl State {
         let mut frames = Vec::new();
         for &time in &self.time {
             let points = given.at(exact, &self.set, time)?;
-            self.hold_memory(exact, quantities, points.reference.len() / exact.dimension)?;
+            wanted.hold_memory(exact, &points, self.time.len())?;
             if !self.quantity.is_empty() {
                 hold_faces(quantities, &points, exact)?;
             }
-            let state = wanted.state(exact, &points, time)?;
-            let position = exact.values(Quantity::Position, time, &points.reference)?;
-            let (cells, how) = (points.cells.clone(), points.how.clone());
-            frames.push(Frame { state, position, cells, how });
+            frames.push(Frame::new(&wanted, exact, &points, time)?);
         }
         Ok(frames)
-    }
-
-    /// Refuses states that do not fit into what memory is free.
-    fn hold_memory(
-        &self,
-        exact: &Exact,
-        quantities: &[Quantity],
-        points: usize,
-    ) -> anyhow::Result<()> {
-        let numbers: usize = quantities.iter().map(|it| exact.components(*it)).sum();
-        // X and x for the file, two volumes and the mass.
-        let numbers = numbers + 2 * exact.dimension + 3;
-        let need = 8.0 * numbers as f64 * points as f64 * self.time.len() as f64;
-        ensure!(
-            need < memory() as f64,
-            "{points} points at {} times take {} of memory, and {} are free; give fewer at once",
-            self.time.len(),
-            bytes(need),
-            bytes(memory() as f64)
-        );
-        Ok(())
     }
 
     fn given(&self, exact: &Exact) -> anyhow::Result<Given> {

@@ -9,9 +9,12 @@ use anyhow::Context as _;
 use mms_results::Cells;
 use mms_results::write::{self, Mesh, State};
 use mms_spec::foreign;
+use mms_spec::quantity::Quantity;
 
-use super::Names;
+use super::points::Points;
+use super::{Names, Wanted};
 use crate::report::{write_whole, write_with};
+use crate::session::exact::Exact;
 use crate::vtk;
 
 /// A file to write, or several of one stem.
@@ -54,6 +57,23 @@ pub struct Frame {
     pub cells: Cells,
     /// Where the points are from.
     pub how: String,
+}
+
+impl Frame {
+    /// The exact state at points X.
+    ///
+    /// # Errors
+    /// A quantity that is not finite somewhere.
+    pub fn new(
+        wanted: &Wanted<'_>,
+        exact: &mut Exact,
+        points: &Points,
+        time: f64,
+    ) -> anyhow::Result<Self> {
+        let state = wanted.state(exact, points, time)?;
+        let position = exact.values(Quantity::Position, time, &points.reference)?;
+        Ok(Frame { state, position, cells: points.cells.clone(), how: points.how.clone() })
+    }
 }
 
 impl Target {

@@ -8,13 +8,15 @@ pub mod domain;
 pub mod file;
 pub mod points;
 
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use mms_results::write::{Column, Shape, State};
 use mms_spec::Face;
 use mms_spec::quantity::{self, Quantity};
 
 use self::points::Points;
+use crate::report::bytes;
 use crate::session::exact::Exact;
+use crate::session::method::memory;
 
 /// A term that a solver is not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -110,6 +112,25 @@ pub struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
+    /// Refuses states at so many times that do not fit into what memory is free.
+    ///
+    /// # Errors
+    /// How much they take, and how much there is.
+    pub fn hold_memory(&self, exact: &Exact, points: &Points, times: usize) -> anyhow::Result<()> {
+        let points = points.reference.len() / exact.dimension;
+        let numbers: usize = self.quantities.iter().map(|it| exact.components(*it)).sum();
+        // X and x for the file, two volumes and the mass.
+        let numbers = numbers + 2 * exact.dimension + 3;
+        let need = 8.0 * numbers as f64 * points as f64 * times as f64;
+        ensure!(
+            need < memory() as f64,
+            "{points} points at {times} times take {} of memory, and {} are free; give fewer at once",
+            bytes(need),
+            bytes(memory() as f64)
+        );
+        Ok(())
+    }
+
     /// The exact state at points X.
     ///
     /// # Errors

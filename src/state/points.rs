@@ -15,6 +15,9 @@ use mms_spec::foreign::shown;
 use crate::judge::results::{Results, placed};
 use crate::session::exact::Exact;
 
+/// Particles in each direction of a cell where nothing is said.
+pub const PER_CELL: Division = Division::Uniform(2);
+
 /// Points of a body.
 #[derive(Clone, Debug, Default)]
 pub struct Points {

@@ -260,8 +260,6 @@ fn what_is_not_there_is_told() {
         folder.write(&format!("{ODD}/c.toml"), &file("2", &format!("[[study]]\n{study}\n")));
         campaign(&folder, &[]).exits(2).complains(place).complains(words);
     }
-    folder.write(&format!("{ODD}/c.toml"), &file("{state}", BAR));
-    campaign(&folder, &[]).exits(2).complains("`{state}`");
     folder.write(&format!("{ODD}/c.toml"), &file("2", &format!("emit = \"phyton\"\n{BAR}")));
     campaign(&folder, &[]).exits(2).complains("c.toml:6:8").complains("did you mean `python`?");
     folder.write(&format!("{ODD}/c.toml"), &file("2", ""));
@@ -284,6 +282,68 @@ fn the_field_is_written_before_a_run() {
     folder.mms("emit bar_1d --target c -o own --set young=2e6").exits(0);
     let emitted = find(&folder.path("target"), "output/bar_1d.c");
     assert_eq!(fs::read_to_string(&emitted[0]).expect("a source"), folder.read("own/bar_1d.c"));
+}
+
+/// After its period the bar is where it was: its state at the start and an error are results at the end. The state alone
+/// tells the solver how many cells there are.
+#[test]
+fn a_run_gets_the_exact_state_of_its_level() {
+    let folder = Folder::new();
+    folder.write(
+        "solver.sh",
+        r#"echo run >> log.txt
+awk -F, 'NR == FNR { n = (FNR - 1) / 2; next }
+    FNR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; print "X,u"; next }
+    { printf "%s,%.17g\n", $at["X"], $at["u"] + 0.1 / n ^ 2 }' "$1" "$1" > "$2/u.csv""#,
+    );
+    let solver = "[solver]\nrun = \"sh solver.sh {state} {output}\"\noutput = \"{output}/u.csv\"\n";
+    let study = format!("{BAR}set = {{ amplitude = 0.05 }}\n");
+    folder.write("c.toml", &format!("{solver}state = \"csv\"\n{study}"));
+    let run = folder.mms("campaign c.toml --json").exits(0).json();
+    let levels = run["studies"][0]["judgement"]["levels"].as_array().expect("levels");
+    for (level, cells) in levels.iter().zip([8.0, 16.0, 32.0]) {
+        let error = level["linf"].as_f64().expect("an error");
+        assert!((error * cells * cells / 0.1 - 1.0).abs() < 1e-9, "{cells} cells: {error}");
+    }
+    folder.mms("campaign c.toml").exits(0);
+    assert_eq!(folder.read("log.txt").lines().count(), 3, "nothing is done twice");
+    folder.mms("state bar_1d --cells 32 --time 0 --set amplitude=0.05 -o own.csv").exits(0);
+    let own = folder.read("own.csv");
+    let states = find(&folder.path("target"), "state.csv");
+    assert_eq!(states.len(), 3);
+    assert!(states.iter().any(|it| fs::read_to_string(it).expect("a state") == own));
+    // A state of another format makes another run, whatever comes of it.
+    folder.write("c.toml", &format!("{solver}state = \"npz\"\n{study}"));
+    folder.mms("campaign c.toml --only bar_1d/1");
+    assert_eq!(folder.read("log.txt").lines().count(), 4);
+}
+
+#[test]
+fn the_exact_state_of_vtk_is_read_as_a_result() {
+    let folder = Folder::new();
+    folder.write("run.sh", "cp \"$1\" \"$2/particles_0.vtu\"");
+    folder.write(
+        "c.toml",
+        "[solver]\nrun = \"sh run.sh {state} {output}\"\noutput = \"{output}/particles_*.vtu\"\n\
+         [[study]]\nfield = \"axis_aligned_2d\"\ncells = [8, 16, 32]\n",
+    );
+    let run = folder.mms("campaign c.toml").exits(1);
+    run.complains("displacement is exact to round-off on every mesh");
+    run.complains("body_force is exact to round-off on every mesh");
+}
+
+#[test]
+fn a_state_that_cannot_be_written_ends_no_other_run() {
+    let folder = Folder::new();
+    folder.write("run.sh", "cp \"$1\" \"$2/u.vtu\"");
+    folder.write(
+        "c.toml",
+        "[solver]\nrun = \"sh run.sh {state} {output}\"\noutput = \"{output}\"\n\
+         [[study]]\nfield = \"axis_aligned_2d\"\ncells = [1000000, 4]\ntime_steps = [0.01, 0.01]\n",
+    );
+    let run = folder.mms("campaign c.toml --jobs 1").exits(3);
+    run.complains("axis_aligned_2d/1: it was not started: the exact state at the start: the scene has 4e12 particles");
+    run.complains("axis_aligned_2d/2: done in ").prints("1 of 2 runs are done");
 }
 
 #[test]
