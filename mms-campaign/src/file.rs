@@ -12,8 +12,8 @@ use crate::can::{self, Can, hold};
 use crate::table::{Reader, Table, digits, number};
 use crate::template::{Placeholder, Template, Wrong};
 
-/// The formats of exact states.
-pub const STATES: &[&str] = &["vtu", "npz", "csv"];
+/// The formats of exact states, the usual one first.
+const STATES: &[&str] = &["vtu", "npz", "csv"];
 
 /// Seconds that a run may take where nothing is said.
 const TIME_LIMIT: f64 = 3600.0;
@@ -56,7 +56,7 @@ pub struct Solver {
     pub time_limit: Duration,
     /// The language that the field is written in before a run.
     pub emit: Option<Spanned<String>>,
-    /// The format of the exact state, one of [`STATES`], where the file says it.
+    /// The format of the exact state, `vtu`, `npz` or `csv`, where the file says it.
     pub state: Option<Spanned<String>>,
     /// What it can.
     pub can: Option<Can>,

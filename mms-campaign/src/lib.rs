@@ -15,4 +15,4 @@ mod table;
 pub mod template;
 
 pub use can::Can;
-pub use file::{Campaign, Mistakes, STATES, Solver, Study, read};
+pub use file::{Campaign, Mistakes, Solver, Study, read};

@@ -29,6 +29,7 @@ use crate::store::Store;
 /// FILE says how the solver is run ([solver]: run, output) and on what ([[study]]: field, cells, order). There is no
 /// shell. Placeholders of `run`, `directory` and `output` are {name}, {field}, {level}, {cells}, {cell_size},
 /// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}; docs/guide/campaign.md has them all.
+/// Before a run `emit` writes the source of the field, and `state`, or {state}, the exact state at the start.
 ///
 /// Each run has a folder of its own in the store, with what it printed, and is kept when it has come to its end: nothing
 /// is done twice unless the command, a file that it names, the field or a version changes. Interrupted or killed, the
