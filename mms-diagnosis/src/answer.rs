@@ -111,6 +111,8 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("moduli_factor", None), ("density_factor", None)],
 ];
 
+/// More hypotheses that explain an error as well as the best one say that the results tell nothing apart.
+const ALIKE: usize = 5;
 /// A hypothesis of a size that it cannot have may leave less of the error than the one that is named, but not by more than
 /// this factor.
 const NEARER: f64 = 1.3;
@@ -149,6 +151,7 @@ pub fn finding(ranked: &[Ranked], excess: f64) -> Finding {
         _ if excess <= 1.0 => Finding::Nothing,
         Some(best)
             if best.is_plausible
+                && best.equivalent_here.len() <= ALIKE
                 && left(best.explained) <= most
                 && left(best.explained) <= NEARER * nearest =>
         {
@@ -217,7 +220,10 @@ fn one<const D: usize>(
         };
         let known = (hypothesis.known)(exact);
         let away = |it: &&crate::hypothesis::Known| (it.size - found).abs();
-        let known = known.iter().filter(|it| near(it)).min_by(|a, b| away(a).total_cmp(&away(b)));
+        let nearest =
+            known.iter().filter(|it| near(it)).map(|it| away(&it)).fold(f64::INFINITY, f64::min);
+        // Of those that the results do not tell apart, the first of the list.
+        let known = known.iter().find(|it| near(it) && away(it) <= nearest + explained.margin);
         // What is nearly right has no name of its own.
         if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {
             (name, says) = (known.name, format!("{found:.3} = {:.3}: {}", known.size, known.says));

@@ -20,7 +20,7 @@ pub struct Law {
 }
 
 /// All of them.
-pub const LAWS: [Law; 9] = [
+pub const LAWS: [Law; 10] = [
     Law {
         name: "neo_hookean",
         formula: "mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2",
@@ -41,6 +41,11 @@ pub const LAWS: [Law; 9] = [
             let j = f.determinant();
             [identity((j * j - 1.0) / 2.0), left(f) - identity(1.0)]
         },
+    },
+    Law {
+        name: "neo_hookean_linear_volume",
+        formula: "mu/2 (I1 - 3) - mu ln J + lambda (J - 1 - ln J)",
+        parts: |f| [identity(f.determinant() - 1.0), left(f) - identity(1.0)],
     },
     Law {
         name: "neo_hookean_isochoric",
@@ -173,7 +178,7 @@ mod tests {
         let [lambda, mu] = [1.7, 0.6];
         let kappa = lambda + 2.0 / 3.0 * mu;
         let invariant = |f: &Tensor| (f.transpose() * f).trace();
-        let energies: [Energy<'_>; 8] = [
+        let energies: [Energy<'_>; 9] = [
             ("neo_hookean", &|f| {
                 let ln = f.determinant().ln();
                 mu / 2.0 * (invariant(f) - 3.0) - mu * ln + lambda / 2.0 * ln * ln
@@ -186,6 +191,10 @@ mod tests {
                 let j = f.determinant();
                 mu / 2.0 * (invariant(f) - 3.0) - mu * j.ln()
                     + lambda / 4.0 * (j * j - 1.0 - 2.0 * j.ln())
+            }),
+            ("neo_hookean_linear_volume", &|f| {
+                let j = f.determinant();
+                mu / 2.0 * (invariant(f) - 3.0) - mu * j.ln() + lambda * (j - 1.0 - j.ln())
             }),
             ("neo_hookean_isochoric", &|f| {
                 let j = f.determinant();
@@ -226,7 +235,7 @@ mod tests {
     #[test]
     fn laws_are_the_same_at_small_strains() {
         let h = Tensor::new(1.0, 0.5, -0.3, 0.2, -0.7, 0.4, 0.1, 0.6, 0.3) * 1e-7;
-        let linear = LAWS[8].stress([1.7, 0.6], &h);
+        let linear = LAWS[LAWS.len() - 1].stress([1.7, 0.6], &h);
         for law in LAWS {
             let stress = law.stress([1.7, 0.6], &h);
             assert!((stress - linear).norm() < 1e-6 * linear.norm(), "{}", law.name);
@@ -237,9 +246,9 @@ mod tests {
     fn moduli_are_found_again() {
         let gradient =
             |k: f64| Matrix::<f64, 2>::from_fn(|i, j| 0.2 * (k + 3.0 * i as f64 + j as f64).sin());
-        let sample = |k: f64| (gradient(k), LAWS[3].stress([5.0, 2.0], &gradient(k)));
+        let sample = |k: f64| (gradient(k), LAWS[4].stress([5.0, 2.0], &gradient(k)));
         let samples = [1.0, 2.0, 5.0].map(sample);
-        let ([lambda, mu], missed) = moduli(&LAWS[3], &samples).unwrap();
+        let ([lambda, mu], missed) = moduli(&LAWS[4], &samples).unwrap();
         assert!((lambda - 5.0).abs() < 1e-12 && (mu - 2.0).abs() < 1e-12 && missed < 1e-13);
         assert!(moduli(&LAWS[0], &samples).unwrap().1 > 1e-3);
     }

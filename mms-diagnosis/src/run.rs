@@ -125,10 +125,15 @@ where
         Ok(Plan { exact, frame, without, cells, methods })
     }
 
+    /// The longest edge of the box around the body.
+    pub fn length(&self) -> f64 {
+        let edges = bounding_box(&self.exact.domain.body).map(|[lower, upper]| upper - lower);
+        edges.map_or(1.0, |edges| edges.max())
+    }
+
     /// h of the runs.
     pub fn cell_size(&self) -> f64 {
-        let edges = bounding_box(&self.exact.domain.body).map(|[lower, upper]| upper - lower);
-        edges.map_or(1.0, |edges| edges.max()) / self.cells as f64
+        self.length() / self.cells as f64
     }
 
     /// The errors of a right solver; `None` where it stops.

@@ -430,12 +430,18 @@ fn proposals_show_what_can_be_shown_and_can_be_pasted() {
         .exits(0)
         .prints("--only=travelling_wave_2d/4")
         .prints("in time/4");
-    // Whoever can start at rest alone is shown by no field of the gallery.
+    // Whoever can start at rest alone gets the field that does.
     let little = "can = { dimensions = [2] }\n";
     folder.write(&format!("{ODD}/c.toml"), &file("2", little));
     let run = campaign(&folder, &["--suggest", "--json"]).exits(0).json();
-    assert_eq!(run["fields"].as_array().map(Vec::len), Some(0));
+    assert_eq!(run["fields"].as_array().map(Vec::len), Some(1));
+    assert_eq!(run["fields"][0]["field"], "starting_square_2d");
     let unseen = run["unseen"].as_array().expect("terms");
-    let shear = unseen.iter().find(|it| it["term"] == "shear").expect("shear");
-    assert!(shear["needs"].as_array().expect("keys").iter().any(|key| key == "start_deformed"));
+    let start = unseen.iter().find(|it| it["term"] == "initial_velocity").expect("a start");
+    assert!(start["needs"].as_array().expect("keys").iter().any(|key| key == "start_moving"));
+    let none = "can = { dimensions = [3], materials = [\"gent\"] }\n";
+    folder.write(&format!("{ODD}/c.toml"), &file("2", none));
+    campaign(&folder, &["--suggest"])
+        .exits(0)
+        .prints("# no field of the gallery is one that this solver can run");
 }

@@ -97,6 +97,7 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         of_law::<D, 6>,
         of_law::<D, 7>,
         of_law::<D, 8>,
+        of_law::<D, 9>,
     ];
     let others = LAWS.iter().zip(all).filter(|(law, _)| own != Some(law.name));
     let hypothesis = |(law, change): (&Law, _)| {

@@ -199,26 +199,6 @@ impl<const D: usize> Hypothesis<D> {
         Self::fixed("stress_first_piola", says, Change::Stress(|_, _| {}))
     }
 
-    /// Hypotheses with effects of one kind, between which an error may hardly tell.
-    pub fn family(&self) -> &'static str {
-        match self.name {
-            "stress_small_strain" | "material" => "law",
-            "deformation_transposed" | "strain_left" => "kinematics",
-            "moduli_factor" | "lambda_factor" | "mu_factor" | "moduli_swapped" | "shear_factor"
-            | "density_factor" => "moduli",
-            "force_late" | "output_time" | "start_half_step" => "time",
-            "output_factor" | "increment_for_total" => "scale",
-            _ if self.name.starts_with("stress_") => "measure",
-            _ if matches!(self.change, Change::Force(_))
-                && self.name != "damping"
-                && self.name != "constant_force" =>
-            {
-                "force"
-            }
-            name => name,
-        }
-    }
-
     fn choice(self) -> Self {
         Hypothesis { kind: Kind::Choice, ..self }
     }
