@@ -121,7 +121,7 @@ const SCALED: f64 = 0.06;
 /// Which part of the error may be left by a mistake that is named, where the method makes next to nothing of it; and what it
 /// may leave besides, over how many times the method's error it is.
 const LEFT: f64 = 0.2;
-const LEFT_BY_METHOD: f64 = 0.3;
+const LEFT_BY_METHOD: f64 = 0.1;
 /// The remainder of a hypothesis that explains an error as well as the best one, over that of it; and the part of the
 /// squared error that is not looked at.
 const AS_WELL: f64 = 1.3;

@@ -1,7 +1,7 @@
 //! Hypotheses: mistakes that people make, each as a change of what a solver is given or computes.
 //!
 //! Each family is a file; its list is `all`. A [`Hypothesis`] has a size, one number for most: a factor, a time, a
-//! part of a vector. At [`Hypothesis::right`] the solver is right. Sizes with names of their own are [`Known`].
+//! part of a vector ([`Size`]); one of them is that of a right solver. Sizes with names of their own are [`Known`].
 
 mod density;
 mod face;
