@@ -1,6 +1,6 @@
 //! Writes docs/diagnosis.md: how often `mms diagnose` names a mistake, and how often wrongly.
 //!
-//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; with 60 cases a quarter of an hour.
+//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; with 150 cases some minutes.
 //!
 //! Cases are drawn, not chosen: a field, a mistake with a size, a method, meshes, a layout of particles, a time. All that were
 //! drawn count, but for those whose error is not three times that of the right run, and those that stop.
