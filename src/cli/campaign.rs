@@ -117,7 +117,13 @@ impl Campaign {
         {
             say(format_args!("warning: {}: {warning}", study.planned.study.name));
         }
-        let input = Input { field: None, rigid: None, window: None, set: Vec::new(), hash: hash(plan, text) };
+        let input = Input {
+            field: None,
+            rigid: None,
+            window: None,
+            set: Vec::new(),
+            hash: hash(plan, text),
+        };
         let report = Report { plan, studies, provenance: this_command("campaign", input) };
         self.tell(&report, work)
     }
