@@ -76,16 +76,12 @@ pub struct Diagnosis {
     pub evidence: &'static str,
     /// Hypotheses, the best one first.
     pub ranked: Vec<Ranked>,
-    /// Two mistakes that explain the error together, where one does not.
-    pub pair: Option<[String; 2]>,
     /// What such results of this field cannot show.
     pub cannot_be_seen: Vec<String>,
     /// The size of the error over that of the exact solution.
     pub error: f64,
     /// That of a right solver, as far as is known.
     pub expected: f64,
-    /// What else is to be said.
-    pub notes: Vec<String>,
 }
 
 /// What a hypothesis explains.

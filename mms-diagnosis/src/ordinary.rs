@@ -9,8 +9,8 @@ use crate::answer::{Diagnosis, Explained, Finding, finding, ranked, unseen};
 use crate::changed::Without;
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, Size};
-use crate::rank::{Error, SAME};
+use crate::hypothesis::{Change, Hypothesis};
+use crate::rank::{Effect, Error, explain};
 use crate::run::{Obstacle, Plan, written};
 use crate::smooth::{less, size};
 
@@ -20,14 +20,8 @@ const REFINED: f64 = 1.2;
 const APART: f64 = 2.0;
 /// What a method makes at least, over the solution: so many times (h/length)^2. Some fields have none in ours.
 const LEAST: f64 = 2.0;
-/// How often the size of a hypothesis is mended.
-const MENDS: usize = 4;
-/// From this part of the error on a hypothesis is worth mending.
-const WORTH: f64 = 0.5;
 /// From this part on it is looked at by a second method.
 const PROMISING: f64 = 0.3;
-/// A size is found when the response has to be scaled by no more than this.
-const FOUND: f64 = 0.02;
 
 /// Looks at results with every hypothesis.
 pub struct Look<'a, const D: usize> {
@@ -92,46 +86,11 @@ where
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
-    fn response(
-        &self,
-        method: usize,
-        hypothesis: &Hypothesis<D>,
-        size: &[f64],
-    ) -> Option<Vec<f64>> {
+    fn by(&self, method: usize, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
         if let Change::Output(_) = hypothesis.change {
             return written(self.exact, self.frame, self.mesh, hypothesis, size);
         }
         Some(less(&self.plan.wrong(method, hypothesis, size)?, 1.0, &self.right[method]))
-    }
-
-    /// By how much responses are others by another method. Nothing where they explain too little to be looked at again.
-    fn doubts(
-        &self,
-        hypothesis: &Hypothesis<D>,
-        sizes: &[Vec<f64>],
-        responses: &[Vec<f64>],
-    ) -> Vec<Vec<f64>> {
-        let (_, remains) = self.error.explain(responses, &[]);
-        if matches!(hypothesis.change, Change::Output(_)) || self.error.share(&remains) < PROMISING
-        {
-            return Vec::new();
-        }
-        let pairs = sizes.iter().zip(responses);
-        let doubt = |(at, first): (&Vec<f64>, &Vec<f64>)| {
-            Some(less(&self.response(1, hypothesis, at)?, 1.0, first))
-        };
-        pairs.filter_map(doubt).collect()
-    }
-
-    /// What a hypothesis explains; `None` where it has no response that can be found.
-    pub fn explain(&self, index: usize) -> Option<Explained> {
-        match &self.hypotheses[index].size {
-            Size::Fixed => self.sized(index, 0.0, 1.0),
-            Size::Any { right, first, .. } if right.len() == 1 => {
-                self.sized(index, right[0], first[0])
-            }
-            Size::Any { right, first, .. } => self.vector(index, right, first),
-        }
     }
 
     /// What each hypothesis explains, on all processors.
@@ -140,7 +99,11 @@ where
         let take = || {
             (0..).map(|_| next.fetch_add(1, Relaxed)).take_while(|it| *it < self.hypotheses.len())
         };
-        let worker = || take().filter_map(|index| self.explain(index)).collect::<Vec<_>>();
+        let worker = || {
+            take()
+                .filter_map(|index| explain(index, &self.hypotheses[index], &self.error, self))
+                .collect::<Vec<_>>()
+        };
         let threads = thread::available_parallelism().map_or(1, usize::from);
         let mut all: Vec<Explained> = thread::scope(|scope| {
             let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
@@ -149,59 +112,33 @@ where
         all.sort_by_key(|it| it.hypothesis);
         all
     }
+}
 
-    /// A hypothesis with one number: its size is mended until the response need not be scaled.
-    fn sized(&self, index: usize, right: f64, first: f64) -> Option<Explained> {
-        let hypothesis = &self.hypotheses[index];
-        let is_fixed = hypothesis.size == Size::Fixed;
-        let mut at = first;
-        let mut best: Option<Explained> = None;
-        for _ in 0..MENDS {
-            let Some(response) = self.response(0, hypothesis, &[at]) else { break };
-            let response = [response];
-            let doubts = self.doubts(hypothesis, &[vec![at]], &response);
-            let (scale, remains) = self.error.explain(&response, &doubts);
-            let ([response], scale) = (response, scale[0]);
-            let share = self.error.share(&remains);
-            let margin =
-                size(&remains) / size(&response).max(f64::MIN_POSITIVE) * (at - right).abs();
-            let found = hypothesis.rescaled(right, at, scale);
-            let size = if is_fixed { Vec::new() } else { vec![found] };
-            let explained = Explained { hypothesis: index, size, margin, scale, share, response };
-            if best.as_ref().is_none_or(|best| explained.share > best.share - SAME) {
-                best = Some(explained);
-            }
-            if is_fixed || share < WORTH || (scale - 1.0).abs() < FOUND || !found.is_finite() {
-                break;
-            }
-            at = found;
-        }
-        best
+impl<const D: usize> Effect<D> for Look<'_, D>
+where
+    f64: Solve<D>,
+{
+    fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
+        self.by(0, hypothesis, size)
     }
 
-    /// A hypothesis with a vector, taken as linear.
-    fn vector(&self, index: usize, right: &[f64], first: &[f64]) -> Option<Explained> {
-        let hypothesis = &self.hypotheses[index];
-        let along = |axis: usize| {
-            let mut at = right.to_vec();
-            at[axis] = first[axis];
-            at
-        };
-        let sizes: Vec<_> = (0..right.len()).map(along).collect();
-        let responses = sizes.iter().map(|at| self.response(0, hypothesis, at));
-        let responses: Vec<_> = responses.collect::<Option<_>>()?;
-        let doubts = self.doubts(hypothesis, &sizes, &responses);
-        let (scales, remains) = self.error.explain(&responses, &doubts);
-        let share = self.error.share(&remains);
-        let steps = right.iter().zip(first).zip(&scales);
-        let found: Vec<f64> =
-            steps.map(|((right, first), scale)| right + scale * (first - right)).collect();
-        let mut response = vec![0.0; self.error.all.len()];
-        for (column, scale) in responses.iter().zip(&scales) {
-            response = less(&response, -scale, column);
+    /// By how much responses are others by the second method. Nothing where they explain too little to be looked at again.
+    fn doubts(
+        &self,
+        hypothesis: &Hypothesis<D>,
+        sizes: &[Vec<f64>],
+        responses: &[Vec<f64>],
+    ) -> Vec<Vec<f64>> {
+        let (_, remains) = self.error.explain(responses, &[]);
+        let is_output = matches!(hypothesis.change, Change::Output(_));
+        if is_output || self.error.share(&remains) < PROMISING {
+            return Vec::new();
         }
-        let margin = size(&remains) / size(&response).max(f64::MIN_POSITIVE) * size(&found);
-        Some(Explained { hypothesis: index, size: found, margin, scale: 1.0, share, response })
+        let pairs = sizes.iter().zip(responses);
+        let doubt = |(at, first): (&Vec<f64>, &Vec<f64>)| {
+            Some(less(&self.by(1, hypothesis, at)?, 1.0, first))
+        };
+        pairs.filter_map(doubt).collect()
     }
 }
 
@@ -247,14 +184,5 @@ where
         }
         found => found,
     };
-    Ok(Diagnosis {
-        finding,
-        evidence: "results",
-        ranked,
-        pair: None,
-        cannot_be_seen,
-        error,
-        expected,
-        notes: Vec::new(),
-    })
+    Ok(Diagnosis { finding, evidence: "results", ranked, cannot_be_seen, error, expected })
 }

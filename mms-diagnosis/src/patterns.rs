@@ -60,11 +60,9 @@ pub fn diagnose<const D: usize>(
             equivalent_here: Vec::new(),
             needs: Vec::new(),
         }],
-        pair: None,
         cannot_be_seen: Vec::new(),
         error: off / scale,
         expected: apart / scale,
-        notes: Vec::new(),
     })
 }
 

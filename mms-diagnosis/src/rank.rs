@@ -67,77 +67,108 @@ impl Error {
 /// How much the method's error may vary from what is known of it, over itself.
 const DOUBT: f64 = 0.5;
 
-/// What a hypothesis explains, its size mended until its effect need not be scaled. `make` says the error that it makes
-/// with a size.
+/// The errors that hypotheses make.
+pub trait Effect<const D: usize> {
+    /// The error that a hypothesis of this size makes, less that of a right solver; `None` where it cannot be found.
+    fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>>;
+
+    /// By how much methods differ in such errors, where that is known.
+    fn doubts(&self, _: &Hypothesis<D>, _: &[Vec<f64>], _: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+}
+
+impl<const D: usize, F: Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>> Effect<D> for F {
+    fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
+        Some(self(hypothesis, size))
+    }
+}
+
+/// What a hypothesis explains. Its size is mended until the effect need not be scaled; a vector is taken as linear.
 pub fn explain<const D: usize>(
     index: usize,
     hypothesis: &Hypothesis<D>,
     error: &Error,
-    make: &dyn Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>,
+    effect: &dyn Effect<D>,
 ) -> Option<Explained> {
-    let (right, first) = match &hypothesis.size {
-        Size::Fixed => (vec![], vec![]),
-        Size::Any { right, first, .. } => (right.clone(), first.clone()),
-    };
-    if right.len() > 1 {
-        let along = |axis: usize| {
-            let mut at = right.clone();
-            at[axis] = first[axis];
-            make(hypothesis, &at)
-        };
-        let responses: Vec<_> = (0..right.len()).map(along).collect();
-        let (scales, remains) = error.explain(&responses, &[]);
-        let found: Vec<f64> =
-            right.iter().zip(&first).zip(&scales).map(|((r, f), s)| r + s * (f - r)).collect();
-        let response = less(&error.all, 1.0, &remains);
-        let margin = size(&remains) / size(&response).max(f64::MIN_POSITIVE) * size(&found);
-        let share = error.share(&remains);
-        return Some(Explained {
-            hypothesis: index,
-            size: found,
-            margin,
-            scale: 1.0,
-            share,
-            response,
-        });
+    match &hypothesis.size {
+        Size::Fixed => sized(index, hypothesis, error, effect, [0.0, 1.0]),
+        Size::Any { right, first, .. } => match (right.as_slice(), first.as_slice()) {
+            ([right], [first]) => sized(index, hypothesis, error, effect, [*right, *first]),
+            (right, first) => vector(index, hypothesis, error, effect, [right, first]),
+        },
     }
-    let mut at = first.first().copied();
+}
+
+/// A hypothesis with one number, or none.
+fn sized<const D: usize>(
+    index: usize,
+    hypothesis: &Hypothesis<D>,
+    error: &Error,
+    effect: &dyn Effect<D>,
+    [right, first]: [f64; 2],
+) -> Option<Explained> {
+    let is_fixed = hypothesis.size == Size::Fixed;
+    let mut at = first;
     let mut best: Option<Explained> = None;
     for _ in 0..MENDS {
-        let sizes: Vec<f64> = at.into_iter().collect();
-        let response = [make(hypothesis, &sizes)];
-        if response[0].iter().any(|it| !it.is_finite()) {
-            break;
-        }
-        let (scale, remains) = error.explain(&response, &[]);
-        let (scale, [response]) = (scale[0], response);
+        let found = effect.response(hypothesis, &[at]);
+        let Some(response) = found.filter(|it| it.iter().all(|it| it.is_finite())) else { break };
+        let response = [response];
+        let doubts = effect.doubts(hypothesis, &[vec![at]], &response);
+        let (scale, remains) = error.explain(&response, &doubts);
+        let ([response], scale) = (response, scale[0]);
         let share = error.share(&remains);
         let relative = size(&remains) / size(&response).max(f64::MIN_POSITIVE);
-        let step = right.first().zip(at).map_or(1.0, |(right, at)| at - right);
-        let found = right.first().zip(at).map(|(right, at)| hypothesis.rescaled(*right, at, scale));
-        let explained = Explained {
-            hypothesis: index,
-            size: found.into_iter().collect(),
-            margin: relative * step.abs(),
-            scale,
-            share,
-            response,
-        };
-        if best.as_ref().is_none_or(|best| share >= best.share - SAME) {
-            best = Some(explained);
+        let found = hypothesis.rescaled(right, at, scale);
+        let margin = relative * (at - right).abs();
+        let size = if is_fixed { Vec::new() } else { vec![found] };
+        if best.as_ref().is_none_or(|best| share > best.share - SAME) {
+            best = Some(Explained { hypothesis: index, size, margin, scale, share, response });
         }
-        if found.is_none() || (scale - 1.0).abs() < 1e-6 {
+        if is_fixed || share < WORTH || (scale - 1.0).abs() < FOUND || !found.is_finite() {
             break;
         }
-        at = found.filter(|it| it.is_finite());
-        if at.is_none() {
-            break;
-        }
+        at = found;
     }
     best
 }
 
+/// A hypothesis with a vector.
+fn vector<const D: usize>(
+    index: usize,
+    hypothesis: &Hypothesis<D>,
+    error: &Error,
+    effect: &dyn Effect<D>,
+    [right, first]: [&[f64]; 2],
+) -> Option<Explained> {
+    let along = |axis: usize| {
+        let mut at = right.to_vec();
+        at[axis] = first[axis];
+        at
+    };
+    let sizes: Vec<_> = (0..right.len()).map(along).collect();
+    let responses = sizes.iter().map(|at| effect.response(hypothesis, at));
+    let responses: Vec<_> = responses.collect::<Option<_>>()?;
+    let doubts = effect.doubts(hypothesis, &sizes, &responses);
+    let (scales, remains) = error.explain(&responses, &doubts);
+    let share = error.share(&remains);
+    let steps = right.iter().zip(first).zip(&scales);
+    let found: Vec<f64> =
+        steps.map(|((right, first), scale)| right + scale * (first - right)).collect();
+    let mut response = vec![0.0; error.all.len()];
+    for (column, scale) in responses.iter().zip(&scales) {
+        response = less(&response, -scale, column);
+    }
+    let margin = size(&remains) / size(&response).max(f64::MIN_POSITIVE) * size(&found);
+    Some(Explained { hypothesis: index, size: found, margin, scale: 1.0, share, response })
+}
+
 /// Shares that differ by less are alike: the later size is the better one.
-pub const SAME: f64 = 1e-3;
+const SAME: f64 = 1e-3;
 /// How often the size of a hypothesis is mended.
 const MENDS: usize = 8;
+/// From this part of the error on a hypothesis is worth mending.
+const WORTH: f64 = 0.5;
+/// A size is found when the response has to be scaled by no more than this.
+const FOUND: f64 = 1e-3;

@@ -329,19 +329,9 @@ pub fn diagnose<const D: usize>(
         &["another term left out (`--without`)", "another field"],
     );
     let finding = finding(&ranked, excess);
-    let notes = Vec::new();
     let evidence = match response.computed {
         Computed::Acceleration => "accelerations at an exact state",
         Computed::Residual => "residuals at an exact state",
     };
-    Ok(Diagnosis {
-        finding,
-        evidence,
-        ranked,
-        pair: None,
-        cannot_be_seen,
-        error: found,
-        expected: floor,
-        notes,
-    })
+    Ok(Diagnosis { finding, evidence, ranked, cannot_be_seen, error: found, expected: floor })
 }

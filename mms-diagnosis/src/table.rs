@@ -135,10 +135,8 @@ pub fn diagnose<const D: usize>(
         finding,
         evidence: "the law alone",
         ranked,
-        pair: None,
         cannot_be_seen,
         error: found,
         expected: floor,
-        notes: Vec::new(),
     })
 }

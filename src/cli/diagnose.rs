@@ -100,7 +100,7 @@ impl Diagnose {
             return Ok(Outcome::AsExpected);
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
-        let exact = Exact::new(input, &self.set)?;
+        let mut exact = Exact::new(input, &self.set)?;
         let all =
             self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
         let reading = Reading {
@@ -110,7 +110,7 @@ impl Diagnose {
             is_law: self.quantity == Some(Quantity::Stress),
             residual_sign: self.residual_sign,
         };
-        let evidence = diagnose::read(all, &reading, &exact)?;
+        let evidence = diagnose::read(all, &reading, &mut exact)?;
         say(format_args!("looking at {}", evidence.says()));
         let is_out = |term: Term| self.without.contains(&term);
         let without = Without {

@@ -32,7 +32,11 @@ pub struct Reading<'a> {
 ///
 /// # Errors
 /// What is wrong with a file, and where; evidence that is none.
-pub fn read(all: Vec<Results>, reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Evidence> {
+pub fn read(
+    all: Vec<Results>,
+    reading: &Reading<'_>,
+    exact: &mut Exact,
+) -> anyhow::Result<Evidence> {
     if reading.is_law {
         let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
         return law(snapshot.context("expected a table of F and stress")?, reading, exact);
@@ -119,8 +123,12 @@ fn law(snapshot: &Snapshot, reading: &Reading<'_>, exact: &Exact) -> anyhow::Res
     }))
 }
 
-/// Accelerations or residuals, where there are such, and no motion.
-fn state(all: &[Results], reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Option<StateOf>> {
+/// Residuals; or accelerations, of points whose motion is the exact one or is not there: else they are among results.
+fn state(
+    all: &[Results],
+    reading: &Reading<'_>,
+    exact: &mut Exact,
+) -> anyhow::Result<Option<StateOf>> {
     let Some(results) = all.last() else { return Ok(None) };
     let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
     let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
@@ -134,6 +142,13 @@ fn state(all: &[Results], reading: &Reading<'_>, exact: &Exact) -> anyhow::Resul
         let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
             .map_err(placed)?;
         let reference = motion.reference.numbers;
+        let time = time(snapshot, reading, 0)?;
+        let u = motion.displacement.map(|it| it.numbers);
+        let right = exact.values(mms_spec::quantity::Quantity::Displacement, time, &reference)?;
+        let is_at_exact = u.is_none_or(|u| is_near(&u, &right));
+        if computed == Computed::Acceleration && !is_at_exact {
+            return Ok(None);
+        }
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         let volumes = match values(&meanings, Role::Volume, snapshot, 1)? {
             Some(volumes) => Some(volumes.numbers),
@@ -143,7 +158,6 @@ fn state(all: &[Results], reading: &Reading<'_>, exact: &Exact) -> anyhow::Resul
             None => None,
         };
         let cell_size = size(reading.sizes.last().copied(), &mesh, exact);
-        let time = time(snapshot, reading, 0)?;
         return Ok(Some(StateOf {
             computed,
             time,
@@ -156,6 +170,16 @@ fn state(all: &[Results], reading: &Reading<'_>, exact: &Exact) -> anyhow::Resul
     Ok(None)
 }
 
+/// A state is the exact one within this part of it: rounding of a file, and no error of a method.
+const EXACT: f64 = 1e-6;
+
+fn is_near(a: &[f64], b: &[f64]) -> bool {
+    let largest =
+        |it: &mut dyn Iterator<Item = f64>| it.fold(0.0, |most: f64, it| most.max(it.abs()));
+    let apart = largest(&mut a.iter().zip(b).map(|(a, b)| a - b));
+    apart <= EXACT * largest(&mut b.iter().copied())
+}
+
 fn time(snapshot: &Snapshot, reading: &Reading<'_>, at: usize) -> anyhow::Result<f64> {
     let time = snapshot.time.map(|it| it.value).or(reading.times.get(at).copied());
     time.with_context(|| format!("{}: it has no time; give it with `--time`", snapshot.path))
@@ -164,9 +188,7 @@ fn time(snapshot: &Snapshot, reading: &Reading<'_>, at: usize) -> anyhow::Result
 /// h: as given, of cells, or about that of so many points.
 fn size(given: Option<f64>, mesh: &Mesh<'_>, exact: &Exact) -> f64 {
     let points = mesh.points.len() / exact.dimension;
-    given.or(mesh.sizes().map(|[_, longest]| longest)).unwrap_or_else(|| {
-        (exact.body.measure() / points as f64).powf(1.0 / exact.dimension as f64)
-    })
+    given.or(mesh.sizes().map(|[_, longest]| longest)).unwrap_or_else(|| exact.spacing(points))
 }
 
 fn level(

@@ -44,6 +44,11 @@ impl Exact {
         &self.input
     }
 
+    /// The edge of a cube (square, length) that each of so many points has of the body.
+    pub fn spacing(&self, points: usize) -> f64 {
+        (self.body.measure() / points as f64).powf(1.0 / self.dimension as f64)
+    }
+
     /// Its name and its title, for a person.
     pub fn title(&self) -> String {
         format!("{}: {}", self.input.name.shown(), self.input.compiled.field.title.shown())

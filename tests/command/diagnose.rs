@@ -99,6 +99,23 @@ fn accelerations_at_an_exact_state_name_a_term() {
 }
 
 #[test]
+fn accelerations_beside_another_motion_are_among_results() {
+    let folder = Folder::new();
+    let points = grid(&folder, 16, 0.005);
+    let with = |factor: f64| {
+        table("X,Y,time,u_x,u_y,a_x,a_y", &points, |point| {
+            let u = numbers(point, "displacement").into_iter().map(|u| factor * u).collect();
+            let a = numbers(point, "acceleration");
+            [numbers(point, "at"), vec![0.005], u, a].concat()
+        })
+    };
+    let exact = diagnose(&folder, &with(1.0), "").exits(0);
+    exact.prints("travelling_wave_2d: accelerations at an exact state");
+    let millimetres = diagnose(&folder, &with(1000.0), "").exits(1);
+    millimetres.prints("travelling_wave_2d: results").prints("named: units");
+}
+
+#[test]
 fn files_that_say_too_little_are_refused() {
     let folder = Folder::new();
     let run = diagnose(&folder, "X,Y,time\n0.5,0.5,0\n0.2,0.3,0\n", "").exits(2);

@@ -243,10 +243,7 @@ fn lengths(
         "h: (measure of the body / points)^(1/D), for there are no cells; give others with `--h`"
             .into(),
     );
-    let size = |level: &Level| {
-        (exact.body.measure() / level.found.points as f64).powf(1.0 / exact.dimension as f64)
-    };
-    Ok(levels.iter().map(size).collect())
+    Ok(levels.iter().map(|level| exact.spacing(level.found.points)).collect())
 }
 
 /// The norms, said once for those that are alike.
