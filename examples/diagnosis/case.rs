@@ -2,7 +2,7 @@
 
 use mms_diagnosis::answer::{Diagnosis, Finding};
 use mms_diagnosis::changed::{Changed, Without};
-use mms_diagnosis::evidence::{Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity, vectors};
 use mms_diagnosis::hypothesis::{Change, Given, Hypothesis, Size, all};
 use mms_diagnosis::ordinary::diagnose;
@@ -21,6 +21,8 @@ pub enum Case {
     Closed,
     /// Its family is not.
     Open,
+    /// There are two, both in the list.
+    Two,
     /// There is none.
     Right,
 }
@@ -31,6 +33,7 @@ impl Case {
         match self {
             Case::Closed => "closed",
             Case::Open => "open",
+            Case::Two => "two",
             Case::Right => "right",
         }
     }
@@ -43,6 +46,8 @@ pub struct Outcome {
     pub finding: &'static str,
     /// The field.
     pub field: String,
+    /// What the mistake is called.
+    pub name: &'static str,
     /// The mistake, its size and the method.
     pub mistake: String,
     /// What stands first.
@@ -75,21 +80,27 @@ impl Observer for States {
 }
 
 /// A mistake with its size.
-type Mistake<'a, const D: usize> = Option<(&'a Hypothesis<D>, &'a [f64])>;
+type Mistake<'a, const D: usize> = (&'a Hypothesis<D>, Vec<f64>);
 
-/// What a user writes of a run.
+/// What a user writes of a run with up to two mistakes.
 fn written<const D: usize>(
     exact: &Exact<'_, D>,
     method: &Method,
     cells: usize,
-    mistake: Mistake<'_, D>,
+    mistakes: &[Mistake<'_, D>],
 ) -> Option<Mesh>
 where
     f64: Solve<D>,
 {
-    let changed = match mistake {
-        Some((hypothesis, size)) => Changed::with(exact, Without::default(), hypothesis, size),
-        None => Changed::right(exact, Without::default()),
+    let right = Without::default();
+    let first = match mistakes.first() {
+        Some((hypothesis, size)) => Changed::with(exact, right, hypothesis, size),
+        None => Changed::right(exact, right),
+    };
+    let inner = Exact::new(&first, exact.cell_size, exact.time_step);
+    let changed = match mistakes.get(1) {
+        Some((hypothesis, size)) => Changed::with(&inner, right, hypothesis, size),
+        None => Changed::right(&inner, right),
     };
     let window = [exact.domain.time[0], method.setup.end_time?];
     let mut states = States { window, seen: Vec::new() };
@@ -97,7 +108,8 @@ where
     let cells = Division::Uniform(cells);
     let run = f64::run(field, method, &cells, Watch::Displacement, &mut states).ok()?;
     run.level.errors.ok()?;
-    let snapshots = states.seen.iter().map(|state| snapshot(exact, state, mistake)).collect();
+    let snapshots =
+        states.seen.iter().map(|state| snapshot(exact, state, mistakes.first())).collect();
     Some(Mesh { cell_size: run.level.cell_size, snapshots })
 }
 
@@ -105,7 +117,7 @@ where
 fn snapshot<const D: usize>(
     exact: &Exact<'_, D>,
     state: &State,
-    mistake: Mistake<'_, D>,
+    mistake: Option<&Mistake<'_, D>>,
 ) -> Snapshot {
     let pairs = state.position.iter().zip(&state.displacement);
     let reference: Vec<f64> = pairs.map(|(x, u)| x - u).collect();
@@ -161,6 +173,12 @@ fn sized<const D: usize>(hypothesis: &Hypothesis<D>, random: &mut fastrand::Rng)
     right.iter().zip(first).map(part).collect()
 }
 
+/// The size on a mesh that is so many times coarser.
+fn on_mesh<const D: usize>(size: &[f64], hypothesis: &Hypothesis<D>, coarser: usize) -> Vec<f64> {
+    let factor = if hypothesis.is_of_mesh { coarser as f64 } else { 1.0 };
+    size.iter().map(|it| it * factor).collect()
+}
+
 /// Hypotheses with effects of one kind, which stand for each other.
 fn family<const D: usize>(hypothesis: &Hypothesis<D>) -> &'static str {
     match hypothesis.name {
@@ -179,8 +197,8 @@ fn family<const D: usize>(hypothesis: &Hypothesis<D>) -> &'static str {
 
 /// Draws a case, and diagnoses it; `None` where it does not count.
 pub fn drawn<const D: usize>(
-    name: &str,
-    field: &dyn ManufacturedField<f64, D>,
+    field: &str,
+    manufactured: &dyn ManufacturedField<f64, D>,
     case: Case,
     random: &mut fastrand::Rng,
 ) -> Option<Outcome>
@@ -189,57 +207,83 @@ where
 {
     let cells = [[32, 64], [16, 24], [6, 8]][D - 1][random.usize(..2)];
     let mut method = method(case, random);
-    let scout = Exact::new(field, 1.0, 1.0);
+    let scout = Exact::new(manufactured, 1.0, 1.0);
     let [lower, upper] = bounding_box(&scout.domain.body).ok()?;
     let cell_size = (upper - lower).max() / cells as f64;
-    let mut speed = vec![0.0];
-    field.wave_speed(&scout.places()[..1], &mut speed);
-    let exact = Exact::new(field, cell_size, method.setup.courant * cell_size / speed[0]);
+    let time_step = method.setup.courant * cell_size / scout.wave_speed();
+    let exact = Exact::new(manufactured, cell_size, time_step);
     let [start, stop] = exact.domain.time;
     method.setup.end_time = Some(start + (stop - start) * (0.2 + 0.8 * random.f64()));
     let mut hypotheses = all(&exact);
-    let truth = random.usize(..hypotheses.len());
-    let size_of = sized(&hypotheses[truth], random);
+    let count = match case {
+        Case::Right => 0,
+        Case::Closed | Case::Open => 1,
+        Case::Two => 2,
+    };
+    let truths: Vec<usize> = (0..count).map(|_| random.usize(..hypotheses.len())).collect();
+    let sizes: Vec<Vec<f64>> = truths.iter().map(|it| sized(&hypotheses[*it], random)).collect();
     let has_two = random.bool();
-    if !hypotheses[truth].allows(&size_of) {
+    let pairs = || truths.iter().map(|it| &hypotheses[*it]).zip(&sizes);
+    if !pairs().all(|(hypothesis, size)| hypothesis.allows(size))
+        || !are_apart(&hypotheses, &truths)
+    {
         return None;
     }
-    let mistake = (case != Case::Right).then_some((&hypotheses[truth], size_of.as_slice()));
     let levels = if has_two { vec![cells / 2, cells] } else { vec![cells] };
-    let meshes = levels.iter().map(|&cells| written(&exact, &method, cells, mistake));
-    let meshes: Vec<Mesh> = meshes.collect::<Option<_>>()?;
-    let right = written(&exact, &method, cells, None)?;
+    let on = |level: usize| {
+        let mistakes = pairs().map(|(it, size)| (it, on_mesh(size, it, cells / level)));
+        written(&exact, &method, level, &mistakes.collect::<Vec<_>>())
+    };
+    let meshes: Vec<Mesh> = levels.iter().map(|level| on(*level)).collect::<Option<_>>()?;
+    let right = written(&exact, &method, cells, &[])?;
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
-    let smooth = Smooth::new(&exact.domain.body, points.min()?).ok()?;
+    let smooth = Smooth::new(&exact.domain.body, points.min()?, DEGREE).ok()?;
     let snapshots: Vec<&Snapshot> = meshes.last()?.snapshots.iter().collect();
     let frame = Frame::new(&exact, &snapshots, smooth);
     let error = |mesh: &Mesh| Some(size(&frame.errors_of(&exact, mesh)?.coefficients));
     if case != Case::Right && error(meshes.last()?)? <= 3.0 * error(&right)? {
         return None;
     }
-    let title = hypotheses[truth].title();
+    let titles: Vec<String> = pairs().map(|(it, _)| it.title()).collect();
+    let name = truths.first().map_or("none", |it| hypotheses[*it].name);
     if case == Case::Open {
-        let family = family(&hypotheses[truth]);
+        let family = family(&hypotheses[truths[0]]);
         hypotheses.retain(|it| self::family(it) != family);
     }
-    let answer = diagnose(&exact, &frame, &meshes, &hypotheses).ok()?;
-    let size_of: Vec<String> = size_of.iter().map(|it| format!("{it:.3e}")).collect();
+    let answer = diagnose(&exact, &frame, &meshes, &hypotheses, None).ok()?;
     let of = format!("{} {} {}", method.shape, method.formulation, method.integrator);
-    let mistake = match case {
-        Case::Right => of,
-        _ => format!("{title} {} ({of})", size_of.join(", ")),
+    let told = |(title, size): (&String, &Vec<f64>)| {
+        let size: Vec<String> = size.iter().map(|it| format!("{it:.3e}")).collect();
+        format!("{title} {}", size.join(", ")).trim_end().to_owned()
     };
-    Some(outcome(&answer, &hypotheses, case, &title, (name, mistake)))
+    let told: Vec<String> = titles.iter().zip(&sizes).map(told).collect();
+    let mistake = if told.is_empty() { of } else { format!("{} ({of})", told.join(" and ")) };
+    Some(outcome(&answer, &hypotheses, case, &titles, Told { field, name, mistake }))
+}
+
+/// What a case is called.
+struct Told<'a> {
+    field: &'a str,
+    name: &'static str,
+    mistake: String,
+}
+
+/// Whether mistakes that are made together are of different families, and of what is computed.
+fn are_apart<const D: usize>(hypotheses: &[Hypothesis<D>], truths: &[usize]) -> bool {
+    let [first, second] = truths else { return true };
+    let [first, second] = [first, second].map(|it| &hypotheses[*it]);
+    let is_computed = |it: &Hypothesis<D>| !matches!(it.change, Change::Output(_));
+    family(first) != family(second) && is_computed(first) && is_computed(second)
 }
 
 fn outcome<const D: usize>(
     answer: &Diagnosis,
     hypotheses: &[Hypothesis<D>],
     case: Case,
-    truth: &str,
-    (field, mistake): (&str, String),
+    truths: &[String],
+    told: Told<'_>,
 ) -> Outcome {
-    let is_truth = |index: usize| case == Case::Closed && hypotheses[index].title() == truth;
+    let is_truth = |index: usize| case != Case::Open && truths.contains(&hypotheses[index].title());
     let best = answer.ranked.first();
     let in_class = best.is_some_and(|best| {
         let class = best.equivalent_here.iter().chain(&best.equivalent_always);
@@ -254,8 +298,9 @@ fn outcome<const D: usize>(
             (Finding::Named, true) => "right",
             (Finding::Named, false) => "wrong",
         },
-        field: field.into(),
-        mistake,
+        field: told.field.into(),
+        name: told.name,
+        mistake: told.mistake,
         first: best.map_or(String::new(), |it| format!("{} {:.3?}", it.title(), it.factor)),
         explained: best.map_or(0.0, |it| it.explained),
         is_right_by_share: most.is_some_and(|it| is_truth(it.hypothesis)),

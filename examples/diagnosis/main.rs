@@ -7,30 +7,39 @@
 
 mod case;
 
+use std::collections::BTreeMap;
 use std::error::Error;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
 use case::{Case, Outcome};
 use mms::gallery;
+use mms_diagnosis::exact::Exact;
+use mms_diagnosis::list::listed;
 use mms_runtime::scene::Scene;
 
 /// What stands before the table.
 const INTRODUCTION: &str = "\
 # Diagnosis, measured
 
-Solvers of other methods than those of diagnosis (shape function, integrator, transfer, formulation, jitter, offset of the
-grid) make a mistake of a size on a field of the gallery, and write their displacements at two times, on one mesh or two.
-`mms diagnose` gets these, and no more. Fields, mistakes, sizes, methods, meshes and times are drawn from a seed. Cases whose error
-is not three times that of the right run are drawn again, and so are runs that stop. The list of hypotheses is that of this
-version: it was not changed after the seed was drawn. The solvers share the code of the mistakes with the hypotheses, and
-nothing of the method.
+A solver makes a mistake of a size on a field of the gallery, and writes its displacements at two times, on one mesh or two. Its
+method is drawn: shape function, integrator, transfer, formulation, jitter, offset of the grid. `mms diagnose` gets these
+results, and no more. Fields, mistakes, sizes, methods, meshes and times are drawn from a seed. Cases whose error is not
+three times that of the right run are drawn again, and so are runs that stop. The list of hypotheses is that of this
+version (its hash is printed): it was not changed after the seed was drawn. The solvers share the code of the mistakes with
+the hypotheses; their methods are of the same project.
 
 * closed: the mistake is in the list. Right is what stands first, or is named as the same.
 * open: the family of the mistake is taken out of the list, so that each name is wrong.
+* two: two mistakes at once, of different families, in what is computed. Right is one of them.
 * right: no mistake, integrators of second order.
 
-An interval is that of Wilson, for 95 %.
+A field of which `mms check` warns that it is unstable under its own loads is left out: no solver can follow it. An
+interval is that of Wilson, for 95 %.
 ";
+
+/// Left out: `mms check` warns of it.
+const UNSTABLE: &[&str] = &["conformal_sector_2d"];
 
 /// How a set of cases ended.
 #[derive(Default)]
@@ -55,20 +64,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     for entry in gallery::FIELDS {
         let compiled = entry.compile().map_err(|failure| failure.to_string())?;
         // In space a case takes minutes.
-        if compiled.field.dimension < 3 {
+        if compiled.field.dimension < 3 && !UNSTABLE.contains(&entry.name) {
             scenes.push((
                 entry.name,
                 mms::interpreted::scene(Arc::new(compiled), &Default::default()),
             ));
         }
     }
-    println!("{INTRODUCTION}\nSeed {seed}, {count} cases of each set.\n");
+    let list = hash(scenes.iter().map(|(_, scene)| scene));
+    println!(
+        "{INTRODUCTION}\nSeed {seed}, {count} cases of each set; the list of hypotheses is {list:016x}.\n"
+    );
     println!(
         "| set | cases | named right | named wrong | unexplained | nothing | share alone right |"
     );
     println!("|---|---|---|---|---|---|---|");
     let mut wrong = Vec::new();
-    for set in [Case::Closed, Case::Open, Case::Right] {
+    let mut of_mistakes: BTreeMap<&'static str, Tally> = BTreeMap::new();
+    for set in [Case::Closed, Case::Open, Case::Two, Case::Right] {
         let mut tally = Tally::default();
         while tally.cases < count as usize {
             let (name, scene) = &scenes[random.usize(..scenes.len())];
@@ -80,11 +93,24 @@ fn main() -> Result<(), Box<dyn Error>> {
             let Some(outcome) = outcome else { continue };
             eprintln!("{outcome:?}");
             tally.add(&outcome);
+            if set == Case::Closed {
+                of_mistakes.entry(outcome.name).or_default().add(&outcome);
+            }
             if outcome.finding == "wrong" {
                 wrong.push((set, outcome));
             }
         }
         println!("{}", tally.row(set));
+    }
+    println!("\nOf the closed set, by mistake:\n");
+    println!(
+        "| mistake | cases | right | wrong | unexplained | nothing |\n|---|---|---|---|---|---|"
+    );
+    for (name, it) in of_mistakes {
+        println!(
+            "| `{name}` | {} | {} | {} | {} | {} |",
+            it.cases, it.right, it.wrong, it.unexplained, it.nothing
+        );
     }
     println!(
         "\nWhat was named wrongly:\n\n| set | field | mistake | named | explains |\n|---|---|---|---|---|"
@@ -100,6 +126,20 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+/// A hash of what the hypotheses about these fields are.
+fn hash<'a>(scenes: impl Iterator<Item = &'a Scene<f64>>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let listed = scenes.flat_map(|scene| match scene {
+        Scene::Line(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
+        Scene::Plane(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
+        Scene::Space(_) => Vec::new(),
+    });
+    for it in listed {
+        (it.title, it.says, it.changes).hash(&mut hasher);
+    }
+    hasher.finish()
 }
 
 impl Tally {

@@ -5,6 +5,7 @@ use mms_runtime::Face;
 use crate::exact::Exact;
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::smooth::size;
+use crate::state::Computed;
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +53,8 @@ pub struct Ranked {
     pub explained: f64,
     /// Whether it is of a size that it may have.
     pub is_plausible: bool,
+    /// Whether its size was found, and so may be what fits best.
+    pub is_sized: bool,
     /// The mistakes that are the same formula, for such results of any field.
     pub equivalent_always: Vec<String>,
     /// Those that explain this error as well.
@@ -67,13 +70,121 @@ impl Ranked {
     }
 }
 
+/// A step of the ladder: each vouches for what the next one takes for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rung {
+    /// Stresses beside F, without a solver.
+    Law,
+    /// Accelerations or residuals at an exact state, without a step.
+    State(Computed),
+    /// Velocities after one small step from an exact state.
+    Step,
+    /// Ordinary results.
+    Results,
+}
+
+impl Rung {
+    /// What was looked at, in words.
+    pub fn says(self) -> &'static str {
+        match self {
+            Rung::Law => "the law alone",
+            Rung::State(Computed::Acceleration) => "accelerations at an exact state",
+            Rung::State(Computed::Residual) => "residuals at an exact state",
+            Rung::Step => "one step from an exact state",
+            Rung::Results => "results",
+        }
+    }
+
+    /// What to ask for next, after this finding.
+    pub fn next(self, finding: Finding) -> &'static str {
+        match (self, finding) {
+            (_, Finding::Named) => "mend it, and ask the same again",
+            (Rung::Law, Finding::Nothing) => {
+                "the law is right for these F; next: accelerations or residuals at an exact state, which `mms state` writes"
+            }
+            (Rung::Law, Finding::Unexplained) => {
+                "stresses at F of volume changes alone, and at F of one shear alone: which of them is wrong?"
+            }
+            (Rung::State(_), Finding::Nothing) => {
+                "force, stress, mass and loads are right at this state; next: velocities after one small step from it"
+            }
+            (Rung::State(_), Finding::Unexplained) => {
+                "the same with a term left out (`--without body_force`, stress, traction), and a table of the law                  (`--quantity stress`)"
+            }
+            (Rung::Step, Finding::Nothing) => {
+                "one step is right; next: results at later times, of two meshes"
+            }
+            (Rung::Step, Finding::Unexplained) => {
+                "accelerations at the exact state from which it starts"
+            }
+            (Rung::Results, Finding::Nothing) => "a finer mesh, or another field, would show more",
+            (Rung::Results, Finding::Unexplained) => {
+                "accelerations at an exact state, or a table of F and stress (`--quantity stress`)"
+            }
+        }
+    }
+}
+
+/// A right method of this project's own solver, and how near an error is to that which it makes on such a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Like {
+    /// The method, as `--like` takes it.
+    pub method: String,
+    /// How many times the method's error it is.
+    pub factor: f64,
+    /// How far apart both are, over the error.
+    pub apart: f64,
+}
+
+/// Two hypotheses that explain an error together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// Their names, with faces and which they are.
+    pub hypotheses: [String; 2],
+    /// Which part of the squared error they explain.
+    pub explained: f64,
+}
+
+/// Where an error sits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// X of the point with the largest error.
+    pub at: Vec<f64>,
+    /// The time.
+    pub time: f64,
+    /// The face near which more than half of it is.
+    pub face: Option<Face>,
+    /// The axis and the place on it of a plane that is no face, near which more than half of it is.
+    pub plane: Option<(usize, f64)>,
+    /// The observed order from the mesh before to the finest one.
+    pub order: Option<f64>,
+    /// Which part of the squared error is smooth. What is not is noise: of particles that cross cells, of iterations that stop
+    /// early, of single precision.
+    pub smooth: f64,
+}
+
+/// Errors at points over the body, each a vector of the components of one quantity: what is smooth of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fields {
+    /// The quantity.
+    pub quantity: &'static str,
+    /// The time.
+    pub time: f64,
+    /// X of the points.
+    pub points: Vec<Vec<f64>>,
+    /// The user's error.
+    pub error: Vec<Vec<f64>>,
+    /// That of the hypothesis that is named.
+    pub named: Option<Vec<Vec<f64>>>,
+}
+
 /// The answer.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
     /// What was found.
     pub finding: Finding,
-    /// What kind of results were looked at.
-    pub evidence: &'static str,
+    /// What was looked at.
+    pub rung: Rung,
     /// Hypotheses, the best one first.
     pub ranked: Vec<Ranked>,
     /// What such results of this field cannot show.
@@ -82,6 +193,14 @@ pub struct Diagnosis {
     pub error: f64,
     /// That of a right solver, as far as is known.
     pub expected: f64,
+    /// Two hypotheses that explain together what none does alone.
+    pub pair: Option<Pair>,
+    /// A right method with such an error.
+    pub like: Option<Like>,
+    /// Where the error sits, of results.
+    pub place: Option<Place>,
+    /// The errors of results, to be looked at.
+    pub fields: Option<Fields>,
 }
 
 /// What a hypothesis explains.
@@ -109,14 +228,13 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
 
 /// More hypotheses that explain an error as well as the best one say that the results tell nothing apart.
 const ALIKE: usize = 5;
-/// A hypothesis of a size that it cannot have may leave less of the error than the one that is named, but not by more than
-/// this factor.
-const NEARER: f64 = 1.3;
-/// By how much a response may have to be scaled in a mistake that has no size, besides what it leaves of the error.
-const SCALED: f64 = 0.06;
-/// Which part of the error may be left by a mistake that is named, where the method makes next to nothing of it; and what it
-/// may leave besides, over how many times the method's error it is.
-const LEFT: f64 = 0.2;
+/// What is named leaves no more of the error than this, times what a hypothesis of a size that it cannot have leaves: else
+/// something like that is at work.
+const NEARER: f64 = 0.95;
+/// By how much a response may have to be scaled in a mistake that has no size, and besides over what it leaves of the error.
+const SCALED: f64 = 0.03;
+const SCALED_BY_LEFT: f64 = 0.5;
+/// What may be left besides, over how many times the method's error an error is.
 const LEFT_BY_METHOD: f64 = 0.1;
 /// The remainder of a hypothesis that explains an error as well as the best one, over that of it; and the part of the
 /// squared error that is not looked at.
@@ -133,14 +251,16 @@ fn left(share: f64) -> f64 {
 
 /// Whether a hypothesis may be of the size that was found.
 fn is_plausible<const D: usize>(hypothesis: &Hypothesis<D>, explained: &Explained) -> bool {
-    let scaled = (explained.scale - 1.0).abs() <= SCALED + left(explained.share);
+    let most = SCALED + SCALED_BY_LEFT * left(explained.share);
+    let scaled = (explained.scale - 1.0).abs() <= most;
     scaled && explained.scale > 0.0 && hypothesis.allows(&explained.size)
 }
 
-/// What is found where hypotheses explain so much of an error that is so many times that of the method.
-pub fn finding(ranked: &[Ranked], excess: f64) -> Finding {
-    let most = LEFT + LEFT_BY_METHOD / excess;
-    // What comes nearer to the error with a size that it cannot have says that something like it is at work.
+/// What is found where hypotheses explain so much of an error that is so many times that of the method. A mistake that is
+/// named leaves no more than this part of it, where the method makes next to nothing of it: one that has no size, and one whose
+/// size was found.
+pub fn finding(ranked: &[Ranked], excess: f64, most: [f64; 2]) -> Finding {
+    let most = |it: &Ranked| most[usize::from(it.is_sized)] + LEFT_BY_METHOD / excess;
     let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
     let nearest = others.fold(f64::INFINITY, f64::min);
     match ranked.first() {
@@ -148,7 +268,7 @@ pub fn finding(ranked: &[Ranked], excess: f64) -> Finding {
         Some(best)
             if best.is_plausible
                 && best.equivalent_here.len() <= ALIKE
-                && left(best.explained) <= most
+                && left(best.explained) <= most(best)
                 && left(best.explained) <= NEARER * nearest =>
         {
             Finding::Named
@@ -236,6 +356,7 @@ fn one<const D: usize>(
         margin: explained.margin,
         explained: explained.share,
         is_plausible: is_plausible(hypothesis, explained),
+        is_sized: hypothesis.size != Size::Fixed,
         equivalent_always: Vec::new(),
         equivalent_here: Vec::new(),
         needs: Vec::new(),

@@ -151,7 +151,7 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
         if self.without.traction {
             return stress.fill(Matrix::zeros());
         }
-        self.exact.field.kirchhoff_stress(x, h, stress);
+        self.exact.field.surface_stress(time, x, h, stress);
         let Some((hypothesis, size)) = self.mistake else { return };
         let (Change::Surface(change), Some(face)) = (&hypothesis.change, hypothesis.face) else {
             return;

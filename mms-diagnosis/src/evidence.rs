@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub values: Vec<(Quantity, Vec<f64>)>,
 }
 
+/// The highest degree of functions, in one to three dimensions.
+pub const DEGREE: [usize; 3] = [9, 8, 4];
 /// How many times are looked at, at most.
 const TIMES: usize = 4;
 
@@ -99,6 +101,24 @@ impl<const D: usize> Frame<D> {
         }
         seen.share = if all > 0.0 { held / all } else { 1.0 };
         Some(seen)
+    }
+
+    /// The values of coefficients at points, of what is seen first, at the last time.
+    pub fn values(&self, coefficients: &[f64], points: &[Vector<f64, D>]) -> Option<Vec<Vec<f64>>> {
+        let count = self.smooth.count();
+        let numbers = |it: &(Quantity, f64)| count * it.0.components(D);
+        let all: usize = self.quantities.iter().map(numbers).sum();
+        let (quantity, size) = *self.quantities.first()?;
+        let first = all * self.times.len().checked_sub(1)?;
+        let of = coefficients.get(first..first + count * quantity.components(D))?;
+        let value = |functions: &[f64], of: &[f64]| -> f64 {
+            size * functions.iter().zip(of).map(|(f, c)| f * c).sum::<f64>()
+        };
+        let at = |x: &Vector<f64, D>| {
+            let functions = self.smooth.values(x);
+            of.chunks(count).map(|of| value(&functions, of)).collect()
+        };
+        Some(points.iter().map(at).collect())
     }
 
     /// The errors of a mesh; `None` where one is not finite.

@@ -3,36 +3,79 @@
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
+use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
+use mms_runtime::{Fill, Method};
 
-use crate::answer::{Diagnosis, Explained, Finding, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Explained, Fields, Finding, Like, Rung, finding, ranked, unseen};
 use crate::changed::Without;
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis};
+use crate::pair;
+use crate::place;
 use crate::rank::{Effect, Error, explain};
 use crate::run::{Obstacle, Plan, written};
 use crate::smooth::{less, size};
 
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
-/// By how much the error that differs from mesh to mesh may be larger than that of our own method.
-const APART: f64 = 2.0;
+/// How much of what falls with h^2 from mesh to mesh is looked at, where two meshes tell it from what does not.
+const FALLING: f64 = 0.25;
+/// Points along an axis at which errors are shown, in one to three dimensions.
+const SHOWN: [f64; 3] = [64.0, 16.0, 6.0];
 /// What a method makes at least, over the solution: so many times (h/length)^2. Some fields have none in ours.
 const LEAST: f64 = 2.0;
-/// From this part on it is looked at by a second method.
-const PROMISING: f64 = 0.3;
+/// An error is like that of a method if they are no further apart than this part of it.
+const NEAR: f64 = 0.25;
+/// From this part on a hypothesis is looked at by other methods, and these.
+const PROMISING: f64 = 0.5;
+const OTHERS: [usize; 3] = [1, 4, 8];
+
+/// One mesh of a user's, and runs of our own on a grid of about that size.
+struct Level<'a, const D: usize> {
+    mesh: &'a Mesh,
+    plan: Plan<'a, D>,
+    /// The errors of right methods; `None` of one that stops.
+    right: Vec<Option<Vec<f64>>>,
+}
+
+impl<'a, const D: usize> Level<'a, D>
+where
+    f64: Solve<D>,
+{
+    fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &'a Frame<D>,
+        mesh: &'a Mesh,
+        like: Option<&Method>,
+    ) -> Result<Self, Obstacle> {
+        let plan = Plan::new(exact, frame, mesh, Without::default(), like)?;
+        let right = on_all_processors(plan.methods(), |method| plan.right(method));
+        Ok(Level { mesh, plan, right })
+    }
+
+    /// What a right method would make on the mesh.
+    fn scaled(&self, method: usize) -> Option<Vec<f64>> {
+        let ratio = (self.mesh.cell_size / self.plan.cell_size()).powi(2);
+        self.right[method].as_ref().map(|it| it.iter().map(|it| it * ratio).collect())
+    }
+}
 
 /// Looks at results with every hypothesis.
 pub struct Look<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
-    mesh: &'a Mesh,
-    plan: Plan<'a, D>,
+    fine: Level<'a, D>,
+    coarse: Option<Level<'a, D>>,
     /// The hypotheses.
     pub hypotheses: &'a [Hypothesis<D>],
-    /// The errors of a right run of our own.
-    pub right: [Vec<f64>; 2],
+    /// The error on the finest mesh.
+    pub errors: Vec<f64>,
+    /// Which part of its square is smooth.
+    pub smooth: f64,
+    /// The largest that a right method of ours would make there.
+    pub ordinary: f64,
     /// What is explained.
     pub error: Error,
 }
@@ -41,77 +84,138 @@ impl<'a, const D: usize> Look<'a, D>
 where
     f64: Solve<D>,
 {
-    /// Of results of meshes, from coarse to fine.
+    /// Of results of meshes, from coarse to fine, and a method that they may be of.
     pub fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
         meshes: &'a [Mesh],
         hypotheses: &'a [Hypothesis<D>],
+        like: Option<&Method>,
     ) -> Result<Self, Obstacle> {
-        let plan = Plan::new(exact, frame, Without::default())?;
         let mesh = meshes.last().ok_or(Obstacle::NotFinite)?;
-        let of = |mesh: &Mesh| {
-            let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
-            Ok(seen.coefficients)
-        };
-        let all_of = of(mesh)?;
-        let right = [0, 1].map(|method| plan.right(method).unwrap_or(vec![0.0; all_of.len()]));
-        let ratio = (mesh.cell_size / plan.cell_size()).powi(2);
-        let own: Vec<f64> = right[0].iter().map(|it| it * ratio).collect();
-        let method = match meshes {
-            [.., coarse, fine] if coarse.cell_size > REFINED * fine.cell_size => {
-                let ratio = (coarse.cell_size / fine.cell_size).powi(2) - 1.0;
-                let coarse = of(coarse)?;
-                let theirs: Vec<f64> =
-                    less(&coarse, 1.0, &all_of).iter().map(|it| it / ratio).collect();
-                // A mistake that is a part of the time step falls with it: what differs from mesh to mesh is not all
-                // of the method, where ours makes much less, and most of the error would be left.
-                let left = size(&less(&all_of, 1.0, &theirs));
-                let is_all = size(&theirs) <= APART * size(&own) || left <= size(&theirs);
-                if is_all { theirs } else { own }
-            }
-            _ => own,
-        };
-        let edge = plan.length() / mesh.cell_size;
+        let of = |mesh: &Mesh| frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite);
+        let fine = Level::new(exact, frame, mesh, like)?;
+        let is_coarser = |it: &&Mesh| it.cell_size > REFINED * mesh.cell_size;
+        let coarse = meshes.iter().rev().find(is_coarser);
+        let coarse_errors = coarse.map(of).transpose()?.map(|it| it.coefficients);
+        let coarse = coarse.map(|mesh| Level::new(exact, frame, mesh, like)).transpose()?;
+        let seen = of(mesh)?;
+        let edge = fine.plan.length() / mesh.cell_size;
         let floor = LEAST / (edge * edge);
-        Ok(Look {
+        let all = 0..fine.plan.methods();
+        let of_second_order = all.clone().filter(|it| fine.plan.is_of_second_order(*it));
+        let sizes = of_second_order.filter_map(|it| Some(size(&fine.scaled(it)?)));
+        let ordinary = sizes.fold(floor, f64::max);
+        let mut look = Look {
             exact,
             frame,
-            mesh,
-            plan,
+            fine,
+            coarse,
             hypotheses,
-            right,
-            error: Error { all: all_of, method, floor },
-        })
+            errors: seen.coefficients.clone(),
+            smooth: seen.share,
+            ordinary,
+            error: Error::new(Vec::new(), Vec::new(), floor),
+        };
+        let both = |method: usize| {
+            let coarse = look.coarse.as_ref().map(|it| it.scaled(method));
+            Some(look.together(look.fine.scaled(method)?, coarse.unwrap_or(Some(Vec::new()))?))
+        };
+        let methods = all.filter_map(both).collect();
+        let all = look.together(seen.coefficients, coarse_errors.unwrap_or_default());
+        look.error = Error::new(all, methods, floor);
+        Ok(look)
+    }
+
+    /// Errors on two meshes as what does not fall with h^2, and a part of what does; of one mesh as they are.
+    fn together(&self, fine: Vec<f64>, coarse: Vec<f64>) -> Vec<f64> {
+        let Some(level) = &self.coarse else { return fine };
+        let ratio = (level.mesh.cell_size / self.fine.mesh.cell_size).powi(2);
+        let length = ratio.hypot(1.0);
+        let pairs = || fine.iter().zip(&coarse);
+        let steady = pairs().map(|(fine, coarse)| (ratio * fine - coarse) / length);
+        let falling = pairs().map(|(fine, coarse)| FALLING * (fine + ratio * coarse) / length);
+        steady.chain(falling).collect()
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
-    fn by(&self, method: usize, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
+    fn by(&self, method: usize, hypothesis: &Hypothesis<D>, at: &[f64]) -> Option<Vec<f64>> {
+        let on = |level: &Level<'_, D>| self.on(level, method, hypothesis, at);
+        let coarse = self.coarse.as_ref().map_or(Some(Vec::new()), on)?;
+        Some(self.together(on(&self.fine)?, coarse))
+    }
+
+    /// The same on one mesh.
+    fn on(
+        &self,
+        level: &Level<'_, D>,
+        method: usize,
+        hypothesis: &Hypothesis<D>,
+        at: &[f64],
+    ) -> Option<Vec<f64>> {
+        let ratio = level.mesh.cell_size / self.fine.mesh.cell_size;
+        let factor = if hypothesis.is_of_mesh { ratio } else { 1.0 };
+        let at: Vec<f64> = at.iter().map(|it| it * factor).collect();
         if let Change::Output(_) = hypothesis.change {
-            return written(self.exact, self.frame, self.mesh, hypothesis, size);
+            return written(self.exact, self.frame, level.mesh, hypothesis, &at);
         }
-        Some(less(&self.plan.wrong(method, hypothesis, size)?, 1.0, &self.right[method]))
+        let wrong = level.plan.wrong(method, hypothesis, &at)?;
+        Some(less(&wrong, 1.0, level.right[method].as_ref()?))
+    }
+
+    /// The user's error on the finest mesh, and that of a hypothesis of some size, to be looked at.
+    fn fields(&self, named: Option<(&Hypothesis<D>, &[f64])>) -> Option<Fields> {
+        let [lower, upper] = bounding_box(&self.exact.domain.body).ok()?;
+        let spacing = (upper - lower) / SHOWN[D - 1];
+        let points = Filling::new(&self.exact.domain.body, Fill::Fitted, &spacing).ok()?.position;
+        let of = |coefficients: &[f64]| self.frame.values(coefficients, &points);
+        let named = named.and_then(|(it, at)| of(&self.on(&self.fine, 0, it, at)?));
+        Some(Fields {
+            quantity: self.frame.quantities.first()?.0.name(),
+            time: *self.frame.times.last()?,
+            error: of(&self.errors)?,
+            named,
+            points: points.iter().map(|x| x.as_slice().to_vec()).collect(),
+        })
+    }
+
+    /// The method whose error on such a grid is nearest; if one was asked for, that.
+    pub fn like(&self, is_asked: bool) -> Option<Like> {
+        let last = self.fine.plan.methods() - 1;
+        let first = if is_asked { last } else { 0 };
+        let all = (first..=last).filter_map(|method| {
+            let error = self.fine.scaled(method)?;
+            Some(Like {
+                method: self.fine.plan.described(method),
+                factor: size(&self.errors) / size(&error),
+                apart: size(&less(&self.errors, 1.0, &error)) / size(&self.errors),
+            })
+        });
+        let nearest = all.min_by(|a, b| a.apart.total_cmp(&b.apart))?;
+        (is_asked || nearest.apart <= NEAR).then_some(nearest)
     }
 
     /// What each hypothesis explains, on all processors.
     pub fn all(&self) -> Vec<Explained> {
-        let next = AtomicUsize::new(0);
-        let take = || {
-            (0..).map(|_| next.fetch_add(1, Relaxed)).take_while(|it| *it < self.hypotheses.len())
-        };
-        let worker = || {
-            take()
-                .filter_map(|index| explain(index, &self.hypotheses[index], &self.error, self))
-                .collect::<Vec<_>>()
-        };
-        let threads = thread::available_parallelism().map_or(1, usize::from);
-        let mut all: Vec<Explained> = thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
-            workers.into_iter().flat_map(|it| it.join().expect("a hypothesis that ends")).collect()
-        });
-        all.sort_by_key(|it| it.hypothesis);
-        all
+        let one = |index: usize| explain(index, &self.hypotheses[index], &self.error, self);
+        on_all_processors(self.hypotheses.len(), one).into_iter().flatten().collect()
     }
+}
+
+/// What a function makes of the numbers below `count`, in their order.
+fn on_all_processors<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let take = || Some(next.fetch_add(1, Relaxed)).filter(|it| *it < count);
+        std::iter::from_fn(take).map(|at| (at, of(at))).collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let mut all: Vec<(usize, T)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        workers.into_iter().flat_map(|it| it.join().expect("a run that ends")).collect()
+    });
+    all.sort_by_key(|(at, _)| *at);
+    all.into_iter().map(|(_, it)| it).collect()
 }
 
 impl<const D: usize> Effect<D> for Look<'_, D>
@@ -135,19 +239,21 @@ where
             return Vec::new();
         }
         let pairs = sizes.iter().zip(responses);
-        let doubt = |(at, first): (&Vec<f64>, &Vec<f64>)| {
-            Some(less(&self.by(1, hypothesis, at)?, 1.0, first))
+        let doubts = |(at, first): (&Vec<f64>, &Vec<f64>)| {
+            let other = |method| Some(less(&self.by(method, hypothesis, at)?, 1.0, first));
+            OTHERS.into_iter().filter_map(other).collect::<Vec<_>>()
         };
-        pairs.filter_map(doubt).collect()
+        pairs.flat_map(doubts).collect()
     }
 }
 
-/// Errors on one mesh that are no larger than this, times what a right solver of ours makes, are ordinary: those that a mistake
-/// explains, and those that none does.
-const NAMED: f64 = 3.0;
-const UNEXPLAINED: f64 = 8.0;
+/// Which part of the error a mistake that is named may leave: one that has no size, and one whose size was found.
+const LEFT: [f64; 2] = [0.25, 0.12];
+/// An error that no hypothesis explains is not held against a solver, where it is no larger than so many times that of right
+/// methods of ours: on one mesh and on two.
+const UNEXPLAINED: [f64; 2] = [4.0, 3.0];
 
-/// Diagnoses ordinary results of meshes, from coarse to fine.
+/// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of.
 ///
 /// # Errors
 /// Results with which that is not possible.
@@ -156,16 +262,14 @@ pub fn diagnose<const D: usize>(
     frame: &Frame<D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
+    like: Option<&Method>,
 ) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
-    let look = Look::new(exact, frame, meshes, hypotheses)?;
+    let look = Look::new(exact, frame, meshes, hypotheses, like)?;
     let explained = look.all();
-    let ratio = (look.mesh.cell_size / look.plan.cell_size()).powi(2);
-    let own = look.right.iter().map(|right| size(right)).fold(0.0, f64::max) * ratio;
-    let expected = size(&look.error.method).max(own).max(look.error.floor);
-    let error = size(&look.error.all);
+    let (error, expected) = (size(&look.errors), look.ordinary);
     let mut needs = Vec::new();
     if meshes.len() < 2 {
         needs.push("a second mesh");
@@ -174,15 +278,27 @@ where
         needs.push("a second time");
     }
     needs.push("accelerations at an exact state");
-    let cannot_be_seen = unseen(hypotheses, &explained, size(&look.error.method).max(1e-9));
-    let ranked = ranked(exact, hypotheses, explained, &needs);
-    let finding = match finding(&ranked, look.error.excess()) {
-        // With one mesh, what the user's method makes is known from ours alone.
-        Finding::Named if meshes.len() < 2 && error <= NAMED * expected => Finding::Nothing,
-        Finding::Unexplained if meshes.len() < 2 && error <= UNEXPLAINED * expected => {
-            Finding::Nothing
-        }
+    let cannot_be_seen = unseen(hypotheses, &explained, expected);
+    let ranked = ranked(exact, hypotheses, explained.clone(), &needs);
+    let kind = usize::from(look.coarse.is_some());
+    let finding = match finding(&ranked, look.error.excess(), LEFT) {
+        Finding::Unexplained if error <= UNEXPLAINED[kind] * expected => Finding::Nothing,
         found => found,
     };
-    Ok(Diagnosis { finding, evidence: "results", ranked, cannot_be_seen, error, expected })
+    let named = ranked.first().filter(|_| finding == Finding::Named);
+    let fields = look.fields(named.map(|it| (&hypotheses[it.hypothesis], it.factor.as_slice())));
+    Ok(Diagnosis {
+        finding,
+        rung: Rung::Results,
+        ranked,
+        cannot_be_seen,
+        error,
+        expected,
+        pair: (finding == Finding::Unexplained)
+            .then(|| pair::best(&look.error, hypotheses, &explained))
+            .flatten(),
+        like: look.like(like.is_some()),
+        place: place::of(exact, meshes, look.smooth),
+        fields,
+    })
 }

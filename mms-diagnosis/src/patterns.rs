@@ -1,6 +1,6 @@
 //! Mistakes that are seen in the numbers themselves, before any comparison with a solver.
 
-use crate::answer::{Diagnosis, Finding, Ranked};
+use crate::answer::{Diagnosis, Finding, Ranked, Rung};
 use crate::evidence::Snapshot;
 use crate::exact::{Exact, vectors};
 use crate::hypothesis::Kind;
@@ -44,7 +44,7 @@ pub fn diagnose<const D: usize>(
         apart < PERMUTED * off && distance(&ordered, &of_right) < 2.0 * PERMUTED * off;
     is_permuted.then(|| Diagnosis {
         finding: Finding::Named,
-        evidence: "results",
+        rung: Rung::Results,
         ranked: vec![Ranked {
             hypothesis: usize::MAX,
             name: "points_permuted",
@@ -56,6 +56,7 @@ pub fn diagnose<const D: usize>(
             margin: 0.0,
             explained: 1.0 - (apart / off).powi(2),
             is_plausible: true,
+            is_sized: false,
             equivalent_always: Vec::new(),
             equivalent_here: Vec::new(),
             needs: Vec::new(),
@@ -63,6 +64,10 @@ pub fn diagnose<const D: usize>(
         cannot_be_seen: Vec::new(),
         error: off / scale,
         expected: apart / scale,
+        pair: None,
+        like: None,
+        place: None,
+        fields: None,
     })
 }
 

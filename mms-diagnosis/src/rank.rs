@@ -8,19 +8,38 @@ use crate::smooth::{less, nearest, size};
 pub struct Error {
     /// The coefficients of a user's error.
     pub all: Vec<f64>,
-    /// What the method makes of it, as far as is known: it may be there once, or not, or a few times.
-    pub method: Vec<f64>,
-    /// The size of what the method may make besides, of which no more is known.
+    /// What right methods make. The user's may make about as much as one of them, or nothing.
+    pub methods: Vec<Vec<f64>>,
+    /// The size of what a right method may make besides.
     pub floor: f64,
+    /// What no method explains.
+    pub beyond: Vec<f64>,
+}
+
+/// How far the user's method may be from one of ours, and a response from that of another method, over itself.
+const DOUBT: f64 = 0.4;
+
+/// Coefficients of some directions with which they come nearest to an error.
+struct Fit {
+    found: Vec<f64>,
+    remains: Vec<f64>,
+    /// The square of what remains, and of what had to be doubted.
+    cost: f64,
 }
 
 impl Error {
-    /// The size of what the method does not explain, over that of what it does.
+    /// Of these coefficients.
+    pub fn new(all: Vec<f64>, methods: Vec<Vec<f64>>, floor: f64) -> Self {
+        let mut error = Error { all, methods, floor, beyond: Vec::new() };
+        error.beyond = error.explain(&[], &[]).1;
+        error
+    }
+
+    /// The size of what methods do not explain, over that of what they may make besides.
     pub fn excess(&self) -> f64 {
-        let method = size(&self.method).max(self.floor);
-        let beyond = size(&less(&self.all, 1.0, &self.method));
-        if method > 0.0 {
-            beyond / method
+        let beyond = size(&self.beyond);
+        if self.floor > 0.0 {
+            beyond / self.floor
         } else if beyond > 0.0 {
             f64::INFINITY
         } else {
@@ -28,44 +47,44 @@ impl Error {
         }
     }
 
-    /// Coefficients of some directions with which they, the method's error, and what methods make of `doubtful` come
-    /// nearest; and what remains.
+    /// Coefficients of some directions with which they, the error of a method, and what methods make of `doubtful` come
+    /// nearest; and what remains. The method is the one with which the least has to be doubted.
     pub fn explain(&self, directions: &[Vec<f64>], doubtful: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
+        let none = vec![0.0; self.all.len()];
+        let fits = self.methods.iter().chain([&none]).map(|it| self.fit(directions, doubtful, it));
+        let best = fits.min_by(|a, b| a.cost.total_cmp(&b.cost));
+        best.map_or((vec![0.0; directions.len()], self.all.clone()), |it| (it.found, it.remains))
+    }
+
+    fn fit(&self, directions: &[Vec<f64>], doubtful: &[Vec<f64>], method: &Vec<f64>) -> Fit {
+        // Each doubt has a row of its own: that the method's error is there once, and nothing of the others.
         let rows = 1 + doubtful.len();
-        let row = |column: &[f64], at: Option<(usize, f64)>| {
-            let mut column = column.to_vec();
-            column.extend((0..rows).map(|row| match at {
-                Some((place, weight)) if place == row => weight,
-                _ => 0.0,
-            }));
-            column
+        let row = |column: &[f64], place: Option<usize>| {
+            let weight = (DOUBT * size(column)).max(self.floor);
+            let rows = (0..rows).map(|row| if place == Some(row) { weight } else { 0.0 });
+            column.iter().copied().chain(rows).collect::<Vec<f64>>()
         };
-        // That the method's error is there once is known about as well as the method is.
-        let weight = |column: &[f64]| DOUBT * size(column);
         let mut columns: Vec<_> = directions.iter().map(|it| row(it, None)).collect();
-        columns.push(row(&self.method, Some((0, weight(&self.method)))));
-        let doubts = doubtful.iter().enumerate();
-        columns.extend(doubts.map(|(at, it)| row(it, Some((1 + at, weight(it))))));
-        let to = row(&self.all, Some((0, weight(&self.method))));
+        let doubts = std::iter::once(method).chain(doubtful).enumerate();
+        columns.extend(doubts.map(|(place, it)| row(it, Some(place))));
+        let mut to = row(&self.all, None);
+        to[self.all.len()] = columns[directions.len()][self.all.len()];
         let mut found = nearest(&columns, &to);
         let mut remains = to;
         for (column, factor) in columns.iter().zip(&found) {
             remains = less(&remains, *factor, column);
         }
+        let cost = remains.iter().map(|it| it * it).sum();
         remains.truncate(self.all.len());
         found.truncate(directions.len());
-        (found, remains)
+        Fit { found, remains, cost }
     }
 
-    /// Which part of the square of what the method does not explain is explained with this remainder.
+    /// Which part of the square of what methods do not explain is explained with this remainder.
     pub fn share(&self, remains: &[f64]) -> f64 {
-        let beyond = size(&less(&self.all, 1.0, &self.method));
-        1.0 - (size(remains) / beyond).powi(2)
+        1.0 - (size(remains) / size(&self.beyond)).powi(2)
     }
 }
-
-/// How much the method's error may vary from what is known of it, over itself.
-const DOUBT: f64 = 0.5;
 
 /// The errors that hypotheses make.
 pub trait Effect<const D: usize> {
@@ -109,29 +128,51 @@ fn sized<const D: usize>(
     [right, first]: [f64; 2],
 ) -> Option<Explained> {
     let is_fixed = hypothesis.size == Size::Fixed;
-    let mut at = first;
-    let mut best: Option<Explained> = None;
+    let at = |at: f64| one(index, hypothesis, error, effect, [right, at]);
+    // What is large is not linear: from the other side it may look better.
+    let starts = if is_fixed { &[first][..] } else { &[first, 2.0 * right - first] };
+    let allowed = starts.iter().filter(|it| is_fixed || hypothesis.allows(&[**it]));
+    let tried = allowed.filter_map(|it| at(*it));
+    let mut last = tried.max_by(|a, b| a.share.total_cmp(&b.share))?;
+    let mut best = last.clone();
     for _ in 0..MENDS {
-        let found = effect.response(hypothesis, &[at]);
-        let Some(response) = found.filter(|it| it.iter().all(|it| it.is_finite())) else { break };
-        let response = [response];
-        let doubts = effect.doubts(hypothesis, &[vec![at]], &response);
-        let (scale, remains) = error.explain(&response, &doubts);
-        let ([response], scale) = (response, scale[0]);
-        let share = error.share(&remains);
-        let relative = size(&remains) / size(&response).max(f64::MIN_POSITIVE);
-        let found = hypothesis.rescaled(right, at, scale);
-        let margin = relative * (at - right).abs();
-        let size = if is_fixed { Vec::new() } else { vec![found] };
-        if best.as_ref().is_none_or(|best| share > best.share - SAME) {
-            best = Some(Explained { hypothesis: index, size, margin, scale, share, response });
-        }
-        if is_fixed || share < WORTH || (scale - 1.0).abs() < FOUND || !found.is_finite() {
+        let &[next] = last.size.as_slice() else { break };
+        if last.share < WORTH || !next.is_finite() {
             break;
         }
-        at = found;
+        if (last.scale - 1.0).abs() < FOUND {
+            return Some(last);
+        }
+        let Some(found) = at(next) else { break };
+        if found.share > best.share - SAME {
+            best = found.clone();
+        }
+        last = found;
     }
-    best
+    Some(best)
+}
+
+/// What a hypothesis explains by its response at a size, scaled.
+fn one<const D: usize>(
+    index: usize,
+    hypothesis: &Hypothesis<D>,
+    error: &Error,
+    effect: &dyn Effect<D>,
+    [right, at]: [f64; 2],
+) -> Option<Explained> {
+    let found = effect.response(hypothesis, &[at]);
+    let response = [found.filter(|it| it.iter().all(|it| it.is_finite()))?];
+    let doubts = effect.doubts(hypothesis, &[vec![at]], &response);
+    let (scale, remains) = error.explain(&response, &doubts);
+    let ([response], scale) = (response, scale[0]);
+    let share = error.share(&remains);
+    let relative = size(&remains) / size(&response).max(f64::MIN_POSITIVE);
+    let size = match hypothesis.size {
+        Size::Fixed => Vec::new(),
+        Size::Any { .. } => vec![hypothesis.rescaled(right, at, scale)],
+    };
+    let margin = relative * (at - right).abs();
+    Some(Explained { hypothesis: index, size, margin, scale, share, response })
 }
 
 /// A hypothesis with a vector.
@@ -169,6 +210,6 @@ const SAME: f64 = 1e-3;
 /// How often the size of a hypothesis is mended.
 const MENDS: usize = 8;
 /// From this part of the error on a hypothesis is worth mending.
-const WORTH: f64 = 0.5;
+const WORTH: f64 = 0.3;
 /// A size is found when the response has to be scaled by no more than this.
 const FOUND: f64 = 1e-3;

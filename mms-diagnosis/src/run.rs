@@ -1,21 +1,23 @@
 //! The errors that mistakes make, in runs of this project's own solver.
 
 use std::fmt;
+use std::sync::OnceLock;
 
 use mms_runtime::body::bounding_box;
 use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
     Division, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName,
-    Transfer,
+    Transfer, Vector,
 };
 
 use crate::changed::{Changed, Without};
-use crate::evidence::Frame;
+use crate::evidence::{Frame, Mesh, Snapshot, nearest};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::hypothesis::{Change, Given, Hypothesis};
+use crate::sample::Sampling;
 
 /// Cells along the longest edge, at least and at most, in one to three dimensions.
-const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 24], [4, 8]];
+const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 32], [4, 8]];
 
 /// Steps times particles that a run may take: some seconds.
 const MOST_WORK: f64 = 3e6;
@@ -50,9 +52,41 @@ impl fmt::Display for Obstacle {
 pub struct Plan<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
+    mesh: &'a Mesh,
     without: Without,
     cells: usize,
-    methods: [Method; 2],
+    methods: Vec<Method>,
+    /// From the particles of each method to the points of the user's results, at each time.
+    samplings: Vec<OnceLock<Vec<Sampling>>>,
+}
+
+/// Methods that are right, and unlike each other. The first has particles as a quadrature has points: finite elements. The
+/// second is smooth, and damps. The others are what particles make of it that lie anywhere in cells.
+fn methods(setup: &Setup) -> Vec<Method> {
+    let integrated = |integrator, shape, formulation, transfer, offset, jitter| Method {
+        shape,
+        integrator,
+        formulation,
+        setup: Setup { transfer, offset: [offset; 3], jitter, ..setup.clone() },
+    };
+    let method = |shape, formulation, transfer, offset, jitter| {
+        integrated(IntegratorName::Leapfrog, shape, formulation, transfer, offset, jitter)
+    };
+    use FormulationName::{Total, Updated};
+    use ShapeName::{Cpgimp, Linear, QuadraticBspline, Ugimp};
+    vec![
+        method(Linear, Total, Transfer::FLIP, 0.0, 0.0),
+        method(QuadraticBspline, Total, Transfer::Apic, 0.0, 0.0),
+        method(Linear, Total, Transfer::FLIP, 0.4, 0.3),
+        method(Linear, Updated, Transfer::FLIP, 0.0, 0.0),
+        method(Linear, Updated, Transfer::FLIP, 0.4, 0.3),
+        method(Linear, Updated, Transfer::Apic, 0.0, 0.3),
+        method(Ugimp, Updated, Transfer::FLIP, 0.0, 0.0),
+        method(Cpgimp, Updated, Transfer::Apic, 0.4, 0.0),
+        method(QuadraticBspline, Updated, Transfer::FLIP, 0.4, 0.3),
+        integrated(IntegratorName::Usl, Linear, Total, Transfer::FLIP, 0.0, 0.0),
+        integrated(IntegratorName::Musl, QuadraticBspline, Updated, Transfer::FLIP, 0.0, 0.0),
+    ]
 }
 
 /// The states of a run at the wanted times.
@@ -81,19 +115,21 @@ impl<'a, const D: usize> Plan<'a, D>
 where
     f64: Solve<D>,
 {
-    /// For a solver with cells of this size, in a frame: on a grid that is coarser, if its runs would take too long.
+    /// For results of a mesh, in a frame: on a grid that is coarser, if its runs would take too long.
     ///
     /// # Errors
     /// They would take too long on any.
     pub fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
+        mesh: &'a Mesh,
         without: Without,
+        like: Option<&Method>,
     ) -> Result<Self, Obstacle> {
         let [lower, upper] = bounding_box(&exact.domain.body).map_err(|_| Obstacle::NotFinite)?;
         let longest = (upper - lower).max();
         let [least, most] = CELLS[D - 1];
-        let wanted = (longest / exact.cell_size).round().clamp(least as f64, most as f64) as usize;
+        let wanted = (longest / mesh.cell_size).round().clamp(least as f64, most as f64) as usize;
         let [start, stop] = [
             exact.domain.time[0],
             frame.times.iter().copied().fold(exact.domain.time[0], f64::max),
@@ -110,19 +146,13 @@ where
         let cells =
             (least..=wanted).rev().find(fits).ok_or(Obstacle::TooManySteps(steps(least)))?;
         let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
-        let setup = Setup { end_time: Some(end), ..Setup::default() };
-        let method = |shape, transfer| Method {
-            shape,
-            integrator: IntegratorName::Leapfrog,
-            formulation: FormulationName::Total,
-            setup: Setup { transfer, ..setup.clone() },
-        };
-        // The first has particles as a quadrature has points: finite elements. The second is smooth, and damps.
-        let methods = [
-            method(ShapeName::Linear, Transfer::FLIP),
-            method(ShapeName::QuadraticBspline, Transfer::Apic),
-        ];
-        Ok(Plan { exact, frame, without, cells, methods })
+        let mut methods = methods(&Setup { end_time: Some(end), ..Setup::default() });
+        methods.extend(like.map(|like| {
+            let setup = Setup { end_time: Some(end), threads: 1, ..like.setup.clone() };
+            Method { setup, ..like.clone() }
+        }));
+        let samplings = methods.iter().map(|_| OnceLock::new()).collect();
+        Ok(Plan { exact, frame, mesh, without, cells, methods, samplings })
     }
 
     /// The longest edge of the box around the body.
@@ -134,6 +164,31 @@ where
     /// h of the runs.
     pub fn cell_size(&self) -> f64 {
         self.length() / self.cells as f64
+    }
+
+    /// How many methods there are.
+    pub fn methods(&self) -> usize {
+        self.methods.len()
+    }
+
+    /// A method, in the words of its options.
+    pub fn described(&self, method: usize) -> String {
+        let Method { shape, integrator, formulation, setup } = &self.methods[method];
+        let mut said = format!(
+            "shape={shape},integrator={integrator},formulation={formulation},transfer={}",
+            setup.transfer
+        );
+        for (option, part) in [("offset", setup.offset[0]), ("jitter", setup.jitter)] {
+            if part != 0.0 {
+                said += &format!(",{option}={part}");
+            }
+        }
+        said
+    }
+
+    /// Whether a method is of second order in time.
+    pub fn is_of_second_order(&self, method: usize) -> bool {
+        self.methods[method].integrator == IntegratorName::Leapfrog
     }
 
     /// The errors of a right solver; `None` where it stops.
@@ -151,9 +206,9 @@ where
         self.errors(method, &Changed::with(self.exact, self.without, hypothesis, size))
     }
 
-    fn errors(&self, method: usize, field: &Changed<'_, D>) -> Option<Vec<f64>> {
+    fn errors(&self, index: usize, field: &Changed<'_, D>) -> Option<Vec<f64>> {
         let [start, _] = self.exact.domain.time;
-        let method = &self.methods[method];
+        let method = &self.methods[index];
         let end = method.setup.end_time?;
         if end <= start {
             return None;
@@ -164,50 +219,71 @@ where
         let cells = Division::Uniform(self.cells);
         let run = f64::run(field, method, &cells, Watch::Displacement, &mut states).ok()?;
         run.level.errors.ok()?;
-        let seen = self.frame.see(|at, quantity| {
-            let time = self.frame.times[at];
+        let state = |time: f64| {
             let away = |state: &&State| (state.time - time).abs();
-            let state = states.seen.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
-            Some(self.error(state, quantity, run.level.time_step))
+            states.seen.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        let states: Vec<&State> =
+            self.frame.times.iter().map(|time| state(*time)).collect::<Option<_>>()?;
+        // Leapfrog has velocities half a step earlier.
+        let is_leapfrog = method.integrator == IntegratorName::Leapfrog;
+        let before = if is_leapfrog { run.level.time_step / 2.0 } else { 0.0 };
+        let samplings = self.samplings[index].get_or_init(|| self.samplings(&states));
+        let seen = self.frame.see(|at, quantity| {
+            let snapshot = nearest(self.mesh, self.frame.times[at])?;
+            let errors = self.error(states[at], quantity, before);
+            let values = samplings[at].values(&errors, quantity.components(D));
+            Some((vectors(&snapshot.reference), values))
         });
         seen.map(|seen| seen.coefficients)
     }
 
-    /// X and the errors of a state.
-    fn error(
-        &self,
-        state: &State,
-        quantity: Quantity,
-        time_step: f64,
-    ) -> (Vec<mms_runtime::Vector<f64, D>>, Vec<f64>) {
-        let pairs = state.position.iter().zip(&state.displacement);
-        let points = vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>());
-        // Leapfrog has velocities half a step earlier.
+    /// From the particles of states to the points of the user's results at their times.
+    fn samplings(&self, states: &[&State]) -> Vec<Sampling> {
+        let box_around = bounding_box(&self.exact.domain.body);
+        let measure = box_around.map_or(1.0, |[lower, upper]| (upper - lower).product());
+        let points = self.frame.times.iter().map(|time| nearest(self.mesh, *time));
+        let pairs = states.iter().zip(points);
+        let one = |(state, snapshot): (&&State, Option<&Snapshot>)| {
+            let points = snapshot.map_or(Vec::new(), |it| vectors::<D>(&it.reference));
+            Sampling::new(&reference(state), &points, measure)
+        };
+        pairs.map(one).collect()
+    }
+
+    /// The errors of a state, at its particles; its velocities are of so much before.
+    fn error(&self, state: &State, quantity: Quantity, before: f64) -> Vec<f64> {
         let (computed, time): (Vec<f64>, f64) = match quantity {
             Quantity::Displacement => (state.displacement.clone(), state.time),
-            Quantity::Velocity => (state.velocity.clone(), state.time - time_step / 2.0),
+            Quantity::Velocity => (state.velocity.clone(), state.time - before),
             Quantity::DisplacementGradient => {
                 let is_diagonal = |at: usize| (at % (D * D)).is_multiple_of(D + 1);
                 let f = state.deformation_gradient.iter().enumerate();
                 (f.map(|(at, f)| if is_diagonal(at) { f - 1.0 } else { *f }).collect(), state.time)
             }
         };
-        let right = self.exact.values(quantity, time, &points);
-        (points, computed.iter().zip(right).map(|(a, b)| a - b).collect())
+        let right = self.exact.values(quantity, time, &reference(state));
+        computed.iter().zip(right).map(|(a, b)| a - b).collect()
     }
+}
+
+/// X of the particles of a state.
+fn reference<const D: usize>(state: &State) -> Vec<Vector<f64, D>> {
+    let pairs = state.position.iter().zip(&state.displacement);
+    vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>())
 }
 
 /// The errors that a mistake in what is written makes, at points of a user's.
 pub fn written<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,
-    mesh: &crate::evidence::Mesh,
+    mesh: &Mesh,
     hypothesis: &Hypothesis<D>,
     size: &[f64],
 ) -> Option<Vec<f64>> {
     let Change::Output(change) = hypothesis.change else { return None };
     let seen = frame.see(|at, quantity| {
-        let snapshot = crate::evidence::nearest(mesh, frame.times[at])?;
+        let snapshot = nearest(mesh, frame.times[at])?;
         let points = vectors(&snapshot.reference);
         let given = Given { exact, size, time: snapshot.time, reference: &points, gradient: &[] };
         let wrong = change(&given, quantity);

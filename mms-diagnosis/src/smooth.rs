@@ -14,22 +14,20 @@ pub struct Smooth<const D: usize> {
     degrees: Vec<[usize; D]>,
 }
 
-/// The highest degree in one to three dimensions.
-const DEGREE: [usize; 3] = [7, 5, 3];
 /// How many points there are at least for each function.
 const POINTS: usize = 3;
 /// Functions that points do not tell apart, by their singular values.
 const RANK: f64 = 1e-6;
 
 impl<const D: usize> Smooth<D> {
-    /// As many as this number of points can tell apart.
+    /// As many as this number of points can tell apart, up to a degree in one to three dimensions.
     ///
     /// # Errors
     /// A body without extent.
-    pub fn new(body: &Body<f64, D>, points: usize) -> Result<Self, Refusal> {
+    pub fn new(body: &Body<f64, D>, points: usize, most: [usize; 3]) -> Result<Self, Refusal> {
         let [lower, upper] = bounding_box(body)?;
         let degree =
-            (0..=DEGREE[D - 1]).rev().find(|degree| POINTS * degrees::<D>(*degree).len() <= points);
+            (0..=most[D - 1]).rev().find(|degree| POINTS * degrees::<D>(*degree).len() <= points);
         Ok(Smooth { lower, upper, degrees: degrees(degree.unwrap_or(0)) })
     }
 

@@ -7,13 +7,14 @@
 
 use mms_runtime::body::{Filling, Piece, bounding_box};
 use mms_runtime::{
-    Body, Condition, Face, Fill, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
+    Condition, Face, Fill, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
 };
 
-use crate::answer::{Diagnosis, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Finding, Rung, finding, ranked, unseen};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, faces};
+use crate::hypothesis::{Change, Given, Hypothesis, Initial, away, faces};
+use crate::pair;
 use crate::rank::{Error, explain};
 use crate::smooth::{Smooth, less, size};
 
@@ -41,10 +42,16 @@ pub struct Response {
     pub volumes: Option<Vec<f64>>,
     /// What was left out.
     pub without: Without,
+    /// The step over which accelerations are the mean, where they are found from velocities after one.
+    pub step: Option<f64>,
 }
 
+/// The highest degree of functions, in one to three dimensions.
+const DEGREE: [usize; 3] = [7, 5, 3];
 /// Points of a quadrature along an axis, in one to three dimensions.
 const POINTS: [f64; 3] = [512.0, 64.0, 20.0];
+/// Which part of the error a mistake that is named may leave.
+const LEFT: f64 = 0.2;
 /// What h may make of a sum of a right solver, over the sum: so many times (h/length)^2.
 const METHOD: f64 = 2.5;
 
@@ -75,7 +82,7 @@ impl<'a, const D: usize> Weak<'a, D> {
         Ok(Weak {
             exact,
             time,
-            smooth: Smooth::new(body, points)?,
+            smooth: Smooth::new(body, points, DEGREE)?,
             points: filling.position,
             volumes: filling.volume,
             pieces: filling.pieces,
@@ -136,6 +143,12 @@ impl<'a, const D: usize> Weak<'a, D> {
         sums
     }
 
+    /// What is given per mass at the points of the quadrature, per volume.
+    fn per_volume(&self, values: Vec<Vector<f64, D>>) -> Vec<Vector<f64, D>> {
+        let density = self.exact.density(&self.points);
+        values.iter().zip(density).map(|(value, density)| value * density).collect()
+    }
+
     /// The terms of a field with a mistake.
     fn sums(&self, field: &Changed<'_, D>) -> Sums {
         let (x, time) = (&self.points, self.time);
@@ -153,14 +166,10 @@ impl<'a, const D: usize> Weak<'a, D> {
             let terms = each.flat_map(|(i, of)| of.iter().map(move |slope| (p.row(i) * slope)[0]));
             stress.iter_mut().zip(terms).for_each(|(sum, term)| *sum -= term);
         }
-        let density = self.exact.density(x);
-        let per_volume = |values: Vec<Vector<f64, D>>| -> Vec<Vector<f64, D>> {
-            values.iter().zip(&density).map(|(value, density)| value * *density).collect()
-        };
         Sums {
-            inertia: self.paired(&per_volume(self.exact.acceleration(time, x))),
+            inertia: self.paired(&self.per_volume(self.exact.acceleration(time, x))),
             stress,
-            force: self.paired(&per_volume(b)),
+            force: self.paired(&self.per_volume(b)),
             traction: self.tractions(field),
         }
     }
@@ -257,25 +266,6 @@ fn add<const D: usize>(sums: &mut [f64], functions: &[f64], q: &Vector<f64, D>) 
     }
 }
 
-/// How far X is from a face, over the size of the body.
-fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
-    match (body, face) {
-        (Body::Box { lower, upper }, Face::Min(axis)) => {
-            (x[axis] - lower[axis]) / (upper[axis] - lower[axis])
-        }
-        (Body::Box { lower, upper }, Face::Max(axis)) => {
-            (upper[axis] - x[axis]) / (upper[axis] - lower[axis])
-        }
-        (Body::Annulus { inner, outer, .. }, Face::Inner) => (x.norm() - inner) / (outer - inner),
-        (Body::Annulus { inner, outer, .. }, Face::Outer) => (outer - x.norm()) / (outer - inner),
-        (Body::Annulus { theta, outer, .. }, face) => {
-            let angle = if face == Face::ThetaMin { theta[0] } else { theta[1] };
-            (x[1] * angle.cos() - x[0] * angle.sin()).abs() / outer
-        }
-        _ => 1.0,
-    }
-}
-
 /// Diagnoses what a solver computed at an exact state.
 ///
 /// # Errors
@@ -286,16 +276,43 @@ pub fn diagnose<const D: usize>(
     hypotheses: &[Hypothesis<D>],
 ) -> Result<Diagnosis, Refusal> {
     let weak = Weak::new(exact, response.time, response.reference.len() / D)?;
+    let is_shown = |change: &Change<D>| match change {
+        Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density => true,
+        Change::Start(_) => response.step.is_some(),
+        Change::Condition(_) | Change::Output(_) => false,
+    };
     let right_sums = weak.sums(&Changed::right(exact, response.without));
     let right = weak.computed(response, &right_sums, 1.0);
     let Sums { inertia, stress, force, .. } = &right_sums;
     let scale = [inertia, stress, force].map(|it| size(it)).into_iter().fold(0.0, f64::max);
-    let all = weak.error(response, &right, &|_| 1.0).iter().map(|it| it / scale).collect();
+    let all: Vec<f64> =
+        weak.error(response, &right, &|_| 1.0).iter().map(|it| it / scale).collect();
     let [lower, upper] = bounding_box(&exact.domain.body)?;
     let smooth = METHOD * (exact.cell_size / (upper - lower).max()).powi(2);
     let floor = smooth.hypot(size(&weak.scatter(response, &right)) / scale);
-    let error = Error { method: vec![0.0; right.len()], floor, all };
+    // Within a step, an integrator may take the acceleration of any time.
+    let drift = response.step.map(|step| {
+        let later = exact.acceleration(response.time + step, &weak.points);
+        let now = exact.acceleration(response.time, &weak.points);
+        let change = later.iter().zip(&now).map(|(later, now)| later - now).collect();
+        weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect()
+    });
+    let error = Error::new(all, drift.into_iter().collect(), floor);
     let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
+        if let (Change::Start(change), Some(step)) = (&hypothesis.change, response.step) {
+            let mut v = exact.velocity(response.time, &weak.points);
+            let given = Given {
+                exact,
+                size: at,
+                time: response.time,
+                reference: &weak.points,
+                gradient: &[],
+            };
+            let right = v.clone();
+            change(&given, Initial::Velocity(&mut v));
+            let change = v.iter().zip(right).map(|(v, right)| (v - right) / step).collect();
+            return weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect();
+        }
         let density = match (&hypothesis.change, at) {
             (Change::Density, [factor, ..]) => *factor,
             _ => 1.0,
@@ -307,31 +324,33 @@ pub fn diagnose<const D: usize>(
     let explained: Vec<_> = hypotheses
         .iter()
         .enumerate()
-        .filter(|(_, it)| {
-            matches!(
-                it.change,
-                Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density
-            )
-        })
+        .filter(|(_, it)| is_shown(&it.change))
         .filter_map(|(index, hypothesis)| explain(index, hypothesis, &error, &make))
         .collect();
     let mut cannot_be_seen = unseen(hypotheses, &explained, floor.min(1e-6));
-    let others = hypotheses.iter().filter(|it| {
-        matches!(it.change, Change::Start(_) | Change::Condition(_) | Change::Output(_))
-    });
+    let others = hypotheses.iter().filter(|it| !is_shown(&it.change));
     cannot_be_seen.extend(others.map(|it| it.name.to_owned()));
     cannot_be_seen.dedup();
     let (found, excess) = (size(&error.all), error.excess());
     let ranked = ranked(
         exact,
         hypotheses,
-        explained,
+        explained.clone(),
         &["another term left out (`--without`)", "another field"],
     );
-    let finding = finding(&ranked, excess);
-    let evidence = match response.computed {
-        Computed::Acceleration => "accelerations at an exact state",
-        Computed::Residual => "residuals at an exact state",
-    };
-    Ok(Diagnosis { finding, evidence, ranked, cannot_be_seen, error: found, expected: floor })
+    let finding = finding(&ranked, excess, [LEFT; 2]);
+    Ok(Diagnosis {
+        finding,
+        rung: if response.step.is_some() { Rung::Step } else { Rung::State(response.computed) },
+        ranked,
+        cannot_be_seen,
+        error: found,
+        expected: floor,
+        pair: (finding == Finding::Unexplained)
+            .then(|| pair::best(&error, hypotheses, &explained))
+            .flatten(),
+        like: None,
+        place: None,
+        fields: None,
+    })
 }

@@ -3,7 +3,7 @@
 use mms_runtime::tensor::determinant;
 use mms_runtime::{Matrix, Vector};
 
-use crate::answer::{Diagnosis, Ranked, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Ranked, Rung, finding, ranked, unseen};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis};
 use crate::rank::{Error, explain};
@@ -96,7 +96,7 @@ pub fn diagnose<const D: usize>(
     let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let count = (right.len() as f64).sqrt();
     let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
-    let error = Error { method: vec![0.0; right.len()], floor, all };
+    let error = Error::new(all, Vec::new(), floor);
     let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
         let mut wrong = tau.clone();
         let given = Given {
@@ -130,13 +130,17 @@ pub fn diagnose<const D: usize>(
     let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
     let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
-    let finding = finding(exact_ones, excess);
+    let finding = finding(exact_ones, excess, [1.0; 2]);
     Some(Diagnosis {
         finding,
-        evidence: "the law alone",
+        rung: Rung::Law,
         ranked,
         cannot_be_seen,
         error: found,
         expected: floor,
+        pair: None,
+        like: None,
+        place: None,
+        fields: None,
     })
 }

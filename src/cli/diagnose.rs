@@ -1,17 +1,22 @@
 //! `mms diagnose`: which mistake makes the error of a solver.
 
-use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser as _, ValueEnum};
+use mms_codegen::variation::Variation;
+use mms_codegen::{Options, Selection};
 use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
 use mms_results::names::Mapping;
 
-use super::{Outcome, print, print_json, say, this_command};
+use super::{Outcome, hold_output, print, print_json, say, this_command};
 use crate::diagnose::{self, Reading, Solver};
 use crate::judge::results::Results;
 use crate::report::{Diagnosed, Hypotheses};
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant};
-use crate::session::method::{finite, positive};
+use crate::session::method::{MethodOptions, finite, positive};
 
 /// Name the mistake of a solver by the error that it makes.
 ///
@@ -29,11 +34,13 @@ use crate::session::method::{finite, positive};
 #[derive(Args)]
 pub struct Diagnose {
     /// A gallery name, or a path to a TOML file.
-    field: String,
+    #[arg(required_unless_present = "list")]
+    field: Option<String>,
     /// Results, each of one mesh, at one time or more, as for `mms judge`.
     #[arg(value_name = "FILE", required_unless_present = "list")]
     files: Vec<String>,
-    /// List the hypotheses about this field: what each is, what it changes, whether it is a mistake or a choice.
+    /// List the hypotheses about a field: what each is, what it changes, what shows it, whether it is a mistake or a choice.
+    /// Without a FIELD, about a square with loads.
     #[arg(long, conflicts_with = "files")]
     list: bool,
     /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau.
@@ -57,6 +64,13 @@ pub struct Diagnose {
     /// The sign of residuals: `+` is r = rho0 a - Div P - rho0 b, per reference volume.
     #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
     residual_sign: f64,
+    /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study`
+    /// that say how to solve. Without it, with some.
+    #[arg(long, value_name = "OPTION=VALUE,..")]
+    like: Option<Alike>,
+    /// The solver was given the affine part of the motion, as `mms state --affine` writes it.
+    #[arg(long)]
+    affine: bool,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -65,6 +79,9 @@ pub struct Diagnose {
     /// Print one JSON document.
     #[arg(long)]
     json: bool,
+    /// Write the document there, as diagnosis.json, for `mms report`.
+    #[arg(long, short, value_name = "FOLDER", conflicts_with = "list")]
+    output: Option<PathBuf>,
 }
 
 /// What may be looked at alone.
@@ -82,6 +99,28 @@ enum Term {
     Traction,
 }
 
+/// The field of a list, where none is named.
+const LISTED: &str = "sheared_block_2d";
+
+/// Options of a method, separated by commas.
+#[derive(Clone)]
+struct Alike(MethodOptions);
+
+impl FromStr for Alike {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        #[derive(clap::Parser)]
+        struct Options {
+            #[command(flatten)]
+            method: MethodOptions,
+        }
+        let words = text.split(',').map(|it| format!("--{}", it.trim().replace('_', "-")));
+        let parsed = Options::try_parse_from(std::iter::once(String::new()).chain(words));
+        parsed.map(|it| Alike(it.method)).map_err(|error| error.render().to_string())
+    }
+}
+
 fn sign(text: &str) -> Result<f64, &'static str> {
     match text {
         "+" => Ok(1.0),
@@ -92,7 +131,10 @@ fn sign(text: &str) -> Result<f64, &'static str> {
 
 impl Diagnose {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, &self.variant)?;
+        self.output.as_deref().map_or(Ok(()), hold_output)?;
+        let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
+        let options = Options { variation, ..self.variant.options(Selection::default()) };
+        let input = Input::find_with(self.field.as_deref().unwrap_or(LISTED), &options)?;
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
             let report = Hypotheses { field: &input.name, all: diagnose::hypotheses(&scene) };
@@ -118,12 +160,20 @@ impl Diagnose {
             stress: is_out(Term::Stress),
             traction: is_out(Term::Traction),
         };
-        let solver = Solver { time_step: self.time_step, without };
-        let diagnosis = diagnose::diagnose(&scene, &evidence, solver)?;
+        let method = |Alike(it): &Alike| it.method(exact.dimension);
+        let like = self.like.as_ref().map(method).transpose()?;
+        let solver = Solver { time_step: self.time_step, without, like };
+        let diagnosis = diagnose::diagnose(&scene, &evidence, &solver)?;
         let input = exact.input();
         let report =
             Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };
         self.show(|| report.text(), || report.document())?;
+        if let Some(folder) = &self.output {
+            let written = report.write(folder)?;
+            if !self.json {
+                print(&format!("\nwrote {written}"))?;
+            }
+        }
         Ok(match diagnosis.finding {
             Finding::Nothing => Outcome::AsExpected,
             Finding::Named | Finding::Unexplained => Outcome::Refuted,

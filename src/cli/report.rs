@@ -12,10 +12,10 @@ use crate::page::{self, Page, Verdicts};
 use crate::report::{write_files, write_own, write_whole};
 
 /// Put all results of a folder on one page of HTML, complete in itself: verdicts first, then tables, pictures of
-/// convergence, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
+/// convergence, diagnoses, campaigns of other solvers, the verification matrix, error against cost, the solver at its limits, states of runs, the formulas
 /// and motions of the fields, and the commands that make it all again.
 ///
-/// Results are the JSON documents that `mms study`, `judge`, `campaign`, `verify`, `tradeoff`, `extremes`, `accuracy` and
+/// Results are the JSON documents that `mms study`, `judge`, `diagnose`, `campaign`, `verify`, `tradeoff`, `extremes`, `accuracy` and
 /// `run` write with `--output`, or print with `--json`, and the states of `run --vtk`, in DIR and in the folders in it. Files that are
 /// none of these are named, on the page and on stderr.
 ///

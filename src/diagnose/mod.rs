@@ -4,17 +4,18 @@ mod evidence;
 
 use mms_diagnosis::answer::Diagnosis;
 use mms_diagnosis::changed::Without;
-use mms_diagnosis::evidence::{Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, vectors};
 use mms_diagnosis::hypothesis::{Hypothesis, all};
+use mms_diagnosis::list::{Listed, listed};
 use mms_diagnosis::smooth::Smooth;
 use mms_diagnosis::state::{self, Computed};
 use mms_diagnosis::table::{self, Measure, Table};
-use mms_diagnosis::{ordinary, patterns};
-use mms_runtime::ManufacturedField;
+use mms_diagnosis::{ordinary, patterns, step};
 use mms_runtime::body::bounding_box;
 use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
+use mms_runtime::{ManufacturedField, Method};
 
 pub use evidence::{Reading, read};
 
@@ -80,12 +81,14 @@ pub struct LawOf {
 }
 
 /// What is known of the solver.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Solver {
     /// Its time step, if it is known.
     pub time_step: Option<f64>,
     /// What was left out.
     pub without: Without,
+    /// A method of this project's own solver that it may be like.
+    pub like: Option<Method>,
 }
 
 /// Fewer points say too little.
@@ -100,7 +103,7 @@ const COURANT: f64 = 0.4;
 pub fn diagnose(
     scene: &Scene<f64>,
     evidence: &Evidence,
-    solver: Solver,
+    solver: &Solver,
 ) -> anyhow::Result<Diagnosis> {
     match scene {
         Scene::Line(field) => of(field.as_ref(), evidence, solver),
@@ -109,47 +112,19 @@ pub fn diagnose(
     }
 }
 
-/// What a hypothesis is, for a list of all.
-pub struct Listed {
-    /// Its name, with the face and which it is.
-    pub title: String,
-    /// What it is.
-    pub says: String,
-    /// Mistake or choice.
-    pub kind: &'static str,
-    /// What it changes, and so what shows it.
-    pub changes: &'static str,
-}
-
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
-    fn of<const D: usize>(field: &dyn ManufacturedField<f64, D>) -> Vec<Listed> {
-        let listed = |it: &Hypothesis<D>| Listed {
-            title: it.title(),
-            says: it.says.into(),
-            kind: it.kind.name(),
-            changes: it.change.name(),
-        };
-        let mut found: Vec<Listed> = all(&Exact::new(field, 1.0, 1.0)).iter().map(listed).collect();
-        found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
-            title: (*title).into(),
-            says: (*says).into(),
-            kind: "mistake",
-            changes: "output",
-        }));
-        found
-    }
     match scene {
-        Scene::Line(field) => of(field.as_ref()),
-        Scene::Plane(field) => of(field.as_ref()),
-        Scene::Space(field) => of(field.as_ref()),
+        Scene::Line(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
+        Scene::Plane(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
+        Scene::Space(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
     }
 }
 
 fn of<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     evidence: &Evidence,
-    solver: Solver,
+    solver: &Solver,
 ) -> anyhow::Result<Diagnosis>
 where
     f64: Solve<D>,
@@ -164,7 +139,12 @@ where
     let exact = Exact::new(field, cell_size, time_step);
     let hypotheses = all(&exact);
     match evidence {
-        Evidence::Results(meshes) => of_results(&exact, meshes, &hypotheses),
+        Evidence::Results(meshes) => {
+            if let Some(step) = step::response(&exact, meshes, solver.without) {
+                return Ok(state::diagnose(&exact, &step, &hypotheses)?);
+            }
+            of_results(&exact, meshes, &hypotheses, solver.like.as_ref())
+        }
         Evidence::State(state) => {
             let response = state::Response {
                 computed: state.computed,
@@ -173,6 +153,7 @@ where
                 values: state.values.clone(),
                 volumes: state.volumes.clone(),
                 without: solver.without,
+                step: None,
             };
             Ok(state::diagnose(&exact, &response, &hypotheses)?)
         }
@@ -184,6 +165,7 @@ fn of_results<const D: usize>(
     exact: &Exact<'_, D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
+    like: Option<&Method>,
 ) -> anyhow::Result<Diagnosis>
 where
     f64: Solve<D>,
@@ -199,13 +181,13 @@ where
         points >= FEWEST_POINTS,
         "{points} points are too few to tell one mistake from another; expected {FEWEST_POINTS} at least, over all of the body"
     );
-    let smooth = Smooth::new(&exact.domain.body, points)?;
+    let smooth = Smooth::new(&exact.domain.body, points, DEGREE)?;
     let frame = Frame::new(exact, &snapshots, smooth);
     anyhow::ensure!(
         !frame.times.is_empty(),
         "all results are at the start of the time window, where the state is given: expected results at a later time"
     );
-    Ok(ordinary::diagnose(exact, &frame, meshes, hypotheses)?)
+    Ok(ordinary::diagnose(exact, &frame, meshes, hypotheses, like)?)
 }
 
 fn of_law<const D: usize>(

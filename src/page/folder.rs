@@ -45,7 +45,7 @@ impl Page {
             ));
         }
         if entries.is_empty() {
-            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `judge`, `campaign`, `run`, `verify`, `tradeoff`, `extremes` and `accuracy` write theirs with `--output`"));
+            set_aside.insert(0, format!("`{shown}`: no results in it; `mms study`, `judge`, `diagnose`, `campaign`, `run`, `verify`, `tradeoff`, `extremes` and `accuracy` write theirs with `--output`"));
             bail!("{}", set_aside.join("\n"));
         }
         let name = folder.canonicalize().ok();

@@ -13,6 +13,7 @@ mod accuracy;
 mod campaign;
 mod comparison;
 mod defects;
+mod diagnosis;
 mod extremes;
 mod field;
 mod folder;
@@ -110,6 +111,7 @@ impl Kind {
 const KINDS: &[Kind] = &[
     Kind { name: "study", heading: "Convergence studies", read: study::read },
     Kind::of::<judge::Judgement>("judge", "Judged results"),
+    Kind::of::<diagnosis::Diagnosis>("diagnose", "Diagnoses"),
     Kind::of::<campaign::Campaign>("campaign", "Campaigns"),
     Kind::of::<verify::Matrix>("verify", "Verification matrix"),
     Kind::of::<tradeoff::Tradeoff>("tradeoff", "Error against cost"),

@@ -1,11 +1,14 @@
 //! Diagnoses as text and as a JSON document.
 
-use mms_diagnosis::answer::{Diagnosis, Finding, Ranked};
+use std::path::Path;
+
+use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
+use mms_diagnosis::list::Listed;
 use mms_spec::foreign::Foreign;
 use serde_json::{Value, json};
 
 use super::text::plain;
-use crate::diagnose::Listed;
+use super::{pretty, write_files};
 use crate::provenance::Provenance;
 
 /// How many hypotheses a text shows.
@@ -30,7 +33,7 @@ impl Diagnosed<'_> {
         let mut parts = vec![format!(
             "{}: {}\nthe error is {:.2e} of the solution; a right solver would be at about {:.1e}",
             self.field.shown(),
-            it.evidence,
+            it.rung.says(),
             it.error,
             it.expected
         )];
@@ -38,22 +41,38 @@ impl Diagnosed<'_> {
         if it.finding != Finding::Nothing {
             parts.push(self.table());
         }
+        parts.extend(it.pair.as_ref().map(|pair| {
+            let [a, b] = &pair.hypotheses;
+            format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
+        }));
+        parts.extend(it.like.as_ref().map(alike));
+        if it.finding == Finding::Unexplained {
+            parts.extend(it.place.as_ref().map(place));
+        }
         if !it.cannot_be_seen.is_empty() {
             parts.push(format!("these results cannot show: {}", it.cannot_be_seen.join(", ")));
         }
+        parts.push(format!("next: {}", it.rung.next(it.finding)));
         parts.join("\n\n")
+    }
+
+    /// Writes diagnosis.json into a folder, and returns its path.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, folder: &Path) -> anyhow::Result<String> {
+        let written = write_files(folder, "diagnosis", [("json", pretty(&self.document())?)])?;
+        Ok(written.join(", "))
     }
 
     fn finding(&self) -> String {
         let it = self.diagnosis;
         match (it.finding, it.ranked.first()) {
-            (Finding::Nothing, _) => "nothing: the error is of the size that a right solver makes; a finer mesh would show \
-                                      more"
-                .into(),
+            (Finding::Nothing, _) => {
+                "nothing: the error is of the size that a right solver makes".into()
+            }
             (Finding::Named, Some(best)) => named(best),
-            _ => "unexplained: there is an error, and no hypothesis explains enough of it. Accelerations at an exact state \
-                  (`mms diagnose` of `a`), or a table of F and stress (`--quantity stress`), show more"
-                .into(),
+            _ => "unexplained: there is an error, and no hypothesis explains enough of it".into(),
         }
     }
 
@@ -75,12 +94,17 @@ impl Diagnosed<'_> {
         json!({
             "field": self.field,
             "files": self.files,
-            "evidence": it.evidence,
+            "evidence": it.rung.says(),
             "finding": it.finding.name(),
             "error": it.error,
             "expected_error": it.expected,
             "ranked": it.ranked.iter().map(ranked).collect::<Vec<_>>(),
             "cannot_be_seen": it.cannot_be_seen,
+            "pair": it.pair.as_ref().map(|it| json!({ "hypotheses": it.hypotheses, "explained": it.explained })),
+            "like": it.like.as_ref().map(|it| json!({ "method": it.method, "factor": it.factor, "apart": it.apart })),
+            "place": it.place.as_ref().map(place_document),
+            "fields": it.fields.as_ref().map(fields),
+            "next": it.rung.next(it.finding),
             "provenance": self.provenance,
         })
     }
@@ -101,6 +125,68 @@ fn named(best: &Ranked) -> String {
         lines.push(format!("what tells them apart: {}", best.needs.join("; ")));
     }
     lines.join("\n")
+}
+
+/// The method whose error is such a one.
+fn alike(it: &Like) -> String {
+    format!(
+        "like {}: the error is {:.2} times that of this right method on such a grid, {:.0} % apart",
+        it.method,
+        it.factor,
+        100.0 * it.apart
+    )
+}
+
+/// Where an error sits that nothing explains.
+fn place(it: &Place) -> String {
+    let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
+    let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];
+    if let Some(face) = it.face {
+        lines.push(format!("more than half of it is beside the face {face}"));
+    }
+    if let Some((axis, at)) = it.plane {
+        let axis = AXES[axis];
+        lines.push(format!(
+            "more than half of it is beside the plane {axis} = {at:.4}, which is no face: of parts of the mesh, of ranks?"
+        ));
+    }
+    if let Some(order) = it.order {
+        lines.push(format!("from mesh to mesh it falls with order {order:.2}"));
+    }
+    if it.smooth < SMOOTH {
+        lines.push(format!(
+            "{:.0} % of it is not smooth: particles that cross cells, iterations that stop early (not_converged), or \
+             single_precision",
+            100.0 * (1.0 - it.smooth)
+        ));
+    }
+    lines.join("\n")
+}
+
+/// The names of the axes of X.
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+/// Less of an error than this is smooth: it is called noise.
+const SMOOTH: f64 = 0.5;
+
+fn fields(it: &Fields) -> Value {
+    json!({
+        "quantity": it.quantity,
+        "time": it.time,
+        "points": it.points,
+        "error": it.error,
+        "named": it.named,
+    })
+}
+
+fn place_document(it: &Place) -> Value {
+    json!({
+        "at": it.at,
+        "time": it.time,
+        "face": it.face.map(|face| face.to_string()),
+        "plane": it.plane.map(|(axis, at)| json!({ "axis": AXES[axis], "at": at })),
+        "order": it.order,
+        "smooth": it.smooth,
+    })
 }
 
 fn ranked(it: &Ranked) -> Value {
@@ -137,9 +223,10 @@ pub struct Hypotheses<'a> {
 impl Hypotheses<'_> {
     /// What a person reads.
     pub fn table(&self) -> String {
-        let mut table = plain(["hypothesis", "changes", "kind", "what it is"]);
+        let mut table = plain(["hypothesis", "changes", "kind", "shown by", "what it is"]);
         for it in &self.all {
-            table.add_row([it.title.as_str(), it.changes, it.kind, &it.says]);
+            let title = it.size_of.map_or(it.title.clone(), |_| format!("  {}", it.title));
+            table.add_row([&title, it.changes, it.kind.name(), it.shown_by, &it.says]);
         }
         table.to_string()
     }
@@ -147,7 +234,14 @@ impl Hypotheses<'_> {
     /// What a program reads.
     pub fn document(&self) -> Value {
         let each = self.all.iter().map(|it| {
-            json!({ "hypothesis": it.title, "changes": it.changes, "kind": it.kind, "says": it.says })
+            json!({
+                "hypothesis": it.title,
+                "changes": it.changes,
+                "kind": it.kind.name(),
+                "shown_by": it.shown_by,
+                "says": it.says,
+                "of": it.size_of.map(|(name, size)| json!({ "hypothesis": name, "factor": size })),
+            })
         });
         json!({ "field": self.field, "hypotheses": each.collect::<Vec<_>>() })
     }

@@ -1,7 +1,7 @@
 //! Mistakes on faces.
 
 use mms_runtime::tensor::determinant;
-use mms_runtime::{Body, Condition, Face, Matrix};
+use mms_runtime::{Body, Condition, Face, Matrix, Vector};
 
 use super::{Change, Hypothesis, Known, inverse, of_first};
 use crate::exact::Exact;
@@ -25,6 +25,25 @@ pub fn faces<const D: usize>(body: &Body<f64, D>) -> Vec<Face> {
             let all = [Face::Inner, Face::Outer, Face::ThetaMin, Face::ThetaMax];
             all[..if is_ring { 2 } else { 4 }].to_vec()
         }
+    }
+}
+
+/// How far X is from a face, over the size of the body.
+pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>) -> f64 {
+    match (body, face) {
+        (Body::Box { lower, upper }, Face::Min(axis)) => {
+            (x[axis] - lower[axis]) / (upper[axis] - lower[axis])
+        }
+        (Body::Box { lower, upper }, Face::Max(axis)) => {
+            (upper[axis] - x[axis]) / (upper[axis] - lower[axis])
+        }
+        (Body::Annulus { inner, outer, .. }, Face::Inner) => (x.norm() - inner) / (outer - inner),
+        (Body::Annulus { inner, outer, .. }, Face::Outer) => (outer - x.norm()) / (outer - inner),
+        (Body::Annulus { theta, outer, .. }, face) => {
+            let angle = if face == Face::ThetaMin { theta[0] } else { theta[1] };
+            (x[1] * angle.cos() - x[0] * angle.sin()).abs() / outer
+        }
+        _ => 1.0,
     }
 }
 

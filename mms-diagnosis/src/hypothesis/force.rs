@@ -21,7 +21,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         }),
     );
     delay.below = Some("force_early");
-    let delay = delay.within([-STEPS * exact.time_step, STEPS * exact.time_step]);
+    let delay = delay.within([-STEPS * exact.time_step, STEPS * exact.time_step]).of_mesh();
     vec![
         Hypothesis::factor(
             "force_factor",

@@ -15,7 +15,7 @@ use mms_runtime::{Condition, Face, Matrix, Vector};
 
 use crate::exact::{Exact, Quantity};
 
-pub use face::faces;
+pub use face::{away, faces};
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
 pub struct Given<'a, const D: usize> {
@@ -149,6 +149,8 @@ pub struct Hypothesis<const D: usize> {
     pub face: Option<Face>,
     /// Which of several it is.
     pub which: Option<&'static str>,
+    /// Whether its size is a part of a time step or of a cell, and so is smaller on a finer mesh.
+    pub is_of_mesh: bool,
 }
 
 impl<const D: usize> Hypothesis<D> {
@@ -164,6 +166,7 @@ impl<const D: usize> Hypothesis<D> {
             below: None,
             face: None,
             which: None,
+            is_of_mesh: false,
         }
     }
 
@@ -197,6 +200,11 @@ impl<const D: usize> Hypothesis<D> {
     pub fn first_piola() -> Self {
         let says = "P in place of the measure that it is said to be";
         Self::fixed("stress_first_piola", says, Change::Stress(|_, _| {}))
+    }
+
+    /// The same, with a size that is a part of a time step or of a cell: smaller on a finer mesh.
+    fn of_mesh(self) -> Self {
+        Hypothesis { is_of_mesh: true, ..self }
     }
 
     fn choice(self) -> Self {

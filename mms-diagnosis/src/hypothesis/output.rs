@@ -20,7 +20,8 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 at.exact.values(quantity, at.time + at.size[0], at.reference)
             }),
         )
-        .within([-time, time]),
+        .within([-time, time])
+        .of_mesh(),
         Hypothesis::amount(
             "points_offset",
             "results belong to points beside X; the size is by how much",
@@ -31,7 +32,8 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 at.exact.values(quantity, at.time, &places)
             }),
         )
-        .within([-length, length]),
+        .within([-length, length])
+        .of_mesh(),
         Hypothesis::fixed(
             "position_for_reference",
             "x is given as X",

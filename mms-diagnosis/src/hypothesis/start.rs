@@ -17,7 +17,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         }),
     );
     offset.below = Some("initial_acceleration_missing");
-    let offset = offset.within([-2.0 * exact.time_step, 2.0 * exact.time_step]);
+    let offset = offset.within([-2.0 * exact.time_step, 2.0 * exact.time_step]).of_mesh();
     vec![
         Hypothesis::fixed(
             "start_at_rest",

@@ -3,18 +3,18 @@
 mod field;
 
 use field::{DENSITY, LAMBDA, MU, Square};
-use mms_diagnosis::answer::{Diagnosis, Finding};
+use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
 use mms_diagnosis::changed::Without;
-use mms_diagnosis::evidence::{Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
 use mms_diagnosis::hypothesis::all;
 use mms_diagnosis::smooth::Smooth;
 use mms_diagnosis::state::{self, Computed, Response};
 use mms_diagnosis::table::{self, Measure, Table};
-use mms_diagnosis::{ordinary, patterns};
+use mms_diagnosis::{ordinary, patterns, step};
 use mms_runtime::study::{Frame as State, Observer, Solve as _, Watch};
 use mms_runtime::{
-    Division, Domain, FormulationName, ManufacturedField, Material, Matrix, Method, Setup,
+    Division, Domain, Face, FormulationName, ManufacturedField, Material, Matrix, Method, Setup,
     ShapeName, Vector,
 };
 
@@ -97,8 +97,9 @@ fn of_accelerations(acceleration: impl Fn(&Point) -> Point) -> Diagnosis {
     let values = points.iter().flat_map(|x| acceleration(x).as_slice().to_vec()).collect();
     let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
     let computed = Computed::Acceleration;
+    let without = Without::default();
     let response =
-        Response { computed, time, reference, values, volumes: None, without: Without::default() };
+        Response { computed, time, reference, values, volumes: None, without, step: None };
     state::diagnose(&exact, &response, &all(&exact)).unwrap()
 }
 
@@ -130,6 +131,48 @@ fn accelerations_at_an_exact_state_name_a_term() {
     // Scatter from point to point is no mistake of a term.
     let noise = |x: &Point| a(x) + Point::new((1e4 * x[0] * x[1]).sin(), (9e3 * x[0]).cos()) * 5.0;
     assert_ne!(of_accelerations(noise).finding, Finding::Named);
+}
+
+/// What is said of velocities after one step whose accelerations are these.
+fn of_step(velocity: impl Fn(&Point) -> Point) -> Diagnosis {
+    let exact = exact(&HELD, 24.0);
+    let points = points(24);
+    let values = points.iter().flat_map(|x| velocity(x).as_slice().to_vec()).collect();
+    let reference = points.iter().flat_map(|x| x.as_slice().to_vec()).collect();
+    let snapshot = Snapshot { time: STEP, reference, values: vec![(Quantity::Velocity, values)] };
+    let mesh = Mesh { cell_size: 1.0 / 24.0, snapshots: vec![snapshot] };
+    let response = step::response(&exact, &[mesh], Without::default()).unwrap();
+    state::diagnose(&exact, &response, &all(&exact)).unwrap()
+}
+
+/// The step after which velocities are looked at.
+const STEP: f64 = 5e-4;
+
+#[test]
+fn velocities_after_one_step_name_a_term() {
+    let v = |x: &Point| field::velocity(0.0, x);
+    let a = |x: &Point| field::acceleration(0.0, x);
+    let b = |x: &Point| field::body_force(0.0, x);
+    let right = of_step(|x| v(x) + a(x) * STEP);
+    assert_eq!((name(&right), right.rung), ("nothing", Rung::Step));
+    assert_eq!(name(&of_step(|x| v(x) + (a(x) - b(x)) * STEP)), "force_missing");
+    assert_eq!(name(&of_step(|x| v(x) + (a(x) * 3.0 - b(x) * 2.0) * STEP)), "force_sign");
+    assert_eq!(name(&of_step(|x| v(x) + a(x) * (STEP / 2.0))), "initial_acceleration_missing");
+}
+
+#[test]
+fn results_after_many_steps_are_none_of_one() {
+    let exact = exact(&HELD, 24.0);
+    let at = |time: f64| Snapshot {
+        time,
+        reference: vec![0.5, 0.5],
+        values: vec![(Quantity::Velocity, vec![0.0, 0.0])],
+    };
+    let of = |snapshots| Mesh { cell_size: 1.0 / 24.0, snapshots };
+    let response = |mesh| step::response(&exact, &[mesh], Without::default());
+    assert!(response(of(vec![at(STEP)])).is_some());
+    assert!(response(of(vec![at(0.01)])).is_none());
+    assert!(response(of(vec![at(STEP), at(2.0 * STEP)])).is_none());
 }
 
 /// The same field with mistakes, for the solver.
@@ -222,13 +265,14 @@ fn of_solver(mistaken: &Mistaken) -> Diagnosis {
 #[test]
 fn a_mistake_in_a_solver_is_named() {
     let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force };
-    assert_eq!(name(&of_solver(&right)), "nothing");
+    let found = of_solver(&right);
+    assert_eq!(name(&found), "nothing");
     let swapped = Mistaken { moduli: [MU, LAMBDA], ..right };
     assert_eq!(name(&of_solver(&swapped)), "moduli_swapped");
-    let late = Mistaken { force: |time, x| field::body_force(time - 4e-3, x), ..right };
+    let late = Mistaken { force: |time, x| field::body_force(time - 6e-3, x), ..right };
     let found = of_solver(&late);
     assert_eq!(name(&found), "force_late");
-    assert!((found.ranked[0].factor[0] / 4e-3 - 1.0).abs() < 0.15, "{:?}", found.ranked[0].factor);
+    assert!((found.ranked[0].factor[0] / 6e-3 - 1.0).abs() < 0.05, "{:?}", found.ranked[0].factor);
     let sign = Mistaken {
         force: |time, x| field::acceleration(time, x) * 2.0 - field::body_force(time, x),
         ..right
@@ -243,8 +287,9 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
     if let Some(found) = patterns::diagnose(&exact, &snapshots) {
         return found;
     }
-    let frame = Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576).unwrap());
-    ordinary::diagnose(&exact, &frame, meshes, &all(&exact)).unwrap()
+    let frame =
+        Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576, DEGREE).unwrap());
+    ordinary::diagnose(&exact, &frame, meshes, &all(&exact), None).unwrap()
 }
 
 /// What is said of results with this displacement.
@@ -267,6 +312,15 @@ fn what_is_written_wrongly_is_named() {
     let offset = of_results(|t, x| u(t, &(x + Point::new(1.0 / 24.0, 1.0 / 24.0))));
     assert_eq!(name(&offset), "points_offset");
     assert!((offset.ranked[0].factor[0] * 24.0 - 1.0).abs() < 0.1, "{:?}", offset.ranked[0].factor);
+    // An error that sits beside a face, and one beside a plane that is none.
+    let bump = |from: f64| {
+        move |x: &Point| Point::new(0.02 * (-((x[0] - from) * 30.0).powi(2)).exp(), 0.0)
+    };
+    let beside = of_results(|t, x| u(t, x) + bump(1.0)(x)).place.unwrap();
+    assert_eq!((beside.face, beside.plane), (Some(Face::Max(0)), None));
+    let across = of_results(|t, x| u(t, x) + bump(0.4)(x)).place.unwrap();
+    let (axis, at) = across.plane.unwrap();
+    assert!(across.face.is_none() && axis == 0 && (at - 0.4).abs() < 0.01, "{across:?}");
     let permuted = of_results(|t, x| u(t, &Point::new(x[1], x[0])));
     assert_eq!(name(&permuted), "points_permuted");
 }

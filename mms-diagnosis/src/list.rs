@@ -1,0 +1,71 @@
+//! The list of hypotheses, for people.
+
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Hypothesis, Kind, Size, all};
+use crate::patterns;
+
+/// What a hypothesis is.
+#[derive(Clone, Debug)]
+pub struct Listed {
+    /// Its name, with the face and which it is.
+    pub title: String,
+    /// What it is.
+    pub says: String,
+    /// Whether it is a mistake or a choice.
+    pub kind: Kind,
+    /// What it changes.
+    pub changes: &'static str,
+    /// The steps of the ladder that show it.
+    pub shown_by: &'static str,
+    /// The hypothesis, and its size, that this is a name of.
+    pub size_of: Option<(&'static str, f64)>,
+}
+
+/// All hypotheses about a field, each followed by the names of its sizes.
+pub fn listed<const D: usize>(exact: &Exact<'_, D>) -> Vec<Listed> {
+    let mut found: Vec<Listed> = all(exact).iter().flat_map(|it| names(exact, it)).collect();
+    found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
+        title: (*title).into(),
+        says: (*says).into(),
+        kind: Kind::Mistake,
+        changes: "output",
+        shown_by: "results",
+        size_of: None,
+    }));
+    found
+}
+
+fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed> {
+    let own = Listed {
+        title: it.title(),
+        says: it.says.into(),
+        kind: it.kind,
+        changes: it.change.name(),
+        shown_by: shown_by(&it.change),
+        size_of: None,
+    };
+    let named = |name: &str, says: String, size: f64| Listed {
+        title: crate::hypothesis::title(name, it.which, it.face),
+        says,
+        size_of: Some((it.name, size)),
+        ..own.clone()
+    };
+    let below = match &it.size {
+        Size::Any { right, .. } => {
+            it.below.map(|name| named(name, format!("{}: below the right size", it.says), right[0]))
+        }
+        Size::Fixed => None,
+    };
+    let known = (it.known)(exact).into_iter().map(|it| named(it.name, it.says, it.size));
+    let all = known.chain(below).collect::<Vec<_>>();
+    std::iter::once(own).chain(all).collect()
+}
+
+fn shown_by<const D: usize>(change: &Change<D>) -> &'static str {
+    match change {
+        Change::Stress(_) => "law, exact state, step, results",
+        Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
+        Change::Start(_) => "step, results",
+        Change::Condition(_) | Change::Output(_) => "results",
+    }
+}

@@ -1,0 +1,93 @@
+//! Where an error sits: in which part of the body, at which time, and how it falls from mesh to mesh.
+
+use mms_runtime::body::bounding_box;
+use mms_runtime::{Body, Face, Vector};
+
+use crate::answer::Place;
+use crate::evidence::{Mesh, Snapshot, nearest};
+use crate::exact::{Exact, vectors};
+use crate::hypothesis::{away, faces};
+
+/// How many cells wide the layer is that is looked at.
+const CELLS: f64 = 2.0;
+/// Which part of the squared error is in it, at least, and how many times its part of the points.
+const MOST: f64 = 0.5;
+const CROWDED: f64 = 3.0;
+
+/// A point with its squared error.
+type Weighed<const D: usize> = (Vector<f64, D>, f64);
+
+/// Where the error of the finest mesh is, at the last time; `smooth` is which part of its square is smooth.
+pub fn of<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh], smooth: f64) -> Option<Place> {
+    let fine = meshes.last()?;
+    let snapshot = fine.snapshots.last()?;
+    let points = squared(exact, snapshot)?;
+    let (at, _) = points.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let [lower, upper] = bounding_box(&exact.domain.body).ok()?;
+    let width = CELLS * fine.cell_size / (upper - lower).max();
+    let is_near =
+        |face: &Face| is_crowded(&points, |x| away(&exact.domain.body, *face, x) <= width);
+    let face = faces(&exact.domain.body).into_iter().find(is_near);
+    let is_box = matches!(exact.domain.body, Body::Box { .. });
+    let plane = (face.is_none() && is_box).then(|| plane(&points, lower, upper, fine.cell_size));
+    let before = meshes.iter().rev().find(|it| it.cell_size > fine.cell_size);
+    let order = before.and_then(|before| {
+        let [coarse, last] = [nearest(before, snapshot.time)?, snapshot].map(|it| mean(exact, it));
+        let refined = before.cell_size / fine.cell_size;
+        Some((coarse? / last?).ln() / refined.ln()).filter(|it| it.is_finite())
+    });
+    Some(Place {
+        at: at.as_slice().to_vec(),
+        time: snapshot.time,
+        face,
+        plane: plane.flatten(),
+        order,
+        smooth,
+    })
+}
+
+/// The points, each with the squared error of what is written first.
+fn squared<const D: usize>(exact: &Exact<'_, D>, snapshot: &Snapshot) -> Option<Vec<Weighed<D>>> {
+    let points = vectors::<D>(&snapshot.reference);
+    let (quantity, values) = snapshot.values.first()?;
+    let right = exact.values(*quantity, snapshot.time, &points);
+    let components = quantity.components(D);
+    let each = values.chunks(components).zip(right.chunks(components));
+    let square = |(a, b): (&[f64], &[f64])| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    let all: Vec<Weighed<D>> = points.into_iter().zip(each.map(square)).collect();
+    all.iter().all(|(_, square)| square.is_finite()).then_some(all)
+}
+
+/// The root mean square error.
+fn mean<const D: usize>(exact: &Exact<'_, D>, snapshot: &Snapshot) -> Option<f64> {
+    let all = squared(exact, snapshot)?;
+    Some((all.iter().map(|it| it.1).sum::<f64>() / all.len().max(1) as f64).sqrt())
+}
+
+/// Whether points like these have most of the error, and are few.
+fn is_crowded<const D: usize>(
+    points: &[Weighed<D>],
+    is_in: impl Fn(&Vector<f64, D>) -> bool,
+) -> bool {
+    let inside = || points.iter().filter(|(x, _)| is_in(x));
+    let all: f64 = points.iter().map(|it| it.1).sum();
+    let error = inside().map(|it| it.1).sum::<f64>() / all;
+    error > MOST && error > CROWDED * inside().count() as f64 / points.len() as f64
+}
+
+/// The axis and the place of a layer across the body that has most of the error.
+fn plane<const D: usize>(
+    points: &[Weighed<D>],
+    lower: Vector<f64, D>,
+    upper: Vector<f64, D>,
+    cell_size: f64,
+) -> Option<(usize, f64)> {
+    let layer = |axis: usize| {
+        let all: f64 = points.iter().map(|it| it.1).sum();
+        let middle = points.iter().map(|(x, square)| x[axis] * square).sum::<f64>() / all;
+        let is_in = |x: &Vector<f64, D>| (x[axis] - middle).abs() <= CELLS / 2.0 * cell_size;
+        let is_inside = lower[axis] < middle && middle < upper[axis];
+        (is_inside && is_crowded(points, is_in)).then_some((axis, middle))
+    };
+    (0..D).find_map(layer)
+}
