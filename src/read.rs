@@ -219,7 +219,10 @@ pub fn first(path: &Path, most: u64) -> Result<Vec<u8>, Unread> {
 }
 
 fn first_of(file: File, most: u64) -> io::Result<Vec<u8>> {
+    // Room for the whole file at once; what is no file has no length.
+    let length = file.metadata().map_or(0, |it| it.len().min(most));
     let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length as usize + 1)?;
     file.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

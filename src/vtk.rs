@@ -133,6 +133,7 @@ fn state(frame: &Frame) -> State {
     State {
         time: frame.time,
         dimension: frame.dimension,
+        facts: Vec::new(),
         columns: vec![
             column("particle", Shape::Whole, &particles),
             column("displacement", Shape::Vector, &frame.displacement),

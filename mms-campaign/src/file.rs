@@ -73,6 +73,10 @@ pub struct Study {
     pub cells: Vec<usize>,
     /// dt on each level, where the file says it.
     pub time_steps: Option<Vec<f64>>,
+    /// Whether each time step is taken with each number of cells.
+    pub grid: bool,
+    /// Particles in each direction of a cell, where the file says it.
+    pub particles_per_cell: Option<Spanned<String>>,
     /// The Courant number that makes dt where the file does not say it.
     pub courant: f64,
     /// The last time; that of the field, where nothing is said.
@@ -100,7 +104,36 @@ pub struct Study {
 impl Study {
     /// How many runs it takes.
     pub fn levels(&self) -> usize {
-        self.cells.len().max(self.time_steps.as_ref().map_or(0, Vec::len))
+        match self.grid {
+            true => self.cells.len() * self.steps(),
+            false => self.cells.len().max(self.steps()),
+        }
+    }
+
+    /// How many time steps are given.
+    fn steps(&self) -> usize {
+        self.time_steps.as_ref().map_or(0, Vec::len)
+    }
+
+    /// Cells along the longest edge of the body, on a level, counted from 1.
+    pub fn cells_of(&self, level: usize) -> usize {
+        self.cells.get(self.of_cells(level)).copied().unwrap_or(self.cells[0])
+    }
+
+    /// dt of a level, where the file says it.
+    pub fn time_step_of(&self, level: usize) -> Option<f64> {
+        let at = if self.grid { (level - 1) % self.steps() } else { level - 1 };
+        self.time_steps.as_ref()?.get(at).copied()
+    }
+
+    /// h of a level, where the file says it.
+    pub fn h_of(&self, level: usize) -> Option<f64> {
+        self.h.as_ref()?.get(self.of_cells(level)).copied()
+    }
+
+    /// Which number of cells a level has: one after the other, each with all time steps of a grid.
+    fn of_cells(&self, level: usize) -> usize {
+        if self.grid { (level - 1) / self.steps() } else { level - 1 }
     }
 }
 
@@ -164,6 +197,8 @@ const STUDY: &[&str] = &[
     "field",
     "cells",
     "time_steps",
+    "grid",
+    "particles_per_cell",
     "courant",
     "end",
     "order",
@@ -379,6 +414,8 @@ fn study(reader: &mut Reader, entries: &DeTable<'_>, span: Span) -> Option<Study
         field: field?,
         cells: cells?,
         time_steps,
+        grid: reader.flag(&table, "grid", false),
+        particles_per_cell: per_cell(reader, &table),
         courant: reader.positive(&table, "courant").unwrap_or(COURANT),
         end: reader.number(&table, "end"),
         order: orders(reader, &table),
@@ -436,8 +473,29 @@ fn cells(reader: &mut Reader, table: &Table<'_>) -> Option<Vec<usize>> {
     found
 }
 
+/// Three of each and no `courant` in a grid of cells and time steps: with fewer nobody can tell the two apart.
+fn hold_grid(reader: &mut Reader, table: &Table<'_>, study: &Study) {
+    let lengths = [("cells", study.cells.len()), ("time_steps", study.steps())];
+    for (key, length) in lengths.into_iter().filter(|(_, length)| *length < 3) {
+        let span = table.get(key).map_or(table.span, |value| reader.span(value));
+        let message = format!("`grid`: `{key}` has {length} values");
+        let help = "three and more of each: fewer do not tell errors of space and of time apart";
+        reader.report(Diagnostic::error(span, message).label("expected three at least").help(help));
+    }
+    let of_h = study.h.as_ref().map_or(study.cells.len(), Vec::len);
+    if of_h != study.cells.len() {
+        let span = table.get("h").map_or(table.span, |value| reader.span(value));
+        let message = format!("`h` has {of_h} values, and `cells` {}", study.cells.len());
+        let found = Diagnostic::error(span, message).label("counted here");
+        reader.report(found.help("as many in a grid: each is that of a number of cells"));
+    }
+}
+
 /// As many of each as there are levels; or one mesh for all time steps.
 fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
+    if study.grid {
+        return hold_grid(reader, table, study);
+    }
     let levels = study.levels();
     let lengths = [
         ("cells", Some(study.cells.len()).filter(|length| *length != 1)),
@@ -451,6 +509,17 @@ fn hold_levels(reader: &mut Reader, table: &Table<'_>, study: &Study) {
         let help = "as many for each; or one number of cells for several time steps";
         reader.report(Diagnostic::error(span, message).label("counted here").help(help));
     }
+}
+
+/// A whole number, or one for each axis in a text.
+fn per_cell(reader: &mut Reader, table: &Table<'_>) -> Option<Spanned<String>> {
+    let value = table.get("particles_per_cell")?;
+    let found = digits(value).map(|text| Spanned { value: text, span: reader.span(value) });
+    if found.is_none() {
+        let expected = "a whole number, or one for each axis, as in \"3x2\"";
+        reader.expect(reader.span(value), "particles_per_cell", expected);
+    }
+    found
 }
 
 /// A number, or as `--expected-order` takes it.

@@ -32,6 +32,7 @@ placeholders! {
     Field "field" false "The name of its field.",
     Level "level" false "The level, from 1 on.",
     Cells "cells" false "How many cells there are along the longest edge of the body.",
+    ParticlesPerCell "particles_per_cell" false "Particles in each direction of a cell, as `2` or `3x2`.",
     CellSize "cell_size" false "h, the longest edge of a cell.",
     TimeStep "time_step" false "dt.",
     Steps "steps" false "How many time steps lead from the start to the end.",

@@ -89,6 +89,31 @@ fn all_keys_are_read() {
     assert_eq!(campaign.studies[1].name, "x");
 }
 
+/// Each number of cells with each time step; h is that of the cells.
+#[test]
+fn a_grid_has_a_level_for_each_pair() {
+    let campaign = parsed(
+        r#"
+        solver = { run = "a {particles_per_cell}", output = "{output}" }
+        [[study]]
+        field = "x"
+        cells = [8, 16, 32]
+        time_steps = [0.1, 0.05, 0.025, 0.0125]
+        h = [1, 0.5, 0.25]
+        grid = true
+        particles_per_cell = "3x2"
+        "#,
+    );
+    let study = &campaign.studies[0];
+    assert_eq!(study.levels(), 12);
+    let of = |level: usize| (study.cells_of(level), study.time_step_of(level), study.h_of(level));
+    assert_eq!(of(1), (8, Some(0.1), Some(1.0)));
+    assert_eq!(of(4), (8, Some(0.0125), Some(1.0)));
+    assert_eq!(of(5), (16, Some(0.1), Some(0.5)));
+    assert_eq!(of(12), (32, Some(0.0125), Some(0.25)));
+    assert_eq!(study.particles_per_cell.as_ref().map(|it| it.value.as_str()), Some("3x2"));
+}
+
 /// Each mistake with the place and the words that its message has.
 #[test]
 fn each_mistake_is_told_at_its_place() {
@@ -163,6 +188,14 @@ fn each_mistake_is_told_at_its_place() {
             "`time_steps` has 1 values, and there are 2 levels",
         ),
         (&format!("{solver}{study}h = [1, 2, 3]\n"), "c.toml:7:5", "`h` has 3 values"),
+        (&format!("{solver}{study}grid = true\n"), "c.toml:6:9", "`grid`: `cells` has 2 values"),
+        (
+            &format!("{solver}{study}grid = true\n"),
+            "c.toml:4:1",
+            "`grid`: `time_steps` has 0 values",
+        ),
+        (&format!("{solver}{study}grid = 1\n"), "c.toml:7:8", "true or false"),
+        (&format!("{solver}{study}particles_per_cell = []\n"), "c.toml:7:22", "a whole number"),
         (&format!("{solver}{study}h = [1, inf]\n"), "c.toml:7:5", "an array of positive numbers"),
         (&format!("{solver}{study}name = \"a/b\"\n"), "c.toml:7:8", "the name of a folder"),
         (&format!("{solver}{study}name = \"..\"\n"), "c.toml:7:8", "the name of a folder"),

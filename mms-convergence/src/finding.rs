@@ -31,6 +31,8 @@ impl Expected {
 /// Why a verdict is what it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
+    /// Every error is nothing but round-off.
+    Exact,
     /// A run stopped.
     Stopped,
     /// An error is exactly zero or not finite, or nothing fits: there is no order.
@@ -77,6 +79,9 @@ impl Finding {
     /// coarse ones while more than three are left, orders are shown to approach the expected one, and the rest says
     /// more: these are not asymptotic yet.
     pub fn of(sequence: &Sequence, expected: Expected) -> Self {
+        if sequence.is_exact() {
+            return Self::exact(sequence.levels());
+        }
         let mut levels = sequence.sound();
         let mut finding = Self::on(levels, expected);
         while levels.len() > 3 && finding.is_pre_asymptotic() && finding.verdict != Verdict::Pass {
@@ -87,6 +92,18 @@ impl Finding {
             (finding.verdict, finding.reason) = (Verdict::Fail, Reason::Stopped);
         }
         finding
+    }
+
+    /// Of levels whose errors are nothing but round-off.
+    fn exact(levels: &[Level]) -> Self {
+        Self {
+            verdict: Verdict::Exact,
+            reason: Reason::Exact,
+            estimate: None,
+            term: None,
+            limit: None,
+            lengths: levels.iter().map(|level| level.length).collect(),
+        }
     }
 
     /// Judges an order that a fit of more than one length has, by half its interval; `None` where nothing fits.

@@ -21,6 +21,7 @@
 //!   matters; of two levels, the order is near the expected one.
 //! * `fail`: the interval lies below it, of three levels by more than the tolerance, as the order of two; or a run stopped.
 //! * `not asymptotic`: else; so too where the interval lies above.
+//! * `exact to round-off`: who measured knows that every error is nothing but round-off ([`Sequence::exact`]).
 //!
 //! ```
 //! use mms_convergence::{Expected, Finding, Sample, Sequence, Verdict};

@@ -68,6 +68,7 @@ impl Level {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sequence {
     levels: Vec<Level>,
+    is_exact: bool,
 }
 
 impl Sequence {
@@ -87,7 +88,17 @@ impl Sequence {
                 }),
             }
         }
-        Self { levels }
+        Self { levels, is_exact: false }
+    }
+
+    /// The same, all of whose errors are known to be nothing but round-off, or not.
+    pub fn exact(self, is_exact: bool) -> Self {
+        Self { is_exact, ..self }
+    }
+
+    /// Whether all errors are known to be nothing but round-off.
+    pub fn is_exact(&self) -> bool {
+        self.is_exact && !self.has_stopped()
     }
 
     /// The levels, from coarse to fine.

@@ -12,6 +12,8 @@ pub const CONSTANT_TOLERANCE: f64 = 0.01;
 /// The outcome of a study; the worse, the later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
+    /// Every error is round-off: there is no order to observe, and nothing left of the error.
+    Exact,
     /// The levels show the expected order.
     Pass,
     /// They do not tell, or show a higher one.
@@ -20,9 +22,17 @@ pub enum Verdict {
     Fail,
 }
 
+impl Verdict {
+    /// Whether it speaks for the solver.
+    pub fn is_good(self) -> bool {
+        matches!(self, Verdict::Pass | Verdict::Exact)
+    }
+}
+
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Verdict::Exact => "exact to round-off",
             Verdict::Pass => "pass",
             Verdict::NotAsymptotic => "not asymptotic",
             Verdict::Fail => "fail",

@@ -69,6 +69,7 @@ impl Finding {
     fn because(&self, expected: Expected) -> String {
         let p = expected.order;
         match self.reason {
+            Reason::Exact => "; no error is more than rounding makes".into(),
             Reason::Settled | Reason::Below | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),

@@ -237,3 +237,28 @@ fn words_name_the_norm_the_levels_and_the_reason() {
         says(&three([square; 3])).contains("of order 1 that makes up less than 4 % at h = 0.01")
     );
 }
+
+/// What has no order is neither passed nor failed, and speaks for the solver. A run that stopped does not.
+#[test]
+fn errors_that_are_round_off_have_a_verdict_of_their_own() {
+    let samples = || [0.0, 3e-17, 1e-17].into_iter().zip([4.0, 2.0, 1.0]);
+    let exact = || Sequence::new(samples().map(|(error, h)| Sample::new(h, error))).exact(true);
+    let found = Finding::of(&exact(), SECOND);
+    assert_eq!((found.verdict, found.reason), (Verdict::Exact, Reason::Exact));
+    assert_eq!((found.estimate, found.lengths.len()), (None, 3));
+    assert_eq!(found.verdict.to_string(), "exact to round-off");
+    assert!(found.verdict.is_good() && !Verdict::NotAsymptotic.is_good());
+    let judgement = Judgement::of([("l2", &exact(), SECOND)]).expect("a norm");
+    let says = judgement.sentences("h", &|h| format!("h {h}"));
+    assert_eq!(
+        says,
+        [
+            "exact to round-off: no observed order (l2; 3 levels, h 4 to h 1), expected 2; no error is more than rounding makes"
+        ]
+    );
+    let stopped = Sample { error: None, ..Sample::new(0.5, 0.0) };
+    let samples = samples().map(|(error, h)| Sample::new(h, error)).chain([stopped]);
+    let found = Finding::of(&Sequence::new(samples).exact(true), SECOND);
+    assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
+    assert!(Verdict::Exact < Verdict::Pass, "another quantity that has an order decides");
+}

@@ -3,6 +3,10 @@
 //! The functions of a cell are the polynomials that are 1 at one of its nodes and 0 at the others, found by solving for
 //! their coefficients. So a kind of cell is its corners, the corners between which its other nodes lie, and the
 //! monomials that it holds; the order of nodes is that of VTK.
+//!
+//! A pyramid is a hexahedron whose upper face is drawn together to a point. In the coordinates of the hexahedron its
+//! functions are polynomials, and over x and y of the pyramid they are the usual rational ones, as (1 - x - z)(1 - y -
+//! z)/(1 - z) (G. Bedrosian, Int. J. Numer. Meth. Engng 35, 1992, 95-108).
 
 use std::sync::LazyLock;
 
@@ -18,6 +22,10 @@ enum Space {
     Product(u32),
     /// Those of degree 2 in one coordinate at most, and 1 in the others (serendipity).
     Serendipity,
+    /// Those of degree 1 in the first two together, and in the third.
+    Wedge,
+    /// Those of degree 1 in each, which do not depend on the first two where the third is 1.
+    Pyramid,
 }
 
 impl Space {
@@ -25,13 +33,15 @@ impl Space {
         match self {
             Space::Complete(degree) | Space::Product(degree) => degree,
             Space::Serendipity => 2,
+            Space::Wedge | Space::Pyramid => 1,
         }
     }
 
     fn holds(self, exponents: [u32; 3]) -> bool {
         match self {
             Space::Complete(degree) => exponents.iter().sum::<u32>() <= degree,
-            Space::Product(_) => true,
+            Space::Product(_) | Space::Pyramid => true,
+            Space::Wedge => exponents[0] + exponents[1] <= 1,
             Space::Serendipity => exponents.iter().filter(|&&it| it == 2).count() <= 1,
         }
     }
@@ -46,6 +56,9 @@ impl Space {
         all.filter(|it| self.holds(*it)).collect()
     }
 }
+
+/// How far from an apex a place beside it is, in parts of the height.
+const BESIDE: f64 = 1e-3;
 
 /// A kind of cell as data: its number in VTK, dimension, corners, the corners in whose middle each other node lies, and
 /// its polynomials.
@@ -66,6 +79,8 @@ const HEX: &[Local] = &[
     [1.0, 1.0, 1.0],
     [0.0, 1.0, 1.0],
 ];
+const WEDGE: &[Local] = &[TETRA[0], TETRA[1], TETRA[2], HEX[4], HEX[5], HEX[7]];
+const PYRAMID: &[Local] = &[HEX[0], HEX[1], HEX[2], HEX[3], HEX[4]];
 const VOXEL: &[Local] = &[HEX[0], HEX[1], HEX[3], HEX[2], HEX[4], HEX[5], HEX[7], HEX[6]];
 const QUAD_EDGES: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
 const HEX_EDGES: [&[usize]; 12] = [
@@ -107,6 +122,8 @@ const ROWS: &[Row] = &[
     (10, 3, TETRA, &[], Space::Complete(1)),
     (11, 3, VOXEL, &[], Space::Product(1)),
     (12, 3, HEX, &[], Space::Product(1)),
+    (13, 3, WEDGE, &[], Space::Wedge),
+    (14, 3, PYRAMID, &[], Space::Pyramid),
     (21, 1, LINE, &[&[0, 1]], Space::Product(2)),
     (22, 2, TRIANGLE, &[&[0, 1], &[1, 2], &[2, 0]], Space::Complete(2)),
     (23, 2, QUAD, &QUAD_EDGES, Space::Serendipity),
@@ -133,10 +150,16 @@ pub struct Shape {
 
 static SHAPES: LazyLock<Vec<Shape>> = LazyLock::new(|| ROWS.iter().map(Shape::new).collect());
 
+/// Where the shape of a number in VTK is.
+static BY_KIND: LazyLock<[Option<usize>; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|kind| ROWS.iter().position(|row| usize::from(row.0) == kind))
+});
+
 impl Shape {
     /// The kind of that number in VTK, if it is one of those that are known.
     pub fn of(kind: u8) -> Option<&'static Shape> {
-        SHAPES.iter().find(|shape| shape.kind == kind)
+        // Meshes have as many cells as points, and few kinds.
+        BY_KIND[usize::from(kind)].map(|at| &SHAPES[at])
     }
 
     /// All that are known.
@@ -152,7 +175,10 @@ impl Shape {
         };
         let nodes: Vec<Local> = corners.iter().copied().chain(between.iter().map(middle)).collect();
         let monomials = space.monomials(dimension);
-        let coefficients = functions(&nodes, &monomials);
+        let coefficients = match space {
+            Space::Pyramid => drawn_together(functions(HEX, &monomials)),
+            _ => functions(&nodes, &monomials),
+        };
         let corners = corners.len();
         Shape { kind, dimension, nodes, corners, space, monomials, coefficients }
     }
@@ -183,8 +209,11 @@ impl Shape {
         self.coefficients.iter().map(sum).collect()
     }
 
-    /// The middle of the reference cell.
+    /// The middle of the reference cell: where its centre of volume is.
     pub fn middle(&self) -> Local {
+        if self.space == Space::Pyramid {
+            return [0.5, 0.5, 0.25];
+        }
         let corners = &self.nodes[..self.corners];
         std::array::from_fn(|axis| {
             corners.iter().map(|it| it[axis]).sum::<f64>() / self.corners as f64
@@ -193,12 +222,24 @@ impl Shape {
 
     /// Pairs of corners between which there is an edge.
     pub fn edges(&self) -> Vec<[usize; 2]> {
-        let is_simplex = matches!(self.space, Space::Complete(_));
-        let differ = |a: usize, b: usize| {
-            (0..3).filter(|&axis| self.nodes[a][axis] != self.nodes[b][axis]).count()
+        let differ = |a: usize, b: usize, axis: usize| self.nodes[a][axis] != self.nodes[b][axis];
+        let is_along = |a: usize, b: usize| (0..3).filter(|&it| differ(a, b, it)).count() == 1;
+        let is_edge = |a: usize, b: usize| match self.space {
+            Space::Complete(_) => true,
+            Space::Wedge => is_along(a, b) || !differ(a, b, 2),
+            Space::Pyramid => is_along(a, b) || differ(a, b, 2),
+            Space::Product(_) | Space::Serendipity => is_along(a, b),
         };
         let pairs = (0..self.corners).flat_map(|a| (a + 1..self.corners).map(move |b| [a, b]));
-        pairs.filter(|&[a, b]| is_simplex || differ(a, b) == 1).collect()
+        pairs.filter(|&[a, b]| is_edge(a, b)).collect()
+    }
+
+    /// Where the largest error of a cell may be, besides inside: its nodes. At an apex slopes have no value, and a place
+    /// beside it is taken.
+    pub fn extremes(&self) -> impl Iterator<Item = Local> {
+        let is_apex = |at: Local| self.space == Space::Pyramid && at[2] == 1.0;
+        let beside = [0.5, 0.5, 1.0 - BESIDE];
+        self.nodes.iter().map(move |&at| if is_apex(at) { beside } else { at })
     }
 
     /// Places and weights of a quadrature that is exact for polynomials of twice the degree of the functions and three
@@ -208,9 +249,18 @@ impl Shape {
         match (self.space, self.dimension) {
             (Space::Complete(_), 2) => collapsed(&points, false),
             (Space::Complete(_), _) => collapsed(&points, true),
+            (Space::Wedge, _) => prism(&points),
             (_, dimension) => product(&points, dimension),
         }
     }
+}
+
+/// The functions of a hexahedron as those of a pyramid: the upper four are one.
+fn drawn_together(mut of_hexahedron: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let upper = of_hexahedron.split_off(4);
+    let sum = |at: usize| upper.iter().map(|function| function[at]).sum();
+    of_hexahedron.push((0..upper[0].len()).map(sum).collect());
+    of_hexahedron
 }
 
 fn value(exponents: [u32; 3], at: Local) -> f64 {
@@ -300,6 +350,14 @@ fn collapsed(points: &[(f64, f64)], is_solid: bool) -> Vec<(Local, f64)> {
     product(points, 2 + usize::from(is_solid)).into_iter().map(place).collect()
 }
 
+/// The points of a triangle along a line.
+fn prism(points: &[(f64, f64)]) -> Vec<(Local, f64)> {
+    let triangle = collapsed(points, false).into_iter();
+    triangle
+        .flat_map(|([x, y, _], weight)| points.iter().map(move |&(z, w)| ([x, y, z], weight * w)))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -312,6 +370,7 @@ mod tests {
                 let all = factorial(a + b + c + shape.dimension as u32);
                 factorial(a) * factorial(b) * factorial(c) / all
             }
+            Space::Wedge => factorial(a) * factorial(b) / factorial(a + b + 2) / f64::from(c + 1),
             _ => 1.0 / f64::from((a + 1) * (b + 1) * (c + 1)),
         }
     }
@@ -332,7 +391,6 @@ mod tests {
     #[test]
     fn functions_are_one_at_their_node_and_sum_to_one() {
         for shape in Shape::all() {
-            assert_eq!(shape.nodes.len(), shape.monomials.len(), "{}", shape.kind);
             for (node, &at) in shape.nodes.iter().enumerate() {
                 for (other, value) in shape.values(at).into_iter().enumerate() {
                     assert!((value - f64::from(node == other)).abs() < 1e-13);
@@ -366,5 +424,20 @@ mod tests {
     fn edges_are_as_many_as_they_should_be() {
         let edges = |kind| Shape::of(kind).unwrap().edges().len();
         assert_eq!([3, 5, 9, 8, 10, 12, 11, 25].map(edges), [1, 3, 4, 4, 6, 12, 12, 12]);
+        assert_eq!([13, 14].map(edges), [9, 8]);
+    }
+
+    /// Over x and y of the pyramid itself, where they are rational.
+    #[test]
+    fn functions_of_a_pyramid_are_those_of_bedrosian() {
+        let pyramid = Shape::of(14).unwrap();
+        for [x, y, z] in [[0.1, 0.2, 0.3], [0.0, 0.6, 0.4], [0.05, 0.01, 0.9]] {
+            let found = pyramid.values([x / (1.0 - z), y / (1.0 - z), z]);
+            let (right, behind) = (1.0 - z - x, 1.0 - z - y);
+            let rational = [right * behind, x * behind, x * y, right * y].map(|it| it / (1.0 - z));
+            for (a, b) in found.iter().zip(rational.iter().chain([&z])) {
+                assert!((a - b).abs() < 1e-14, "{found:?}");
+            }
+        }
     }
 }

@@ -3,7 +3,8 @@
 //! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
 //! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
 //! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
-//! [cells](cell). [`write`](mod@write) makes such files of a state that is known.
+//! [cells](cell); [`pairing`] finds the same points in two results. [`write`](mod@write) makes such files of a state that is
+//! known.
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 
@@ -12,6 +13,7 @@ mod mistake;
 pub mod motion;
 pub mod names;
 pub mod norm;
+pub mod pairing;
 mod read;
 mod snapshot;
 pub mod write;

@@ -3,6 +3,9 @@
 use crate::names::{Meaning, Role, Values, here};
 use crate::{Mistake, Snapshot, Stored};
 
+/// How many bits of a digest tell it from most others.
+const START: u32 = 20;
+
 /// The points of a snapshot, as the exact solution knows them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
@@ -105,7 +108,7 @@ fn motion(reference: Values, displacement: Option<Values>, how: &str) -> Motion 
 }
 
 /// One position less another, with the roundings of both.
-fn difference(a: &Values, b: &Values) -> Values {
+pub(crate) fn difference(a: &Values, b: &Values) -> Values {
     let numbers = a.numbers.iter().zip(&b.numbers).map(|(a, b)| a - b).collect();
     let stored = Stored::coarser(a.stored, b.stored);
     Values { numbers, rounding: a.rounding + b.rounding, stored, ..*a }
@@ -159,13 +162,50 @@ fn hold_inside(snapshot: &Snapshot, motion: &Motion, outside: Outside<'_>) -> Re
     Err(here(snapshot, at, what))
 }
 
+/// Points among which all are that are in one place, and of ten million a few thousand others: those whose digest another
+/// has too. Digests of half a word are sorted in a small part of the time of points.
+fn suspects(reference: &Values) -> Vec<usize> {
+    let digests = || reference.numbers.chunks_exact(reference.components).map(digest);
+    let mut sorted: Vec<u32> = digests().collect();
+    sorted.sort_unstable();
+    let pairs = sorted.windows(2).filter(|pair| pair[0] == pair[1]);
+    let mut twice: Vec<u32> = pairs.map(|pair| pair[0]).collect();
+    drop(sorted);
+    twice.dedup();
+    // Most digests are told from those by their first bits.
+    let mut starts = vec![0_u64; 1 << (START - 6)];
+    let bit = |digest: u32| {
+        let start = digest >> (32 - START);
+        ((start / 64) as usize, 1_u64 << (start % 64))
+    };
+    for (word, mask) in twice.iter().map(|&it| bit(it)) {
+        starts[word] |= mask;
+    }
+    let is_twice = |(_, digest): &(usize, u32)| {
+        let (word, mask) = bit(*digest);
+        starts[word] & mask != 0 && twice.binary_search(digest).is_ok()
+    };
+    digests().enumerate().filter(is_twice).map(|(at, _)| at).collect()
+}
+
+/// The same of points that are equal, and of others most likely not.
+fn digest(point: &[f64]) -> u32 {
+    // -0 is 0.
+    let bits = point.iter().map(|x| (x + 0.0).to_bits());
+    let mixed = bits.fold(0, |digest: u64, bits| {
+        let mixed = (digest ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        mixed ^ (mixed >> 32)
+    });
+    mixed as u32
+}
+
 /// Refuses two points in one place.
 ///
 /// # Errors
 /// The second of them, and the first.
 pub fn hold_distinct(snapshot: &Snapshot, reference: &Values) -> Result<(), Mistake> {
     let point = |at: usize| &reference.numbers[at * reference.components..][..reference.components];
-    let mut order: Vec<usize> = (0..reference.numbers.len() / reference.components).collect();
+    let mut order = suspects(reference);
     let compare = |&a: &usize, &b: &usize| {
         point(a).partial_cmp(point(b)).unwrap_or(std::cmp::Ordering::Equal)
     };

@@ -78,6 +78,9 @@ roles! {
         "Second Piola-Kirchhoff stress S.",
     Pressure "pressure" "p" Scalar ["p"] "Pressure.",
     VonMises "von_mises" "von_mises" Scalar ["mises" "vonmisesstress"] "Von Mises stress.",
+    Traction "traction" "traction" Vector ["tractions" "surfacetraction" "boundarytraction"]
+        "Traction P N, per reference area.",
+    Normal "normal" "N" Vector ["N" "normals" "unitnormal" "unitnormals"] "Reference unit normal N of the boundary.",
     Volume "volume" "volume" Scalar ["vol"] "A weight: the volume of a point or cell.",
     Mass "mass" "mass" Scalar [] "A weight: the mass of a point.",
 }
@@ -87,6 +90,20 @@ const UNCLEAR: &[(&str, [Role; 2])] = &[
     ("stress", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
     ("stresses", [Role::CauchyStress, Role::FirstPiolaKirchhoff]),
     ("piola", [Role::FirstPiolaKirchhoff, Role::SecondPiolaKirchhoff]),
+];
+
+/// Faces that the name of a traction may end with.
+const FACES: [&str; 10] = [
+    "x_min",
+    "x_max",
+    "y_min",
+    "y_max",
+    "z_min",
+    "z_max",
+    "inner",
+    "outer",
+    "theta_min",
+    "theta_max",
 ];
 
 impl Role {
@@ -144,7 +161,23 @@ pub struct Meaning {
     pub role: Role,
     /// Its name in the file.
     pub source: String,
+    /// The face that the name speaks of: a traction is that of a face.
+    pub face: Option<&'static str>,
     columns: Vec<(Part, Column)>,
+}
+
+/// What the name of an array says.
+struct Understood {
+    role: Role,
+    part: Option<Part>,
+    source: String,
+    face: Option<&'static str>,
+}
+
+impl Understood {
+    fn new(role: Role, part: Option<Part>, source: impl Into<String>) -> Self {
+        Understood { role, part, source: source.into(), face: None }
+    }
 }
 
 /// A quantity and the columns that a user says it is: names, or `name:k` for the component k, counted from 0; `points`
@@ -208,7 +241,8 @@ pub fn recognise(
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
     for (place, array) in arrays(snapshot).filter(|(place, _)| !taken.contains(place)) {
         hold_clear(&array.name, wants).map_err(|mistake| mistake.of(&snapshot.path))?;
-        let Some((role, part, source)) = understand(place, array) else { continue };
+        let Some(understood) = understand(place, array) else { continue };
+        let Understood { role, part, source, face } = understood;
         if is_mapped(role) || !wants(role) {
             continue;
         }
@@ -220,7 +254,7 @@ pub fn recognise(
         let same = |it: &&mut Meaning| it.role == role && it.source == source && part.is_some();
         match found.iter_mut().find(same) {
             Some(meaning) => meaning.columns.extend(columns),
-            None => found.push(Meaning { role, source, columns }),
+            None => found.push(Meaning { role, source, face, columns }),
         }
     }
     hold_single(&found).map_err(|mistake| mistake.of(&snapshot.path))?;
@@ -260,7 +294,8 @@ fn hold_clear(name: &str, wants: &dyn Fn(Role) -> bool) -> Result<(), Mistake> {
 /// Refuses two arrays for one quantity.
 fn hold_single(found: &[Meaning]) -> Result<(), Mistake> {
     for (at, meaning) in found.iter().enumerate() {
-        if let Some(other) = found[..at].iter().find(|other| other.role == meaning.role) {
+        let is_same = |it: &&Meaning| it.role == meaning.role && it.face == meaning.face;
+        if let Some(other) = found[..at].iter().find(is_same) {
             let (role, symbol) = (meaning.role.name(), meaning.role.symbol());
             return Err(Mistake::new(format!(
                 "both `{}` and `{}` may be {role}: say which with `--map {symbol}=NAME`; an array of cells is `cells:NAME`",
@@ -272,31 +307,51 @@ fn hold_single(found: &[Meaning]) -> Result<(), Mistake> {
 }
 
 /// What an array is, which part of it, and under which name.
-fn understand(place: Place, array: &Array) -> Option<(Role, Option<Part>, String)> {
+fn understand(place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     let role = |name: &str| Role::ALL.iter().copied().find(|role| role.is_called(name));
     match (place, name) {
         // So the project's own runs call x.
-        (Place::Grid, "position") => return Some((Role::Position, None, name.into())),
-        (Place::Grid, "reference_position") => return Some((Role::Reference, None, name.into())),
-        (Place::Grid, _) => return Some((Role::Place, None, "points".into())),
+        (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
+        (Place::Grid, "reference_position") => {
+            return Some(Understood::new(Role::Reference, None, name));
+        }
+        (Place::Grid, _) => return Some(Understood::new(Role::Place, None, "points")),
         // Coordinates in columns of their own.
         (_, "X" | "Y" | "Z") if array.components == 1 => {
-            return Some((Role::Reference, Some(Part::Nth(letter(name)?)), "X".into()));
+            return Some(Understood::new(Role::Reference, Some(Part::Nth(letter(name)?)), "X"));
         }
         (_, "x" | "y" | "z") if array.components == 1 => {
-            return Some((Role::Place, Some(Part::Nth(letter(name)?)), "x".into()));
+            return Some(Understood::new(Role::Place, Some(Part::Nth(letter(name)?)), "x"));
         }
         _ => {}
     }
     if let Some(role) = role(name) {
-        return Some((role, None, name.into()));
+        return Some(Understood::new(role, None, name));
+    }
+    if let Some(found) = on_face(array) {
+        return Some(found);
     }
     let (base, part) = split(name).filter(|_| array.components == 1)?;
     let role = role(base).filter(|role| role.form() != Form::Scalar)?;
     // x0 may be the first coordinate, or where x was.
     let is_coordinate = base.len() == 1 && matches!(role, Role::Place | Role::Reference);
-    (!is_coordinate || name.len() > 2).then(|| (role, Some(part), base.to_owned()))
+    (!is_coordinate || name.len() > 2).then(|| Understood::new(role, Some(part), base))
+}
+
+/// The traction of a face, as `traction_x_max`, or a component of it, as `traction_x_max_y`.
+fn on_face(array: &Array) -> Option<Understood> {
+    let rest = array.name.strip_prefix("traction_")?;
+    let found = FACES.into_iter().find_map(|face| Some((face, rest.strip_prefix(face)?)));
+    let (face, end) = found?;
+    let part = match end {
+        "" => None,
+        _ => Some(Part::Nth(letter(end.strip_prefix('_').filter(|_| array.components == 1)?)?)),
+    };
+    Some(Understood {
+        face: Some(face),
+        ..Understood::new(Role::Traction, part, format!("traction_{face}"))
+    })
 }
 
 fn letter(text: &str) -> Option<usize> {
@@ -344,6 +399,7 @@ fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
     Ok(Meaning {
         role: mapping.role,
         source: mapping.columns.join(","),
+        face: None,
         columns: columns.map(|(at, column)| (Part::Nth(at), column)).collect(),
     })
 }
@@ -376,6 +432,11 @@ fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
 }
 
 impl Meaning {
+    /// How many dimensions a vector of as many columns has.
+    pub fn dimension(&self) -> usize {
+        self.columns.len().clamp(1, 3)
+    }
+
     /// Its numbers in so many dimensions. What is more than that must be 0 in vectors, and is left out in tensors.
     ///
     /// # Errors
@@ -390,13 +451,7 @@ impl Meaning {
             return Err(Mistake::new(what).of(&snapshot.path));
         }
         self.hold_flat(snapshot, dimension)?;
-        let number = |row: usize, column: &Column| {
-            let array = of(column);
-            array.values[row * array.components + column.component]
-        };
-        let numbers: Vec<f64> = (0..rows)
-            .flat_map(|row| columns.iter().map(move |column| number(row, column)))
-            .collect();
+        let numbers = gathered(snapshot, &columns, rows);
         if let Some(at) = numbers.iter().position(|it| !it.is_finite()) {
             let row = at / columns.len();
             let what = format!("{} is {}; expected a finite number", self.source, numbers[at]);
@@ -479,7 +534,7 @@ impl Meaning {
             _ => format!("; name them with `--map {symbol}=..`"),
         };
         Mistake::new(format!(
-            "`{source}`, read as {}, has {found} component(s), and a field of dimension {dimension} has {expected}{advice}",
+            "`{source}`, read as {}, has {found} component(s), and of {dimension} dimension(s) {expected} are expected{advice}",
             self.role.name()
         ))
     }
@@ -505,6 +560,33 @@ impl Meaning {
         }
         Ok(())
     }
+}
+
+/// The numbers of some columns, those of a row together.
+fn gathered(snapshot: &Snapshot, columns: &[Column], rows: usize) -> Vec<f64> {
+    let first = array(snapshot, columns[0].place);
+    let is_next = |(at, column): (usize, &Column)| {
+        column.place == columns[0].place && column.component == columns[0].component + at
+    };
+    // Most often they stand side by side, with no others or with a third coordinate behind them.
+    if columns.iter().enumerate().all(is_next) {
+        if columns.len() == first.components {
+            return first.values.clone();
+        }
+        let (start, count) = (columns[0].component, columns.len());
+        let mut numbers = Vec::with_capacity(rows * count);
+        let each = first.values.chunks_exact(first.components);
+        each.for_each(|row| numbers.extend_from_slice(&row[start..start + count]));
+        return numbers;
+    }
+    let mut numbers = vec![0.0; rows * columns.len()];
+    for (at, column) in columns.iter().enumerate() {
+        let array = array(snapshot, column.place);
+        let own = array.values.chunks_exact(array.components).map(|row| row[column.component]);
+        let to = numbers.chunks_exact_mut(columns.len());
+        to.zip(own).for_each(|(to, number)| to[at] = number);
+    }
+    numbers
 }
 
 fn array(snapshot: &Snapshot, place: Place) -> &Array {

@@ -43,9 +43,9 @@ impl Sums {
 }
 
 /// The lengths of the differences, each of so many components: of vectors Euclid's, of tensors that of Frobenius.
-pub fn lengths(computed: &[f64], exact: &[f64], components: usize) -> Vec<f64> {
-    let pairs = computed.chunks(components).zip(exact.chunks(components));
-    pairs.map(|(a, b)| length(a, b)).collect()
+pub fn lengths(computed: &[f64], exact: &[f64], components: usize) -> impl Iterator<Item = f64> {
+    let pairs = computed.chunks_exact(components).zip(exact.chunks_exact(components));
+    pairs.map(|(a, b)| length(a, b))
 }
 
 fn length(a: &[f64], b: &[f64]) -> f64 {
@@ -54,9 +54,12 @@ fn length(a: &[f64], b: &[f64]) -> f64 {
 
 /// The norms of errors at points, each with its weight, or all alike. `None` where there are none, or their weights
 /// have no sum above 0.
-pub fn over_points(errors: &[f64], weights: Option<&[f64]>) -> Option<Norms> {
+pub fn over_points(
+    errors: impl IntoIterator<Item = f64>,
+    weights: Option<&[f64]>,
+) -> Option<Norms> {
     let mut sums = Sums::default();
-    for (at, &error) in errors.iter().enumerate() {
+    for (at, error) in errors.into_iter().enumerate() {
         sums.add(at, weights.map_or(1.0, |weights| weights[at]), error);
     }
     (sums.weight > 0.0 && sums.weight.is_finite()).then(|| sums.norms())
@@ -120,7 +123,7 @@ impl Tabulated {
             let slopes = (0..shape.dimension).map(|axis| shape.derivatives(at, axis));
             (weight, shape.values(at), slopes.collect())
         };
-        let nodes = shape.nodes.iter().map(|&node| (node, 0.0));
+        let nodes = shape.extremes().map(|node| (node, 0.0));
         Tabulated {
             shape,
             points: shape.quadrature().into_iter().chain(nodes).map(point).collect(),
@@ -295,8 +298,8 @@ impl Batch {
             (of_gradients, &self.gradients, components * dimension, Asked::Gradients),
         ];
         for (sums, computed, components, asked) in parts {
-            let errors = lengths(computed, &exact(asked, &self.places)?, components);
-            for (point, error) in errors.into_iter().enumerate() {
+            let exact = exact(asked, &self.places)?;
+            for (point, error) in lengths(computed, &exact, components).enumerate() {
                 sums.add(self.cell[point], self.weights[point], error);
             }
         }

@@ -1,5 +1,7 @@
 //! What a file holds of one mesh at one time.
 
+use std::collections::BTreeMap;
+
 use crate::Mistake;
 
 /// How numbers were stored, and so how far each may be from what the solver had.
@@ -152,6 +154,17 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// How many points it has: as many as most of its arrays, where it has no places of points.
+    pub fn rows(&self) -> usize {
+        if let Some(points) = &self.points {
+            return points.rows();
+        }
+        let mut counts = BTreeMap::<usize, usize>::new();
+        self.of_points.iter().for_each(|array| *counts.entry(array.rows()).or_default() += 1);
+        let most = counts.into_iter().max_by_key(|&(rows, count)| (count, rows));
+        most.map_or(0, |(rows, _)| rows)
+    }
+
     /// Where a point stands: `path:line`, or its number.
     pub fn place(&self, point: usize) -> String {
         match self.lines.get(point) {

@@ -6,14 +6,14 @@ use mms_results::norm::{Asked, Exact, Mesh, lengths, over_points};
 
 #[test]
 fn norms_over_points_are_their_definitions() {
-    let errors = lengths(&[3.0, 4.0, 1.0, 0.0], &[0.0, 0.0, 1.0, 0.0], 2);
+    let errors: Vec<f64> = lengths(&[3.0, 4.0, 1.0, 0.0], &[0.0, 0.0, 1.0, 0.0], 2).collect();
     assert_eq!(errors, [5.0, 0.0]);
-    let norms = over_points(&errors, None).unwrap();
+    let norms = over_points(errors.iter().copied(), None).unwrap();
     assert_eq!((norms.l1, norms.l2, norms.linf, norms.at), (2.5, 12.5_f64.sqrt(), 5.0, 0));
-    let weighted = over_points(&errors, Some(&[1.0, 3.0])).unwrap();
+    let weighted = over_points(errors.iter().copied(), Some(&[1.0, 3.0])).unwrap();
     assert_eq!((weighted.l1, weighted.l2, weighted.linf), (1.25, 2.5, 5.0));
-    assert_eq!(over_points(&[], None), None);
-    assert_eq!(over_points(&errors, Some(&[0.0, 0.0])), None);
+    assert_eq!(over_points([], None), None);
+    assert_eq!(over_points(errors.iter().copied(), Some(&[0.0, 0.0])), None);
 }
 
 /// One cell of that kind, at X = A xi with A below.
@@ -83,10 +83,26 @@ fn exact(asked: Asked, places: &[f64], dimension: usize) -> Vec<f64> {
     }
 }
 
+const WEDGE: u8 = 13;
+const PYRAMID: u8 = 14;
+
+/// The coordinates in which the functions of a cell are known, of those in which its corners are: of a pyramid those of
+/// the cube that was drawn together.
+fn known(shape: &Shape, [x, y, z]: Local) -> Local {
+    match shape.kind() {
+        PYRAMID => [x / (1.0 - z), y / (1.0 - z), z],
+        _ => [x, y, z],
+    }
+}
+
 /// Points spread evenly over a reference cell: those of a grid; on a simplex, the differences of their sorted
-/// coordinates, which are spread evenly too.
+/// coordinates, which are spread evenly too; in a pyramid more of them where it is wide.
 fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
-    let is_simplex = [5, 10, 22, 24].contains(&shape.kind());
+    let simplex = match shape.kind() {
+        5 | 10 | 22 | 24 => shape.dimension,
+        WEDGE => 2,
+        _ => 0,
+    };
     let count = per_edge.pow(shape.dimension as u32);
     let coordinate = |index: usize, axis: usize| {
         ((index / per_edge.pow(axis as u32)) % per_edge) as f64 / per_edge as f64
@@ -95,11 +111,17 @@ fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
     let point = |index: usize| {
         let mut at = [0.0; 3];
         (0..shape.dimension).for_each(|axis| at[axis] = coordinate(index, axis));
-        if is_simplex {
-            at[..shape.dimension].sort_by(|a, b| b.total_cmp(a));
-            at = [at[0] - at[1], at[1] - at[2], at[2]];
+        at[..simplex].sort_by(|a, b| b.total_cmp(a));
+        (1..simplex).for_each(|axis| at[axis - 1] -= at[axis]);
+        match shape.kind() {
+            // The part of the volume above z is (1 - z)^3.
+            PYRAMID => {
+                let [x, y, above] = at;
+                let side = above.cbrt();
+                [x * side, y * side, 1.0 - side]
+            }
+            _ => at,
         }
-        at
     };
     (0..count).map(point).collect()
 }
@@ -112,7 +134,7 @@ fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
         let mut asked = |what: Asked, places: &[f64]| Ok(exact(what, places, dimension));
         let found = one.mesh().measure(&values, 2, &mut asked).unwrap();
         let computed = |x: &[f64]| {
-            let functions = shape.values(local(x));
+            let functions = shape.values(known(shape, local(x)));
             [0, 1].map(|row| {
                 functions.iter().enumerate().map(|(node, n)| n * values[2 * node + row]).sum()
             })
@@ -127,12 +149,14 @@ fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
         }
         let node = |at: &Local| {
             let x = place(*at, dimension);
-            lengths(&gradient(computed, &x), &gradient(smooth, &x), 2 * dimension)[0]
+            lengths(&gradient(computed, &x), &gradient(smooth, &x), 2 * dimension).sum()
         };
-        let largest = shape.nodes.iter().map(node).fold(0.0, f64::max);
+        // At an apex a gradient has no value.
+        let corners = if shape.kind() == PYRAMID { &shape.nodes[..4] } else { &shape.nodes };
+        let largest = corners.iter().map(node).fold(0.0, f64::max);
         let parts = [(found.value, of_value, 0.0), (found.gradient, of_gradient, largest)];
         for (found, errors, at_nodes) in parts {
-            let sum = over_points(&errors, None).unwrap();
+            let sum = over_points(errors.iter().copied(), None).unwrap();
             let near =
                 |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-3, "{}: {a} {b}", shape.kind());
             near(found.l2, sum.l2);
@@ -248,4 +272,70 @@ fn middles_are_where_cells_are() {
     let (cells, points) = grid(2, 9);
     let mesh = Mesh { cells: &cells, points: &points, dimension: 2 };
     assert_eq!(mesh.middles(), [0.25, 0.25, 0.75, 0.25, 0.25, 0.75, 0.75, 0.75]);
+}
+
+/// Integrals of monomials over a wedge and a pyramid, by their closed forms: a! b!/(a + b + 2)!/(c + 1), and over the
+/// pyramid with a unit square below and its apex above a corner c! (a + b + 2)!/(a + b + c + 3)!/(a + 1)/(b + 1).
+#[test]
+fn monomials_over_wedges_and_pyramids_have_their_integrals() {
+    let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
+    let over_wedge =
+        |[a, b, c]: [i32; 3]| factorial(a) * factorial(b) / factorial(a + b + 2) / f64::from(c + 1);
+    let over_pyramid = |[a, b, c]: [i32; 3]| {
+        let sides = f64::from((a + 1) * (b + 1));
+        factorial(c) * factorial(a + b + 2) / factorial(a + b + c + 3) / sides
+    };
+    let wedge = Shape::of(WEDGE).unwrap().nodes.concat();
+    let pyramid = Shape::of(PYRAMID).unwrap().nodes.concat();
+    for (kind, points) in [(WEDGE, &wedge), (PYRAMID, &pyramid)] {
+        let integral = |exponents| match kind {
+            WEDGE => over_wedge(exponents),
+            _ => over_pyramid(exponents),
+        };
+        let count = points.len() / 3;
+        let cells = Cells { types: vec![kind], points: (0..count).collect(), ends: vec![count] };
+        let mesh = Mesh { cells: &cells, points, dimension: 3 };
+        for exponents in (0..216).map(|it| [it % 6, it / 6 % 6, it / 36]) {
+            if exponents.iter().sum::<i32>() > 5 {
+                continue;
+            }
+            let monomial =
+                |x: &[f64]| x.iter().zip(exponents).map(|(x, n)| x.powi(n)).product::<f64>();
+            let mut asked = |what: Asked, places: &[f64]| {
+                let is_value = what == Asked::Values;
+                let size = if is_value { 1 } else { 3 };
+                let value = |x: &[f64]| if is_value { monomial(x) } else { 0.0 };
+                Ok(places.chunks(3).flat_map(|x| vec![value(x); size]).collect())
+            };
+            // An error of that monomial, whose mean is its integral over the volume.
+            let found = mesh.measure(&vec![0.0; count], 1, &mut asked).unwrap().value.l1;
+            let expected = integral(exponents) / integral([0; 3]);
+            assert!((found - expected).abs() < 1e-14, "{kind} {exponents:?}: {found} {expected}");
+        }
+    }
+}
+
+/// A cube of six pyramids that meet in its middle, and one of two wedges: what is linear has no error, and all volumes
+/// add up to that of the cube.
+#[test]
+fn pyramids_and_wedges_fill_a_cube() {
+    let corners: Vec<f64> = Shape::of(12).unwrap().nodes.concat();
+    let faces =
+        [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+    let pyramids: Vec<Vec<usize>> = faces.iter().map(|face| [&face[..], &[8]].concat()).collect();
+    let wedges = vec![vec![0, 1, 2, 4, 5, 6], vec![0, 2, 3, 4, 6, 7]];
+    for (kind, cells) in [(PYRAMID, pyramids), (WEDGE, wedges)] {
+        let mut points = corners.clone();
+        if kind == PYRAMID {
+            points.extend([0.5; 3]);
+        }
+        let ends = (1..=cells.len()).map(|it| it * cells[0].len()).collect();
+        let found = Cells { types: vec![kind; cells.len()], points: cells.concat(), ends };
+        let mesh = Mesh { cells: &found, points: &points, dimension: 3 };
+        let volume: f64 = mesh.volumes().unwrap().iter().sum();
+        assert!((volume - 1.0).abs() < 1e-14, "{kind}: {volume}");
+        let longest = if kind == PYRAMID { 1.0 } else { 2f64.sqrt() };
+        let sizes = mesh.sizes().unwrap();
+        assert!(sizes.iter().all(|it| (it - longest).abs() < 1e-14), "{kind}: {sizes:?}");
+    }
 }

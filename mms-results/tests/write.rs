@@ -1,7 +1,7 @@
 //! What is written is read back to the bit, by readers that are held to files of meshio, VTK and NumPy (`files.rs`).
 
 use mms_results::names::{Role, recognise};
-use mms_results::write::{Column, Mesh, Shape, State, csv, npz, vtu};
+use mms_results::write::{Column, Fact, Mesh, Shape, State, Value, csv, npz, vtu};
 use mms_results::{Cells, Contents, Snapshot, Stored, parse};
 
 const COUNT: usize = 7;
@@ -27,7 +27,10 @@ fn state(dimension: usize, time: f64, [x, u, f]: [&str; 3]) -> State {
         column("volume", Shape::Scalar, dimension),
         column("particle", Shape::Whole, dimension),
     ];
-    State { time, dimension, columns }
+    let numbers = Value::Numbers(vec![number(0), number(1)]);
+    let facts = [("time_window", numbers), ("face_x_min", Value::Word("fixed".into()))];
+    let facts = facts.map(|(name, value)| Fact { name: name.into(), value }).to_vec();
+    State { time, dimension, facts, columns }
 }
 
 const SYMBOLS: [&str; 3] = ["X", "u", "F"];
@@ -87,7 +90,12 @@ fn arrays_of_numpy_are_read_back() {
         let state = state(dimension, 0.125, SYMBOLS);
         let mut bytes = Vec::new();
         npz(&state, &mut bytes).unwrap();
-        holds(&snapshots(&bytes)[0], &state);
+        let found = &snapshots(&bytes)[0];
+        holds(found, &state);
+        // Facts do not change how many points there are; words are passed over.
+        let window = found.of_points.iter().find(|it| it.name == "time_window").unwrap();
+        assert_eq!(window.values, [number(0), number(1)]);
+        assert!(found.rows() == COUNT && found.of_points.iter().all(|it| it.name != "face_x_min"));
     }
 }
 

@@ -5,7 +5,7 @@ use mms_results::Snapshot;
 use super::plan::{Job, Planned};
 use super::work::{Outcome, Work};
 use crate::judge::Measured;
-use crate::judge::results::{Measurement, Reading, Results, measure};
+use crate::judge::results::{Comparison, Measurement, Reading, Results, measure};
 use crate::provenance::Provenance;
 use crate::report::Judgements;
 use crate::session::exact::Exact;
@@ -87,7 +87,14 @@ fn measured(
         true => vec![planned.window[1]],
         false => study.time.clone(),
     };
-    let mut measurement = measure(all, &reading, exact, &h, &times, &options.orders)?;
+    let comparison = Comparison {
+        sizes: &h,
+        times: &times,
+        orders: &options.orders,
+        has_steps: study.time_steps.is_some(),
+        tighter: None,
+    };
+    let mut measurement = measure(all, &reading, exact, comparison)?;
     if study.time_steps.is_some() {
         let runs = measurement.measured.runs.iter_mut().zip(jobs);
         runs.for_each(|(run, job)| run.time_step = Some(job.time_step));
@@ -111,7 +118,6 @@ fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
 impl Planned {
     /// h of a run, as the file says it or that of its cells.
     pub fn size(&self, job: &Job) -> f64 {
-        let given = self.study.h.as_ref().and_then(|h| h.get(job.level - 1));
-        given.copied().unwrap_or(job.cell_size)
+        self.study.h_of(job.level).unwrap_or(job.cell_size)
     }
 }

@@ -19,6 +19,7 @@ use crate::judge::results::weight;
 use crate::judge::table::{Order, Orders};
 use crate::read::{self, Kind};
 use crate::session::input::{Input, Variant, quantities};
+use crate::session::method::hold_division;
 use crate::session::stability::sound;
 use crate::state::points::PER_CELL;
 use crate::store::digest;
@@ -45,6 +46,8 @@ pub struct Planned {
     pub window: [f64; 2],
     /// How its results are judged.
     pub options: Judging,
+    /// Particles in each direction of a cell.
+    pub per_cell: Division,
     /// Its runs, those that were asked for.
     pub jobs: Vec<Job>,
 }
@@ -123,8 +126,8 @@ pub struct Start {
 }
 
 impl Start {
-    fn new(format: &str, cells: usize) -> Self {
-        Start { format: format.to_owned(), cells, per_cell: PER_CELL.to_string() }
+    fn new(format: &str, cells: usize, per_cell: Division) -> Self {
+        Start { format: format.to_owned(), cells, per_cell: per_cell.to_string() }
     }
 }
 
@@ -292,10 +295,24 @@ impl Setting<'_> {
             return Err(self.campaign.mistake(study.span, message, "of this study").into());
         }
         let speed = sound(&input.compiled, &settings)[1];
-        let place = Place { setting: self, study, input: &input, window: [first, end], speed };
+        let (window, per_cell) = ([first, end], self.per_cell(study, &input)?);
+        let place = Place { setting: self, study, input: &input, window, per_cell, speed };
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
         let options = self.judging(study)?;
-        Ok(Planned { study: study.clone(), window: [first, end], options, jobs, input })
+        Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input })
+    }
+
+    /// Particles in each direction of a cell, as the file says it or as usual.
+    fn per_cell(&self, study: &Study, input: &Input) -> anyhow::Result<Division> {
+        let Some(word) = &study.particles_per_cell else { return Ok(PER_CELL) };
+        let dimension = input.compiled.field.dimension;
+        let found = word.value.parse::<Division>().map_err(|error| error.to_string());
+        let held = found.and_then(|it| {
+            hold_division("particles_per_cell", &it, dimension)
+                .map_err(|error| error.to_string())?;
+            Ok(it)
+        });
+        self.option(word, "particles_per_cell", held)
     }
 
     fn judging(&self, study: &Study) -> anyhow::Result<Judging> {
@@ -318,6 +335,7 @@ struct Place<'a> {
     study: &'a Study,
     input: &'a Input,
     window: [f64; 2],
+    per_cell: Division,
     /// The greatest c0.
     speed: f64,
 }
@@ -325,11 +343,10 @@ struct Place<'a> {
 impl Place<'_> {
     fn job(&self, level: usize) -> anyhow::Result<Job> {
         let study = self.study;
-        let at = level - 1;
-        let cells = study.cells.get(at).copied().unwrap_or(study.cells[0]);
+        let cells = study.cells_of(level);
         let scene = self.input.scene::<f64>(&study.set, |code| code.double)?;
         let cell_size = scene.cell_size(&Division::Uniform(cells));
-        let (time_step, steps) = self.steps(at, cell_size)?;
+        let (time_step, steps) = self.steps(level, cell_size)?;
         let name = format!("{}/{level}", study.name);
         let key = Key {
             version: env!("CARGO_PKG_VERSION"),
@@ -339,7 +356,12 @@ impl Place<'_> {
             output: String::new(),
             files: Vec::new(),
             emit: self.setting.target.map(|target| target.name),
-            state: self.setting.campaign.solver.state().map(|format| Start::new(format, cells)),
+            state: self
+                .setting
+                .campaign
+                .solver
+                .state()
+                .map(|it| Start::new(it, cells, self.per_cell)),
             field: self.input.compiled.input_hash(),
             set: study.set.clone(),
         };
@@ -348,20 +370,20 @@ impl Place<'_> {
     }
 
     /// dt as the file says it, or the longest of the Courant number that divides the window; and how many there are.
-    fn steps(&self, at: usize, cell_size: f64) -> anyhow::Result<(f64, u64)> {
+    fn steps(&self, level: usize, cell_size: f64) -> anyhow::Result<(f64, u64)> {
         let duration = self.window[1] - self.window[0];
-        let given = self.study.time_steps.as_ref().and_then(|steps| steps.get(at));
-        let longest = given.copied().unwrap_or(self.study.courant * cell_size / self.speed);
+        let given = self.study.time_step_of(level);
+        let longest = given.unwrap_or(self.study.courant * cell_size / self.speed);
         // Round-off must not add a step to a whole number of steps.
         let steps = (duration / longest * (1.0 - 1e-6)).ceil().max(1.0);
         if !(steps.is_finite() && steps < 1e12) {
             bail!(
                 "`{}`: level {} would take {steps:e} steps of {longest:e}; give `time_steps`, or fewer `cells`",
                 foreign::shown(&self.study.name),
-                at + 1
+                level
             );
         }
-        Ok((given.copied().unwrap_or(duration / steps), steps as u64))
+        Ok((given.unwrap_or(duration / steps), steps as u64))
     }
 
     /// Says what the result depends on.
@@ -387,14 +409,14 @@ impl Place<'_> {
     }
 
     fn value(&self, job: &Job, placeholder: Placeholder) -> String {
-        value(self.study, self.input, self.window, job, placeholder)
+        let of = (self.study, self.input, self.per_cell);
+        value(of, self.window, job, placeholder)
     }
 }
 
 /// What stands for a placeholder that is no path.
 fn value(
-    study: &Study,
-    input: &Input,
+    (study, input, per_cell): (&Study, &Input, Division),
     [start, end]: [f64; 2],
     job: &Job,
     placeholder: Placeholder,
@@ -404,6 +426,7 @@ fn value(
         Placeholder::Field => input.name.raw().to_owned(),
         Placeholder::Level => job.level.to_string(),
         Placeholder::Cells => job.cells.to_string(),
+        Placeholder::ParticlesPerCell => per_cell.to_string(),
         Placeholder::CellSize => format!("{:?}", job.cell_size),
         Placeholder::TimeStep => format!("{:?}", job.time_step),
         Placeholder::Steps => job.steps.to_string(),
@@ -449,7 +472,7 @@ impl Planned {
             Placeholder::Emitted => paths.emitted.clone(),
             Placeholder::State => paths.state.clone(),
             Placeholder::Here => paths.here.clone(),
-            other => value(&self.study, &self.input, self.window, job, other),
+            other => value((&self.study, &self.input, self.per_cell), self.window, job, other),
         }
     }
 }

@@ -36,7 +36,7 @@ impl Report<'_> {
     /// Whether a verdict is no pass.
     pub fn is_refuted(&self) -> bool {
         let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
-        verdicts.any(|verdict| verdict != Verdict::Pass)
+        !verdicts.all(Verdict::is_good)
     }
 
     /// All of it for a terminal.
@@ -62,7 +62,7 @@ impl Report<'_> {
         let finished = self.outcomes().filter(|(_, it)| matches!(it, Outcome::Finished(_))).count();
         let runs = format!("{finished} of {} runs are done", self.outcomes().count());
         let judged: Vec<_> = self.studies.iter().filter(|it| it.planned.is_whole()).collect();
-        let passed = judged.iter().filter(|it| it.verdict() == Some(Verdict::Pass)).count();
+        let passed = judged.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count();
         match judged.len() {
             0 => runs,
             all => format!("{runs}; {passed} of {all} studies pass"),
@@ -76,7 +76,7 @@ impl Report<'_> {
             "solver": solver.name,
             "solver_version": solver.version,
             "studies": self.studies.iter().map(Judged::document).collect::<Vec<_>>(),
-            "passed": self.studies.iter().filter(|it| it.verdict() == Some(Verdict::Pass)).count(),
+            "passed": self.studies.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count(),
         });
         self.provenance.sign(document)
     }

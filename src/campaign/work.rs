@@ -19,8 +19,9 @@ use crate::judge::results::Results;
 use crate::report::write_own;
 use crate::session::exact::Exact;
 use crate::shell::quoted;
+use crate::state::domain::Domain;
 use crate::state::file::{self, Frame};
-use crate::state::points::{PER_CELL, Points};
+use crate::state::points::Points;
 use crate::state::{USUAL, Wanted};
 use crate::store::{Entry, Store, digest, side_by_side};
 
@@ -326,11 +327,12 @@ fn write_state(planned: &Planned, job: &Job, path: &str) -> anyhow::Result<()> {
     let Planned { study, input, window: [start, _], .. } = planned;
     let file: file::Target = path.parse().map_err(anyhow::Error::msg)?;
     let scene = input.scene(&study.set, |code| code.double)?;
-    let points = Points::of_grid(&scene, &Division::Uniform(job.cells), PER_CELL)?;
+    let points = Points::of_grid(&scene, &Division::Uniform(job.cells), planned.per_cell)?;
     let mut exact = Exact::new(input.clone(), &study.set)?;
-    let wanted = Wanted { quantities: &USUAL, without: &[], names: file.names() };
+    let domain = &Domain::of(&mut exact)?;
+    let wanted = Wanted { quantities: &USUAL, without: &[], names: file.names(), domain };
     wanted.hold_memory(&exact, &points, 1)?;
-    file.write(&[Frame::new(&wanted, &mut exact, &points, *start)?])?;
+    file.write(&[Frame::new(&wanted, &mut exact, &points, *start)?], domain)?;
     Ok(())
 }
 

@@ -20,6 +20,7 @@ use serde_json::value::RawValue;
 
 use super::{Outcome, print, print_json, say};
 use crate::session::input::{Input, Variant, evaluated, precision};
+use crate::session::plane::{self, Beyond, SPACE, nine};
 use crate::state::points::Points;
 
 /// Evaluate quantities of a field at points.
@@ -52,6 +53,10 @@ pub struct Eval {
     /// they are named.
     #[arg(long, value_name = "NAME", default_value = "all", value_delimiter = ',')]
     quantity: Vec<String>,
+    /// Tensors with all nine components, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and the
+    /// stress out of the plane.
+    #[arg(long)]
+    all_components: bool,
     /// The reference unit normal of the boundary, for the quantity `traction`.
     #[arg(long, value_name = "N1,N2", allow_hyphen_values = true)]
     normal: Option<String>,
@@ -198,7 +203,7 @@ impl Eval {
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
-        let programs = programs(input, quantities)?;
+        let programs = programs(input, &self.needed(quantities, dimension))?;
         let prepared = programs.iter().map(|(program, outputs)| {
             let mut interpreter = Interpreter::new(&**program, &parameters);
             interpreter.set_time(&time);
@@ -212,10 +217,17 @@ impl Eval {
             }
             let mut record = Record(vec![("at", Numbers::new(coordinates))]);
             for quantity in quantities {
-                let output = Output::Quantity(*quantity);
-                let has = |(_, outputs): &(_, Vec<_>)| outputs.contains(&output);
-                let at = programs.iter().position(has).context("each quantity has a program")?;
-                let components = prepared[at].1.output(output);
+                let of = |quantity: Quantity| -> anyhow::Result<Vec<T>> {
+                    let output = Output::Quantity(quantity);
+                    let has = |(_, outputs): &(_, Vec<_>)| outputs.contains(&output);
+                    let at =
+                        programs.iter().position(has).context("each quantity has a program")?;
+                    Ok(prepared[at].1.output(output))
+                };
+                let components = match self.beyond(*quantity, dimension) {
+                    Some(beyond) => all_components(of, *quantity, beyond, dimension)?,
+                    None => of(*quantity)?,
+                };
                 self.ensure_finite(input, *quantity, (index, coordinates), &components)?;
                 record.0.push((quantity.name(), Numbers::new(&components)));
             }
@@ -234,6 +246,23 @@ impl Eval {
             print(&text(&records))?;
         }
         Ok(Outcome::AsExpected)
+    }
+
+    /// What of a tensor is beyond the dimension of the field, if that was asked for.
+    fn beyond(&self, quantity: Quantity, dimension: usize) -> Option<Beyond> {
+        Beyond::of(quantity).filter(|_| self.all_components && dimension < SPACE)
+    }
+
+    /// The quantities that are wanted, and those that stresses out of the plane follow from.
+    fn needed(&self, quantities: &[Quantity], dimension: usize) -> Vec<Quantity> {
+        let mut needed = quantities.to_vec();
+        let beyond = quantities.iter().filter_map(|it| self.beyond(*it, dimension));
+        if beyond.into_iter().any(Beyond::is_stress) {
+            needed.extend(plane::NEEDED);
+        }
+        needed.sort();
+        needed.dedup();
+        needed
     }
 
     /// Warns of points outside the body, and of a time outside the window.
@@ -348,6 +377,22 @@ impl Eval {
             ),
         }
     }
+}
+
+/// A tensor in space.
+fn all_components<T: Digits>(
+    of: impl Fn(Quantity) -> anyhow::Result<Vec<T>>,
+    quantity: Quantity,
+    beyond: Beyond,
+    dimension: usize,
+) -> anyhow::Result<Vec<T>> {
+    let one = || vec![T::from_f64(1.0)];
+    let [stress, pressure, jacobian] = match beyond.is_stress() {
+        true => plane::NEEDED.map(&of),
+        false => [Ok(one()), Ok(one()), Ok(one())],
+    };
+    let value = beyond.value(&stress?, &pressure?[0], &jacobian?[0]);
+    Ok(nine(&of(quantity)?, dimension, &value))
 }
 
 /// The programs of some quantities: one of all that the field was compiled with, and those of each on request.

@@ -21,7 +21,8 @@ use crate::store::digest;
 /// Judge the errors of any solver: observed orders with their intervals, what hides behind them, and a verdict.
 ///
 /// Results of a FIELD are one FILE for each mesh. Their errors are measured over cells where there are such, and over points
-/// else. Two of X, x and u give the third; --map says what names mean that are not known.
+/// else. Two of X, x and u give the third; --map says what names mean that are not known. Tractions P N are those of a face,
+/// as traction_x_max, or stand beside unit normals N.
 ///
 /// The table of --errors has a header and a row for each run: `h`, `dt` where it is known, and errors in columns of any names. Several
 /// rows of one h are replicates, of other grid offsets or seeds. l1, l2, linf, H1, and what people call them (mean, rms,
@@ -30,9 +31,10 @@ use crate::store::digest;
 /// counts, orders and times are passed over, so that the CSV file of `mms study` can be judged as it is.
 ///
 /// pass: the interval of the order holds the expected one, half its width is the tolerance at most, and no lower order is
-/// shown. fail: it lies below. not asymptotic: else. Two levels are held to the order alone.
+/// shown. fail: it lies below. not asymptotic: else. Two levels are held to the order alone. exact to round-off: no error of
+/// results is more than rounding makes, in files with the digits of single precision at least.
 ///
-/// Exit codes: 0 pass; 1 another verdict; 2 bad usage, or a bad table.
+/// Exit codes: 0 pass, or exact to round-off; 1 another verdict; 2 bad usage, or a bad table.
 #[derive(Args)]
 pub struct Judge {
     /// A gallery name, or a path to a TOML file.
@@ -47,8 +49,9 @@ pub struct Judge {
     errors: Option<PathBuf>,
     #[command(flatten)]
     results: results::Options,
-    /// The order to judge against; that of H1 is one less, if it is not given by NAME. NAME is a norm, a quantity or a
-    /// column; `time` is the order in dt where h and dt are refined each by itself.
+    /// The order to judge against. That of H1 is one less, and so is that of stresses and strains where cells are known, if
+    /// it is not given by NAME. NAME is a norm, a quantity, QUANTITY:NORM or a column; `time` is the order in dt where h and dt
+    /// are refined each by itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',', default_value = "2")]
     expected_order: Vec<Order>,
     /// Half the width that the interval of the order may have.
@@ -92,7 +95,7 @@ impl Judge {
             }
         }
         Ok(match report.verdict() {
-            Verdict::Pass => Outcome::AsExpected,
+            Verdict::Pass | Verdict::Exact => Outcome::AsExpected,
             Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
         })
     }

@@ -29,8 +29,9 @@ use crate::state::{Term, USUAL, Wanted};
 /// mass, which is density times volume. `mms judge` reads it as it is. Tables and NumPy have symbols for names (X, u, F), VTK
 /// has words (reference_position, displacement), and its points are x.
 ///
-/// Beside it stand the data of the field that a solver needs once: the time window, how far the motion goes, and what is
-/// claimed on each face.
+/// The data of the field that a solver needs once stand in the file, and of a table beside it, in FILE.json: the time window,
+/// how far the motion goes, and what is claimed on each face. In VTK they are field data and in NumPy arrays, called
+/// time_window, motion_lower, motion_upper and face_x_min.
 #[derive(Args)]
 #[command(group = ArgGroup::new("where").required(true))]
 pub struct State {
@@ -60,6 +61,10 @@ pub struct State {
     /// derived where they are named.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
+    /// Write all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
+    /// the stress out of the plane.
+    #[arg(long)]
+    all_components: bool,
     /// Leave a term out of what the solver is given, so that its order must suffer: body_force (b = 0), stress (P, sigma and
     /// their like 0: a solver that starts from stored stress starts without), traction (P N = 0 on every face). The motion
     /// stays what it is: u, v and F are those of the field.
@@ -96,11 +101,12 @@ impl State {
             [] => USUAL.to_vec(),
             names => evaluated(names)?,
         };
-        let mut exact = Exact::new(input, &self.set)?;
+        let mut exact = Exact::new(input, &self.set)?.in_space_if(self.all_components);
         self.hold_times(&exact)?;
-        let frames = self.frames(&mut exact, &quantities)?;
-        let written = self.output.write(&frames)?;
-        self.tell(&mut exact, &frames, &written)?;
+        let domain = Domain::of(&mut exact)?;
+        let frames = self.frames(&mut exact, &quantities, &domain)?;
+        let written = self.output.write(&frames, &domain)?;
+        self.tell(&exact, &domain, &frames, &written)?;
         Ok(Outcome::AsExpected)
     }
 
@@ -125,8 +131,14 @@ impl State {
     }
 
     /// The states at all times.
-    fn frames(&self, exact: &mut Exact, quantities: &[Quantity]) -> anyhow::Result<Vec<Frame>> {
-        let wanted = Wanted { quantities, without: &self.without, names: self.output.names() };
+    fn frames(
+        &self,
+        exact: &mut Exact,
+        quantities: &[Quantity],
+        domain: &Domain,
+    ) -> anyhow::Result<Vec<Frame>> {
+        let names = self.output.names();
+        let wanted = Wanted { quantities, without: &self.without, names, domain };
         let given = self.given(exact)?;
         let mut frames = Vec::new();
         for &time in &self.time {
@@ -165,8 +177,13 @@ impl State {
         }
     }
 
-    fn tell(&self, exact: &mut Exact, frames: &[Frame], written: &[String]) -> anyhow::Result<()> {
-        let domain = Domain::of(exact)?;
+    fn tell(
+        &self,
+        exact: &Exact,
+        domain: &Domain,
+        frames: &[Frame],
+        written: &[String],
+    ) -> anyhow::Result<()> {
         let input = exact.input();
         let first = &frames[0].state;
         let names: Vec<&str> = first.columns.iter().map(|it| it.name.as_str()).collect();

@@ -43,8 +43,11 @@ pub struct Orders {
     pub tolerance: f64,
 }
 
+/// What stands between a quantity and its norm.
+pub const OF: char = ':';
+
 /// The name that the order in dt goes by.
-const TIME: &str = "time";
+pub const TIME: &str = "time";
 
 impl Orders {
     /// Of what was given; the last of a name counts, and 2 where no order is given of all.
@@ -61,9 +64,21 @@ impl Orders {
     /// Of a norm of a quantity in this column, in h and in dt.
     pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
         let usual = if norm == "h1" { self.usual - 1.0 } else { self.usual };
-        let space = self.find(&[column]).or_else(|| self.find(&[quantity, norm])).unwrap_or(usual);
+        let space = self.given(column, quantity, norm).unwrap_or(usual);
         let time = self.find(&[TIME]).unwrap_or(self.usual);
-        [space, time].map(|order| Expected { order, tolerance: self.tolerance })
+        [space, time].map(|order| self.expected(order))
+    }
+
+    /// What is expected of an order.
+    pub(super) fn expected(&self, order: f64) -> Expected {
+        Expected { order, tolerance: self.tolerance }
+    }
+
+    /// The order that is given of a norm of a quantity: of both, of the column, or of one of the two.
+    pub(super) fn given(&self, column: &str, quantity: &str, norm: &str) -> Option<f64> {
+        let both = [column, quantity].map(|it| format!("{it}{OF}{norm}"));
+        let of_both = self.find(&[&both[0], &both[1]]);
+        of_both.or_else(|| self.find(&[column])).or_else(|| self.find(&[quantity, norm]))
     }
 
     /// Refuses orders of what is not in the table.
@@ -215,6 +230,8 @@ impl Table {
                 expected: orders.of(&cell.text, quantity, norm),
                 errors: self.errors(column)?,
                 floors: self.floors()?,
+                favoured: None,
+                is_exact: false,
             };
             match quantities.iter_mut().find(|it| it.name == *name) {
                 Some(known) => known.norms.push(norm),

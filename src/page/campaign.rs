@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use serde::Deserialize;
 
 use super::judge::Judgement;
-use super::mark::{count, numbers, seconds, small, table, verdict, words};
+use super::mark::{count, is_good, numbers, seconds, small, table, verdict, words};
 use super::{Section, Verdicts};
 
 /// What `mms campaign` writes.
@@ -43,7 +43,7 @@ impl Study {
     }
 
     fn is_passed(&self) -> bool {
-        self.verdict.as_deref() == Some("pass") && self.runs.iter().all(Run::is_done)
+        self.verdict.as_deref().is_some_and(is_good) && self.runs.iter().all(Run::is_done)
     }
 
     fn is_whole(&self) -> bool {

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use serde::Deserialize;
 
-use super::mark::{Column, count, number, numbers, order, small, table, verdict};
+use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
 
@@ -60,7 +60,7 @@ impl Section for Judgement {
     }
 
     fn verdicts(&self) -> Verdicts {
-        Verdicts::one(&self.verdict, self.verdict == "pass")
+        Verdicts::one(&self.verdict, is_good(&self.verdict))
     }
 
     fn body(&self, id: &str) -> Markup {
@@ -124,7 +124,7 @@ impl Judgement {
         html! {
             @if self.is_of_several() {
                 h4 { (quantity.name) }
-                p { (verdict(&quantity.verdict, quantity.verdict == "pass")) }
+                p { (verdict(&quantity.verdict, is_good(&quantity.verdict))) }
             }
             @for sentence in &quantity.says { p { (sentence) } }
             @if let Some(svg) = self.plot(quantity).svg(&format!("{id}-plot")) {

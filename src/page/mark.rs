@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use maud::{Markup, html};
+use mms_convergence::Verdict;
 use serde_json::{Map, Value};
 
 /// What stands for a number that there is not.
@@ -45,6 +46,11 @@ pub fn plain(value: &Value) -> String {
         Value::Array(items) => items.iter().map(plain).collect::<Vec<_>>().join(", "),
         other => other.to_string(),
     }
+}
+
+/// Whether the verdict on results speaks for their solver.
+pub fn is_good(verdict: &str) -> bool {
+    [Verdict::Pass, Verdict::Exact].iter().any(|it| it.to_string() == verdict)
 }
 
 /// A verdict, told by its word and its sign, not by its colour alone.

@@ -147,7 +147,7 @@ impl Judgements {
             parts.push(self.says(quantity, judged).join("\n"));
         }
         if several {
-            let passed = self.judged.iter().filter(|it| it.judgement.verdict() == Verdict::Pass);
+            let passed = self.judged.iter().filter(|it| it.judgement.verdict().is_good());
             let (count, all) = (passed.count(), self.judged.len());
             parts.push(format!("{}: {count} of {all} quantities pass", self.verdict()));
         }
@@ -160,6 +160,13 @@ impl Judgements {
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
         let mut lines =
             judged.judgement.sentences(self.refined.symbol(), &|length| self.name(length));
+        lines.extend(judged.is_favoured.then(|| {
+            let promised = quantity.norms[0].expected[0].order;
+            format!(
+                "that is superconvergence, of values at places or averages that are more accurate than others: theory \
+                 promises {promised} everywhere"
+            )
+        }));
         lines.extend(fits);
         lines
     }
@@ -271,6 +278,7 @@ impl Judgements {
             "norm": deciding.norm,
             "verdict": judged.judgement.verdict().to_string(),
             "layer_order": judged.judgement.layer(),
+            "superconvergent": judged.is_favoured,
             "norms": norms,
             "says": self.says(quantity, judged),
         })
@@ -372,7 +380,13 @@ fn more(field: &Foreign, files: &[String], measurement: &Measurement) -> Map<Str
         "notes": measurement.notes,
         "warnings": measurement.warnings,
     });
-    if let Value::Object(document) = document { document } else { Map::new() }
+    let mut document = if let Value::Object(document) = document { document } else { Map::new() };
+    if !measurement.iterative.is_empty() {
+        let errors = measurement.iterative.iter();
+        let errors: Map<_, _> = errors.map(|(name, it)| ((*name).to_owned(), json!(it))).collect();
+        document.insert("iterative_errors".into(), Value::Object(errors));
+    }
+    document
 }
 
 /// The texts of a row of a table.

@@ -5,7 +5,7 @@ use mms_spec::foreign::shown;
 use serde_json::{Value, json};
 
 use super::text::{plain, to_the_right};
-use crate::judge::results::{Compared, Difference};
+use crate::judge::results::{Compared, Same};
 
 /// Errors and what they were.
 pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> (String, Value) {
@@ -37,12 +37,8 @@ pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> 
 }
 
 /// How far two results differ.
-pub(crate) fn differences(
-    a: &str,
-    b: &str,
-    all: &[Difference],
-    alone: &[String],
-) -> (String, Value) {
+pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
+    let Same { differences: all, alone, paired } = same;
     let mut table = plain(["array", "time", "largest", "relative", "where"]);
     for it in all {
         table.add_row([
@@ -53,7 +49,8 @@ pub(crate) fn differences(
             shown(&it.place),
         ]);
     }
-    let mut text = format!("{} and {}\n\n{table}", shown(a), shown(b));
+    let mut text =
+        format!("{} and {}\npoints are paired {}\n\n{table}", shown(a), shown(b), shown(paired));
     if !alone.is_empty() {
         text += &format!("\n\nin one of them alone: {}", shown(&alone.join(", ")));
     }
@@ -62,7 +59,6 @@ pub(crate) fn differences(
             "array": it.name, "time": it.time, "largest": it.largest, "relative": it.relative(), "where": it.place,
         })
     });
-    let document =
-        json!({ "source": [a, b], "differences": document.collect::<Vec<_>>(), "alone": alone });
+    let document = json!({ "source": [a, b], "paired": paired, "differences": document.collect::<Vec<_>>(), "alone": alone });
     (text, document)
 }

@@ -3,15 +3,24 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::sync::Arc;
+use std::thread;
 
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_program::block::{Plan, Prepared, Room, Way};
 use mms_spec::Face;
-use mms_spec::quantity::Quantity;
+use mms_spec::quantity::{Quantity, Shape};
 
 use super::input::Input;
+use super::method::processors;
+use super::plane::{Beyond, NEEDED, SPACE, nine};
+
+/// What part of the time window two times may differ by that are one: sums of time steps round.
+pub const SAME: f64 = 1e-9;
+
+/// From so many points on all processors share them.
+const MANY: usize = 1 << 16;
 
 /// A field with numbers for its parameters.
 pub struct Exact {
@@ -23,6 +32,8 @@ pub struct Exact {
     pub window: [f64; 2],
     /// Its body.
     pub body: Extent<f64>,
+    /// Rows of tensors: its dimension, or three.
+    tensors: usize,
     prepared: BTreeMap<Output, Prepared<f64>>,
 }
 
@@ -36,7 +47,19 @@ impl Exact {
         let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
         let (body, window) = domain(&input.compiled.program, &parameters);
         let dimension = input.compiled.field.dimension;
-        Ok(Exact { input, parameters, dimension, window, body, prepared: BTreeMap::new() })
+        let (tensors, prepared) = (dimension, BTreeMap::new());
+        Ok(Exact { input, parameters, dimension, window, body, tensors, prepared })
+    }
+
+    /// The same, whose tensors have all nine components if that is asked for.
+    pub fn in_space_if(self, is_asked: bool) -> Self {
+        let tensors = if is_asked { SPACE } else { self.tensors };
+        Exact { tensors, ..self }
+    }
+
+    /// Rows of tensors.
+    pub fn rows(&self) -> usize {
+        self.tensors
     }
 
     /// The field.
@@ -56,7 +79,10 @@ impl Exact {
 
     /// The numbers of a quantity in a point.
     pub fn components(&self, quantity: Quantity) -> usize {
-        quantity.shape().components(self.dimension)
+        match quantity.shape() {
+            Shape::Tensor => self.tensors * self.tensors,
+            shape => shape.components(self.dimension),
+        }
     }
 
     /// A quantity at points X, whose coordinates stand one after the other.
@@ -69,8 +95,40 @@ impl Exact {
         time: f64,
         points: &[f64],
     ) -> anyhow::Result<Vec<f64>> {
-        let components = self.components(quantity);
+        let own = self.own(quantity, time, points)?;
+        match Beyond::of(quantity).filter(|_| self.tensors > self.dimension) {
+            Some(beyond) => self.with_all_components(&own, beyond, time, points),
+            None => Ok(own),
+        }
+    }
+
+    /// A quantity with the components that a field of its dimension has.
+    fn own(&mut self, quantity: Quantity, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
+        let components = quantity.shape().components(self.dimension);
         self.output(Output::Quantity(quantity), components, time, [points, &[]])
+    }
+
+    /// Tensors with what is beyond the dimension of the field.
+    fn with_all_components(
+        &mut self,
+        own: &[f64],
+        beyond: Beyond,
+        time: f64,
+        points: &[f64],
+    ) -> anyhow::Result<Vec<f64>> {
+        let (dimension, count) = (self.dimension, points.len() / self.dimension);
+        let size = dimension * dimension;
+        let of = match beyond.is_stress() {
+            true => NEEDED.map(|it| self.own(it, time, points)),
+            false => [Ok(vec![0.0; count * size]), Ok(vec![0.0; count]), Ok(vec![0.0; count])],
+        };
+        let [stress, pressure, jacobian] = of;
+        let (stress, pressure, jacobian) = (stress?, pressure?, jacobian?);
+        let point = |at: usize| {
+            let value = beyond.value(&stress[at * size..][..size], &pressure[at], &jacobian[at]);
+            nine(&own[at * size..][..size], dimension, &value)
+        };
+        Ok((0..count).flat_map(point).collect())
     }
 
     /// rho0 at points X.
@@ -87,10 +145,58 @@ impl Exact {
     /// # Errors
     /// As of [`values`](Self::values).
     pub fn tractions(&mut self, face: Face, time: f64, points: &[f64]) -> anyhow::Result<Vec<f64>> {
+        let normals = self.normals(face, points);
+        self.tractions_by(&normals, time, points)
+    }
+
+    /// Whether nothing has happened yet at some times: they are the first one, and not all times are alike.
+    ///
+    /// # Errors
+    /// As of [`values`](Self::values).
+    pub fn is_start(&mut self, times: &[f64]) -> anyhow::Result<bool> {
+        let [first, last] = self.window;
+        if times.iter().any(|time| (time - first).abs() > SAME * (last - first)) {
+            return Ok(false);
+        }
+        let along = [0.125, 0.5, 0.75];
+        let places: Vec<f64> = along.iter().flat_map(|&it| self.body.point(&[it; 3])).collect();
+        let mut at = |time| self.values(Quantity::Displacement, time, &places);
+        let begun = first + 0.375 * (last - first);
+        Ok(at(first)? != at(begun)? || at(first)? != at(last)?)
+    }
+
+    /// The outward unit normals of a face at points X of it.
+    pub fn normals(&self, face: Face, points: &[f64]) -> Vec<f64> {
+        let points = points.chunks(self.dimension);
+        self.input.compiled.normals(face, &self.parameters, points).concat()
+    }
+
+    /// The tractions at points X, by the unit normals there.
+    ///
+    /// # Errors
+    /// As of [`values`](Self::values).
+    pub fn tractions_by(
+        &mut self,
+        normals: &[f64],
+        time: f64,
+        points: &[f64],
+    ) -> anyhow::Result<Vec<f64>> {
+        let output = Output::Quantity(Quantity::Traction);
+        self.output(output, self.dimension, time, [points, normals])
+    }
+
+    /// The points on each face that has such, by position; how far each coordinate may be from what was meant.
+    pub fn faces(&self, points: &[f64], rounding: f64) -> Vec<(Face, Vec<usize>)> {
         let dimension = self.dimension;
-        let normals =
-            self.input.compiled.normals(face, &self.parameters, points.chunks(dimension)).concat();
-        self.output(Output::Quantity(Quantity::Traction), dimension, time, [points, &normals])
+        let size = points.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let near = 4.0 * rounding + 8.0 * f64::EPSILON * size;
+        let on = |face: &Face| -> Vec<usize> {
+            let points = points.chunks(dimension).enumerate();
+            let is_on = |point: &[f64]| self.body.distance_to(*face, point) <= near;
+            points.filter(|(_, point)| is_on(point)).map(|(at, _)| at).collect()
+        };
+        let faces = Face::of(&self.input.compiled.field.domain.body, dimension).into_iter();
+        faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
     }
 
     fn output(
@@ -104,9 +210,24 @@ impl Exact {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
         };
+        let prepared = &*prepared;
         let dimension = self.dimension;
-        let mut values = vec![0.0; points.len() / dimension * components];
-        prepared.at_points(&mut Room::default(), time, dimension, [points, normals], &mut values);
+        let count = points.len() / dimension;
+        let mut values = vec![0.0; count * components];
+        let rows = count.div_ceil(if count < MANY { 1 } else { processors() }).max(1);
+        let shares =
+            points.chunks(rows * dimension).zip(values.chunks_mut((rows * components).max(1)));
+        thread::scope(|scope| {
+            for (at, (points, values)) in shares.enumerate() {
+                let normals = normals.get(at * rows * dimension..).unwrap_or_default();
+                let mut work = move || {
+                    let room = &mut Room::default();
+                    prepared.at_points(room, time, dimension, [points, normals], values);
+                };
+                // Few points are done before a thread has started.
+                if rows == count { work() } else { drop(scope.spawn(work)) }
+            }
+        });
         Ok(values)
     }
 }

@@ -168,7 +168,7 @@ pub fn hold_division(option: &str, numbers: &Division, dimension: usize) -> anyh
 }
 
 /// How many threads run at the same time here.
-fn processors() -> usize {
+pub fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 

@@ -4,5 +4,6 @@
 pub(crate) mod exact;
 pub(crate) mod input;
 pub(crate) mod method;
+pub(crate) mod plane;
 pub(crate) mod progress;
 pub(crate) mod stability;

@@ -1,6 +1,8 @@
 //! What a solver needs to know of a field once: its time window, how far its motion goes, what is claimed on its faces.
 
+use mms_emit::port::faces::claims;
 use mms_mechanics::extent::Extent;
+use mms_results::write::{self, Fact};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face};
 use serde_json::{Map, Value, json};
@@ -14,6 +16,7 @@ const ALONG: [usize; 3] = [257, 33, 9];
 const TIMES: usize = 65;
 
 /// The data of a field.
+#[derive(Clone, Debug)]
 pub struct Domain {
     window: [f64; 2],
     body: Extent<f64>,
@@ -28,14 +31,7 @@ impl Domain {
     /// # Errors
     /// A motion that cannot be evaluated.
     pub fn of(exact: &mut Exact) -> anyhow::Result<Self> {
-        let field = &exact.input().compiled.field;
-        let claim = |face: Face| {
-            let claimed = field.boundary.iter().find(|it| it.face.value == face);
-            // What is not claimed is prescribed.
-            claimed.map_or(Claim::Prescribed, |it| it.claim.value)
-        };
-        let faces = Face::of(&field.domain.body, exact.dimension);
-        let faces = faces.into_iter().map(|face| (face, claim(face))).collect();
+        let faces = claims(&exact.input().compiled.field);
         let (window, body) = (exact.window, exact.body.clone());
         Ok(Domain { reach: reach(exact)?, window, body, faces })
     }
@@ -50,6 +46,21 @@ impl Domain {
             text += &format!("{}: {}, {}\n", face.name(), claim.name(), claim.meaning());
         }
         text
+    }
+
+    /// As data of a file: numbers, and of each face its claim.
+    pub fn facts(&self) -> Vec<Fact> {
+        let fact = |name: &str, value| Fact { name: name.to_owned(), value };
+        let [lower, upper] = &self.reach;
+        let mut facts = vec![
+            fact("time_window", write::Value::Numbers(self.window.to_vec())),
+            fact("motion_lower", write::Value::Numbers(lower.clone())),
+            fact("motion_upper", write::Value::Numbers(upper.clone())),
+        ];
+        facts.extend(self.faces.iter().map(|(face, claim)| {
+            fact(&format!("face_{}", face.name()), write::Value::Word(claim.name().to_owned()))
+        }));
+        facts
     }
 
     /// As keys of a document.

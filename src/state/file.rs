@@ -10,10 +10,12 @@ use mms_results::Cells;
 use mms_results::write::{self, Mesh, State};
 use mms_spec::foreign;
 use mms_spec::quantity::Quantity;
+use serde_json::Value;
 
+use super::domain::Domain;
 use super::points::Points;
 use super::{Names, Wanted};
-use crate::report::{write_whole, write_with};
+use crate::report::{pretty, write_whole, write_with};
 use crate::session::exact::Exact;
 use crate::vtk;
 
@@ -90,21 +92,31 @@ impl Target {
         }
     }
 
-    /// Writes the states of all times: a table as one file, others as one for each time, and a list of those in VTK. Returns
-    /// the files, the one to open first.
+    /// Writes the states of all times: a table as one file, others as one for each time, and a list of those in VTK. What is
+    /// known of the field stands in them, and of a table, which has no place for it, in a file beside it. Returns the files,
+    /// the one to open first.
     ///
     /// # Errors
     /// A file that cannot be written, by its name.
-    pub fn write(&self, frames: &[Frame]) -> anyhow::Result<Vec<String>> {
+    pub fn write(&self, frames: &[Frame], domain: &Domain) -> anyhow::Result<Vec<String>> {
         match (self.format, frames) {
             (Format::Csv, _) => {
                 let states: Vec<&State> = frames.iter().map(|frame| &frame.state).collect();
                 let written = self.one(&self.path, |out| Ok(write::csv(&states, out)?))?;
-                Ok(vec![written])
+                Ok(vec![written, self.beside(domain)?])
             }
             (_, [frame]) => Ok(vec![self.frame(&self.path, frame)?]),
             _ => self.several(frames),
         }
+    }
+
+    /// The data of the field, beside a table.
+    fn beside(&self, domain: &Domain) -> anyhow::Result<String> {
+        let mut name = self.path.file_name().unwrap_or_default().to_owned();
+        name.push(".json");
+        let path = self.path.with_file_name(name);
+        let text = pretty(&Value::Object(domain.document()))?;
+        self.one(&path, |out| Ok(out.write_all(text.as_bytes())?))
     }
 
     fn several(&self, frames: &[Frame]) -> anyhow::Result<Vec<String>> {

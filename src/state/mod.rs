@@ -13,6 +13,7 @@ use mms_results::write::{Column, Shape, State};
 use mms_spec::Face;
 use mms_spec::quantity::{self, Quantity};
 
+use self::domain::Domain;
 use self::points::Points;
 use crate::report::bytes;
 use crate::session::exact::Exact;
@@ -109,6 +110,8 @@ pub struct Wanted<'a> {
     pub without: &'a [Term],
     /// What columns are called.
     pub names: Names,
+    /// What a solver needs to know of the field once.
+    pub domain: &'a Domain,
 }
 
 impl Wanted<'_> {
@@ -158,12 +161,12 @@ impl Wanted<'_> {
                     let values =
                         self.held(quantity, values, (&points.reference, dimension), time)?;
                     let name = self.names.of(quantity).to_owned();
-                    columns.push(Column { name, shape: shape(quantity), values });
+                    columns.push(Column { name, shape: shape(quantity, exact), values });
                 }
             }
         }
         columns.extend(weights(exact, points, time)?);
-        Ok(State { time, dimension, columns })
+        Ok(State { time, dimension, facts: self.domain.facts(), columns })
     }
 
     /// P N at the points of a face; 0 at all others.
@@ -197,7 +200,7 @@ impl Wanted<'_> {
         if Term::of(quantity).is_some_and(|term| self.without.contains(&term)) {
             values.fill(0.0);
         }
-        let components = quantity.shape().components(dimension);
+        let components = values.len() * dimension / points.len().max(1);
         if let Some(at) = values.iter().position(|value| !value.is_finite()) {
             bail!(
                 "{} is {} at X = {:?}, t = {time}: not defined there, or beyond the range of f64",
@@ -210,8 +213,9 @@ impl Wanted<'_> {
     }
 }
 
-fn shape(quantity: Quantity) -> Shape {
+fn shape(quantity: Quantity, exact: &Exact) -> Shape {
     match quantity.shape() {
+        quantity::Shape::Tensor if exact.rows() > exact.dimension => Shape::Nine,
         quantity::Shape::Scalar => Shape::Scalar,
         quantity::Shape::Vector => Shape::Vector,
         quantity::Shape::Tensor => Shape::Tensor,

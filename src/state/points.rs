@@ -113,17 +113,7 @@ impl Points {
 
     /// The points on each face that has such, by position.
     pub fn faces(&self, exact: &Exact) -> Vec<(Face, Vec<usize>)> {
-        let dimension = exact.dimension;
-        let size = self.reference.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-        let near = 4.0 * self.rounding + 8.0 * f64::EPSILON * size;
-        let compiled = &exact.input().compiled.field;
-        let on = |face: &Face| -> Vec<usize> {
-            let points = self.reference.chunks(dimension).enumerate();
-            let is_on = |point: &[f64]| exact.body.distance_to(*face, point) <= near;
-            points.filter(|(_, point)| is_on(point)).map(|(at, _)| at).collect()
-        };
-        let faces = Face::of(&compiled.domain.body, dimension).into_iter();
-        faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
+        exact.faces(&self.reference, self.rounding)
     }
 }
 

@@ -208,7 +208,11 @@ fn documents_have_the_keys_of_the_page() {
         ("study", "study bar.toml --cells 8,16 --periods 1", 0),
         ("judge", "judge --errors errors.csv", 1),
         ("judge", "judge --errors steps.csv", 0),
-        ("judge", "judge bar.toml a.csv b.csv c.csv --h 4,2,1 --time 0.001 --output judged", 1),
+        (
+            "judge",
+            "judge bar.toml a.csv b.csv c.csv --h 4,2,1 --time 0.001 --tighter b.csv --output judged",
+            1,
+        ),
         (
             "judge-baseline",
             "judge bar.toml a.csv --h 4 --time 0.001 --baseline judged/convergence.json",

@@ -225,3 +225,29 @@ fn a_check_program_that_would_compare_nothing_is_not_written() {
     let run = folder.mms("emit odd.toml --target c --quantity u -o out").exits(2);
     run.complains("no point in its domain where all of these quantities have a value");
 }
+
+/// The claim of each face stands in the module as data, so that nobody types it again.
+#[test]
+fn modules_tell_the_claims_of_faces() {
+    let folder = Folder::new();
+    for (target, file, line) in [
+        ("c", "sheared_block_2d.h", "#define SHEARED_BLOCK_2D_FACE_Y_MIN \"fixed\"\n"),
+        ("cpp", "sheared_block_2d.hpp", "constexpr const char *face_y_min = \"fixed\";\n"),
+        ("python", "sheared_block_2d.py", "FACES = {\n    \"x_min\": \"traction\",\n"),
+        ("numpy", "sheared_block_2d.py", "    \"y_min\": \"fixed\",\n"),
+        (
+            "fortran",
+            "sheared_block_2d.f90",
+            "  character(len=*), parameter, public :: face_y_min = \"fixed\"\n",
+        ),
+        ("julia", "sheared_block_2d.jl", "    y_min = \"fixed\",\n"),
+        ("rust", "sheared_block_2d.rs", "    (\"y_min\", \"fixed\"),\n"),
+    ] {
+        folder.mms(&format!("emit sheared_block_2d --target {target} -o {target}")).exits(0);
+        let text = folder.read(&format!("{target}/{file}"));
+        assert!(text.contains(line), "{target} has no `{line}`");
+    }
+    // Who asks for a quantity gets no domain and no claims.
+    folder.mms("emit sheared_block_2d --target c --quantity b -o one").exits(0);
+    assert!(!folder.read("one/sheared_block_2d.h").contains("FACE_"));
+}

@@ -14,6 +14,7 @@ mod files;
 mod foreign;
 mod form;
 mod judge;
+mod judge_quantities;
 mod judge_results;
 mod main_job;
 mod material;

@@ -156,7 +156,7 @@ pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-results",
         knows: &[],
-        layers: &["cell mistake names snapshot", "motion norm read write"],
+        layers: &["cell mistake names snapshot", "motion norm read write", "pairing"],
     },
     Crate {
         name: "mms-campaign",

@@ -4,6 +4,7 @@ use super::{broken, comment, documented};
 use crate::port::Port;
 use crate::port::body::local;
 use crate::port::callable::Callable;
+use crate::port::faces::DOC;
 
 /// The text of `FIELD.h`.
 pub(super) fn text(port: &Port<'_>) -> String {
@@ -21,6 +22,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
          enum {{ {name}_dimension = {} }};\n\n",
         port.dimension()
     );
+    let claims = port.claims(|face, claim| {
+        format!("#define {upper}_FACE_{} \"{claim}\"", face.to_ascii_uppercase())
+    });
+    if !claims.is_empty() {
+        text += &format!("/** {DOC} */\n{claims}\n");
+    }
     text += &types(port);
     text += &functions(port);
     text += "#ifdef __cplusplus\n}\n#endif\n\n#endif\n";

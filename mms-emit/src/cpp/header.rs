@@ -7,6 +7,7 @@ use crate::c::{broken, comment};
 use crate::port::Port;
 use crate::port::body::{Dialect as _, Place, local};
 use crate::port::callable::{Callable, input};
+use crate::port::faces::DOC;
 use crate::port::support::Support;
 use crate::text::wrapped;
 use mms_mechanics::Output;
@@ -62,6 +63,11 @@ fn types(port: &Port<'_>) -> String {
         "/// The number of space dimensions.\nconstexpr int dimension = {};\n\n",
         port.dimension()
     );
+    let claims =
+        port.claims(|face, claim| format!("constexpr const char *face_{face} = \"{claim}\";"));
+    if !claims.is_empty() {
+        let _ = write!(text, "/// {DOC}\n{claims}\n");
+    }
     text += "/// The parameters.\ntemplate <class T> struct Parameters {\n";
     for (index, parameter) in &port.parameters {
         text += &documented(&port.parameter_doc(*index), "    ");

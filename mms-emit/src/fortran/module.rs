@@ -7,6 +7,7 @@ use super::{comment, continued, declared, documented};
 use crate::port::Port;
 use crate::port::body::{Body, Place, local};
 use crate::port::callable::{Callable, input};
+use crate::port::faces::DOC;
 use crate::port::support::Support;
 use mms_mechanics::Output;
 use mms_program::Value;
@@ -47,6 +48,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
         "\n  integer, parameter, public :: wp = real64\n  integer, parameter, public :: dimension = {}\n",
         port.dimension()
     );
+    let claims = port.claims(|face, claim| {
+        format!("  character(len=*), parameter, public :: face_{face} = \"{claim}\"")
+    });
+    if !claims.is_empty() {
+        let _ = write!(text, "\n  !> {DOC}\n{claims}");
+    }
     if is_wide {
         // Private ones that nothing uses would be warned of.
         text += "  public :: operator(+), operator(-), operator(*), operator(/)\n\n  \

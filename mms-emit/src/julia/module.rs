@@ -6,6 +6,7 @@ use super::dialect::Julia;
 use crate::port::Port;
 use crate::port::body::{Place, local};
 use crate::port::callable::Callable;
+use crate::port::faces::DOC;
 use crate::port::number::decimal;
 use crate::text::{listed, wrapped};
 use mms_program::Value;
@@ -26,6 +27,10 @@ pub(super) fn text(port: &Port<'_>) -> String {
         "module {name}\n\n\"The number of space dimensions.\"\nconst dimension = {}\n\n",
         port.dimension()
     );
+    let claims = port.claims(|face, claim| format!("    {face} = \"{claim}\","));
+    if !claims.is_empty() {
+        let _ = write!(text, "\"{DOC}\"\nconst faces = (\n{claims})\n\n");
+    }
     text += &parameters(port);
     text += &structure("What only the parameters determine.", "Field", &port.kept, &port.kept_wide);
     text += &structure(

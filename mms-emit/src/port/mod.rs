@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `callable` | the functions of a field, one list for all |
 //! | `body` | the one printer of instructions, over what a `Dialect` says of a language |
+//! | `faces` | what is claimed on each face, as data |
 //! | `names` | a user's names under the rules of a language: words, case, length |
 //! | `number` | literals, in decimal and hexadecimal |
 //! | `support` | functions that a language lacks: of its support text, those that are called |
@@ -22,6 +23,7 @@ pub mod body;
 pub mod callable;
 pub mod check;
 pub mod docs;
+pub mod faces;
 pub mod lower;
 pub mod names;
 pub mod number;

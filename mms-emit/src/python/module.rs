@@ -6,6 +6,7 @@ use super::dialect::Form;
 use crate::port::Port;
 use crate::port::body::{Place, local};
 use crate::port::callable::Callable;
+use crate::port::faces::DOC;
 use crate::port::support::Support;
 use crate::text::{listed, wrapped};
 use mms_mechanics::Output;
@@ -52,6 +53,10 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
     let _ = write!(text, "\nDIMENSION = {}\n", port.dimension());
     if form == Form::SymPy {
         text += "PI = sp.pi\n";
+    }
+    let claims = port.claims(|face, claim| format!("    \"{face}\": \"{claim}\","));
+    if !claims.is_empty() {
+        let _ = write!(text, "\n# {DOC}\nFACES = {{\n{claims}}}\n");
     }
     for part in support.iter().filter(|part| !part.is_empty()) {
         let _ = write!(text, "\n\n{part}\n");

@@ -7,6 +7,7 @@ use super::dialect::Rust;
 use crate::port::Port;
 use crate::port::body::{Place, local};
 use crate::port::callable::Callable;
+use crate::port::faces::DOC;
 use crate::port::support::Support;
 use mms_mechanics::Output;
 use mms_program::Value;
@@ -35,6 +36,13 @@ pub(super) fn text(port: &Port<'_>) -> String {
         port.dimension(),
         REAL.replace("pub trait Real:", "#[allow(dead_code)]\npub trait Real:")
     );
+    let claims = port.claims(|face, claim| format!("    (\"{face}\", \"{claim}\"),"));
+    if !claims.is_empty() {
+        let _ = write!(
+            text,
+            "/// {DOC}\n#[allow(dead_code)]\npub const FACES: &[(&str, &str)] = &[\n{claims}];\n\n"
+        );
+    }
     if !wide.is_empty() {
         let _ = write!(text, "{wide}\n\n");
     }

@@ -1,5 +1,7 @@
 //! Bytes of VTK in XML: raw, or in base64 of one segment or more.
 
+use std::borrow::Cow;
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
@@ -19,14 +21,14 @@ fn ends_early() -> Mistake {
     Mistake::new("an array ends early: the file was cut off, or its header says more than there is")
 }
 
-impl Encoded<'_> {
+impl<'a> Encoded<'a> {
     /// The next bytes.
-    pub fn take(&mut self, count: usize) -> Result<Vec<u8>, Mistake> {
+    pub fn take(&mut self, count: usize) -> Result<Cow<'a, [u8]>, Mistake> {
         match self {
             Encoded::Raw(bytes) => {
                 let (taken, rest) = bytes.split_at_checked(count).ok_or_else(ends_early)?;
                 *bytes = rest;
-                Ok(taken.to_vec())
+                Ok(Cow::Borrowed(taken))
             }
             Encoded::Base64(text, pending) => {
                 if count > pending.len().saturating_add(text.len()) {
@@ -37,7 +39,7 @@ impl Encoded<'_> {
                     *text = decode(text, quads, pending)?;
                 }
                 let rest = pending.split_off(count);
-                Ok(std::mem::replace(pending, rest))
+                Ok(Cow::Owned(std::mem::replace(pending, rest)))
             }
         }
     }
@@ -75,7 +77,7 @@ mod tests {
         for sizes in [vec![9], vec![4, 5], vec![1, 2, 3, 3]] {
             let mut encoded = Encoded::Base64(text.as_bytes(), Vec::new());
             let taken: Vec<u8> =
-                sizes.iter().flat_map(|&size| encoded.take(size).unwrap()).collect();
+                sizes.iter().flat_map(|&size| encoded.take(size).unwrap().into_owned()).collect();
             assert_eq!(taken, [1, 2, 3, 4, 5, 6, 7, 8, 9]);
             assert!(encoded.take(1).is_err());
         }

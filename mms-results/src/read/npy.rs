@@ -49,6 +49,12 @@ pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
     Ok(Array { name: name.to_owned(), components: components.max(1), values, stored })
 }
 
+/// Whether an array holds words, as bytes or in Unicode.
+pub fn are_words(bytes: &[u8]) -> bool {
+    let described = split(bytes).and_then(|(text, _)| behind(text, "descr").ok());
+    described.is_some_and(|it| it.starts_with("'|S") || it.starts_with("'<U"))
+}
+
 /// The header and the numbers.
 fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
     let rest = bytes.strip_prefix(MAGIC)?;

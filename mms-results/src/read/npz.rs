@@ -13,7 +13,7 @@ fn broken(error: rawzip::Error) -> Mistake {
     Mistake::new(format!("not a file of `numpy.savez`: {error}"))
 }
 
-/// Reads all arrays of a file.
+/// Reads all arrays of a file; those of words are left out.
 pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
     let archive = ZipArchive::from_slice(bytes).map_err(broken)?;
     let mut entries = archive.entries();
@@ -31,14 +31,18 @@ pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
         if taken > bytes.len() {
             return Err(Mistake::new("two arrays have the same bytes"));
         }
+        let read = |bytes: &[u8]| match npy::are_words(bytes) {
+            true => Ok(None),
+            false => npy::array(name, bytes).map(Some),
+        };
         let array = match entry.compression_method() {
-            CompressionMethod::STORE => npy::array(name, found.data()),
+            CompressionMethod::STORE => read(found.data()),
             CompressionMethod::DEFLATE => {
-                npy::array(name, &inflate(name, found.data(), entry.uncompressed_size_hint())?)
+                read(&inflate(name, found.data(), entry.uncompressed_size_hint())?)
             }
             other => Err(Mistake::new(format!("`{name}`: compression {other:?} is not read"))),
         }?;
-        snapshot.take(array);
+        array.into_iter().for_each(|array| snapshot.take(array));
     }
     Ok(snapshot)
 }

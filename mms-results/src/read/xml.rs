@@ -1,5 +1,7 @@
 //! VTK in XML: "VTK XML Formats" (Kitware, VTK documentation).
 
+use std::borrow::Cow;
+
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::base64::Encoded;
@@ -407,7 +409,7 @@ impl Format<'_> {
 
     fn decode(&self, mut encoded: Encoded<'_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
         let bytes = match self.is_compressed {
-            true => self.inflate(&mut encoded)?,
+            true => Cow::Owned(self.inflate(&mut encoded)?),
             false => {
                 let length = encoded.integer(self.header, self.order)?;
                 encoded.take(length)?

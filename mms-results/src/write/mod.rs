@@ -22,6 +22,8 @@ pub enum Shape {
     Vector,
     /// A square matrix, by rows.
     Tensor,
+    /// A matrix of three rows in any dimension.
+    Nine,
 }
 
 impl Shape {
@@ -31,6 +33,7 @@ impl Shape {
             Shape::Scalar | Shape::Whole => 1,
             Shape::Vector => dimension,
             Shape::Tensor => dimension * dimension,
+            Shape::Nine => 9,
         }
     }
 }
@@ -46,6 +49,24 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// What is known of a state as a whole, under a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fact {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub value: Value,
+}
+
+/// A fact: numbers, or a word.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// A word in ASCII.
+    Word(String),
+}
+
 /// Some points at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
@@ -53,6 +74,8 @@ pub struct State {
     pub time: f64,
     /// The dimension.
     pub dimension: usize,
+    /// What is known of it as a whole; a table has no place for that.
+    pub facts: Vec<Fact>,
     /// What is known of the points; the same columns at all times.
     pub columns: Vec<Column>,
 }

@@ -1,11 +1,11 @@
-//! Arrays of NumPy in one file, as `numpy.savez` writes them: `time` and a double precision array for each column, whose
-//! first axis are the points ("NEP 1, a simple file format for NumPy arrays").
+//! Arrays of NumPy in one file, as `numpy.savez` writes them: `time`, a double precision array for each column, whose first
+//! axis are the points, and what is known of the whole, words as bytes ("NEP 1, a simple file format for NumPy arrays").
 
 use std::io::{self, Write};
 
 use rawzip::{CompressionMethod, ZipArchiveWriter};
 
-use super::{Column, Shape, State};
+use super::{Column, Fact, Shape, State, Value};
 
 /// Magic, version and length of a header are of so many bytes, which the header fills up to a multiple of 64.
 const START: usize = 10;
@@ -16,11 +16,29 @@ const START: usize = 10;
 /// What the writer says.
 pub fn npz(state: &State, out: &mut dyn Write) -> io::Result<()> {
     let mut archive = ZipArchiveWriter::new(out);
-    member(&mut archive, "time", "", &[state.time], false)?;
+    member(&mut archive, "time", ("<f8", ""), [state.time.to_le_bytes()])?;
     for column in &state.columns {
-        let is_whole = column.shape == Shape::Whole;
-        let axes = axes(column, state.dimension);
-        member(&mut archive, &column.name, &axes, &column.values, is_whole)?;
+        let (axes, values) = (axes(column, state.dimension), column.values.iter());
+        let whole = || values.clone().map(|value| (*value as i64).to_le_bytes());
+        match column.shape {
+            Shape::Whole => member(&mut archive, &column.name, ("<i8", &axes), whole())?,
+            _ => {
+                let bytes = values.map(|value| value.to_le_bytes());
+                member(&mut archive, &column.name, ("<f8", &axes), bytes)?;
+            }
+        }
+    }
+    for Fact { name, value } in &state.facts {
+        match value {
+            Value::Numbers(numbers) => {
+                let axes = format!("{},", numbers.len());
+                let bytes = numbers.iter().map(|value| value.to_le_bytes());
+                member(&mut archive, name, ("<f8", &axes), bytes)?;
+            }
+            Value::Word(word) => {
+                member(&mut archive, name, (&format!("|S{}", word.len()), ""), [word])?;
+            }
+        }
     }
     archive.finish().map_err(io::Error::other)?;
     Ok(())
@@ -33,26 +51,23 @@ fn axes(column: &Column, dimension: usize) -> String {
         Shape::Scalar | Shape::Whole => format!("{rows},"),
         Shape::Vector => format!("{rows}, {dimension}"),
         Shape::Tensor => format!("{rows}, {dimension}, {dimension}"),
+        Shape::Nine => format!("{rows}, 3, 3"),
     }
 }
 
 fn member(
     archive: &mut ZipArchiveWriter<&mut dyn Write>,
     name: &str,
-    axes: &str,
-    values: &[f64],
-    is_whole: bool,
+    (kind, axes): (&str, &str),
+    values: impl IntoIterator<Item: AsRef<[u8]>>,
 ) -> io::Result<()> {
     let path = format!("{name}.npy");
     let file = archive.new_file(path.as_str()).compression_method(CompressionMethod::STORE);
     let file = file.start();
     let (mut entry, config) = file.map_err(io::Error::other)?;
     let mut writer = config.wrap(io::BufWriter::new(&mut entry));
-    writer.write_all(&header(if is_whole { "<i8" } else { "<f8" }, axes))?;
-    for value in values {
-        let bytes = if is_whole { (*value as i64).to_le_bytes() } else { value.to_le_bytes() };
-        writer.write_all(&bytes)?;
-    }
+    writer.write_all(&header(kind, axes))?;
+    values.into_iter().try_for_each(|value| writer.write_all(value.as_ref()))?;
     let (mut buffered, sums) = writer.finish().map_err(io::Error::other)?;
     buffered.flush()?;
     drop(buffered);

@@ -41,14 +41,15 @@ fn lines(state: &State, out: &mut dyn Write) -> io::Result<()> {
 /// The names of the columns of numbers: X, Y and x, y for positions, u_x, F_xy for others, and no axes in one dimension.
 fn names(column: &Column, dimension: usize) -> Vec<String> {
     let name = &column.name;
-    let axes = || AXES[..dimension].iter();
+    let rows = if column.shape == Shape::Nine { AXES.len() } else { dimension };
+    let axes = || AXES[..rows].iter();
     match (column.shape, name.as_str()) {
         (Shape::Vector, "X") => axes().map(|axis| axis.to_uppercase()).collect(),
         (Shape::Vector, "x") => axes().map(|axis| (*axis).to_owned()).collect(),
         (Shape::Scalar | Shape::Whole, _) => vec![name.clone()],
-        _ if dimension == 1 => vec![name.clone()],
+        _ if rows == 1 => vec![name.clone()],
         (Shape::Vector, _) => axes().map(|axis| format!("{name}_{axis}")).collect(),
-        (Shape::Tensor, _) => {
+        (Shape::Tensor | Shape::Nine, _) => {
             axes().flat_map(|i| axes().map(move |j| format!("{name}_{i}{j}"))).collect()
         }
     }

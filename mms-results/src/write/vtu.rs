@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 
-use super::{Mesh, Shape, State};
+use super::{Fact, Mesh, Shape, State, Value};
 use crate::Cells;
 
 /// The number of a vertex among the types of cells.
@@ -34,9 +34,11 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
     writeln!(
         out,
         "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
-         format=\"ascii\">{:.16e}</DataArray>\n</FieldData>",
+         format=\"ascii\">{:.16e}</DataArray>",
         state.time
     )?;
+    state.facts.iter().try_for_each(|it| fact(it, out))?;
+    out.write_all(b"</FieldData>\n")?;
     writeln!(out, r#"<Piece NumberOfPoints="{points}" NumberOfCells="{}">"#, cells.len())?;
     out.write_all(b"<PointData>\n")?;
     for column in &state.columns {
@@ -52,6 +54,24 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
     array("UInt64", "offsets", 1, &whole(&cells.ends), out)?;
     array("UInt8", "types", 1, &cells.types, out)?;
     out.write_all(b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
+}
+
+/// Data of the whole: a word is the numbers of its letters there, and 0.
+fn fact(Fact { name, value }: &Fact, out: &mut dyn Write) -> io::Result<()> {
+    let (kind, count, text) = match value {
+        Value::Numbers(numbers) => {
+            let text = numbers.iter().map(|it| format!("{it:?}")).collect::<Vec<_>>();
+            ("Float64", numbers.len(), text.join(" "))
+        }
+        Value::Word(word) => {
+            let letters = word.bytes().chain([0]).map(|it| it.to_string());
+            ("String", 1, letters.collect::<Vec<_>>().join(" "))
+        }
+    };
+    writeln!(
+        out,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfTuples=\"{count}\" format=\"ascii\">{text}</DataArray>"
+    )
 }
 
 fn or_vertices(cells: &Cells, points: usize) -> Cow<'_, Cells> {
@@ -75,6 +95,7 @@ fn numbers(
     let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let (kind, components, bytes): (_, _, Vec<u8>) = match shape {
         Shape::Scalar => ("Float64", 1, bytes(values)),
+        Shape::Nine => ("Float64", 9, bytes(values)),
         Shape::Vector => ("Float64", 3, bytes(&padded(values, dimension, [1, 3]))),
         Shape::Tensor => ("Float64", 9, bytes(&padded(values, dimension, [dimension, 9]))),
         Shape::Whole => {

@@ -8,11 +8,12 @@ use mms_convergence::Verdict;
 use mms_results::names::{Mapping, Role};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
-use mms_spec::quantity::Quantity;
 
 use super::super::{Outcome, say, this_command};
 use super::Judge;
-use crate::judge::results::{Baseline, Measurement, Reading, Results, measure, same, weight};
+use crate::judge::results::{
+    Baseline, Comparison, Measurement, Reading, Results, measure, same, weight,
+};
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
 use crate::report::{Judgements, differences, with_baseline};
@@ -36,9 +37,17 @@ pub struct Options {
     /// The times to judge at; or those of the results, where files have none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
+    /// Judge all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
+    /// the stress out of the plane.
+    #[arg(long)]
+    all_components: bool,
     /// Take means by this column: volume or mass.
     #[arg(long, value_name = "NAME", value_parser = weight)]
     weight: Option<Role>,
+    /// Results of one of the FILEs' meshes, computed with a smaller tolerance of the solver. The difference is its iterative
+    /// error; levels whose error is not a hundred times larger are left out of the verdict.
+    #[arg(long, value_name = "FILE", requires = "field")]
+    tighter: Option<String>,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -49,7 +58,8 @@ pub struct Options {
     #[arg(long, value_name = "JSON")]
     baseline: Option<PathBuf>,
     /// Compare two results of one run, as of other ranks, precision or after a restart: the largest differences, and where
-    /// they are. Takes no FIELD.
+    /// they are. Points are paired by the numbers that both files give them (`id`, `GlobalNodeIds`, ..), or by X, else in their
+    /// order; several in one place may stand for one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
     same: Vec<String>,
 }
@@ -65,14 +75,8 @@ impl Judge {
             );
         }
         let input = Input::find(field, &options.variant)?;
-        let mut exact = Exact::new(input, &options.set)?;
-        let mut orders = self.orders();
-        for (name, _) in &mut orders.named {
-            // PK1 is P.
-            let quantity = Quantity::from_name(name).filter(|it| it.symbol() != *name);
-            *name = quantity.map_or_else(|| name.clone(), |it| it.name().to_owned());
-        }
-        let measurement = self.measured(&mut exact, &orders)?;
+        let mut exact = Exact::new(input, &options.set)?.in_space_if(options.all_components);
+        let measurement = self.measured(&mut exact, &self.orders())?;
         measurement.warnings.iter().for_each(|warning| say(format_args!("warning: {warning}")));
         if let Some(path) = &options.baseline {
             return self.against(path, &exact.title(), &measurement);
@@ -91,7 +95,15 @@ impl Judge {
         let all =
             self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
         let reading = Reading { map: &options.map, wanted: &wanted, weight: options.weight };
-        measure(all, &reading, exact, &options.h, &options.time, orders)
+        let tighter = options.tighter.as_deref().map(Results::find).transpose()?;
+        let comparison = Comparison {
+            sizes: &options.h,
+            times: &options.time,
+            orders,
+            has_steps: false,
+            tighter,
+        };
+        measure(all, &reading, exact, comparison)
     }
 
     fn against(
@@ -112,8 +124,8 @@ impl Judge {
     /// Compares two results.
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
-        let (found, alone) = same(&Results::find(a)?, &Results::find(b)?)?;
-        self.show(differences(a, b, &found, &alone))?;
+        let found = same(&Results::find(a)?, &Results::find(b)?, &self.results.map)?;
+        self.show(differences(a, b, &found))?;
         Ok(Outcome::AsExpected)
     }
 }

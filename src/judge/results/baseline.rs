@@ -43,12 +43,14 @@ pub struct Compared {
     pub error: f64,
     /// The error that was saved.
     pub saved: f64,
+    /// Below this it may be nothing but round-off.
+    pub floor: f64,
 }
 
 impl Compared {
-    /// Whether it is within one percent of what it was.
+    /// Whether it is within one percent of what it was; or both are round-off.
     pub fn is_near(&self) -> bool {
-        is_near(self.error, self.saved)
+        is_near(self.error, self.saved) || self.error.max(self.saved) <= self.floor
     }
 }
 
@@ -82,7 +84,8 @@ impl Baseline {
                 let Some(of) = of else {
                     bail!("the saved judgement has no {} of {name}", norm.name.shown())
                 };
-                for (run, error) in measured.runs.iter().zip(&norm.errors) {
+                let errors = norm.errors.iter().zip(&norm.floors);
+                for (run, (error, &floor)) in measured.runs.iter().zip(errors) {
                     let length = run.cell_size;
                     let level = of.levels.iter().find(|it| (it.length / length - 1.0).abs() < SAME);
                     let level = level.and_then(|it| it.error).with_context(|| {
@@ -95,7 +98,7 @@ impl Baseline {
                     })?;
                     let Some(error) = *error else { continue };
                     let (quantity, norm) = (name.to_owned(), norm.name.raw().to_owned());
-                    all.push(Compared { quantity, norm, length, error, saved: level });
+                    all.push(Compared { quantity, norm, length, error, saved: level, floor });
                 }
             }
         }

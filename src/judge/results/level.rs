@@ -1,15 +1,14 @@
 //! The errors of one snapshot.
 
-use std::borrow::Cow;
-
 use anyhow::{anyhow, bail};
-use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
-use mms_results::norm::{Asked, Mesh, lengths, over_points};
-use mms_results::{Mistake, Snapshot, Stored};
+use mms_results::motion::{hold_distinct, resolve};
+use mms_results::names::{Form, Mapping, Meaning, Role, Values, recognise};
+use mms_results::norm::Mesh;
+use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
 use super::files::placed;
+use super::taken::Taken;
 use crate::session::exact::Exact;
 
 /// Over what a norm is taken.
@@ -23,6 +22,8 @@ pub enum Sampling {
     Cells,
     /// Over the middles of cells.
     Middles,
+    /// Over the points of faces, all alike.
+    Faces,
 }
 
 impl Sampling {
@@ -39,6 +40,10 @@ impl Sampling {
                 "l1, l2 and linf over the body, and the seminorm of H1 where the gradient is known, by quadrature over \
                  cells, for the mesh is known"
             }
+            Sampling::Faces => {
+                "mean (l1), root mean square (l2) and maximum (linf) over the points of faces, each with its normal; values \
+                 there may be more accurate than elsewhere (superconvergence)"
+            }
             Sampling::Middles => {
                 "l1, l2 and linf over the middles of cells, for there is one value in each; values there may be more \
                  accurate than elsewhere (superconvergence)"
@@ -53,6 +58,7 @@ impl Sampling {
             Sampling::Weighted => "weighted points",
             Sampling::Cells => "cells",
             Sampling::Middles => "middles of cells",
+            Sampling::Faces => "points of faces",
         }
     }
 }
@@ -79,6 +85,10 @@ pub struct Errors {
     pub unit: Option<i32>,
     /// How it was stored.
     pub stored: Stored,
+    /// The largest exact number.
+    pub largest: f64,
+    /// The root mean square of its iterative error, where that is known.
+    pub iterative: Option<f64>,
 }
 
 /// How snapshots are read.
@@ -121,6 +131,15 @@ fn quantity(role: Role) -> Option<Quantity> {
     Quantity::from_name(role.name())
 }
 
+/// The numbers of a meaning, in the dimension of the field; of tensors in space where that was asked for.
+fn values(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> anyhow::Result<Values> {
+    let rows = match meaning.role.form() {
+        Form::Tensor | Form::Symmetric => exact.rows(),
+        Form::Scalar | Form::Vector => exact.dimension,
+    };
+    meaning.values(snapshot, rows).map_err(placed)
+}
+
 impl Reading<'_> {
     /// Whether an array of that meaning is needed.
     fn wants(&self, role: Role) -> bool {
@@ -130,6 +149,7 @@ impl Reading<'_> {
         if is_place || is_weight {
             return is_place || self.weight == Some(role);
         }
+        let role = if role == Role::Normal { Role::Traction } else { role };
         self.wanted.is_empty() || quantity(role).is_some_and(|it| self.wanted.contains(&it))
     }
 
@@ -166,41 +186,60 @@ impl Reading<'_> {
         let mut errors = Vec::new();
         let mut passed_over = Vec::new();
         let weights = self.weights(snapshot, &meanings)?;
-        for (role, values) in self.values(snapshot, &meanings, &motion, dimension)? {
-            match quantity(role) {
+        let weights = weights.as_deref();
+        if let Some(u) = motion.displacement.as_ref().filter(|_| self.wants_u()) {
+            errors.push(taken.errors(Quantity::Displacement, u, weights)?);
+        }
+        for meaning in meanings.iter().filter(|it| self.is_judged(it.role)) {
+            // One after the other: all of them at once would take as much memory as the file.
+            match quantity(meaning.role) {
                 Some(quantity) => {
-                    errors.push(taken.errors(quantity, &values, weights.as_deref())?)
+                    let values = values(meaning, snapshot, taken.exact)?;
+                    errors.push(taken.errors(quantity, &values, weights)?);
                 }
-                None => passed_over.push(role.name()),
+                None => passed_over.push(meaning.role.name()),
             }
         }
+        errors.extend(taken.tractions(&meanings)?);
         let points = motion.reference.numbers.len() / dimension;
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
         Ok(Found { errors, sizes, points, unknown, how: motion.how.clone(), passed_over })
     }
 
-    /// What there is to judge: u as it was found, and all others.
-    fn values<'a>(
+    /// All quantities of a snapshot that are judged, but tractions.
+    ///
+    /// # Errors
+    /// What is wrong with it, and where.
+    pub fn all(
         &self,
         snapshot: &Snapshot,
-        meanings: &[Meaning],
-        motion: &'a Motion,
-        dimension: usize,
-    ) -> anyhow::Result<Vec<(Role, Cow<'a, Values>)>> {
-        let mut found = Vec::new();
-        let wants_u = self.wanted.is_empty() || self.wanted.contains(&Quantity::Displacement);
-        let u = motion.displacement.as_ref().filter(|_| wants_u);
-        found.extend(u.map(|u| (Role::Displacement, Cow::Borrowed(u))));
-        let of_motion =
-            [Role::Reference, Role::Place, Role::Displacement, Role::Volume, Role::Mass];
-        for meaning in meanings.iter().filter(|it| !of_motion.contains(&it.role)) {
-            if meaning.role == Role::Position && !self.wanted.contains(&Quantity::Position) {
-                continue;
-            }
-            let values = meaning.values(snapshot, dimension).map_err(placed)?;
-            found.push((meaning.role, Cow::Owned(values)));
+        exact: &Exact,
+    ) -> anyhow::Result<Vec<(Quantity, Values)>> {
+        let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
+        let outside = |point: &[f64]| exact.body.distance(point);
+        let motion = resolve(snapshot, &meanings, exact.dimension, &outside).map_err(placed)?;
+        let u = motion.displacement.filter(|_| self.wants_u());
+        let mut all: Vec<_> = u.map(|u| (Quantity::Displacement, u)).into_iter().collect();
+        for meaning in meanings.iter().filter(|it| self.is_judged(it.role)) {
+            let Some(quantity) = quantity(meaning.role) else { continue };
+            all.push((quantity, values(meaning, snapshot, exact)?));
         }
-        Ok(found)
+        Ok(all)
+    }
+
+    fn wants_u(&self) -> bool {
+        self.wanted.is_empty() || self.wanted.contains(&Quantity::Displacement)
+    }
+
+    /// Whether an array of that meaning is judged by itself: u is as it was found, x where it is asked for, and tractions
+    /// are of faces.
+    fn is_judged(&self, role: Role) -> bool {
+        match role {
+            Role::Reference | Role::Place | Role::Displacement | Role::Volume | Role::Mass => false,
+            Role::Traction | Role::Normal => false,
+            Role::Position => self.wanted.contains(&Quantity::Position),
+            _ => true,
+        }
     }
 
     fn weights(
@@ -227,193 +266,4 @@ impl Reading<'_> {
         }
         Ok(Some(weights.numbers))
     }
-}
-
-/// A snapshot with what is known of it.
-struct Taken<'a> {
-    snapshot: &'a Snapshot,
-    mesh: Mesh<'a>,
-    is_mesh: bool,
-    motion: &'a Motion,
-    time: f64,
-    rounding: f64,
-    exact: &'a mut Exact,
-}
-
-/// How many times the round-off of double precision a computation has at least.
-const ARITHMETIC: f64 = 16.0;
-
-impl Taken<'_> {
-    fn errors(
-        &mut self,
-        quantity: Quantity,
-        values: &Values,
-        weights: Option<&[f64]>,
-    ) -> anyhow::Result<Errors> {
-        let components = self.exact.components(quantity);
-        let middles;
-        let of_cells;
-        let (values, places): (&Values, &[f64]) = if values.is_of_cells {
-            middles = self.mesh.middles();
-            of_cells = self.of_full_cells(values);
-            (&of_cells, &middles)
-        } else {
-            (values, self.mesh.points)
-        };
-        let rows = values.numbers.len() / components;
-        let expected = places.len() / self.mesh.dimension;
-        if rows != expected {
-            bail!(
-                "{}: {} has {rows} values for {expected} points or cells of the dimension of the field",
-                self.snapshot.path,
-                quantity.name()
-            );
-        }
-        let exact = self.exact.values(quantity, self.time, places)?;
-        self.hold_finite(quantity, &exact)?;
-        let floor = self.floor(quantity, values, places, &exact)?;
-        let sampling = match (values.is_of_cells, self.is_mesh, weights) {
-            (true, ..) => Sampling::Middles,
-            (false, _, Some(_)) => Sampling::Weighted,
-            (false, true, None) => return self.over_cells(quantity, values, floor, &exact),
-            (false, false, None) => Sampling::Points,
-        };
-        let weights = weights.filter(|_| sampling == Sampling::Weighted);
-        if let Some(weights) = weights.filter(|it| it.len() != rows) {
-            bail!("{}: {} weights for {rows} points", self.snapshot.path, weights.len());
-        }
-        let found = over_points(&lengths(&values.numbers, &exact, components), weights);
-        let found =
-            found.ok_or_else(|| anyhow!("{}: no points with a weight", self.snapshot.path))?;
-        let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
-        Ok(self.result(
-            quantity,
-            values,
-            &exact,
-            sampling,
-            norms.map(|(name, error)| (name, Measure { error, floor })).to_vec(),
-        ))
-    }
-
-    /// The values of the cells that have the dimension of the mesh.
-    fn of_full_cells(&self, values: &Values) -> Values {
-        let rows = self.mesh.full().filter_map(|(cell, ..)| {
-            values.numbers.get(cell * values.components..)?.get(..values.components)
-        });
-        Values { numbers: rows.flatten().copied().collect(), ..*values }
-    }
-
-    fn over_cells(
-        &mut self,
-        quantity: Quantity,
-        values: &Values,
-        floor: f64,
-        at_points: &[f64],
-    ) -> anyhow::Result<Errors> {
-        let (components, time, dimension) =
-            (self.exact.components(quantity), self.time, self.mesh.dimension);
-        let gradient =
-            (quantity == Quantity::Displacement).then_some(Quantity::DisplacementGradient);
-        let exact = &mut *self.exact;
-        let mut asked = |asked: Asked, places: &[f64]| {
-            let found = match (asked, gradient) {
-                (Asked::Values, _) => exact.values(quantity, time, places),
-                (Asked::Gradients, Some(gradient)) => exact.values(gradient, time, places),
-                (Asked::Gradients, None) => Ok(vec![0.0; places.len() * components]),
-            };
-            found.map_err(|error| Mistake::new(format!("{error:#}")))
-        };
-        let measured = self.mesh.measure(&values.numbers, components, &mut asked);
-        let found = measured.map_err(|mistake| placed(mistake.of(&self.snapshot.path)))?;
-        let value = found.value;
-        let mut norms = vec![("l1", value.l1), ("l2", value.l2), ("linf", value.linf)];
-        norms.extend(gradient.map(|_| ("h1", found.gradient.l2)));
-        // Rounding in a value is one in a gradient over the size of a cell.
-        let size = self.mesh.sizes().map_or(1.0, |[shortest, _]| shortest);
-        let of_norm =
-            |name: &str| if name == "h1" { 2.0 * dimension as f64 * floor / size } else { floor };
-        let norms =
-            norms.into_iter().map(|(name, error)| (name, Measure { error, floor: of_norm(name) }));
-        let norms = norms.collect();
-        Ok(self.result(quantity, values, at_points, Sampling::Cells, norms))
-    }
-
-    fn result(
-        &self,
-        quantity: Quantity,
-        values: &Values,
-        exact: &[f64],
-        sampling: Sampling,
-        norms: Vec<(&'static str, Measure)>,
-    ) -> Errors {
-        Errors {
-            quantity,
-            sampling,
-            norms,
-            unit: unit(&values.numbers, exact),
-            stored: values.stored,
-        }
-    }
-
-    fn hold_finite(&self, quantity: Quantity, exact: &[f64]) -> anyhow::Result<()> {
-        let components = self.exact.components(quantity);
-        match exact.iter().position(|it| !it.is_finite()) {
-            None => Ok(()),
-            Some(at) => bail!(
-                "{}: the exact {} is {} there, t = {}: not defined, or beyond the range of f64",
-                self.snapshot.place(at / components),
-                quantity.name(),
-                exact[at],
-                self.time
-            ),
-        }
-    }
-
-    /// What rounding may make of the error: that of the values, of X, and of the time, and that of double precision.
-    fn floor(
-        &mut self,
-        quantity: Quantity,
-        values: &Values,
-        places: &[f64],
-        exact: &[f64],
-    ) -> anyhow::Result<f64> {
-        let components = self.exact.components(quantity);
-        let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-        let largest = match quantity {
-            // Components of sigma cancel in them.
-            Quantity::Pressure | Quantity::VonMises => {
-                largest(&self.exact.values(Quantity::CauchyStress, self.time, places)?)
-            }
-            _ => largest(exact),
-        };
-        let arithmetic = ARITHMETIC * f64::EPSILON * largest;
-        let mut floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
-        let reference = &self.motion.reference;
-        // u = x - X has the rounding of X already, and of it what the exact u makes besides.
-        if !matches!(reference.stored, Stored::Double | Stored::Whole) {
-            let moved: Vec<f64> = places.iter().map(|x| x + reference.rounding).collect();
-            let there = self.exact.values(quantity, self.time, &moved)?;
-            floor += largest_change(&there, exact, components);
-        }
-        if self.rounding > ARITHMETIC * f64::EPSILON * self.time.abs() {
-            let later = self.exact.values(quantity, self.time + self.rounding, places)?;
-            floor += largest_change(&later, exact, components);
-        }
-        Ok(floor)
-    }
-}
-
-fn largest_change(a: &[f64], b: &[f64], components: usize) -> f64 {
-    let changes = lengths(a, b, components).into_iter();
-    changes.filter(|it| it.is_finite()).fold(0.0, f64::max)
-}
-
-/// The power of ten by which values are larger than the exact ones, if they are that, and else alike.
-fn unit(computed: &[f64], exact: &[f64]) -> Option<i32> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let (own, square) = (dot(computed, computed), dot(exact, exact));
-    let alike = dot(computed, exact) / (own * square).sqrt();
-    let power = (own / square).sqrt().log10();
-    let is_one = alike > 0.99 && (power - power.round()).abs() < 0.02 && power.round() != 0.0;
-    is_one.then(|| power.round() as i32)
 }

@@ -5,12 +5,15 @@
 //! [`baseline`] and [`same`] compare results with results.
 
 mod baseline;
+mod expected;
 mod files;
+mod iterative;
 mod level;
+mod remarks;
 mod same;
+mod taken;
 mod times;
-
-use std::collections::BTreeMap;
+mod traction;
 
 use anyhow::{bail, ensure};
 use mms_spec::foreign::shown;
@@ -19,7 +22,7 @@ use mms_spec::quantity::Quantity;
 pub use baseline::{Baseline, Compared};
 pub use files::{Results, placed};
 pub use level::{Reading, Sampling, weight};
-pub use same::{Difference, same};
+pub use same::{Same, same};
 
 use self::level::{Errors, Found, Measure};
 use super::table::Orders;
@@ -34,11 +37,17 @@ pub struct Measurement {
     pub samplings: Vec<Sampling>,
     /// The times at which levels were compared.
     pub times: Vec<f64>,
+    /// Iterative errors, root mean squares, of quantities of which they are known.
+    pub iterative: Vec<(&'static str, f64)>,
     /// What was done, and why.
     pub notes: Vec<String>,
     /// What may be wrong.
     pub warnings: Vec<String>,
 }
+
+/// What part of the largest value may be hidden by rounding in a file whose values are called exact: a little more than
+/// single precision hides.
+const FINE: f64 = 1e-6;
 
 /// One mesh, measured at all times.
 struct Level {
@@ -51,8 +60,21 @@ struct Level {
 /// By how much cells of one mesh, or meshes of one study, may differ before it is said.
 const ALIKE: f64 = 1.01;
 
-/// Measures results of meshes. `sizes` are h, in the order of the results; without them they are those of cells, or
-/// those that counts of points say.
+/// How meshes are compared.
+pub struct Comparison<'a> {
+    /// h, in the order of the results; without them they are those of cells, or those that counts of points say.
+    pub sizes: &'a [f64],
+    /// The times that are wanted; without them all that meshes have in common.
+    pub times: &'a [f64],
+    /// The expected orders.
+    pub orders: &'a Orders,
+    /// Whether dt of each mesh is known, so that an order in time may be expected.
+    pub has_steps: bool,
+    /// Results of one of the meshes with a smaller tolerance of the solver.
+    pub tighter: Option<Results>,
+}
+
+/// Measures results of meshes.
 ///
 /// # Errors
 /// Results that are none of the field, and where.
@@ -60,32 +82,46 @@ pub fn measure(
     mut all: Vec<Results>,
     reading: &Reading<'_>,
     exact: &mut Exact,
-    sizes: &[f64],
-    wanted_times: &[f64],
-    orders: &Orders,
+    comparison: Comparison<'_>,
 ) -> anyhow::Result<Measurement> {
-    let common = times::common(&mut all, wanted_times, exact.window)?;
+    let Comparison { sizes, times, orders, has_steps, tighter } = comparison;
+    let meshes = all.len();
+    all.extend(tighter);
+    let common = times::common(&mut all, times, exact.window)?;
+    let (all, tighter) = all.split_at(meshes);
     let mut levels = Vec::new();
     for (results, snapshots) in all.iter().zip(&common.snapshots) {
         levels.push(level(results, snapshots, reading, exact)?);
     }
     let quantities = quantities(&levels)?;
-    let mut notes = vec![compared(&common)];
+    let mut notes = vec![remarks::compared(&common)];
+    if let [tighter] = tighter {
+        let (snapshots, own) = common.snapshots.split_at(meshes);
+        let given = ((all, snapshots), (tighter, own[0].as_slice()));
+        notes.push(iterative::raise(&mut levels, given.0, given.1, reading, exact)?);
+    }
     let mut warnings = Vec::new();
     let sizes = lengths(&levels, sizes, exact, &mut notes, &mut warnings)?;
     notes.push(format!("X: {}", levels[0].found.how));
     let samplings: Vec<Sampling> = quantities.iter().map(|(_, sampling)| *sampling).collect();
     hold_evidence(&levels[0], &samplings)?;
-    hold_orders(&quantities, orders)?;
-    notes.extend(norms(&quantities));
-    passed_over(&levels[0].found, &mut notes);
-    suspicions(&levels, &mut warnings);
+    let orders = &expected::named(orders);
+    expected::hold_orders(&quantities, orders, has_steps)?;
+    notes.extend(remarks::norms(&quantities));
+    remarks::passed_over(&levels[0].found, &mut notes);
+    let is_start = exact.is_start(&common.times)?;
+    remarks::suspicions(&levels, is_start, &mut warnings);
     let runs = sizes.iter().map(|&cell_size| Run { cell_size, time_step: None }).collect();
     let measured: Vec<_> =
-        quantities.iter().map(|(it, _)| quantity(*it, &levels, orders)).collect();
-    floors(&measured, &levels, &mut notes);
+        quantities.iter().map(|it| quantity(*it, &levels, orders, is_start)).collect();
+    remarks::floors(&measured, &levels, &mut notes);
     let measured = Measured { runs, quantities: measured };
-    Ok(Measurement { measured, samplings, times: common.times, notes, warnings })
+    let iterative = levels[0]
+        .errors
+        .iter()
+        .filter_map(|it| Some((it.quantity.name(), it.iterative?)))
+        .collect();
+    Ok(Measurement { measured, samplings, times: common.times, iterative, notes, warnings })
 }
 
 fn level(
@@ -125,8 +161,20 @@ fn level(
 }
 
 impl Errors {
+    /// Whether no error is more than rounding of the file makes.
+    fn is_noise(&self) -> bool {
+        self.norms.iter().all(|(_, measure)| measure.error <= measure.floor)
+    }
+
+    /// Whether none is, and the file has digits enough to tell.
+    fn is_exact(&self) -> bool {
+        let is_fine = |(_, measure): &(_, Measure)| measure.floor <= FINE * self.largest;
+        self.is_noise() && self.norms.iter().filter(|(name, _)| *name != "h1").all(is_fine)
+    }
+
     /// Keeps the larger of each norm.
     fn raise(&mut self, other: Errors) {
+        self.largest = self.largest.max(other.largest);
         self.unit = self.unit.filter(|unit| other.unit == Some(*unit));
         for ((_, most), (_, one)) in self.norms.iter_mut().zip(other.norms) {
             *most = Measure { error: most.error.max(one.error), floor: most.floor.max(one.floor) };
@@ -174,41 +222,6 @@ fn hold_evidence(level: &Level, samplings: &[Sampling]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Refuses orders of what is not judged.
-fn hold_orders(quantities: &[(Quantity, Sampling)], orders: &Orders) -> anyhow::Result<()> {
-    let norms = ["l1", "l2", "linf", "h1"];
-    let is_known = |name: &str| {
-        let is_named = |(it, _): &(Quantity, Sampling)| it.name() == name || it.symbol() == name;
-        norms.contains(&name) || quantities.iter().any(is_named)
-    };
-    if let Some((name, _)) = orders.named.iter().find(|(name, _)| !is_known(name)) {
-        let known: Vec<_> = quantities.iter().map(|(it, _)| it.symbol()).chain(norms).collect();
-        bail!(
-            "`--expected-order {}=..`: it is not judged; known are {}",
-            shown(name),
-            known.join(", ")
-        );
-    }
-    Ok(())
-}
-
-fn compared(common: &times::Common) -> String {
-    let times = match common.times.as_slice() {
-        [only] => format!("at t = {only:?}"),
-        times => format!(
-            "at {} times, from {:?} to {:?}: errors are the largest over them",
-            times.len(),
-            times[0],
-            times[times.len() - 1]
-        ),
-    };
-    match common.left_out {
-        0 => times,
-        1 => format!("{times}; 1 result is left out, at a time that not all have"),
-        several => format!("{times}; {several} results are left out, at times that not all have"),
-    }
-}
-
 /// h of each level, from the user, from cells or from counts.
 fn lengths(
     levels: &[Level],
@@ -246,57 +259,13 @@ fn lengths(
     Ok(levels.iter().map(|level| exact.spacing(level.found.points)).collect())
 }
 
-/// The norms, said once for those that are alike.
-fn norms(quantities: &[(Quantity, Sampling)]) -> Vec<String> {
-    let mut by_sampling: BTreeMap<&'static str, (Vec<&'static str>, &'static str)> =
-        BTreeMap::new();
-    for (quantity, sampling) in quantities {
-        let entry = by_sampling.entry(sampling.name()).or_insert((Vec::new(), sampling.says()));
-        entry.0.push(quantity.symbol());
-    }
-    by_sampling
-        .into_values()
-        .map(|(symbols, says)| format!("norms of {}: {says}", symbols.join(", ")))
-        .collect()
-}
-
-fn passed_over(found: &Found, notes: &mut Vec<String>) {
-    if !found.passed_over.is_empty() {
-        notes.push(format!("found and not judged: {}", found.passed_over.join(", ")));
-    }
-    if let Some(kind) = found.unknown {
-        notes.push(format!(
-            "cells of type {kind} of VTK are not known, so that norms are over points"
-        ));
-    }
-}
-
-fn suspicions(levels: &[Level], warnings: &mut Vec<String>) {
-    for errors in &levels[0].errors {
-        let name = errors.quantity.name();
-        let of =
-            |level: &Level| level.errors.iter().find(|it| it.quantity == errors.quantity).cloned();
-        let all: Vec<Errors> = levels.iter().filter_map(of).collect();
-        if let Some(power) =
-            errors.unit.filter(|power| all.iter().all(|it| it.unit == Some(*power)))
-        {
-            warnings.push(format!(
-                "{name} is 10^{power} times as large as the exact one: is it in another unit?"
-            ));
-        }
-        let is_noise =
-            |it: &Errors| it.norms.iter().all(|(_, measure)| measure.error <= measure.floor);
-        if all.iter().all(is_noise) {
-            warnings.push(format!(
-                "{name} is exact to round-off on every mesh: there is no order to observe. Is it what the solver \
-                 computed, and not the exact solution? Or does the method hold this field exactly?"
-            ));
-        }
-    }
-}
-
 /// What is judged of a quantity.
-fn quantity(of: Quantity, levels: &[Level], orders: &Orders) -> super::Quantity {
+fn quantity(
+    (of, sampling): (Quantity, Sampling),
+    levels: &[Level],
+    orders: &Orders,
+    is_start: bool,
+) -> super::Quantity {
     let errors: Vec<&Errors> = levels
         .iter()
         .filter_map(|level| level.errors.iter().find(|it| it.quantity == of))
@@ -304,36 +273,19 @@ fn quantity(of: Quantity, levels: &[Level], orders: &Orders) -> super::Quantity 
     let norm = |at: usize| {
         let name = errors[0].norms[at].0;
         let measures: Vec<Measure> = errors.iter().map(|it| it.norms[at].1).collect();
+        let (expected, favoured) = expected::expected(orders, (of, sampling), name);
         Norm {
             name: name.into(),
-            expected: orders.of(of.name(), of.symbol(), name),
+            expected,
+            favoured,
             errors: measures.iter().map(|it| Some(it.error)).collect(),
             floors: measures.iter().map(|it| it.floor).collect(),
+            // What a solver was given at the start shows nothing of it.
+            is_exact: !is_start && errors.iter().all(|it| it.is_exact()),
         }
     };
     super::Quantity {
         name: of.name().into(),
         norms: (0..errors[0].norms.len()).map(norm).collect(),
-    }
-}
-
-/// Says which levels are at the floor that rounding makes.
-fn floors(quantities: &[super::Quantity], levels: &[Level], notes: &mut Vec<String>) {
-    for quantity in quantities {
-        let Some(norm) = quantity.norms.iter().find(|norm| norm.name == *"l2") else { continue };
-        let at_floor = |(at, _): &(usize, &Level)| {
-            norm.errors[*at].is_some_and(|error| error < norm.floors[*at])
-        };
-        for (at, level) in levels.iter().enumerate().filter(at_floor) {
-            let stored = level.errors.iter().find(|it| it.quantity.name() == quantity.name.raw());
-            let stored = stored.map_or(String::new(), |it| format!(" ({})", it.stored.name()));
-            notes.push(format!(
-                "`{}`: the error of {} is at its floor of {:.1e}, which rounding of the file makes{stored}; it is left \
-                 out of the verdict",
-                shown(&level.name),
-                quantity.name.shown(),
-                norm.floors[at]
-            ));
-        }
     }
 }

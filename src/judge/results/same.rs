@@ -1,9 +1,11 @@
-//! Two results of one run: how far they differ, and where.
+//! Two results of one run: how far they differ, and where. Points may stand in another order.
 
 use anyhow::{bail, ensure};
+use mms_results::names::Mapping;
+use mms_results::pairing::{self, By, Pairs};
 use mms_results::{Array, Snapshot};
 
-use super::Results;
+use super::{Results, placed};
 
 /// The largest difference of an array.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,11 +29,22 @@ impl Difference {
     }
 }
 
-/// The differences of all arrays that two results have both, the largest over times, and the names of those that one has.
+/// Two results, compared.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Same {
+    /// The differences of all arrays that both have, the largest over times.
+    pub differences: Vec<Difference>,
+    /// The names of those that one has.
+    pub alone: Vec<String>,
+    /// How points were paired.
+    pub paired: String,
+}
+
+/// Compares two results, point by point.
 ///
 /// # Errors
 /// Results of other times or of other points.
-pub fn same(a: &Results, b: &Results) -> anyhow::Result<(Vec<Difference>, Vec<String>)> {
+pub fn same(a: &Results, b: &Results, map: &[Mapping]) -> anyhow::Result<Same> {
     ensure!(
         a.snapshots.len() == b.snapshots.len(),
         "`{}` has {} times, and `{}` {}",
@@ -40,7 +53,7 @@ pub fn same(a: &Results, b: &Results) -> anyhow::Result<(Vec<Difference>, Vec<St
         b.name,
         b.snapshots.len()
     );
-    let (mut differences, mut alone) = (Vec::<Difference>::new(), Vec::new());
+    let mut same = Same::default();
     for (one, other) in a.snapshots.iter().zip(&b.snapshots) {
         let times = [one, other].map(|it| it.time.map(|time| time.value));
         if let [Some(first), Some(second)] = times
@@ -48,69 +61,98 @@ pub fn same(a: &Results, b: &Results) -> anyhow::Result<(Vec<Difference>, Vec<St
         {
             bail!("{}: t = {first}, and {second} in {}", one.path, other.path);
         }
-        let (found, missing) = compare(one, other)?;
-        found.into_iter().for_each(|it| keep(&mut differences, it));
-        alone.extend(missing);
+        same.compare(one, other, map)?;
     }
-    alone.sort();
-    alone.dedup();
-    Ok((differences, alone))
+    same.alone.sort();
+    same.alone.dedup();
+    Ok(same)
 }
 
-/// Keeps the larger difference of each array; what is no number is the largest.
-fn keep(all: &mut Vec<Difference>, one: Difference) {
-    match all.iter_mut().find(|it| it.name == one.name) {
-        None => all.push(one),
-        Some(most) if one.largest > most.largest || one.largest.is_nan() => *most = one,
-        Some(_) => {}
+impl Same {
+    fn compare(&mut self, one: &Snapshot, other: &Snapshot, map: &[Mapping]) -> anyhow::Result<()> {
+        let named =
+            |snapshot: &'_ Snapshot, name: &str| arrays(snapshot).any(|(it, _)| it.name == name);
+        for (from, to) in [(one, other), (other, one)] {
+            let missing = arrays(from).filter(|(it, _)| !named(to, &it.name));
+            self.alone.extend(missing.map(|(it, _)| it.name.clone()));
+        }
+        let (points, by) = pairing::points(one, other, map).map_err(placed)?;
+        let cells = pairing::cells(one, other, &points).map_err(placed)?;
+        self.paired = match by {
+            By::Number(name) => format!("by the number in `{name}`"),
+            By::Place => "by X".into(),
+            By::Order => "in the order of the files, for neither numbers nor X tell".into(),
+        };
+        for (array, is_of_points) in arrays(one) {
+            let second =
+                arrays(other).find(|(it, of)| it.name == array.name && *of == is_of_points);
+            let Some((second, _)) = second else { continue };
+            let (of_all, pairs) = match is_of_points {
+                true => ([one, other].map(Snapshot::rows), &points),
+                false => ([one, other].map(|it| it.cells.len()), &cells),
+            };
+            let rows = [array, second].map(Array::rows);
+            // What is neither of points nor of cells has an order of its own.
+            let in_order = Pairs::InOrder(rows[0]);
+            let pairs = if rows == of_all { pairs } else { &in_order };
+            ensure!(
+                rows == of_all || rows[0] == rows[1],
+                "{}: `{}` has {} rows, and {} in {}",
+                one.path,
+                array.name,
+                rows[0],
+                rows[1],
+                other.path
+            );
+            ensure!(
+                array.components == second.components,
+                "{}: `{}` has {} components, and {} in {}",
+                one.path,
+                array.name,
+                array.components,
+                second.components,
+                other.path
+            );
+            let (row, largest) = farthest(array, second, pairs);
+            let place =
+                if is_of_points { one.place(row) } else { format!("{}: cell {row}", one.path) };
+            let both = array.values.iter().chain(&second.values);
+            let magnitude = both.fold(0.0, |most: f64, it| most.max(it.abs()));
+            let time = one.time.map(|time| time.value);
+            self.keep(Difference { name: array.name.clone(), time, largest, magnitude, place });
+        }
+        Ok(())
     }
+
+    /// Keeps the larger difference of each array; what is no number is the largest.
+    fn keep(&mut self, one: Difference) {
+        match self.differences.iter_mut().find(|it| it.name == one.name) {
+            None => self.differences.push(one),
+            Some(most) if one.largest > most.largest || one.largest.is_nan() => *most = one,
+            Some(_) => {}
+        }
+    }
+}
+
+/// The largest difference of a number, and the row of it in the first array.
+fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
+    let size = one.components;
+    let mut most = (0, 0.0_f64);
+    for [a, b] in pairs.iter() {
+        let numbers = one.values[a * size..][..size].iter().zip(&other.values[b * size..][..size]);
+        for (x, y) in numbers {
+            let far = if x == y { 0.0 } else { (x - y).abs() };
+            // What is no number differs most of all.
+            if far > most.1 || far.is_nan() && !most.1.is_nan() {
+                most = (a, far);
+            }
+        }
+    }
+    most
 }
 
 /// All arrays, and whether they are of points.
 fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (&Array, bool)> {
     let points = snapshot.points.iter().chain(&snapshot.of_points).map(|array| (array, true));
     points.chain(snapshot.of_cells.iter().map(|array| (array, false)))
-}
-
-fn compare(one: &Snapshot, other: &Snapshot) -> anyhow::Result<(Vec<Difference>, Vec<String>)> {
-    let named =
-        |snapshot: &'_ Snapshot, name: &str| arrays(snapshot).any(|(it, _)| it.name == name);
-    let mut alone: Vec<String> = Vec::new();
-    for (from, to) in [(one, other), (other, one)] {
-        let missing = arrays(from).filter(|(it, _)| !named(to, &it.name));
-        alone.extend(missing.map(|(it, _)| it.name.clone()));
-    }
-    let mut differences = Vec::new();
-    for (array, is_of_points) in arrays(one) {
-        let Some((second, _)) =
-            arrays(other).find(|(it, of)| it.name == array.name && *of == is_of_points)
-        else {
-            continue;
-        };
-        ensure!(
-            array.values.len() == second.values.len(),
-            "{}: `{}` has {} numbers, and {} in {}",
-            one.path,
-            array.name,
-            array.values.len(),
-            second.values.len(),
-            other.path
-        );
-        let far = array
-            .values
-            .iter()
-            .zip(&second.values)
-            .map(|(a, b)| if a == b { 0.0 } else { (a - b).abs() });
-        let (at, largest) = far.enumerate().fold((0, 0.0_f64), |most, (at, far)| {
-            // What is no number differs most of all.
-            if far > most.1 || far.is_nan() && !most.1.is_nan() { (at, far) } else { most }
-        });
-        let row = at / array.components;
-        let place = if is_of_points { one.place(row) } else { format!("{}: cell {row}", one.path) };
-        let both = array.values.iter().chain(&second.values);
-        let magnitude = both.fold(0.0, |most: f64, it| most.max(it.abs()));
-        let time = one.time.map(|time| time.value);
-        differences.push(Difference { name: array.name.clone(), time, largest, magnitude, place });
-    }
-    Ok((differences, alone))
 }

@@ -4,9 +4,7 @@ use anyhow::bail;
 use mms_results::{Snapshot, Time};
 
 use super::files::Results;
-
-/// What part of the time window two times may differ by that are the same: sums of time steps round.
-const SAME: f64 = 1e-9;
+use crate::session::exact::SAME;
 
 /// Times at which all meshes have results, or those that are wanted; and how many each has that are left out.
 pub struct Common {

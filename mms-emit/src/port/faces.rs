@@ -1,0 +1,34 @@
+//! The faces of the body, and what is claimed on each.
+
+use super::Port;
+use mms_spec::{Claim, Face, FieldSpec};
+
+/// What is claimed on each face of the body, in the order of faces.
+pub fn claims(field: &FieldSpec) -> Vec<(Face, Claim)> {
+    let claim = |face: Face| {
+        let claimed = field.boundary.iter().find(|it| it.face.value == face);
+        // What is not claimed is prescribed.
+        claimed.map_or(Claim::Prescribed, |it| it.claim.value)
+    };
+    let faces = Face::of(&field.domain.body, field.dimension);
+    faces.into_iter().map(|face| (face, claim(face))).collect()
+}
+
+/// What stands above the claims in emitted code.
+pub const DOC: &str = "What is claimed on each face of the body.";
+
+impl Port<'_> {
+    /// The names of faces, each with the word for its claim; none where only quantities were asked for.
+    pub fn faces(&self) -> Vec<[&'static str; 2]> {
+        if !self.compiled.selection.is_for_a_solver() {
+            return Vec::new();
+        }
+        let claims = claims(&self.compiled.field).into_iter();
+        claims.map(|(face, claim)| [face.name(), claim.name()]).collect()
+    }
+
+    /// A line for each face.
+    pub fn claims(&self, line: impl Fn(&str, &str) -> String) -> String {
+        self.faces().into_iter().map(|[face, claim]| line(face, claim) + "\n").collect()
+    }
+}

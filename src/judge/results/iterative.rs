@@ -1,0 +1,107 @@
+//! The iterative error of a solver: how far results are from those of a smaller tolerance on the same mesh.
+
+use anyhow::{Context as _, bail, ensure};
+use mms_results::norm::{lengths, over_points};
+use mms_results::pairing::{self, Pairs};
+use mms_results::{Snapshot, names::Values};
+use mms_spec::foreign::shown;
+use mms_spec::quantity::Quantity;
+
+use super::Level;
+use super::files::{Results, placed};
+use super::level::Reading;
+use crate::session::exact::Exact;
+
+/// How much smaller than an error of discretisation an iterative error must be, that an order is not changed by it: one
+/// percent of the error moves it by 0.01 or so (Eca & Hoekstra, Int. J. Numer. Meth. Fluids 60, 2009, 499-530).
+pub const HUNDRED: f64 = 100.0;
+
+/// Raises the floors of all levels to a hundred times the iterative error that is found on one: tolerances are the same on
+/// all meshes. Which of them it is, the number of points tells.
+///
+/// # Errors
+/// Results of none of the meshes.
+pub fn raise(
+    levels: &mut [Level],
+    (all, snapshots): (&[Results], &[Vec<usize>]),
+    (tighter, own): (&Results, &[usize]),
+    reading: &Reading<'_>,
+    exact: &mut Exact,
+) -> anyhow::Result<String> {
+    let mut found: Vec<(Quantity, [f64; 3])> = Vec::new();
+    let points = |results: &Results, at: usize| results.snapshots[at].rows();
+    let mesh = (0..all.len())
+        .find(|&mesh| points(&all[mesh], snapshots[mesh][0]) == points(tighter, own[0]))
+        .with_context(|| {
+            format!(
+                "`--tighter {}`: {} points, which no FILE has; give results of one of these meshes",
+                shown(&tighter.name),
+                points(tighter, own[0])
+            )
+        })?;
+    for (&one, &other) in snapshots[mesh].iter().zip(own) {
+        let pair = [&all[mesh].snapshots[one], &tighter.snapshots[other]];
+        for (quantity, norms) in differences(pair, reading, exact)? {
+            match found.iter_mut().find(|(it, _)| *it == quantity) {
+                Some((_, most)) => most.iter_mut().zip(norms).for_each(|(a, b)| *a = a.max(b)),
+                None => found.push((quantity, norms)),
+            }
+        }
+    }
+    ensure!(!found.is_empty(), "`--tighter {}`: no quantity that is judged", shown(&tighter.name));
+    let size = levels[mesh].found.sizes.map_or(1.0, |[shortest, _]| shortest);
+    let dimension = exact.dimension as f64;
+    for errors in levels.iter_mut().flat_map(|level| &mut level.errors) {
+        let Some((_, [l1, l2, linf])) = found.iter().find(|(it, _)| *it == errors.quantity) else {
+            continue;
+        };
+        errors.iterative = Some(*l2);
+        for (name, measure) in &mut errors.norms {
+            let own = match *name {
+                "l1" => *l1,
+                "l2" => *l2,
+                "linf" => *linf,
+                // As that of rounding.
+                _ => 2.0 * dimension * l2 / size,
+            };
+            measure.floor = measure.floor.max(HUNDRED * own);
+        }
+    }
+    let shares =
+        found.iter().map(|(quantity, norms)| format!("{} {:.1e}", quantity.symbol(), norms[1]));
+    Ok(format!(
+        "iterative errors, from `{}`, root mean squares: {}; they are to be a hundred times smaller than errors",
+        shown(&tighter.name),
+        shares.collect::<Vec<_>>().join(", ")
+    ))
+}
+
+/// The mean, the root of the mean square and the largest difference of each quantity.
+fn differences(
+    [one, other]: [&Snapshot; 2],
+    reading: &Reading<'_>,
+    exact: &Exact,
+) -> anyhow::Result<Vec<(Quantity, [f64; 3])>> {
+    let (pairs, _) = pairing::points(one, other, reading.map).map_err(placed)?;
+    let (of_one, of_other) = (reading.all(one, exact)?, reading.all(other, exact)?);
+    let mut found = Vec::new();
+    for (quantity, a) in &of_one {
+        let Some((_, b)) = of_other.iter().find(|(it, _)| it == quantity) else { continue };
+        let norms = match a.is_of_cells || pairs == Pairs::InOrder(a.numbers.len() / a.components) {
+            true if a.numbers.len() == b.numbers.len() => {
+                over_points(lengths(&a.numbers, &b.numbers, a.components), None)
+            }
+            true => bail!("{}: {} is of other points or cells", other.path, quantity.name()),
+            false => over_points(paired(a, b, &pairs), None),
+        };
+        found.extend(norms.map(|it| (*quantity, [it.l1, it.l2, it.linf])));
+    }
+    Ok(found)
+}
+
+fn paired(a: &Values, b: &Values, pairs: &Pairs) -> impl Iterator<Item = f64> {
+    let size = a.components;
+    pairs.iter().flat_map(move |[i, j]| {
+        lengths(&a.numbers[i * size..][..size], &b.numbers[j * size..][..size], size)
+    })
+}

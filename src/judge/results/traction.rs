@@ -1,0 +1,152 @@
+//! Tractions of faces: at their points, by their normals.
+
+use anyhow::{anyhow, bail, ensure};
+use mms_results::Stored;
+use mms_results::names::{Meaning, Role, Values};
+use mms_spec::Face;
+use mms_spec::quantity::Quantity;
+
+use super::files::placed;
+use super::level::{Errors, Sampling};
+use super::taken::Taken;
+
+/// How far the length of a normal may be from 1.
+const UNIT: f64 = 1e-3;
+
+/// Points of faces with their normals, and the tractions that were computed there.
+#[derive(Default)]
+struct Loaded {
+    places: Vec<f64>,
+    normals: Vec<f64>,
+    tractions: Vec<f64>,
+    rounding: f64,
+    stored: Option<Stored>,
+}
+
+impl Loaded {
+    /// Adds rows of values, each with its normal.
+    fn add(&mut self, places: &[f64], values: &Values, rows: &[usize], normals: &[f64]) {
+        let size = values.components;
+        for &row in rows {
+            self.places.extend(&places[row * size..][..size]);
+            self.tractions.extend(&values.numbers[row * size..][..size]);
+        }
+        self.normals.extend(normals);
+        self.rounding = self.rounding.max(values.rounding);
+        let coarser = |it: Stored| {
+            if it.rounding(1.0) > values.stored.rounding(1.0) { it } else { values.stored }
+        };
+        self.stored = Some(self.stored.map_or(values.stored, coarser));
+    }
+}
+
+impl Taken<'_> {
+    /// The errors of tractions, where there are such: of those of a face at its points; of others by the normals beside them,
+    /// or at the points that lie on one face alone.
+    ///
+    /// # Errors
+    /// A face that the body does not have, or without points; normals that are none.
+    pub fn tractions(&mut self, meanings: &[Meaning]) -> anyhow::Result<Option<Errors>> {
+        let mut loaded = Loaded::default();
+        for meaning in meanings.iter().filter(|it| it.role == Role::Traction) {
+            let values = self.of_points(meaning)?;
+            let normal = meanings.iter().find(|it| it.role == Role::Normal);
+            match (meaning.face, normal) {
+                (Some(face), _) => self.of_face(face, &values, &mut loaded)?,
+                (None, Some(normal)) => {
+                    let normals = self.of_points(normal)?;
+                    self.of_normals(&values, &normals, &mut loaded)?;
+                }
+                (None, None) => self.of_faces(&values, &mut loaded)?,
+            }
+        }
+        let Loaded { places, normals, tractions, rounding, stored } = loaded;
+        let Some(stored) = stored else { return Ok(None) };
+        let components = self.mesh.dimension;
+        let values =
+            Values { numbers: tractions, components, rounding, stored, is_of_cells: false };
+        let solution = |exact: &mut crate::session::exact::Exact, time: f64, places: &[f64]| {
+            exact.tractions_by(&normals, time, places)
+        };
+        let exact = solution(self.exact, self.time, &places)?;
+        self.hold_finite(Quantity::Traction, &exact)?;
+        let floor = self.floor(Quantity::Traction, &values, (&places, &exact), &solution)?;
+        let found =
+            self.over_points(Quantity::Traction, &values, &exact, (Sampling::Faces, None, floor));
+        found.map(Some)
+    }
+
+    fn of_points(&self, meaning: &Meaning) -> anyhow::Result<Values> {
+        let values = meaning.values(self.snapshot, self.mesh.dimension).map_err(placed)?;
+        let (rows, points) = (values.numbers.len(), self.mesh.points.len());
+        ensure!(
+            !values.is_of_cells && rows == points,
+            "{}: `{}`: expected a vector for each point",
+            self.snapshot.path,
+            meaning.source
+        );
+        Ok(values)
+    }
+
+    fn of_face(&self, name: &str, values: &Values, loaded: &mut Loaded) -> anyhow::Result<()> {
+        let faces = self.exact.faces(self.mesh.points, self.motion.reference.rounding);
+        let found = faces.into_iter().find(|(face, _)| face.name() == name);
+        let (face, rows) = found.ok_or_else(|| {
+            anyhow!("{}: `traction_{name}`: no point lies on such a face", self.snapshot.path)
+        })?;
+        self.add_face(face, &rows, values, loaded);
+        Ok(())
+    }
+
+    fn add_face(&self, face: Face, rows: &[usize], values: &Values, loaded: &mut Loaded) {
+        let (points, size) = (self.mesh.points, self.mesh.dimension);
+        let places: Vec<f64> =
+            rows.iter().flat_map(|row| &points[row * size..][..size]).copied().collect();
+        loaded.add(points, values, rows, &self.exact.normals(face, &places));
+    }
+
+    /// Where a normal is not 0.
+    fn of_normals(
+        &self,
+        values: &Values,
+        normals: &Values,
+        loaded: &mut Loaded,
+    ) -> anyhow::Result<()> {
+        let mut rows = Vec::new();
+        let mut units = Vec::new();
+        for (row, normal) in normals.numbers.chunks(normals.components).enumerate() {
+            let length = normal.iter().map(|it| it * it).sum::<f64>().sqrt();
+            if length == 0.0 {
+                continue;
+            }
+            if (length - 1.0).abs() > UNIT {
+                bail!(
+                    "{}: the normal has a length of {length}; expected a unit normal, or 0 where no face is",
+                    self.snapshot.place(row)
+                );
+            }
+            rows.push(row);
+            units.extend(normal.iter().map(|it| it / length));
+        }
+        ensure!(!rows.is_empty(), "{}: all normals are 0", self.snapshot.path);
+        loaded.add(self.mesh.points, values, &rows, &units);
+        Ok(())
+    }
+
+    /// At points of one face alone: those of two have two tractions.
+    fn of_faces(&self, values: &Values, loaded: &mut Loaded) -> anyhow::Result<()> {
+        let faces = self.exact.faces(self.mesh.points, self.motion.reference.rounding);
+        let mut count = vec![0; self.mesh.points.len() / self.mesh.dimension];
+        faces.iter().flat_map(|(_, rows)| rows).for_each(|&row| count[row] += 1);
+        for (face, rows) in faces {
+            let alone: Vec<usize> = rows.into_iter().filter(|&row| count[row] == 1).collect();
+            self.add_face(face, &alone, values, loaded);
+        }
+        ensure!(
+            !loaded.places.is_empty(),
+            "{}: `traction`: no point lies on one face alone; name the face, as in `traction_x_max`, or give unit normals N",
+            self.snapshot.path
+        );
+        Ok(())
+    }
+}
