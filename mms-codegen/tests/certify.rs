@@ -66,6 +66,7 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
         let shown = file.display();
         assert!(certificate.objections(&compiled).is_empty(), "{shown}: {certificate:?}");
         assert_eq!(certificate.finite, Finite::Proved, "{shown}");
+        assert!(!matches!(certificate.ellipticity, Ellipticity::Lost(_)), "{shown}");
         unproved += usize::from(certificate.ellipticity == Ellipticity::Unproved);
         for (claim, finding) in &certificate.claims {
             assert_eq!(*finding, Finding::Proved, "{shown}: {}", claim.face.value.name());

@@ -40,6 +40,11 @@ impl<const D: usize> Elasticity<D> {
         })
     }
 
+    /// The least of h_iJ A_iJkL h_kL over all h of length 1.
+    pub fn least_eigenvalue(&self) -> f64 {
+        DMatrix::from_row_slice(D * D, D * D, &self.components).symmetric_eigenvalues().min()
+    }
+
     /// The least eigenvalue of the acoustic tensor of waves along a direction N.
     pub fn least_acoustic(&self, normal: &SVector<f64, D>) -> f64 {
         least_eigenvalue(&self.contract(normal, normal))

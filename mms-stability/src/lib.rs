@@ -1,19 +1,22 @@
 //! Whether a compiled field is fit to verify with: a stable solution of its own problem, which a solver can follow.
 //!
-//! Three kinds of disturbances can grow on an exact motion, and then no solver follows it, however right it is:
+//! Four kinds of disturbances can grow on an exact motion, and then no solver follows it, however right it is:
 //!
 //! | of | grows where | here |
 //! |---|---|---|
 //! | short waves in the body | an acoustic tensor is not positive definite | `waves` |
 //! | short waves on a face that can move | the surface impedance is not positive definite | `faces`, `impedance` |
+//! | what is short at a corner of such faces | the second variation of a quadrant is not positive | `corners` |
 //! | long waves | the tangent on a coarse mesh has a negative eigenvalue | `growth` |
 //!
 //! What is looked at here is sampled, at the defaults of the parameters: what is said of it proves nothing. The proof of
 //! strong ellipticity is `mms_codegen::certify`'s.
 
 mod chart;
+pub mod corners;
 pub mod elasticity;
 pub mod faces;
+pub mod fibres;
 pub mod growth;
 pub mod impedance;
 mod least;

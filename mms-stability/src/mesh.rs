@@ -17,7 +17,7 @@ const ELEMENTS: [usize; 3] = [8, 4, 2];
 const ELEMENTS_AROUND: usize = 8;
 
 /// Points of an element along each axis, as fractions of it, and their weights (Gauss, three points).
-const GAUSS: [[f64; 2]; 3] = [
+pub(crate) const GAUSS: [[f64; 2]; 3] = [
     [0.112_701_665_379_258_3, 5.0 / 18.0],
     [0.5, 4.0 / 9.0],
     [0.887_298_334_620_741_7, 5.0 / 18.0],
@@ -184,7 +184,7 @@ fn ternary<const D: usize>(mut number: usize) -> [usize; D] {
 }
 
 /// The quadratic polynomial that is 1 at one of the fractions 0, 1/2 and 1 and 0 at the others, and its slope.
-fn quadratic(node: usize, x: f64) -> [f64; 2] {
+pub(crate) fn quadratic(node: usize, x: f64) -> [f64; 2] {
     match node {
         0 => [(1.0 - x) * (1.0 - 2.0 * x), 4.0 * x - 3.0],
         1 => [4.0 * x * (1.0 - x), 4.0 - 8.0 * x],

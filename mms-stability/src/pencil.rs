@@ -1,6 +1,6 @@
 //! The least eigenvalue of K v = w^2 M v with symmetric K and positive definite M.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// How many vectors a Krylov space has at most.
 const VECTORS: usize = 40;
@@ -24,8 +24,8 @@ impl Pencil {
     /// The least eigenvalue over all vectors that are M-orthogonal to the given ones, which are M-orthonormal. A shift of
     /// the size of the least eigenvalues, `near`, is cheapest. `None` where there is no such vector.
     ///
-    /// K + s M is factored, with s so great that it is positive definite; the greatest eigenvalues of its inverse times M are
-    /// those sought (Lanczos 1950, with full orthogonalisation; Ericsson & Ruhe, Math. Comp. 35, 1980).
+    /// K + s M is factored, with s so great that it is positive definite; the greatest eigenvalues of its inverse on these
+    /// vectors, times M, are those sought (Lanczos 1950, with full orthogonalisation; Ericsson & Ruhe, Math. Comp. 35, 1980).
     pub fn least(&self, apart: &[DVector<f64>], near: f64) -> Option<f64> {
         let order = self.mass.nrows();
         if apart.len() >= order {
@@ -35,13 +35,15 @@ impl Pencil {
         let (shift, factor) = shifts.find_map(|shift| {
             Some((shift, Cholesky::new(&self.stiffness + &self.mass * shift)?))
         })?;
+        let inverse = Inverse::new(factor, &self.mass, apart)?;
         let mut known = apart.to_vec();
         let mut vector = self.normal(start(order), &known)?;
+        let mut heavy = &self.mass * &vector;
         let (mut diagonal, mut beside) = (Vec::new(), Vec::new());
         let mut least = f64::INFINITY;
         for _ in 0..VECTORS.min(order - apart.len()) {
-            let image = factor.solve(&(&self.mass * &vector));
-            diagonal.push(image.dot(&(&self.mass * &vector)));
+            let image = inverse.of(&heavy);
+            diagonal.push(image.dot(&heavy));
             known.push(vector);
             let found = 1.0 / largest(&diagonal, &beside) - shift;
             let change = least - found;
@@ -50,7 +52,8 @@ impl Pencil {
             if change.abs() <= CONVERGED * shift.max(found.abs()) {
                 break;
             }
-            beside.push(image.dot(&(&self.mass * &next)));
+            heavy = &self.mass * &next;
+            beside.push(image.dot(&heavy));
             vector = next;
         }
         Some(least)
@@ -58,16 +61,48 @@ impl Pencil {
 
     /// A vector less its parts along others, of length 1 in M; `None` where nothing is left.
     pub fn normal(&self, mut vector: DVector<f64>, known: &[DVector<f64>]) -> Option<DVector<f64>> {
-        let whole = vector.dot(&(&self.mass * &vector)).sqrt();
+        let mut heavy = &self.mass * &vector;
+        let whole = vector.dot(&heavy).sqrt();
         // Once more for what rounding leaves of the parts.
         for _ in 0..2 {
-            for other in known {
-                let part = vector.dot(&(&self.mass * other));
-                vector.axpy(-part, other, 1.0);
-            }
+            let parts: Vec<_> = known.iter().map(|other| other.dot(&heavy)).collect();
+            known.iter().zip(parts).for_each(|(other, part)| vector.axpy(-part, other, 1.0));
+            heavy = &self.mass * &vector;
         }
-        let length = vector.dot(&(&self.mass * &vector)).sqrt();
+        let length = vector.dot(&heavy).sqrt();
         (length > 1e-10 * whole).then(|| vector / length)
+    }
+}
+
+/// The inverse of a matrix on the vectors that are M-orthogonal to some: what keeps a solution there is a multiplier for
+/// each of these.
+struct Inverse {
+    factor: Cholesky<f64, Dyn>,
+    /// M times what is held, the inverse times that, and the matrix of the multipliers.
+    held: DMatrix<f64>,
+    moved: DMatrix<f64>,
+    multipliers: Cholesky<f64, Dyn>,
+}
+
+impl Inverse {
+    fn new(
+        factor: Cholesky<f64, Dyn>,
+        mass: &DMatrix<f64>,
+        apart: &[DVector<f64>],
+    ) -> Option<Self> {
+        let held = match apart {
+            [] => DMatrix::zeros(mass.nrows(), 0),
+            _ => mass * DMatrix::from_columns(apart),
+        };
+        let moved = factor.solve(&held);
+        let multipliers = Cholesky::new(held.tr_mul(&moved))?;
+        Some(Inverse { factor, held, moved, multipliers })
+    }
+
+    fn of(&self, vector: &DVector<f64>) -> DVector<f64> {
+        let free = self.factor.solve(vector);
+        let multipliers = self.multipliers.solve(&self.held.tr_mul(&free));
+        free - &self.moved * multipliers
     }
 }
 
@@ -87,4 +122,28 @@ fn largest(diagonal: &[f64], beside: &[f64]) -> f64 {
 fn start(order: usize) -> DVector<f64> {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     DVector::from_fn(order, |row, _| ((row + 1) as f64 * golden).fract() - 0.4)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+
+    use super::Pencil;
+
+    /// What is set apart need not be an eigenvector: then the rest is that of the matrix between projections.
+    #[test]
+    fn vectors_are_set_apart_that_are_no_eigenvectors() {
+        let stiffness = DMatrix::from_fn(5, 5, |row, column| match row.abs_diff(column) {
+            0 => row as f64 - 1.0,
+            1 => 0.7,
+            _ => 0.0,
+        });
+        let apart = DVector::from_vec(vec![0.5, -0.1, 0.5, 0.5, 0.7]).normalize();
+        let onto = DMatrix::identity(5, 5) - &apart * apart.transpose();
+        let values = (&onto * &stiffness * &onto).symmetric_eigenvalues();
+        let expected = values.min();
+        let pencil = Pencil { stiffness, mass: DMatrix::identity(5, 5) };
+        let found = pencil.least(&[apart], 0.1).expect("something is left");
+        assert!(expected < -0.1 && (found - expected).abs() < 1e-6, "{found} {expected}");
+    }
 }

@@ -6,7 +6,7 @@ use crate::elasticity::Elasticity;
 use crate::subject::{Formulas, Resting, Subject};
 
 /// What differs from an isotropic tangent by less than this part of it is isotropic.
-const ISOTROPIC: f64 = 1e-9;
+pub(crate) const ISOTROPIC: f64 = 1e-9;
 
 /// The material of a field at F = I.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,9 +93,10 @@ impl Resting {
     }
 
     /// dP/dF less what a stress at rest adds to it, P_JL d_ik.
-    fn stiffness(&self) -> Elasticity<3> {
+    pub(crate) fn stiffness(&self) -> Elasticity<3> {
         Elasticity::from_fn(|[i, j, k, l]| {
-            let stress = if i == k { self.stress[j * 3 + l] } else { 0.0 };
+            let adds = self.is_frame_indifferent && i == k;
+            let stress = if adds { self.stress[j * 3 + l] } else { 0.0 };
             self.tangent.at([i, j, k, l]) - stress
         })
     }

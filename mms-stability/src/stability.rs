@@ -2,6 +2,7 @@
 
 use mms_codegen::compile::Compiled;
 
+use crate::corners::{Corner, corners};
 use crate::faces::{Surface, surfaces};
 use crate::growth::{Growth, growth};
 use crate::resting::Material;
@@ -18,6 +19,8 @@ pub struct Stability {
     pub waves: Option<Waves>,
     /// Short waves on every face that is loaded, free or on rollers.
     pub surfaces: Vec<Surface>,
+    /// The corners of these.
+    pub corners: Vec<Corner>,
     /// Long waves; `None` where nothing is free to move.
     pub growth: Option<Growth>,
     /// Whether the budget ended first: what was not looked at may grow.
@@ -44,6 +47,7 @@ fn judged<const D: usize>(compiled: &Compiled, formulas: &Formulas) -> Stability
         material: Material::of_subject(&mut subject),
         waves: waves(&mut subject),
         surfaces: surfaces(compiled, &mut subject),
+        corners: corners(compiled, &mut subject),
         growth: growth(compiled, &mut subject),
         is_spent: formulas.is_spent(),
         is_static: subject.is_static,

@@ -43,6 +43,7 @@ pub struct Formulas {
     work: Work,
     /// Whether u does not depend on t.
     is_static: bool,
+    is_frame_indifferent: bool,
 }
 
 impl Formulas {
@@ -67,7 +68,9 @@ impl Formulas {
         ]);
         let program = schedule_plainly(&graph, &outputs);
         let work = graph.work().share();
-        Formulas { program, parameters: compiled.parameters(&BTreeMap::new()), work, is_static }
+        let is_frame_indifferent = compiled.material.frame_indifferent;
+        let parameters = compiled.parameters(&BTreeMap::new());
+        Formulas { program, parameters, work, is_static, is_frame_indifferent }
     }
 
     /// Whether evaluating more takes too long: then no state has a value.
@@ -103,6 +106,8 @@ pub struct Resting {
     pub stress: Vec<f64>,
     /// dP/dF, the last index fastest.
     pub tangent: Elasticity<3>,
+    /// Whether rotations cost no energy: a stress at rest then adds to dP/dF.
+    pub is_frame_indifferent: bool,
 }
 
 /// A compiled field, evaluated.
@@ -113,6 +118,7 @@ pub struct Subject<'a, const D: usize> {
     pub window: [f64; 2],
     /// Whether u does not depend on t.
     pub is_static: bool,
+    is_frame_indifferent: bool,
     work: &'a Work,
     field: Evaluated<'a, f64>,
     material: Evaluated<'a, Dual<f64>>,
@@ -148,6 +154,7 @@ impl<'a, const D: usize> Subject<'a, D> {
             chart: Chart::new(&extent),
             window,
             is_static: formulas.is_static,
+            is_frame_indifferent: formulas.is_frame_indifferent,
             work: &formulas.work,
             field: Evaluated::new(formulas, &formulas.parameters),
             material: Evaluated::new(formulas, &duals),
@@ -188,7 +195,8 @@ impl<'a, const D: usize> Subject<'a, D> {
         let stress = self.value(Output::RestStress, place, self.window[0]);
         let tangent = self.value(Output::RestTangent, place, self.window[0]);
         let at = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
-        let resting = Resting { stress, tangent: Elasticity::from_fn(at) };
+        let is_frame_indifferent = self.is_frame_indifferent;
+        let resting = Resting { stress, tangent: Elasticity::from_fn(at), is_frame_indifferent };
         let is_finite =
             resting.tangent.is_finite() && resting.stress.iter().all(|it| it.is_finite());
         is_finite.then_some(resting)

@@ -1,9 +1,12 @@
 //! What a user should hear of the stability of a field.
 
+use mms_codegen::bounds::witness::Witness;
+use mms_codegen::certify::softening::Softening;
 use mms_codegen::compile::Compiled;
 use mms_spec::Claim;
 use mms_spec::diagnostic::Diagnostic;
 
+use crate::corners::Corner;
 use crate::faces::Surface;
 use crate::growth::Growth;
 use crate::resting::Material;
@@ -16,14 +19,26 @@ const GROWTH: f64 = 10.0;
 /// What lies below 0 by no more than this part of the modulus at rest is 0.
 const ROUNDING: f64 = 1e-9;
 
-/// A warning for each way in which a disturbance grows, at the place in the file that says what it is about.
-pub fn warnings(compiled: &Compiled, stability: &Stability) -> Vec<Diagnostic> {
+/// A warning for each way in which a disturbance grows, at the place in the file that says what it is about; `lost` is where
+/// strong ellipticity is proved to be lost, of which the sample need not know.
+pub fn warnings(
+    compiled: &Compiled,
+    stability: &Stability,
+    lost: Option<&Softening>,
+) -> Vec<Diagnostic> {
     let modulus = stability.material.as_ref().map_or("", Material::modulus);
     let mut warnings = Vec::new();
     let waves = stability.waves.iter().filter(|waves| waves.least <= ROUNDING);
     warnings.extend(waves.map(|waves| not_elliptic(compiled, waves, modulus)));
+    if let (true, Some(lost)) = (warnings.is_empty(), lost) {
+        let Softening { witness: Witness { coordinates: at, time, .. }, direction, value } = lost;
+        let (at, time, direction) = (at.clone(), *time, direction.clone());
+        warnings.push(not_elliptic(compiled, &Waves { least: *value, at, time, direction }, "Pa"));
+    }
     let faces = stability.surfaces.iter().filter(|surface| surface.least < -ROUNDING);
     warnings.extend(faces.map(|surface| growing_face(compiled, surface, modulus)));
+    let corners = stability.corners.iter().filter(|corner| corner.coercivity < -ROUNDING);
+    warnings.extend(corners.map(|corner| growing_corner(compiled, corner, modulus)));
     let growth = stability.growth.iter();
     warnings.extend(growth.filter_map(|growth| growing(compiled, growth, stability.is_static)));
     warnings
@@ -72,6 +87,25 @@ fn growing_face(compiled: &Compiled, surface: &Surface, modulus: &str) -> Diagno
         )),
         _ => warning,
     }
+}
+
+fn growing_corner(compiled: &Compiled, corner: &Corner, modulus: &str) -> Diagnostic {
+    let Corner { faces: [first, second], coercivity, at, time } = corner;
+    let claimed = compiled.field.boundary.iter().find(|it| it.face.value == *first);
+    let span = claimed.map_or(compiled.field.displacement[0].span, |it| it.claim.span);
+    let message = format!(
+        "a disturbance of the corner of {} and {} grows: the second variation there is not positive",
+        first.name(),
+        second.name()
+    );
+    Diagnostic::warning(span, message)
+        .label(format!(
+            "it is {} {modulus} times the squared gradient at X = {}, t = {}",
+            short(*coercivity),
+            list(at),
+            short(*time)
+        ))
+        .help("it grows the faster, the finer the mesh is, and takes the order of accuracy: take a smaller amplitude, or give u on one of both faces")
 }
 
 fn growing(compiled: &Compiled, growth: &Growth, is_static: bool) -> Option<Diagnostic> {

@@ -9,6 +9,7 @@ use clap::Args;
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::certify;
 use mms_codegen::certify::closed_form::{Comparison, Difference, Finding, compare};
+use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
 use mms_codegen::certify::written;
@@ -38,7 +39,8 @@ use crate::session::input::{Variant, read, settings};
 /// speed, and the time step that waves allow, of x, and of the digits that sums such as X + c*t leave of angles.
 ///
 /// Whether a solver can follow the motion is looked at on a sample, for the defaults of the parameters: waves in the body
-/// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), and long waves
+/// (acoustic tensor), waves on faces that are loaded, free or on rollers (surface impedance, loads dead), their corners
+/// (coercivity of the second variation in a quadrant), and long waves
 /// (least eigenvalue on a coarse mesh). What grows is a warning, and does not change the exit code.
 #[derive(Args)]
 pub struct Check {
@@ -134,7 +136,11 @@ impl Check {
         certificate
             .spent
             .extend(stability.is_spent.then(|| "what grows on the motion".to_string()));
-        let warnings = warnings(compiled, &stability);
+        let lost = match &certificate.ellipticity {
+            Ellipticity::Lost(softening) => Some(softening),
+            Ellipticity::Strong(_) | Ellipticity::Unproved => None,
+        };
+        let warnings = warnings(compiled, &stability, lost);
         let solved = self.solve.then(|| solve(compiled));
         let is_seen = written::points(compiled) > 0 && comparisons.iter().all(agrees);
         let refuted = !objections.is_empty() || !gaps.is_empty() || !is_seen;
@@ -167,6 +173,7 @@ impl Check {
                 "undefined": gaps,
                 "rest_stress": rest.stress(),
                 "moduli_at_rest": stability::moduli(stability.material.as_ref()),
+                "transverse_moduli_at_rest": stability::transverse(stability.material.as_ref()),
                 "stability": stability::document(&stability, &warnings, solved),
                 "extent": certificate.reach,
                 "shortest_wavelength": stability.shortest_wavelength,

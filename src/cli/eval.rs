@@ -179,8 +179,8 @@ struct Outside {
 
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
-        let input = Input::find(&self.field, &self.variant)?;
         let quantities = evaluated(&self.quantity)?;
+        let input = Input::find_some(&self.field, &self.variant, &quantities)?;
         self.hold_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),

@@ -143,6 +143,7 @@ fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
     let mut definitions = formulas(document, &document.definitions);
     definitions.extend(formulas(document, &material.whereby));
     let density = material.density.first();
+    let material_at_rest = Material::of(compiled);
     json!({
         "field": document.name,
         "title": document.title,
@@ -152,7 +153,8 @@ fn json(compiled: &Compiled, document: &Document, rest: &Rest) -> Value {
         "strain_energy": compiled.material.strain_energy.text,
         "material_parameters": formulas(document, &material.arguments),
         "rest_stress": rest.stress(),
-        "moduli_at_rest": stability::moduli(Material::of(compiled).as_ref()),
+        "moduli_at_rest": stability::moduli(material_at_rest.as_ref()),
+        "transverse_moduli_at_rest": stability::transverse(material_at_rest.as_ref()),
         "extent": reach(compiled),
         "shortest_wavelength": shortest_wavelength(compiled),
         "density": density.map(|line| document.formula(line.value, &Language)),

@@ -16,6 +16,7 @@ use super::methods::Methods;
 use super::{Outcome, output_folder, print, print_json, say};
 use crate::provenance::Provenance;
 use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
+use crate::session::effort::announce;
 use crate::session::input::{Input, Motion};
 use crate::session::method::{MethodOptions, Precision, finite, hold_division, positive};
 use crate::session::progress::Progress;
@@ -28,6 +29,9 @@ use mms_runtime::scene::{Scene, Solvable};
 ///
 /// Several methods, as of `--shape linear,cpgimp`, are studied one after the other and set beside each other: every
 /// combination of what is listed. Exit code 0: all pass.
+///
+/// How many time steps it takes is said on stderr before it runs and, where that is more than a second or so, for how long, by a
+/// few steps of one run; minutes are a warning.
 ///
 /// Writes convergence.svg, .csv and .json.
 #[derive(Args)]
@@ -343,6 +347,12 @@ impl Study {
             }
             run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })
         };
+        let planned = self.planned(scene, method);
+        announce(planned.len(), self.refine == Refinement::Space, |run, trial| {
+            let (method, cells, watch) = &planned[run];
+            // It ends before the run does, or is not started, which the run says.
+            let _ = scene.run(method, cells, *watch, trial);
+        });
         let levels = self.levels(scene, method, &run);
         let mut all: Vec<_> = levels.iter().flatten().map(|(run, _)| run.level.clone()).collect();
         if self.fit {
@@ -364,6 +374,43 @@ impl Study {
         (levels, found)
     }
 
+    /// What will be run, unless a level is refused; in space with time steps that are still to be those of the finest.
+    fn planned<T: Real>(
+        &self,
+        scene: &Scene<T>,
+        method: &Method,
+    ) -> Vec<(Method, Division, Watch)> {
+        match self.refine {
+            Refinement::Time => {
+                let cells = self.grid_of_time(scene);
+                let levels = (0..self.levels_in_time()).map(|level| halved(method, level));
+                levels.map(|method| (method, cells, Watch::Parts(PARTS))).collect()
+            }
+            Refinement::Both => {
+                let grids = self.grids(scene);
+                let levels = grids.iter().map(|cells| (method.clone(), *cells, Watch::Everything));
+                let fitted = grids.iter().filter(|_| self.fit).flat_map(|cells| {
+                    [1, 2].map(|times| (halved(method, times), *cells, Watch::Displacement))
+                });
+                levels.chain(fitted).collect()
+            }
+            Refinement::Space => {
+                let grids = self.grids(scene).into_iter();
+                grids.map(|cells| (quartered(method), cells, Watch::Everything)).collect()
+            }
+        }
+    }
+
+    /// The grid of a study in time, and how many levels it has.
+    fn grid_of_time<T: Real>(&self, scene: &Scene<T>) -> Division {
+        let cells = self.cells.first().copied();
+        cells.unwrap_or(Division::Uniform(scene.cells_of_a_study_in_time()))
+    }
+
+    fn levels_in_time(&self) -> u32 {
+        self.levels.map_or(4, u32::from)
+    }
+
     fn levels<T: Real>(
         &self,
         scene: &Scene<T>,
@@ -372,10 +419,8 @@ impl Study {
     ) -> Vec<Solved> {
         match self.refine {
             Refinement::Time => {
-                let cells = self.cells.first().copied();
-                let cells = cells.unwrap_or(Division::Uniform(scene.cells_of_a_study_in_time()));
-                let levels =
-                    (0..self.levels.map_or(4, u32::from)).map(|level| halved(method, level));
+                let cells = self.grid_of_time(scene);
+                let levels = (0..self.levels_in_time()).map(|level| halved(method, level));
                 levels.map(|method| run(&method, cells, Watch::Parts(PARTS))).collect()
             }
             Refinement::Both => {

@@ -1,6 +1,7 @@
 //! What commands have in common: the field that is given and its variants, its values at many points, the options of a
-//! method, the time steps that are stable, and progress.
+//! method, the time steps that are stable, what runs will take, and progress.
 
+pub(crate) mod effort;
 pub(crate) mod exact;
 pub(crate) mod input;
 pub(crate) mod method;

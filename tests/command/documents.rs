@@ -155,6 +155,25 @@ cells = [8, 16]
 time = [0.001]
 "#;
 
+/// A bar so short that a wave along it grows.
+const SOFT: &str = r#"
+[field]
+title = "Soft"
+dimension = 1
+[displacement]
+u = ["-t*X/2"]
+[material]
+model = "saint_venant_kirchhoff"
+lambda = 2
+mu = 1
+density = 1
+[domain]
+shape = "box"
+lower = [0]
+upper = [1]
+time = [0, 1]
+"#;
+
 /// A square with a load.
 const LOADED: &str = r#"
 [field]
@@ -174,6 +193,7 @@ upper = [1, 1]
 time = [0, 1]
 [boundary]
 x_max = "traction"
+y_max = "traction"
 "#;
 
 #[test]
@@ -183,6 +203,7 @@ fn documents_have_the_keys_of_the_page() {
     let folder = Folder::with_bar("bar.toml");
     folder.write("faulty.toml", FAULTY);
     folder.write("loaded.toml", LOADED);
+    folder.write("soft.toml", SOFT);
     folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
     folder.write("steps.csv", "h,dt,l2\n1,0.4,16\n1,0.2,4\n1,0.1,1\n");
     for name in ["a.csv", "b.csv", "c.csv"] {
@@ -194,7 +215,8 @@ fn documents_have_the_keys_of_the_page() {
     for (heading, arguments, code) in [
         ("list", "list", 0),
         ("show", "show bar.toml", 0),
-        ("check", "check bar.toml faulty.toml loaded.toml broken.toml", 2),
+        ("show", "show plane_strain_transversely_isotropic --quantity u", 0),
+        ("check", "check bar.toml faulty.toml loaded.toml soft.toml broken.toml", 2),
         ("eval", "eval bar.toml --at 0.5 --at 7 --time 99", 0),
         ("emit", "emit bar.toml --target c --quantity u", 0),
         ("emit", "emit bar.toml --target c --quantity u -o emitted --check", 1),

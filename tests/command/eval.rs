@@ -180,6 +180,23 @@ fn parameters_follow_those_they_depend_on() {
     assert_close(displacement("--set length=2 --set amplitude=1"), 0.75, 1e-15);
 }
 
+/// What is asked for alone is derived alone, and has the bits that it has beside all others.
+#[test]
+fn a_quantity_alone_is_what_it_is_among_all() {
+    let evaluate = |quantity: &str| {
+        let at = "eval quiet_boundary_2d --at 0.3,0.6 --at 0.41,0.47 --time 0.02";
+        Folder::new().mms(&format!("{at} --json --quantity {quantity}")).exits(0).json()
+    };
+    let all = evaluate("all");
+    for quantity in ["displacement", "body_force", "cauchy_stress", "strain_energy", "jacobian"] {
+        let alone = evaluate(quantity);
+        for point in 0..2 {
+            let [one, among] = [&alone, &all].map(|it| &it["points"][point][quantity]);
+            assert!(one.is_array() && one == among, "{quantity}: {one} {among}");
+        }
+    }
+}
+
 #[test]
 fn a_file_outside_the_gallery_gives_identical_numbers() {
     let folder = Folder::with_bar("deeper/copy.toml");

@@ -54,6 +54,7 @@ fn show_as_a_document_has_its_keys() {
         "material_parameters",
         "rest_stress",
         "moduli_at_rest",
+        "transverse_moduli_at_rest",
         "extent",
         "shortest_wavelength",
         "density",

@@ -74,6 +74,62 @@ fn what_grows_is_a_warning_with_its_place() {
     assert_eq!(found["warnings"], serde_json::json!([]), "{found}");
 }
 
+/// Dead pressure on two faces that each of them bears, and their corner does not.
+#[test]
+fn a_corner_that_grows_is_a_warning() {
+    let folder = square(r#"["-0.1*X", "-0.1*Y"]"#, "x_max = \"traction\"\ny_max = \"traction\"");
+    let run = folder.mms("check square.toml").exits(0);
+    run.complains("warning: a disturbance of the corner of x_max and y_max grows")
+        .complains("X = [1, 1]");
+    run.prints("  corner x_max, y_max: coercivity -0.19");
+    let found = stability(&folder, "");
+    assert!(number(&found["faces"][0]["least_impedance"]) > 0.5, "{found}");
+    assert_eq!(found["corners"][0]["faces"], serde_json::json!(["x_max", "y_max"]));
+}
+
+/// Saint Venant-Kirchhoff matter that is compressed along X: Q = (N.S N) I + (lambda + mu) F N (F N)^T + mu F F^T with
+/// S = lambda tr(E) I + 2 mu E, of which the direction that is named leaves a determinant that is not positive.
+#[test]
+fn where_ellipticity_is_lost_is_proved_and_named() {
+    let folder = square(r#"["-0.5*t*X", "0"]"#, "");
+    let text = folder.read("square.toml").replace("neo_hookean", "saint_venant_kirchhoff");
+    folder.write("square.toml", &text);
+    let run = folder.mms("check square.toml").exits(0);
+    run.prints("acoustic tensors are positive definite: REFUTED at X = [");
+    run.complains("warning: strong ellipticity is lost");
+    let files = folder.mms("check square.toml --json").exits(0).json();
+    let certificate = &files["files"][0]["certificate"];
+    assert_eq!(certificate["strongly_elliptic"], false);
+    let lost = &certificate["ellipticity_lost"];
+    let [time, n1, n2] = [&lost["time"], &lost["direction"][0], &lost["direction"][1]].map(number);
+    let (lambda, mu, stretch) = (1.5, 1.0, 1.0 - 0.5 * time);
+    let strain = (stretch * stretch - 1.0) / 2.0;
+    let pull = strain * ((lambda + 2.0 * mu) * n1 * n1 + lambda * n2 * n2);
+    let first = pull + (lambda + mu) * (stretch * n1).powi(2) + mu * stretch * stretch;
+    let second = pull + (lambda + mu) * n2 * n2 + mu;
+    let mixed = (lambda + mu) * stretch * n1 * n2;
+    assert!(first * second - mixed * mixed <= 1e-12 && first + second > 0.0, "{lost}");
+}
+
+/// E + 4 r along fibres of which I4 - 1 costs r (I4 - 1)^2/2.
+#[test]
+fn fibres_have_moduli_at_rest() {
+    let folder = square(r#"["0", "0"]"#, "");
+    let fibres = "transversely_isotropic\"\nfibre = [0, 1, 0]\nreinforcement = 0.5";
+    let text = folder.read("square.toml").replace("neo_hookean\"", fibres);
+    folder.write("square.toml", &text);
+    let shown = folder.mms("show square.toml --json").exits(0).json();
+    assert_eq!(shown["moduli_at_rest"], Value::Null);
+    let moduli = &shown["transverse_moduli_at_rest"];
+    assert_eq!(moduli["axis"], serde_json::json!([0.0, 1.0, 0.0]));
+    assert!((number(&moduli["young"][0]) - 4.6).abs() < 1e-9, "{moduli}");
+    folder
+        .mms("check square.toml")
+        .exits(0)
+        .prints("  rest   E = [4.6, ")
+        .prints("along [0, 1, 0]");
+}
+
 /// x = X + A sin(2 pi X) reaches beyond the body by nothing, and its wavelength is 1.
 #[test]
 fn extent_and_wavelength_are_those_of_the_motion() {

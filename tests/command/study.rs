@@ -155,6 +155,35 @@ fn the_order_comes_with_its_uncertainty_and_the_error_with_its_constant() {
     assert!((number(&document["error_constant"]) / constant - 1.0).abs() < 1e-12);
 }
 
+/// The first line names the time steps of each run: those of the levels, and of a fit after these.
+#[test]
+fn what_a_study_will_take_is_said_before_it_runs() {
+    let method = "study bar_1d --formulation total --shape linear --json";
+    for (options, runs) in [
+        ("--cells 8,16", 2),
+        ("--cells 8,16,32 --fit", 9),
+        ("--cells 8,16,32 --refine space", 3),
+        ("--cells 16 --refine time --levels 3", 3),
+        ("--cells 8,16 --periods 2", 2),
+    ] {
+        let folder = Folder::new();
+        let run = folder.mms(&format!("{method} {options}"));
+        let first = run.stderr.lines().next().expect("a line");
+        let said =
+            first.strip_prefix(&format!("{runs} runs of ")).unwrap_or_else(|| panic!("{run}"));
+        let said = said.strip_suffix(" time steps").unwrap_or_else(|| panic!("{run}"));
+        let said: Vec<u64> = said.split(", ").map(|it| it.parse().expect("a number")).collect();
+        let document = run.json();
+        let levels = document["levels"].as_array().expect("levels").iter();
+        let taken: Vec<_> = levels.filter_map(|level| level["steps"].as_u64()).collect();
+        assert_eq!(said.len(), runs, "{run}");
+        assert_eq!(said[..taken.len()], taken, "{options}");
+    }
+    // What cannot be started is not spoken of as if it were.
+    let run = Folder::new().mms("study bar_1d --cells 8,16 --courant 3");
+    assert!(!run.stderr.contains("2 runs of"), "{run}");
+}
+
 /// Leapfrog is of second order in time, and USL of first; errors against the field stay those of the grid.
 #[test]
 fn a_study_in_time_shows_the_order_of_the_integrator() {

@@ -86,7 +86,7 @@ pub const CRATES: &[Crate] = &[
             "chart elasticity least pencil wavelength",
             "impedance mesh subject",
             "modes resting waves",
-            "faces growth solve",
+            "corners faces fibres growth solve",
             "stability",
             "warnings",
         ],

@@ -1,6 +1,7 @@
 //! Bounds of formulas over a part of their domain, and of their slopes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
 
 use mms_math::Scalar as _;
 
@@ -53,6 +54,35 @@ impl Formulas {
         outputs.extend((0..self.variables).map(Output::Slopes));
         Evaluation { run: chart.run(&self.program), outputs }
     }
+}
+
+/// Bounds over boxes that several searches ask for: the first boxes are the same for all.
+pub struct Enclosures<'a> {
+    evaluation: Evaluation<'a, Interval>,
+    known: HashMap<Vec<u64>, Rc<Enclosure>>,
+}
+
+impl<'a> Enclosures<'a> {
+    /// Of formulas in a chart.
+    pub fn new(formulas: &'a Formulas, chart: &'a Chart) -> Self {
+        Enclosures { evaluation: formulas.run(chart), known: HashMap::new() }
+    }
+
+    /// Bounds over a box, as [`Evaluation::enclose`] finds them.
+    pub fn enclose(&mut self, place: &[Interval]) -> Rc<Enclosure> {
+        let new = || Rc::new(self.evaluation.enclose(place));
+        self.known.entry(key(place)).or_insert_with(new).clone()
+    }
+
+    /// The values at a point.
+    pub fn values(&mut self, place: &[Interval]) -> Vec<Interval> {
+        self.evaluation.values(place)
+    }
+}
+
+/// What tells a box from others.
+pub fn key(place: &[Interval]) -> Vec<u64> {
+    place.iter().flat_map(|side| [side.lower(), side.upper()].map(f64::to_bits)).collect()
 }
 
 /// Formulas that are being evaluated.

@@ -111,7 +111,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         });
         (rates, boxes, least) = (Some(bound), boxes + stretches.cells + cells, bounds[0]);
         let (found, cells) = budget.part(&mut graph, RATES, "strong ellipticity", |graph| {
-            ellipticity::bound(graph, &searches, &stretches)
+            ellipticity::bound(graph, compiled, &searches, &stretches)
         });
         (ellipticity, boxes) = (found, boxes + cells);
     }

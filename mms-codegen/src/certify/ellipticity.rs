@@ -16,10 +16,12 @@ use mms_symbolic::expr::{Graph, Node, Symbol};
 
 use super::matrix::{ROUNDING, diagonal, eigenvalues, spectral_radius};
 use super::rates::{Searches, Stretches, search_until};
+use super::softening::{Softening, softening};
 use super::tangent::{MeanValue, Tangent};
 use crate::bounds::chart::Chart;
-use crate::bounds::enclosure::Formulas;
+use crate::bounds::enclosure::{Enclosures, Formulas};
 use crate::bounds::search::{Found, Measure, largest};
+use crate::compile::Compiled;
 
 /// How many boxes of states are looked at at most, by dimension: in space one takes as long as some ten of others. And of
 /// places and times.
@@ -31,10 +33,12 @@ const STEPS: usize = 24;
 const GOOD: f64 = 0.9;
 
 /// What is known of the acoustic tensors.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Ellipticity {
     /// No eigenvalue of any of them is less than this, which is greater than 0.
     Strong(f64),
+    /// One of them is not positive definite.
+    Lost(Softening),
     /// It is not known that all of them are positive definite.
     Unproved,
 }
@@ -45,6 +49,7 @@ pub enum Ellipticity {
 /// few variables. Where that does not tell, and of other matter, it is looked at in the states of the field.
 pub(super) fn bound(
     graph: &mut Graph,
+    compiled: &Compiled,
     searches: &Searches<'_>,
     stretches: &Stretches,
 ) -> (Ellipticity, usize) {
@@ -54,12 +59,15 @@ pub(super) fn bound(
         let mut compliance = Compliance::new(searches.chart, &stress);
         let found = compliance.of_all(&states);
         // A state that is not strongly elliptic need not occur.
-        if !compliance.is_lost.get() {
+        if compliance.lost.is_none() {
             return (judged(&found), 0);
         }
     }
-    let found = Compliance::new(searches.chart, &stress).of_field(graph, searches, stretches);
-    (judged(&found), found.cells)
+    let mut compliance = Compliance::new(searches.chart, &stress);
+    let found = compliance.of_field(graph, searches, stretches);
+    let lost = compliance.lost.take();
+    let lost = lost.and_then(|place| softening(graph, searches.chart, compiled, &place));
+    (lost.map_or_else(|| judged(&found), Ellipticity::Lost), found.cells)
 }
 
 fn judged(found: &Found) -> Ellipticity {
@@ -127,19 +135,19 @@ impl<'a> States<'a> {
 struct Compliance<'a> {
     chart: &'a Chart,
     tangent: Tangent<'a>,
-    /// Whether it is not known to be finite at one state: then smaller cells tell no more.
-    is_lost: Cell<bool>,
+    /// A place where it is not known to be finite at one state: then smaller cells tell no more.
+    lost: Option<Vec<f64>>,
 }
 
 impl<'a> Compliance<'a> {
     fn new(chart: &'a Chart, stress: &'a Program<()>) -> Self {
-        Compliance { chart, tangent: Tangent::new(chart, stress), is_lost: Cell::new(false) }
+        Compliance { chart, tangent: Tangent::new(chart, stress), lost: None }
     }
 
     /// A bound over a box of states, no sharper than it takes to be finite.
     fn bound(&mut self, gradient: &[Interval], volume: Interval, place: &[Interval]) -> f64 {
         let coarse = compliance(least_acoustic(&self.tangent.enclose(gradient, volume, place)));
-        if coarse.is_finite() || self.is_lost.get() {
+        if coarse.is_finite() || self.lost.is_some() {
             return coarse;
         }
         match self.tangent.mean_value(gradient, place) {
@@ -151,24 +159,30 @@ impl<'a> Compliance<'a> {
     /// A value at one state, or almost.
     fn value(&mut self, gradient: &[Interval], volume: Interval, place: &[Interval]) -> f64 {
         let value = self.bound(gradient, volume, place);
-        self.is_lost.set(self.is_lost.get() || value.is_infinite());
+        if self.lost.is_none() && value.is_infinite() {
+            self.lost = Some(place.iter().map(|side| side.middle()).collect());
+        }
         value
     }
 
     /// Over all states that are possible.
     fn of_all(&mut self, states: &States<'_>) -> Found {
         let this = RefCell::new(self);
-        let limit = states.chart.limit(CELLS[states.dimension - 1]);
-        let is_enough = |bound: f64, _| bound.is_finite() || this.borrow().is_lost.get();
-        largest(states.variables(), limit, is_enough, |cell| {
+        let most = CELLS[states.dimension - 1];
+        let open = Open::default();
+        let is_enough = |bound: f64, _| {
+            bound.is_finite() || this.borrow().lost.is_some() || open.is_hopeless(most)
+        };
+        largest(states.variables(), states.chart.limit(most), is_enough, |cell| {
             let mut this = this.borrow_mut();
             let at = cell.centre();
             let point: Vec<_> = at.iter().map(|side| Interval::from_f64(*side)).collect();
             let state = states.at(&point);
             let attained = state.map(|(h, j, place)| this.value(&h, j, &place));
             let bound = states.at(&cell.0).map(|(h, j, place)| this.bound(&h, j, &place));
-            let attained = attained.unwrap_or(f64::NEG_INFINITY);
-            Measure { bound: bound.unwrap_or(0.0), attained, split: cell.widest(), at }
+            let (attained, bound) = (attained.unwrap_or(f64::NEG_INFINITY), bound.unwrap_or(0.0));
+            open.count(bound);
+            Measure { bound, attained, split: cell.widest(), at }
         })
     }
 
@@ -195,8 +209,31 @@ impl<'a> Compliance<'a> {
                 false => this.bound(&gradient, state.volume, place),
             }
         };
-        let sharp = |_| if this.borrow().is_lost.get() { f64::INFINITY } else { f64::MAX };
-        search_until(chart, &formulas, CELLS_OF_FIELD, 0..seen.len(), sharp, measure)
+        let sharp = |_| if this.borrow().lost.is_some() { f64::INFINITY } else { f64::MAX };
+        let mut bounds = Enclosures::new(&formulas, chart);
+        search_until(chart, &mut bounds, CELLS_OF_FIELD, 0..seen.len(), sharp, measure)
+    }
+}
+
+/// How many boxes were looked at, and how many of them have no bound.
+#[derive(Default)]
+struct Open {
+    all: Cell<usize>,
+    unbounded: Cell<usize>,
+}
+
+impl Open {
+    fn count(&self, bound: f64) {
+        self.all.set(self.all.get() + 1);
+        self.unbounded.set(self.unbounded.get() + usize::from(bound.is_infinite()));
+    }
+
+    /// Whether more boxes are still to be split in halves than the limit allows. All that were split had no bound, and each
+    /// that is left takes two at least.
+    fn is_hopeless(&self, most: usize) -> bool {
+        let (all, unbounded) = (self.all.get(), self.unbounded.get());
+        let left = unbounded.saturating_sub(all.saturating_sub(1) / 2);
+        all + 2 * left > most
     }
 }
 

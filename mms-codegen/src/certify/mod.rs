@@ -14,6 +14,7 @@
 //! | it is so as computed | the scheduled program, with all that it makes on the way, in `f64` and in `f32` (`computed`) | rigorous for errors of functions up to 8 roundings |
 //! | principal stretch, strain rate | bounds of C - I, H, J and of their rates (`rates`) | rigorous |
 //! | wave speed | dP/dF by dual numbers over intervals (`rates`, `tangent`) | rigorous |
+//! | strong ellipticity | the same, with null Lagrangians added (`ellipticity`); where that fails at one state, directions in which a wave grows there (`softening`) | rigorous; a refutation is certain |
 //!
 //! Every search has a bound on its boxes, beside its budget of steps: 2000 for J, for finite values, for each
 //! limit and for each claim, 500 for each rate, 2000 for the wave speed that a time step is held to. J that is not
@@ -40,5 +41,6 @@ pub mod motion;
 pub mod rates;
 pub mod reach;
 pub mod rest;
-pub mod tangent;
+pub mod softening;
+mod tangent;
 pub mod written;

@@ -11,6 +11,7 @@
 //! A_iJkL. The stable time step is the cell size over the larger of the two wave speeds; it knows nothing of the
 //! speed of particles.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use mms_math::Scalar as _;
@@ -21,7 +22,7 @@ use super::matrix::{
 use super::motion::Motion;
 use super::tangent::Tangent;
 use crate::bounds::chart::Chart;
-use crate::bounds::enclosure::Formulas;
+use crate::bounds::enclosure::{Enclosures, Formulas, key};
 use crate::bounds::search::{Found, Measure, largest};
 use mms_program::interpret::Number as _;
 use mms_program::interval::Interval;
@@ -67,8 +68,8 @@ pub(super) fn bound(
     stretches: &Stretches,
 ) -> (Rates, usize) {
     let rate = searches.strain_rate(graph, stretches.least);
-    let [reference, deformed] = [Frame::Reference, Frame::Deformed]
-        .map(|frame| searches.wave_speed(graph, stretches, frame, 0.0));
+    let frames = [Frame::Reference, Frame::Deformed];
+    let [reference, deformed] = searches.wave_speeds(graph, stretches, frames, 0.0);
     let principal_stretch = stretches.principal(searches.motion);
     let rates = Rates {
         principal_stretch,
@@ -92,7 +93,8 @@ pub fn wave_speed(
 ) -> f64 {
     let searches = Searches::new(chart, motion, jacobian, limit);
     let stretches = searches.stretches(graph);
-    searches.wave_speed(graph, &stretches, frame, speed).bound
+    let [found] = searches.wave_speeds(graph, &stretches, [frame], speed);
+    found.bound
 }
 
 /// What the search for each rate starts from.
@@ -138,14 +140,15 @@ impl<'a> Searches<'a> {
     /// The least and the largest principal stretch.
     pub fn stretches(&self, graph: &mut Graph) -> Stretches {
         let formulas = Formulas::new(graph, self.chart, &self.strain);
+        let mut bounds = Enclosures::new(&formulas, self.chart);
         let all = 0..self.strain.len();
-        let squeeze = search(self.chart, &formulas, self.limit, all.clone(), |values, _, _| {
+        let squeeze = search(self.chart, &mut bounds, self.limit, all.clone(), |values, _, _| {
             match self.state(values).stretches.first().map_or(0.0, |least| least.lower()) {
                 least if least > 0.0 => 1.0 / least.next_down(),
                 _ => f64::INFINITY,
             }
         });
-        let stretch = search(self.chart, &formulas, self.limit, all, |values, _, _| {
+        let stretch = search(self.chart, &mut bounds, self.limit, all, |values, _, _| {
             self.state(values).stretches.last().map_or(f64::INFINITY, |greatest| greatest.upper())
         });
         // J is the product of the principal stretches.
@@ -164,8 +167,9 @@ impl<'a> Searches<'a> {
         let mut moving = [&self.strain[..], &motion.gradient_rate, &motion.right_rate].concat();
         moving.extend(motion.squared_rate);
         let formulas = Formulas::new(graph, self.chart, &moving);
+        let mut bounds = Enclosures::new(&formulas, self.chart);
         let steering = known..known + 2 * size;
-        search(self.chart, &formulas, self.limit, steering, |values, _, _| {
+        search(self.chart, &mut bounds, self.limit, steering, |values, _, _| {
             let state = self.state(values);
             let (gradient_rate, rest) = values[known..].split_at(size);
             let (right_rate, squared) = rest.split_at(size);
@@ -176,14 +180,14 @@ impl<'a> Searches<'a> {
         })
     }
 
-    /// The fastest wave in a frame, no sharper than it takes to see that it is at most `speed`.
-    fn wave_speed(
+    /// The fastest wave in each frame, no sharper than it takes to see that it is at most `speed`.
+    fn wave_speeds<const N: usize>(
         &self,
         graph: &mut Graph,
         stretches: &Stretches,
-        frame: Frame,
+        frames: [Frame; N],
         speed: f64,
-    ) -> Found {
+    ) -> [Found; N] {
         let stretches = Interval::new(stretches.least, stretches.greatest);
         let (motion, known) = (self.motion, self.strain.len());
         let mut seen = self.strain.clone();
@@ -191,26 +195,29 @@ impl<'a> Searches<'a> {
         seen.extend(motion.oriented.iter().flatten());
         let formulas = Formulas::new(graph, self.chart, &seen);
         let stress = Tangent::program(graph, &motion.stress);
-        let mut tangent = Tangent::new(self.chart, &stress);
+        let mut tangents = Tangents::new(Tangent::new(self.chart, &stress));
+        let mut bounds = Enclosures::new(&formulas, self.chart);
         let grid = Grid::new(motion.dimension());
-        let steering = 0..seen.len();
-        let measure = |values: &[Interval], place: &[Interval], enough: f64| {
-            let (state, density) = (self.state(values), values[known]);
-            let gradient = state.gradient(&values[known + 1..], stretches);
-            let speed = |tangent: &[Interval]| match frame {
-                Frame::Reference => wave_speed_of(&grid, tangent, density),
-                Frame::Deformed => {
-                    wave_speed_of(&grid, &pushed(tangent, &with_identity(&gradient)), density)
+        frames.map(|frame| {
+            let measure = |values: &[Interval], place: &[Interval], enough: f64| {
+                let (state, density) = (self.state(values), values[known]);
+                let gradient = state.gradient(&values[known + 1..], stretches);
+                let speed = |tangent: &[Interval]| match frame {
+                    Frame::Reference => wave_speed_of(&grid, tangent, density),
+                    Frame::Deformed => {
+                        wave_speed_of(&grid, &pushed(tangent, &with_identity(&gradient)), density)
+                    }
+                };
+                let coarse = tangents.coarse(&gradient, state.volume, place);
+                match speed(coarse) {
+                    found if found <= enough => found,
+                    _ => speed(tangents.sharp(&gradient, place)),
                 }
             };
-            let coarse = tangent.enclose(&gradient, state.volume, place);
-            match speed(&coarse) {
-                found if found <= enough => found,
-                _ => speed(&tangent.sharpen(coarse, &gradient, place)),
-            }
-        };
-        let sharp = |value: f64| if value > speed { value * (1.0 + SHARPNESS) } else { speed };
-        search_until(self.chart, &formulas, self.limit, steering, sharp, measure)
+            let sharp = |value: f64| if value > speed { value * (1.0 + SHARPNESS) } else { speed };
+            let steering = 0..seen.len();
+            search_until(self.chart, &mut bounds, self.limit, steering, sharp, measure)
+        })
     }
 }
 
@@ -219,25 +226,24 @@ impl<'a> Searches<'a> {
 /// that steer change most.
 fn search(
     chart: &Chart,
-    formulas: &Formulas,
+    bounds: &mut Enclosures<'_>,
     limit: usize,
     steering: Range<usize>,
     measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
     let sharp = |value: f64| if value > 0.0 { value * (1.0 + SHARPNESS) } else { 0.0 };
-    search_until(chart, formulas, limit, steering, sharp, measure)
+    search_until(chart, bounds, limit, steering, sharp, measure)
 }
 
 /// The same, where `sharp` tells which bound of a value is sharp enough.
 pub(super) fn search_until(
     chart: &Chart,
-    formulas: &Formulas,
+    bounds: &mut Enclosures<'_>,
     limit: usize,
     steering: Range<usize>,
     sharp: impl Fn(f64) -> f64,
     mut measure: impl FnMut(&[Interval], &[Interval], f64) -> f64,
 ) -> Found {
-    let mut bounds = formulas.run::<Interval>(chart);
     let enough = |bound: f64, value: f64| bound <= sharp(value);
     let mut greatest = 0.0_f64;
     largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
@@ -259,6 +265,42 @@ pub(super) fn search_until(
             at,
         }
     })
+}
+
+/// dP/dF over boxes that several searches ask for, by place.
+struct Tangents<'a> {
+    tangent: Tangent<'a>,
+    known: HashMap<Vec<u64>, OfPlace>,
+}
+
+/// Bounds of dP/dF over one box: those that cost little, and others where they were asked for.
+struct OfPlace {
+    coarse: Vec<Interval>,
+    sharp: Option<Vec<Interval>>,
+}
+
+impl<'a> Tangents<'a> {
+    fn new(tangent: Tangent<'a>) -> Self {
+        Tangents { tangent, known: HashMap::new() }
+    }
+
+    fn coarse(
+        &mut self,
+        gradient: &[Interval],
+        volume: Interval,
+        place: &[Interval],
+    ) -> &[Interval] {
+        let Tangents { tangent, known } = self;
+        let new = || OfPlace { coarse: tangent.enclose(gradient, volume, place), sharp: None };
+        &known.entry(key(place)).or_insert_with(new).coarse
+    }
+
+    /// Of a box whose coarse bounds were asked for.
+    fn sharp(&mut self, gradient: &[Interval], place: &[Interval]) -> &[Interval] {
+        let Tangents { tangent, known } = self;
+        let Some(OfPlace { coarse, sharp }) = known.get_mut(&key(place)) else { return &[] };
+        sharp.get_or_insert_with(|| tangent.sharpen(coarse.clone(), gradient, place))
+    }
 }
 
 /// What is known of the deformation in a cell.

@@ -13,8 +13,8 @@ use super::message;
 use crate::bounds::chart::Chart;
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use mms_mechanics::Response;
 use mms_mechanics::extent::spread;
+use mms_mechanics::{Response, at_rest};
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
 use mms_spec::diagnostic::Diagnostic;
@@ -35,7 +35,7 @@ const STEPS: u64 = 20_000_000;
 pub enum Rest {
     /// It is 0, identically or at all points that were looked at.
     Free,
-    /// Its components, row-major, where the greatest of them is greatest.
+    /// Its components, row-major, where the greatest of them is greatest; in space where those of the field's dimensions are 0.
     Stressed(Vec<f64>, Witness),
     /// To evaluate it takes too long.
     Unknown,
@@ -71,8 +71,14 @@ pub fn stress(compiled: &Compiled) -> Rest {
     let entries = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
     let undeformed: BTreeMap<_, _> = entries.map(|entry| (entry, zero)).collect();
     let responses = &compiled.derived.responses;
-    let stress = substitute(&mut graph, &responses[&Response::FirstPiolaKirchhoff], &undeformed);
-    if stress.iter().all(|component| graph.is_zero(*component)) {
+    let mut stress =
+        substitute(&mut graph, &responses[&Response::FirstPiolaKirchhoff], &undeformed);
+    let is_free = |graph: &Graph, stress: &[Expr]| stress.iter().all(|it| graph.is_zero(*it));
+    if is_free(&graph, &stress) {
+        // Fibres across a plane body may pull at what holds it flat.
+        [stress, _] = at_rest(&mut graph, &compiled.model);
+    }
+    if is_free(&graph, &stress) {
         return Rest::Free;
     }
     let [speed, density] = [Response::WaveSpeed, Response::Density].map(|it| responses[&it][0]);

@@ -16,6 +16,13 @@ const LARGEST_ANGLE: f64 = 1e5;
 /// An exponential of less is far from the least and the greatest numbers, and so is its opposite's.
 const LARGEST_EXPONENT: f64 = 600.0;
 
+/// What an angle less its quarter turns errs by beside its own part of `ERROR`, where nearly all of it cancels: the digits of
+/// pi/2 that are cut off, times 2^16 quarter turns, and the roundings of what is left of an angle after its first 53 digits.
+const ERROR_OF_ANGLE: f64 = 1.0 / (1u128 << 125) as f64;
+
+/// The cosine of a smaller angle, and not of 0, lies between 1 and the number before it; so does its sine, beside the angle.
+const FLAT: f64 = 1.0 / (1u128 << 28) as f64;
+
 /// ln 2 and pi/2 as sums of doubles that do not overlap.
 const LN_2: [f64; 2] = [core::f64::consts::LN_2, 2.319_046_813_846_299_6e-17];
 const QUARTER: [f64; 3] =
@@ -285,20 +292,24 @@ fn cosine(x: Double) -> Double {
 /// sin(x + shift pi/2).
 fn circular(x: f64, shift: i64) -> Option<(f64, f64)> {
     let (rest, turns) = reduced(x)?;
-    let value = match (turns + shift).rem_euclid(4) {
-        0 => sine(rest),
-        1 => cosine(rest),
-        2 => Double(0.0, 0.0).minus(sine(rest)),
-        _ => Double(0.0, 0.0).minus(cosine(rest)),
+    let quarter = (turns + shift).rem_euclid(4);
+    let (lower, upper) = match quarter % 2 {
+        0 => sine(rest).around(rest.0.abs() * ERROR + ERROR_OF_ANGLE)?,
+        _ if rest.0.abs() < FLAT => (1_f64.next_down(), 1.0),
+        _ => cosine(rest).around(ERROR)?,
     };
-    value.around(ERROR)
+    Some(if quarter < 2 { (lower, upper) } else { (-upper, -lower) })
 }
 
 pub fn sin(x: f64) -> Option<(f64, f64)> {
     if x == 0.0 {
         return Some((0.0, 0.0));
     }
-    circular(x, 0)
+    match x.abs() < FLAT {
+        true if x > 0.0 => Some((x.next_down(), x)),
+        true => Some((x, x.next_up())),
+        false => circular(x, 0),
+    }
 }
 
 pub fn cos(x: f64) -> Option<(f64, f64)> {
@@ -337,5 +348,31 @@ mod tests {
         }
         assert_eq!(sqrt(6.25), Some((2.5, 2.5)));
         assert_eq!(sqrt(1e-300), None);
+    }
+
+    /// Searches halve their boxes, so that angles are near quarter turns time and again: where sines come near 0 and cosines
+    /// near 1, that is decided too.
+    #[test]
+    fn waves_lie_between_neighbours_near_quarter_turns() {
+        let around = |x: f64| {
+            let exact = || Precise::from_f64(x);
+            assert_around(sin(x), exact().sin(), &format!("sin({x:e})"));
+            assert_around(cos(x), exact().cos(), &format!("cos({x:e})"));
+        };
+        for turns in (-40..40).chain([-50_000, 777, 63_000]) {
+            let near = f64::from(turns) * core::f64::consts::FRAC_PI_2;
+            let beside = [1e-3, 1e-6, 3.7e-9, 1e-12].map(|aside| near + aside);
+            [near, near.next_up(), near.next_down(), near / 2.0, near / 8.0]
+                .into_iter()
+                .chain(beside)
+                .for_each(around);
+        }
+        let mut tiny = 1.0;
+        while tiny > 1e-30 {
+            [tiny, -tiny].into_iter().for_each(around);
+            tiny *= 0.37;
+        }
+        // 6381956970095103 2^797 is nearest to a quarter turn of all doubles, but larger than what is reduced here.
+        assert_eq!(sin(6_381_956_970_095_103.0 * 2f64.powi(797)), None);
     }
 }

@@ -99,8 +99,9 @@ pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) 
             return;
         }
         work.spend(table.steps(flat.form(item)));
-        table.enter(flat, item, |_| true);
+        table.count(flat, item);
     }
+    table.rank();
     while let Some(pair) = table.best().filter(|_| !work.is_over()) {
         work.spend(table.extract(flat, &pair));
     }
@@ -127,7 +128,7 @@ fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
 struct Table {
     /// Of the operations before sharing.
     common: Vec<bool>,
-    /// How often a pair occurs, and how often in which operation. Only ever looked up, never iterated.
+    /// How often a pair occurs, and how often in which operation. Their order here matters to nobody.
     places: FxHashMap<Pair, Places>,
     /// Pairs that occur more than once. The most frequent is last; of equals, the first in order.
     ranked: BTreeSet<(u64, Reverse<Pair>)>,
@@ -158,6 +159,19 @@ impl Places {
 }
 
 impl Table {
+    /// Counts the pairs of an operation before any is ranked.
+    fn count(&mut self, flat: &Flat, item: Item) {
+        for (pair, count) in self.pairs(flat.form(item), |_| true) {
+            self.places.entry(pair).or_default().set(item, count);
+        }
+    }
+
+    fn rank(&mut self) {
+        let frequent = self.places.iter().filter(|(_, places)| places.total > 1);
+        self.ranked =
+            frequent.map(|(pair, places)| (places.total, Reverse(pair.clone()))).collect();
+    }
+
     fn enter(&mut self, flat: &Flat, item: Item, concerned: impl Fn(Item) -> bool) {
         for (pair, count) in self.pairs(flat.form(item), concerned) {
             self.change(pair, |places| places.set(item, count));

@@ -1,6 +1,7 @@
 //! What `mms check` says of proofs.
 
 use mms_codegen::Compiled;
+use mms_codegen::bounds::witness::Witness;
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::claims;
 use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
@@ -8,6 +9,7 @@ use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::Rates;
+use mms_codegen::certify::softening::Softening;
 use mms_spec::BoundarySpec;
 use serde_json::{Value, json};
 
@@ -185,7 +187,15 @@ pub fn document(certificate: &Certificate) -> Value {
         "wave_speed": rates.map(|it| it.wave_speed),
         "reference_wave_speed": rates.map(|it| it.reference_wave_speed),
         "time_step_per_cell_size": rates.map(|it| it.time_step_per_cell_size()),
-        "strongly_elliptic": certificate.ellipticity != Ellipticity::Unproved,
+        "strongly_elliptic": matches!(certificate.ellipticity, Ellipticity::Strong(_)),
+        "ellipticity_lost": lost(&certificate.ellipticity),
         "boxes": certificate.boxes,
     })
+}
+
+/// Where a wave is proved to grow.
+fn lost(ellipticity: &Ellipticity) -> Option<Value> {
+    let Ellipticity::Lost(Softening { witness, direction, .. }) = ellipticity else { return None };
+    let Witness { coordinates, time, .. } = witness;
+    Some(json!({ "at": coordinates, "time": time, "direction": direction }))
 }

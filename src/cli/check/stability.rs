@@ -2,9 +2,13 @@
 
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::ellipticity::Ellipticity;
+use mms_codegen::certify::softening::Softening;
+use mms_spec::Face;
 use mms_spec::diagnostic::Diagnostic;
 use mms_stability::Stability;
+use mms_stability::corners::Corner;
 use mms_stability::faces::Surface;
+use mms_stability::fibres::TransverseModuli;
 use mms_stability::growth::Growth;
 use mms_stability::resting::Material;
 use mms_stability::solve::Solved;
@@ -17,21 +21,36 @@ pub fn text(stability: &Stability, certificate: &Certificate) -> Vec<String> {
     let mut lines: Vec<_> = stability.material.iter().map(at_rest).collect();
     lines.push(extent(&certificate.reach, stability.shortest_wavelength));
     let modulus = stability.material.as_ref().map_or("", Material::modulus);
-    lines.extend(stability.waves.iter().map(|waves| body(waves, certificate.ellipticity, modulus)));
+    lines
+        .extend(stability.waves.iter().map(|waves| body(waves, &certificate.ellipticity, modulus)));
     lines.extend(stability.surfaces.iter().map(|surface| face(surface, modulus)));
+    lines.extend(stability.corners.iter().map(|corner| edge(corner, modulus)));
     lines.extend(stability.growth.iter().map(|growth| long(growth, stability.is_static)));
     lines
 }
 
 /// What another code should call its moduli.
 pub fn at_rest(material: &Material) -> String {
-    let Some(moduli) = material.middle.moduli() else {
-        return "  rest   not isotropic at F = I: it has no E and nu".into();
-    };
-    let [young, nu] = [moduli.young(), moduli.nu()].map(short);
-    let [lambda, mu] = [moduli.lambda, moduli.mu].map(short);
     let middle = if material.is_graded { ", in the middle of the body" } else { "" };
-    format!("  rest   E = {young}, nu = {nu}, lambda = {lambda}, mu = {mu} at F = I{middle}")
+    if let Some(moduli) = material.middle.moduli() {
+        let [young, nu] = [moduli.young(), moduli.nu()].map(short);
+        let [lambda, mu] = [moduli.lambda, moduli.mu].map(short);
+        return format!(
+            "  rest   E = {young}, nu = {nu}, lambda = {lambda}, mu = {mu} at F = I{middle}"
+        );
+    }
+    match material.middle.transverse_moduli() {
+        Some(TransverseModuli { axis, young, nu, shear }) => format!(
+            "  rest   E = {}, nu = {}, G = {} along {} and across it at F = I{middle}",
+            list(&young),
+            list(&nu),
+            list(&shear),
+            list(&axis)
+        ),
+        None => {
+            "  rest   neither isotropic nor so about an axis at F = I: it has no E and nu".into()
+        }
+    }
 }
 
 /// What a grid has to hold, and a mesh to resolve.
@@ -47,10 +66,16 @@ pub fn extent(reach: &[[f64; 2]], shortest_wavelength: Option<f64>) -> String {
     format!("  extent {}; {wave}", sides.join(", "))
 }
 
-fn body(waves: &Waves, ellipticity: Ellipticity, modulus: &str) -> String {
+fn body(waves: &Waves, ellipticity: &Ellipticity, modulus: &str) -> String {
     let proved = match ellipticity {
-        Ellipticity::Strong(_) => "proved",
-        Ellipticity::Unproved => "not proved",
+        Ellipticity::Strong(_) => "proved".into(),
+        Ellipticity::Lost(Softening { witness, direction, .. }) => format!(
+            "REFUTED at X = {}, t = {} along {}",
+            list(&witness.coordinates),
+            short(witness.time),
+            list(direction)
+        ),
+        Ellipticity::Unproved => "not proved".into(),
     };
     let Waves { least, at, time, direction } = waves;
     format!(
@@ -74,6 +99,18 @@ fn face(surface: &Surface, modulus: &str) -> String {
         list(at),
         short(*time),
         list(direction)
+    )
+}
+
+fn edge(corner: &Corner, modulus: &str) -> String {
+    let Corner { faces: [first, second], coercivity, at, time } = corner;
+    format!(
+        "  corner {}, {}: coercivity {} {modulus} at X = {}, t = {}, in the softest state of a sample",
+        first.name(),
+        second.name(),
+        short(*coercivity),
+        list(at),
+        short(*time)
     )
 }
 
@@ -106,6 +143,7 @@ pub fn document(stability: &Stability, warnings: &[Diagnostic], solved: Option<S
             "direction": waves.direction,
         })),
         "faces": stability.surfaces.iter().map(face_document).collect::<Vec<_>>(),
+        "corners": stability.corners.iter().map(corner_document).collect::<Vec<_>>(),
         "growth": growth.map(|growth| growth.factor),
         "slowest_mode": growth.map(|growth| json!({
             "omega_squared": growth.least,
@@ -129,6 +167,15 @@ fn face_document(surface: &Surface) -> Value {
     })
 }
 
+fn corner_document(corner: &Corner) -> Value {
+    json!({
+        "faces": corner.faces.map(Face::name),
+        "coercivity": corner.coercivity,
+        "at": corner.at,
+        "time": corner.time,
+    })
+}
+
 fn sentence(warning: &Diagnostic) -> String {
     format!("{}: {}", warning.message, warning.label)
 }
@@ -142,4 +189,10 @@ pub fn moduli(material: Option<&Material>) -> Option<Value> {
         "young": moduli.young(),
         "nu": moduli.nu(),
     }))
+}
+
+/// Moduli of a material that is isotropic about an axis at rest, and no more.
+pub fn transverse(material: Option<&Material>) -> Option<Value> {
+    let TransverseModuli { axis, young, nu, shear } = material?.middle.transverse_moduli()?;
+    Some(json!({ "axis": axis, "young": young, "nu": nu, "shear": shear }))
 }

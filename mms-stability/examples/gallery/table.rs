@@ -1,0 +1,85 @@
+//! The page of what is known of the stability of the gallery.
+
+use std::fs;
+use std::path::Path;
+
+use mms_codegen::certify::certificate::certify;
+use mms_codegen::certify::ellipticity::Ellipticity;
+use mms_codegen::{Compiled, compile};
+use mms_stability::warnings::warnings;
+use mms_stability::{Stability, judge};
+
+const HEAD: &str = "\
+# Is the gallery fit to verify with?
+
+What `mms check` finds for each field, at the defaults of its parameters; [what it means](guide/stability.md). Moduli are
+relative to mu at rest. Made by
+
+```sh
+cargo run -p mms-stability --example gallery > docs/stability.md
+```
+
+Acoustic tensors: the least eigenvalue of a sample, and whether all are proved to be positive. Impedance: of the worst face
+that can move. Coercivity: of the worst corner of two such faces. Growth: the factor by which a long wave grows over the
+window, and the least w^2 in 1/s^2.
+
+| field | acoustic tensors | impedance | coercivity | growth | least w^2 | warned of |
+|---|---|---|---|---|---|---|
+";
+
+/// All of it.
+pub fn page() -> String {
+    let mut rows: Vec<String> = gallery().iter().map(|(name, field)| row(name, field)).collect();
+    rows.insert(0, HEAD.into());
+    rows.concat()
+}
+
+fn gallery() -> Vec<(String, Compiled)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
+    let entries = fs::read_dir(folder).expect("the gallery").map(|entry| entry.expect("an entry"));
+    let mut paths: Vec<_> = entries.map(|entry| entry.path()).collect();
+    paths.sort();
+    let fields = paths.iter().map(|path| {
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let text = fs::read_to_string(path).expect("a field file");
+        let compiled = compile(&name, &name, &text, &|_| Err("no other file".into()));
+        (name, compiled.unwrap_or_else(|failure| panic!("{failure}")))
+    });
+    fields.collect()
+}
+
+fn row(name: &str, field: &Compiled) -> String {
+    let (stability, ellipticity) = (judge(field), certify(field).ellipticity);
+    let Stability { waves, surfaces, corners, growth, .. } = &stability;
+    let proved = match ellipticity {
+        Ellipticity::Strong(_) => "proved",
+        Ellipticity::Lost(_) => "refuted",
+        Ellipticity::Unproved => "not proved",
+    };
+    let acoustic = waves.as_ref().map(|waves| format!("{}, {proved}", short(waves.least)));
+    let faces = surfaces.iter().map(|surface| (surface.least, surface.face.name().to_string()));
+    let corners = corners.iter().map(|corner| {
+        let [first, second] = corner.faces.map(|face| face.name());
+        (corner.coercivity, format!("{first}, {second}"))
+    });
+    let factor = growth.as_ref().map(|growth| short(growth.factor));
+    let least = growth.as_ref().map(|growth| short(growth.least));
+    let warned = warnings(field, &stability, None).len();
+    let cells = [acoustic, worst(faces), worst(corners), factor, least]
+        .map(|cell| cell.unwrap_or_else(|| "-".into()));
+    let warned = if warned == 0 { String::new() } else { format!("{warned} of these") };
+    format!("| {name} | {} | {warned} |\n", cells.join(" | "))
+}
+
+/// The least value, and what it is of.
+fn worst(values: impl Iterator<Item = (f64, String)>) -> Option<String> {
+    let (value, of) = values.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
+    Some(format!("{} ({of})", short(value)))
+}
+
+/// Three digits: more are those of a sample, and of the functions of a system.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    let is_plain = rounded == 0.0 || (1e-2..1e6).contains(&rounded.abs());
+    if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
+}
