@@ -1,4 +1,4 @@
-//! Compiles the field files into Rust modules: with the feature `all` every one, otherwise the bar alone.
+//! Compiles the field files into Rust modules.
 //!
 //! Each becomes a Rust file of its own, which is written again only where its field or the compiler is another
 //! one: a new field costs no other one anything. Those that are written are compiled side by side.
@@ -12,16 +12,12 @@ use mms_codegen::compile;
 use mms_codegen::rust::module;
 use mms_spec::{FieldFile, field_files};
 
-/// The field of the main job.
-const MAIN: &str = "bar_1d";
-
 fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by Cargo"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by Cargo"));
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=fields");
-    let mut files = field_files(&root.join("fields"))?;
-    files.retain(|file| env::var_os("CARGO_FEATURE_ALL").is_some() || file.name == MAIN);
+    let files = field_files(&root.join("fields"))?;
     for path in files.iter().flat_map(FieldFile::files) {
         println!("cargo::rerun-if-changed={}", path.display());
     }
@@ -69,14 +65,15 @@ fn write_module(file: &FieldFile, compiler: &[u8], out: &Path) -> Result<(), Str
     fs::write(&path, text).map_err(|error| format!("error: {}: {error}", path.display()))
 }
 
-/// One module per field, and the list of them.
+/// One module per field, and the list of them. The feature `linked` says where what is on the list is compiled.
 fn gallery(files: &[FieldFile]) -> String {
     let modules = files
         .iter()
         .map(|file| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{}.rs\"));\n", file.name));
-    let codes = files.iter().map(|file| format!("    mms_runtime::code!({}),\n", file.name));
+    let codes = files.iter().map(|file| format!("        mms_runtime::code!({}),\n", file.name));
     format!(
-        "{}\n/// The compiled fields, in the order of their names.\npub const FIELDS: &[Code] = &[\n{}];\n",
+        "{}\n/// The compiled field of that name.\n#[cfg_attr(not(feature = \"linked\"), inline)]\n\
+         pub fn find(name: &str) -> Option<Code> {{\n    [\n{}    ].into_iter().find(|code| code.name == name)\n}}\n",
         modules.collect::<String>(),
         codes.collect::<String>()
     )

@@ -2,9 +2,13 @@
 
 use std::collections::BTreeMap;
 
+#[cfg(not(feature = "gallery"))]
+use mms_bar as linked;
 use mms_codegen::compile::Failure;
 use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, Options};
+#[cfg(feature = "gallery")]
+use mms_gallery as linked;
 use mms_mechanics::Model;
 use mms_runtime::scene::Code;
 use mms_spec::source::Sources;
@@ -31,8 +35,8 @@ pub const FIELDS: &[Entry] = include!(concat!(env!("OUT_DIR"), "/fields.rs"));
 
 impl Entry {
     /// Its compiled code, where that is part of this program.
-    pub fn code(&self) -> Option<&'static Code> {
-        mms_gallery::find(self.name)
+    pub fn code(&self) -> Option<Code> {
+        linked::find(self.name)
     }
 
     /// Compiles the text again, for what the generated module does not hold.
@@ -95,3 +99,6 @@ pub fn materials() -> Vec<MaterialSpec> {
     });
     materials.collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,7 +15,6 @@ mod diagnose;
 mod extremes;
 pub mod gallery;
 mod history;
-pub mod interpreted;
 mod judge;
 mod page;
 mod provenance;

@@ -7,14 +7,12 @@ mod support;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use mms::gallery::Entry;
-use mms::interpreted;
 use mms_analysis::visibility::{Status, Term, Visibility};
 use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::{Compiled, Options};
+use mms_interpreted::Interpretable;
 use mms_mechanics::Output;
 use mms_mechanics::sample::Sample;
-use mms_program::block::Blockwise;
 use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
 use mms_runtime::math::Scalar as _;
@@ -471,16 +469,13 @@ fn the_gallery_leaves_no_term_unseen() {
     assert!(unseen.is_empty(), "no field of the gallery sees {unseen:?}");
 }
 
-/// Every `[[study]]` of the file.
+/// Every `[[study]]` of the file, interpreted: to the bits of compiled code, which is not optimised here.
 fn studies<K: Kernel>() {
-    let compiled = compiled(K::NAME);
-    for study in &compiled.field.studies {
-        let entry = mms::gallery::find(K::NAME).expect("a field of the gallery");
-        let code = mms_gallery::find(K::NAME).expect("a compiled field");
+    for study in &compiled(K::NAME).field.studies {
         let levels = if study.precision.as_deref() == Some("f32") {
-            levels(scene(entry, code.single, study), study)
+            levels(scene::<f32>(K::NAME, study), study)
         } else {
-            levels(scene(entry, code.double, study), study)
+            levels(scene::<f64>(K::NAME, study), study)
         };
         let tolerance = study.tolerance.unwrap_or(TOLERANCE);
         let judgement = judge(&levels, Expected { order: study.order, tolerance });
@@ -488,22 +483,18 @@ fn studies<K: Kernel>() {
     }
 }
 
-/// The field in the form that a study names; what is compiled is the usual one.
-fn scene<T: Solvable + Blockwise>(
-    entry: &Entry,
-    build: fn(&[T]) -> Option<Scene<T>>,
-    study: &StudySpec,
-) -> Scene<T> {
-    let set = Default::default();
-    match study.form.as_deref().map(Form::from_name) {
-        None | Some(Ok(Form::Stable)) => build(&compiled(entry.name).parameters(&set))
-            .expect("parameters in the order of the file"),
+/// The field in the form that a study names.
+fn scene<T: Interpretable>(name: &str, study: &StudySpec) -> Scene<T> {
+    let form = study.form.as_deref().map(|form| Form::from_name(form).expect("a form"));
+    let compiled = match form {
+        None | Some(Form::Stable) => compiled(name).clone(),
         Some(form) => {
-            let options = Options { form: form.expect("a form"), ..Options::default() };
-            let compiled = entry.compile_with(&options).expect("a field of the gallery");
-            interpreted::scene(Arc::new(compiled), &set)
+            let entry = mms::gallery::find(name).expect("a field of the gallery");
+            let options = Options { form, ..Options::default() };
+            entry.compile_with(&options).expect("a field of the gallery")
         }
-    }
+    };
+    mms_interpreted::scene(Arc::new(compiled), &Default::default())
 }
 
 /// The method of a study, with the command's defaults for what it leaves out.

@@ -131,17 +131,15 @@ fn words(orders: impl Iterator<Item = Option<f64>>) -> String {
     words.join(", ")
 }
 
-/// The compiled field, or its rigid twin, interpreted.
+/// The field, or its rigid twin.
 fn scene(entry: &'static Entry, twin: &str) -> Result<Scene<f64>, Box<dyn Error>> {
-    if twin.is_empty() {
-        let compiled = entry.compile()?;
-        let parameters = compiled.parameters(&Default::default());
-        let code = mms_gallery::find(entry.name).ok_or("not compiled")?;
-        return (code.double)(&parameters).ok_or_else(|| "build again".into());
-    }
-    let twin = if twin == STANDARD { Twin::Standard } else { Twin::Given(twin.into()) };
+    let twin = match twin {
+        "" => Twin::Nothing,
+        STANDARD => Twin::Standard,
+        given => Twin::Given(given.into()),
+    };
     let options =
         Options { selection: Selection { twin, ..Selection::default() }, ..Options::default() };
     let compiled = entry.compile_with(&options)?;
-    Ok(mms::interpreted::scene(Arc::new(compiled), &Default::default()))
+    Ok(mms_interpreted::scene(Arc::new(compiled), &Default::default()))
 }

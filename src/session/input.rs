@@ -12,10 +12,9 @@ use mms_codegen::compile::{Failure, Loader, compile_unproved};
 use mms_codegen::selection::{self, quantity};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options, Selection, compile_with};
+use mms_interpreted::Interpretable;
 use mms_mechanics::{Program, TooLarge};
-use mms_program::block::Blockwise;
 use mms_program::precision::Precision;
-use mms_runtime::Real;
 use mms_runtime::scene::{Code, Scene};
 use mms_spec::Form;
 use mms_spec::foreign::{Foreign, shown};
@@ -148,7 +147,7 @@ pub struct Input {
     /// What follows from its text.
     pub compiled: Arc<Compiled>,
     /// Its compiled code, where that is part of this program and the field is taken as it is.
-    code: Option<&'static Code>,
+    code: Option<Code>,
     /// What the user named.
     given: String,
     /// How it was compiled.
@@ -239,7 +238,7 @@ impl Input {
 
     /// The compiled field, where this program has it, and the interpreted one otherwise; with the parameters
     /// of `name=value` settings. `build` takes the code of the precision.
-    pub fn scene<T: Real + Blockwise>(
+    pub fn scene<T: Interpretable>(
         &self,
         settings: &[String],
         build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
@@ -248,15 +247,15 @@ impl Input {
     }
 
     /// The same, with parameters that are set by position.
-    pub fn scene_with<T: Real + Blockwise>(
+    pub fn scene_with<T: Interpretable>(
         &self,
         set: &BTreeMap<usize, RBig>,
         build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
     ) -> anyhow::Result<Scene<T>> {
         match self.code {
-            Some(code) => build(code)(&self.compiled.parameters::<T>(set))
+            Some(code) => build(&code)(&self.compiled.parameters::<T>(set))
                 .context("the gallery is out of step with its field files: build again"),
-            None => Ok(crate::interpreted::scene(self.compiled.clone(), set)),
+            None => Ok(mms_interpreted::scene(self.compiled.clone(), set)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! `mms eval`: the numbers, how they are printed, and what is refused.
 
-use mms_gallery::bar_1d;
+use mms_bar::bar_1d;
 use serde_json::{Value, json};
 
 use super::mms::{BAR, Folder, assert_close, keys, numbers};

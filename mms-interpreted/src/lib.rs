@@ -67,8 +67,31 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
     })
 }
 
+/// A precision that fields are interpreted in. What does that is compiled in this crate, once: who asks for a scene
+/// compiles none of it.
+pub trait Interpretable: Real + Blockwise {
+    /// See [`scene`](fn@scene).
+    fn scene(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<Self>;
+}
+
+macro_rules! interpretable {
+    ($($float:ident)*) => {
+        $(impl Interpretable for $float {
+            fn scene(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<Self> {
+                interpreted(compiled, set)
+            }
+        })*
+    };
+}
+
+interpretable!(f32 f64);
+
 /// The scene of a compiled text, some of its parameters set by the caller.
-pub fn scene<T: Real + Blockwise>(
+pub fn scene<T: Interpretable>(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<T> {
+    T::scene(compiled, set)
+}
+
+fn interpreted<T: Real + Blockwise>(
     compiled: Arc<Compiled>,
     set: &BTreeMap<usize, RBig>,
 ) -> Scene<T> {
@@ -317,6 +340,3 @@ fn condition(claim: Claim) -> Condition {
         Claim::Traction => Condition::Traction,
     }
 }
-
-#[cfg(test)]
-mod tests;
