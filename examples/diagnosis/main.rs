@@ -34,11 +34,11 @@ the hypotheses; their methods are of the same project.
 * two: two mistakes at once, of different families, in what is computed. Right is one of them.
 * right: no mistake, integrators of second order.
 
-A field of which `mms check` warns that it is unstable under its own loads is left out: no solver can follow it. An
+`conformal_sector_2d` is left out: it is unstable under its own loads, so that no solver can follow it. An
 interval is that of Wilson, for 95 %.
 ";
 
-/// Left out: `mms check` warns of it.
+/// Left out: no solver can follow them.
 const UNSTABLE: &[&str] = &["conformal_sector_2d"];
 
 /// How a set of cases ended.

@@ -4,8 +4,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mms_campaign::template::Template;
 use mms_campaign::read;
+use mms_campaign::template::Template;
 
 fuzz_target!(|text: &str| {
     let _ = Template::words(text);

@@ -4,14 +4,17 @@
 //! state, of a condition, or of what is written. The error that it makes is found in one of three ways:
 //!
 //! * of a law alone, by its stresses ([`table`]);
-//! * of accelerations or residuals at an exact state, by the weak form of the balance ([`state`]);
+//! * of accelerations or residuals at an exact state, by the weak form of the balance ([`state`]); velocities after one
+//!   [step] are mean accelerations;
 //! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, or for mistakes of output by the
 //!   exact solution ([`ordinary`], [`run`]).
 //!
 //! Errors are compared as coefficients of [smooth] functions, or as sums with them, never point by point: what
-//! methods make of an error between points differs, and what is smooth does not. [`rank`] finds the size with which a hypothesis
-//! comes nearest to an error, besides what the method makes of it: that is known from two meshes of the user's, or from a right
-//! run of our own. [`answer`] says whether what is left is no more than that, and which hypotheses do as well.
+//! methods make of an error between points differs, and what is smooth does not. Those of our own runs are taken at the user's points
+//! ([`sample`]), for what is not smooth looks different at others. [`rank`] finds the size with which a hypothesis comes nearest
+//! to an error, besides what the method makes of it: that falls from one mesh of the user's to the next, and is about what
+//! one of several right methods of our own makes. [`answer`] says whether what is left is no more than that, and which
+//! hypotheses do as well. Where none does, [`pair`] looks for two, and [`place`] says where the error is.
 //!
 //! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
 //! that it may have; and what it leaves is small where the method's own error is.

@@ -278,7 +278,6 @@ where
         needs.push("a second time");
     }
     needs.push("accelerations at an exact state");
-    let cannot_be_seen = unseen(hypotheses, &explained, expected);
     let ranked = ranked(exact, hypotheses, explained.clone(), &needs);
     let kind = usize::from(look.coarse.is_some());
     let finding = match finding(&ranked, look.error.excess(), LEFT) {
@@ -286,6 +285,13 @@ where
         found => found,
     };
     let named = ranked.first().filter(|_| finding == Finding::Named);
+    // Behind what is left of the error anything smaller is hidden.
+    let left = match (finding, named) {
+        (Finding::Nothing, _) => size(&look.error.all),
+        (_, Some(best)) => size(&look.error.beyond) * (1.0 - best.explained).max(0.0).sqrt(),
+        _ => size(&look.error.beyond),
+    };
+    let cannot_be_seen = unseen(hypotheses, &explained, left.max(look.error.floor));
     let fields = look.fields(named.map(|it| (&hypotheses[it.hypothesis], it.factor.as_slice())));
     Ok(Diagnosis {
         finding,

@@ -157,6 +157,7 @@ fn what_is_not_read_is_named() {
         ("1,2\n3,4\n", "file:1: expected names"),
         ("X,u\n", "no line of numbers"),
         ("X,u\n1,2\n1,two\n", "file:3: column `u`: expected a number, found `two`"),
+        ("X,u\n1,f64(2.5)\n", "file:2: column `u`: expected a number, found `f64(2.5)`"),
         ("X,u\n1,2\n1\n", "file:3: 1 columns, and 2 names"),
         ("X,X\n1,2\n", "two columns are called `X`"),
     ] {

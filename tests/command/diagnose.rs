@@ -116,6 +116,43 @@ fn accelerations_beside_another_motion_are_among_results() {
 }
 
 #[test]
+fn velocities_after_one_step_name_a_term() {
+    let folder = Folder::new();
+    let (points, step) = (grid(&folder, 16, 0.0), 2e-4);
+    let with = |of_b: f64| {
+        table("X,Y,time,v_x,v_y", &points, |point| {
+            let [v, a, b] =
+                ["velocity", "acceleration", "body_force"].map(|it| numbers(point, it));
+            let v = (0..2).map(|i| v[i] + step * (a[i] + of_b * b[i])).collect();
+            [numbers(point, "at"), vec![step], v].concat()
+        })
+    };
+    diagnose(&folder, &with(0.0), "").exits(0).prints("one step from an exact state");
+    diagnose(&folder, &with(-1.0), "").exits(1).prints("named: force_missing");
+}
+
+#[test]
+fn an_affine_state_is_compared_with_the_affine_part() {
+    let folder = Folder::new();
+    folder.mms("state travelling_wave_2d --cells 8 --time 0.01 --affine -o affine.csv").exits(0);
+    folder.mms("diagnose travelling_wave_2d affine.csv --affine").exits(0).prints("nothing");
+    folder.mms("diagnose travelling_wave_2d affine.csv").exits(1);
+}
+
+#[test]
+fn results_of_a_method_are_like_it_and_go_to_the_page() {
+    let folder = Folder::new();
+    folder.mms("run axis_aligned_2d --cells 8 --vtk right --frames 2").exits(0);
+    let run = folder.mms("diagnose axis_aligned_2d right --like shape=cpgimp --output out").exits(0);
+    run.prints("0 % apart").prints("next: ");
+    folder.mms("report out").exits(0);
+    let page = folder.read("out/report.html");
+    assert!(page.contains("The user's error") && page.contains("Diagnoses"), "{page}");
+    let run = folder.mms("diagnose axis_aligned_2d right --like shape=none").exits(2);
+    run.complains("shape");
+}
+
+#[test]
 fn files_that_say_too_little_are_refused() {
     let folder = Folder::new();
     let run = diagnose(&folder, "X,Y,time\n0.5,0.5,0\n0.2,0.3,0\n", "").exits(2);
@@ -141,4 +178,7 @@ fn hypotheses_are_listed() {
     for name in ["force_sign", "stress_transposed", "moduli_swapped", "points_permuted"] {
         assert!(names.contains(&name), "{name}");
     }
+    // Without a field, with the names of sizes.
+    let listed = Folder::new().mms("diagnose --list").exits(0);
+    listed.prints("force_missing").prints("traction_sign on x_max").prints("law, exact state, step");
 }

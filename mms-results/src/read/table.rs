@@ -117,6 +117,12 @@ fn header(record: &ByteRecord, line: usize) -> Result<Table, Mistake> {
     Ok(Table { columns: names.into_iter().map(column).collect(), styles, lines: Vec::new() })
 }
 
+/// Whether a word is a number as a program shows it, as in `np.float64(0.5)`: who wrote it meant a number.
+fn is_wrapped(text: &str) -> bool {
+    let inner = text.trim().strip_suffix(')').and_then(|it| it.split_once('('));
+    inner.is_some_and(|(_, inner)| number(inner).is_some())
+}
+
 impl Table {
     /// Adds a line. Columns that begin with a word are left out, and are no longer `numeric`.
     fn push(
@@ -134,7 +140,9 @@ impl Table {
             return Err(Mistake::at(line, what));
         }
         if numeric.is_empty() {
-            *numeric = (0..columns).map(|at| number(field(record, at)).is_some()).collect();
+            *numeric = (0..columns)
+                .map(|at| number(field(record, at)).is_some() || is_wrapped(field(record, at)))
+                .collect();
         }
         for column in (0..columns).filter(|&column| numeric[column]) {
             let text = field(record, column);
