@@ -5,7 +5,6 @@ use mms_runtime::Face;
 use crate::exact::Exact;
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
 use crate::smooth::size;
-use crate::state::Computed;
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,6 +69,15 @@ impl Ranked {
     }
 }
 
+/// What a solver computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Computed {
+    /// a.
+    Acceleration,
+    /// r = rho0 a - Div P - rho0 b per reference volume.
+    Residual,
+}
+
 /// A step of the ladder: each vouches for what the next one takes for granted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rung {
@@ -109,7 +117,7 @@ impl Rung {
                 "force, stress, mass and loads are right at this state; next: velocities after one small step from it"
             }
             (Rung::State(_), Finding::Unexplained) => {
-                "the same with a term left out (`--without body_force`, stress, traction), and a table of the law                  (`--quantity stress`)"
+                "the same with a term left out (`--without body_force`, stress, traction), and a table of the law alone"
             }
             (Rung::Step, Finding::Nothing) => {
                 "one step is right; next: results at later times, of two meshes"
@@ -228,9 +236,6 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
 
 /// More hypotheses that explain an error as well as the best one say that the results tell nothing apart.
 const ALIKE: usize = 5;
-/// What is named leaves no more of the error than this, times what a hypothesis of a size that it cannot have leaves: else
-/// something like that is at work.
-const NEARER: f64 = 0.95;
 /// By how much a response may have to be scaled in a mistake that has no size, and besides over what it leaves of the error.
 const SCALED: f64 = 0.03;
 const SCALED_BY_LEFT: f64 = 0.5;
@@ -258,8 +263,9 @@ fn is_plausible<const D: usize>(hypothesis: &Hypothesis<D>, explained: &Explaine
 
 /// What is found where hypotheses explain so much of an error that is so many times that of the method. A mistake that is
 /// named leaves no more than this part of it, where the method makes next to nothing of it: one that has no size, and one whose
-/// size was found.
-pub fn finding(ranked: &[Ranked], excess: f64, most: [f64; 2]) -> Finding {
+/// size was found. It leaves no more than `nearer` times what a hypothesis of a size that it cannot have leaves: else something
+/// like that is at work.
+pub fn finding(ranked: &[Ranked], excess: f64, most: [f64; 2], nearer: f64) -> Finding {
     let most = |it: &Ranked| most[usize::from(it.is_sized)] + LEFT_BY_METHOD / excess;
     let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
     let nearest = others.fold(f64::INFINITY, f64::min);
@@ -269,7 +275,7 @@ pub fn finding(ranked: &[Ranked], excess: f64, most: [f64; 2]) -> Finding {
             if best.is_plausible
                 && best.equivalent_here.len() <= ALIKE
                 && left(best.explained) <= most(best)
-                && left(best.explained) <= NEARER * nearest =>
+                && left(best.explained) <= nearer * nearest =>
         {
             Finding::Named
         }

@@ -56,7 +56,8 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
         }
         Size::Fixed => None,
     };
-    let known = (it.known)(exact).into_iter().map(|it| named(it.name, it.says, it.size));
+    let known = (it.known)(exact).into_iter().filter(|it| it.size.is_finite());
+    let known = known.map(|it| named(it.name, it.says, it.size));
     let all = known.chain(below).collect::<Vec<_>>();
     std::iter::once(own).chain(all).collect()
 }

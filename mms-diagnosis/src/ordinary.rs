@@ -9,14 +9,14 @@ use mms_runtime::{Fill, Method};
 
 use crate::answer::{Diagnosis, Explained, Fields, Finding, Like, Rung, finding, ranked, unseen};
 use crate::changed::Without;
-use crate::evidence::{Frame, Mesh};
-use crate::exact::Exact;
+use crate::evidence::{self, Frame, Mesh};
+use crate::exact::{Exact, Quantity, vectors};
 use crate::hypothesis::{Change, Hypothesis};
 use crate::pair;
 use crate::place;
 use crate::rank::{Effect, Error, explain};
 use crate::run::{Obstacle, Plan, written};
-use crate::smooth::{less, size};
+use crate::smooth::{less, nearest, size};
 
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
@@ -62,6 +62,25 @@ where
     }
 }
 
+/// What velocities of so much earlier add to the errors of a mesh.
+fn half_step<const D: usize>(
+    exact: &Exact<'_, D>,
+    frame: &Frame<D>,
+    mesh: &Mesh,
+    before: f64,
+) -> Option<Vec<f64>> {
+    let seen = frame.see(|at, quantity| {
+        let snapshot = evidence::nearest(mesh, frame.times[at])?;
+        let points = vectors(&snapshot.reference);
+        let of = |time: f64| exact.values(quantity, time, &points);
+        let before = if quantity == Quantity::Velocity { before } else { 0.0 };
+        let pairs = of(snapshot.time - before).into_iter().zip(of(snapshot.time));
+        let change = pairs.map(|(earlier, now)| earlier - now).collect();
+        Some((points, change))
+    });
+    seen.map(|it| it.coefficients)
+}
+
 /// Looks at results with every hypothesis.
 pub struct Look<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
@@ -76,6 +95,8 @@ pub struct Look<'a, const D: usize> {
     pub smooth: f64,
     /// The largest that a right method of ours would make there.
     pub ordinary: f64,
+    /// What velocities of half a step earlier add to it.
+    half_step: Vec<f64>,
     /// What is explained.
     pub error: Error,
 }
@@ -115,7 +136,8 @@ where
             errors: seen.coefficients.clone(),
             smooth: seen.share,
             ordinary,
-            error: Error::new(Vec::new(), Vec::new(), floor),
+            half_step: Vec::new(),
+            error: Error::new(Vec::new(), Vec::new(), Vec::new(), floor),
         };
         let both = |method: usize| {
             let coarse = look.coarse.as_ref().map(|it| it.scaled(method));
@@ -123,8 +145,20 @@ where
         };
         let methods = all.filter_map(both).collect();
         let all = look.together(seen.coefficients, coarse_errors.unwrap_or_default());
-        look.error = Error::new(all, methods, floor);
+        look.half_step = half_step(exact, frame, mesh, 0.5 * exact.time_step).unwrap_or_default();
+        let free = look.free();
+        look.error = Error::new(all, methods, free, floor);
         Ok(look)
+    }
+
+    /// What velocities of half a step earlier add, as leapfrog has them: that is no mistake.
+    fn free(&self) -> Vec<Vec<f64>> {
+        let before =
+            |mesh: &Mesh| 0.5 * self.exact.time_step * mesh.cell_size / self.fine.mesh.cell_size;
+        let of = |mesh: &Mesh| half_step(self.exact, self.frame, mesh, before(mesh));
+        let coarse = self.coarse.as_ref().map_or(Some(Vec::new()), |it| of(it.mesh));
+        let both = coarse.map(|coarse| self.together(self.half_step.clone(), coarse));
+        both.filter(|it| size(it) > 0.0).into_iter().collect()
     }
 
     /// Errors on two meshes as what does not fall with h^2, and a part of what does; of one mesh as they are.
@@ -183,16 +217,23 @@ where
     pub fn like(&self, is_asked: bool) -> Option<Like> {
         let last = self.fine.plan.methods() - 1;
         let first = if is_asked { last } else { 0 };
+        let free = [self.half_step.clone()];
+        let free = if size(&free[0]) > 0.0 { &free[..] } else { &[] };
         let all = (first..=last).filter_map(|method| {
             let error = self.fine.scaled(method)?;
+            let mut apart = less(&self.errors, 1.0, &error);
+            let mut own = self.errors.clone();
+            for (column, part) in free.iter().zip(nearest(free, &apart)) {
+                (apart, own) = (less(&apart, part, column), less(&own, part, column));
+            }
             Some(Like {
                 method: self.fine.plan.described(method),
-                factor: size(&self.errors) / size(&error),
-                apart: size(&less(&self.errors, 1.0, &error)) / size(&self.errors),
+                factor: size(&own) / size(&error),
+                apart: size(&apart) / size(&own),
             })
         });
-        let nearest = all.min_by(|a, b| a.apart.total_cmp(&b.apart))?;
-        (is_asked || nearest.apart <= NEAR).then_some(nearest)
+        let best = all.min_by(|a, b| a.apart.total_cmp(&b.apart))?;
+        (is_asked || best.apart <= NEAR).then_some(best)
     }
 
     /// What each hypothesis explains, on all processors.
@@ -249,6 +290,8 @@ where
 
 /// Which part of the error a mistake that is named may leave: one that has no size, and one whose size was found.
 const LEFT: [f64; 2] = [0.25, 0.12];
+/// And over what a hypothesis of a size that it cannot have leaves.
+const NEARER: f64 = 0.95;
 /// An error that no hypothesis explains is not held against a solver, where it is no larger than so many times that of right
 /// methods of ours: on one mesh and on two.
 const UNEXPLAINED: [f64; 2] = [4.0, 3.0];
@@ -280,7 +323,7 @@ where
     needs.push("accelerations at an exact state");
     let ranked = ranked(exact, hypotheses, explained.clone(), &needs);
     let kind = usize::from(look.coarse.is_some());
-    let finding = match finding(&ranked, look.error.excess(), LEFT) {
+    let finding = match finding(&ranked, look.error.excess(), LEFT, NEARER) {
         Finding::Unexplained if error <= UNEXPLAINED[kind] * expected => Finding::Nothing,
         found => found,
     };

@@ -10,6 +10,8 @@ pub struct Error {
     pub all: Vec<f64>,
     /// What right methods make. The user's may make about as much as one of them, or nothing.
     pub methods: Vec<Vec<f64>>,
+    /// What results may have any amount of, without a mistake.
+    pub free: Vec<Vec<f64>>,
     /// The size of what a right method may make besides.
     pub floor: f64,
     /// What no method explains.
@@ -29,8 +31,8 @@ struct Fit {
 
 impl Error {
     /// Of these coefficients.
-    pub fn new(all: Vec<f64>, methods: Vec<Vec<f64>>, floor: f64) -> Self {
-        let mut error = Error { all, methods, floor, beyond: Vec::new() };
+    pub fn new(all: Vec<f64>, methods: Vec<Vec<f64>>, free: Vec<Vec<f64>>, floor: f64) -> Self {
+        let mut error = Error { all, methods, free, floor, beyond: Vec::new() };
         error.beyond = error.explain(&[], &[]).1;
         error
     }
@@ -64,11 +66,12 @@ impl Error {
             let rows = (0..rows).map(|row| if place == Some(row) { weight } else { 0.0 });
             column.iter().copied().chain(rows).collect::<Vec<f64>>()
         };
-        let mut columns: Vec<_> = directions.iter().map(|it| row(it, None)).collect();
+        let known = directions.iter().chain(&self.free);
+        let mut columns: Vec<_> = known.map(|it| row(it, None)).collect();
         let doubts = std::iter::once(method).chain(doubtful).enumerate();
         columns.extend(doubts.map(|(place, it)| row(it, Some(place))));
         let mut to = row(&self.all, None);
-        to[self.all.len()] = columns[directions.len()][self.all.len()];
+        to[self.all.len()] = columns[directions.len() + self.free.len()][self.all.len()];
         let mut found = nearest(&columns, &to);
         let mut remains = to;
         for (column, factor) in columns.iter().zip(&found) {

@@ -10,6 +10,7 @@ use mms_runtime::{
     Condition, Face, Fill, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
 };
 
+pub use crate::answer::Computed;
 use crate::answer::{Diagnosis, Finding, Rung, finding, ranked, unseen};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
@@ -17,15 +18,6 @@ use crate::hypothesis::{Change, Given, Hypothesis, Initial, away, faces};
 use crate::pair;
 use crate::rank::{Error, explain};
 use crate::smooth::{Smooth, less, size};
-
-/// What a solver computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Computed {
-    /// a.
-    Acceleration,
-    /// r = rho0 a - Div P - rho0 b per reference volume.
-    Residual,
-}
 
 /// Accelerations or residuals of a solver at an exact state.
 #[derive(Clone, Debug)]
@@ -52,6 +44,8 @@ const DEGREE: [usize; 3] = [7, 5, 3];
 const POINTS: [f64; 3] = [512.0, 64.0, 20.0];
 /// Which part of the error a mistake that is named may leave.
 const LEFT: f64 = 0.2;
+/// At one state mistakes of several sizes are one formula.
+const NEARER: f64 = 1.3;
 /// What h may make of a sum of a right solver, over the sum: so many times (h/length)^2.
 const METHOD: f64 = 2.5;
 
@@ -297,7 +291,7 @@ pub fn diagnose<const D: usize>(
         let change = later.iter().zip(&now).map(|(later, now)| later - now).collect();
         weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect()
     });
-    let error = Error::new(all, drift.into_iter().collect(), floor);
+    let error = Error::new(all, drift.into_iter().collect(), Vec::new(), floor);
     let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
         if let (Change::Start(change), Some(step)) = (&hypothesis.change, response.step) {
             let mut v = exact.velocity(response.time, &weak.points);
@@ -338,7 +332,7 @@ pub fn diagnose<const D: usize>(
         explained.clone(),
         &["another term left out (`--without`)", "another field"],
     );
-    let finding = finding(&ranked, excess, [LEFT; 2]);
+    let finding = finding(&ranked, excess, [LEFT; 2], NEARER);
     Ok(Diagnosis {
         finding,
         rung: if response.step.is_some() { Rung::Step } else { Rung::State(response.computed) },

@@ -96,7 +96,7 @@ pub fn diagnose<const D: usize>(
     let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let count = (right.len() as f64).sqrt();
     let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
-    let error = Error::new(all, Vec::new(), floor);
+    let error = Error::new(all, Vec::new(), Vec::new(), floor);
     let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
         let mut wrong = tau.clone();
         let given = Given {
@@ -130,7 +130,7 @@ pub fn diagnose<const D: usize>(
     let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
     let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
-    let finding = finding(exact_ones, excess, [1.0; 2]);
+    let finding = finding(exact_ones, excess, [1.0; 2], f64::INFINITY);
     Some(Diagnosis {
         finding,
         rung: Rung::Law,

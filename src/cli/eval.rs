@@ -180,7 +180,11 @@ struct Outside {
 impl Eval {
     pub fn run(self) -> anyhow::Result<Outcome> {
         let quantities = evaluated(&self.quantity)?;
-        let input = Input::find_some(&self.field, &self.variant, &quantities)?;
+        let mut derived = quantities.clone();
+        if self.all_components {
+            derived.extend(plane::NEEDED);
+        }
+        let input = Input::find_some(&self.field, &self.variant, &derived)?;
         self.hold_normal(&quantities)?;
         match self.precision {
             Precision::F32 => self.evaluate::<f32>(&input, &quantities),

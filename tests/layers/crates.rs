@@ -145,12 +145,14 @@ pub const CRATES: &[Crate] = &[
         name: "mms-diagnosis",
         knows: &["mms-runtime"],
         layers: &[
-            "law smooth",
+            "law sample smooth",
             "exact",
             "evidence hypothesis",
             "answer changed",
-            "patterns rank run",
+            "patterns place rank run",
+            "list pair",
             "ordinary state table",
+            "step",
         ],
     },
     Crate {

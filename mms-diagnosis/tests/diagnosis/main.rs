@@ -324,3 +324,23 @@ fn what_is_written_wrongly_is_named() {
     let permuted = of_results(|t, x| u(t, &Point::new(x[1], x[0])));
     assert_eq!(name(&permuted), "points_permuted");
 }
+
+#[test]
+fn velocities_of_half_a_step_earlier_are_no_mistake() {
+    let (points, before) = (points(24), exact(&LOADED, 12.0).time_step / 2.0);
+    let numbers = |of: &dyn Fn(&Point) -> Point| -> Vec<f64> {
+        points.iter().flat_map(|x| of(x).as_slice().to_vec()).collect()
+    };
+    let snapshot = |time: f64| Snapshot {
+        time,
+        reference: numbers(&|x| *x),
+        values: vec![
+            (Quantity::Displacement, numbers(&|x| field::displacement(time, x))),
+            (Quantity::Velocity, numbers(&|x| field::velocity(time - before, x))),
+        ],
+    };
+    let snapshots = vec![snapshot(0.015), snapshot(0.03)];
+    let found = said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }]);
+    assert!(found.error > 10.0 * found.expected.min(1e-3), "{}", found.error);
+    assert_eq!(name(&found), "nothing");
+}
