@@ -57,6 +57,9 @@ const ARITHMETIC: f64 = 1e-11;
 /// Which part of the squared error a named mistake explains at least: it is there to round-off.
 const EXPLAINED: f64 = 1.0 - 1e-6;
 
+/// In a table mistakes of several sizes may be one formula.
+const NEARER: f64 = 1.3;
+
 /// Mistakes in the measure: what stands for P is written down, whatever the stress is said to be.
 fn is_of_measure(name: &str) -> bool {
     [
@@ -130,7 +133,7 @@ pub fn diagnose<const D: usize>(
     let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
     let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
-    let finding = finding(exact_ones, excess, [1.0; 2], f64::INFINITY);
+    let finding = finding(exact_ones, excess, [1.0; 2], NEARER);
     Some(Diagnosis {
         finding,
         rung: Rung::Law,
