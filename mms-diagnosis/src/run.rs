@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 use mms_runtime::body::bounding_box;
 use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
-    Division, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName,
-    Transfer, Vector,
+    Division, FormulationName, IntegratorName, ManufacturedField, Method, Refusal, Setup,
+    ShapeName, Transfer, Vector,
 };
 
 use crate::changed::{Changed, Without};
@@ -29,9 +29,28 @@ pub enum Obstacle {
     NotFinite,
     /// A run of our own would take so many steps even on the coarsest grid.
     TooManySteps(f64),
+    /// Results have fewer points than tell one mistake from another.
+    TooFewPoints {
+        /// How many there are.
+        found: usize,
+        /// How many there have to be.
+        least: usize,
+    },
+    /// All results are at the start of the time window.
+    AtStart,
+    /// A stress of the field is not finite at a row of a table.
+    SingularDeformation,
+    /// The body has no extent.
+    Refused(Refusal),
 }
 
 impl std::error::Error for Obstacle {}
+
+impl From<Refusal> for Obstacle {
+    fn from(refusal: Refusal) -> Self {
+        Obstacle::Refused(refusal)
+    }
+}
 
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -39,6 +58,20 @@ impl fmt::Display for Obstacle {
             Obstacle::NotFinite => {
                 write!(f, "the exact solution is not finite at a point of the results")
             }
+            Obstacle::TooFewPoints { found, least } => write!(
+                f,
+                "{found} points are too few to tell one mistake from another; expected {least} at least, over all of \
+                 the body"
+            ),
+            Obstacle::AtStart => write!(
+                f,
+                "all results are at the start of the time window, where the state is given: expected results at a later \
+                 time"
+            ),
+            Obstacle::SingularDeformation => {
+                write!(f, "the exact stress is not finite at a row: is det F <= 0 there?")
+            }
+            Obstacle::Refused(refusal) => refusal.fmt(f),
             Obstacle::TooManySteps(steps) => write!(
                 f,
                 "waves cross the body so often until then that each run would take {steps:.0} steps: give results of an \
@@ -59,6 +92,9 @@ pub struct Plan<'a, const D: usize> {
     /// From the particles of each method to the points of the user's results, at each time.
     samplings: Vec<OnceLock<Vec<Sampling>>>,
 }
+
+/// Of these, those by which a response is found again: none of them is near the first.
+pub const OTHERS: [usize; 3] = [1, 4, 8];
 
 /// Methods that are right, and unlike each other. The first has particles as a quadrature has points: finite elements. The
 /// second is smooth, and damps. The others are what particles make of it that lie anywhere in cells.

@@ -15,6 +15,7 @@ pub mod names;
 pub mod norm;
 pub mod pairing;
 mod read;
+mod role;
 mod snapshot;
 pub mod write;
 

@@ -8,10 +8,11 @@ use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_diagnosis::answer::Finding;
 use mms_diagnosis::changed::Without;
+use mms_diagnosis::scene::{self, Solver};
 use mms_results::names::Mapping;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{self, Reading, Solver};
+use crate::diagnose::{Reading, read};
 use crate::judge::results::Results;
 use crate::report::{Diagnosed, Hypotheses};
 use crate::session::exact::Exact;
@@ -137,7 +138,7 @@ impl Diagnose {
         let input = Input::find_with(self.field.as_deref().unwrap_or(LISTED), &options)?;
         let scene = input.scene(&self.set, |code| code.double)?;
         if self.list {
-            let report = Hypotheses { field: &input.name, all: diagnose::hypotheses(&scene) };
+            let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
             self.show(|| report.table(), || report.document())?;
             return Ok(Outcome::AsExpected);
         }
@@ -152,7 +153,7 @@ impl Diagnose {
             is_law: self.quantity == Some(Quantity::Stress),
             residual_sign: self.residual_sign,
         };
-        let evidence = diagnose::read(all, &reading, &mut exact)?;
+        let evidence = read(all, &reading, &mut exact)?;
         say(format_args!("looking at {}", evidence.says()));
         let is_out = |term: Term| self.without.contains(&term);
         let without = Without {
@@ -163,7 +164,7 @@ impl Diagnose {
         let method = |Alike(it): &Alike| it.method(exact.dimension);
         let like = self.like.as_ref().map(method).transpose()?;
         let solver = Solver { time_step: self.time_step, without, like };
-        let diagnosis = diagnose::diagnose(&scene, &evidence, &solver)?;
+        let diagnosis = scene::diagnose(&scene, &evidence, &solver)?;
         let input = exact.input();
         let report =
             Diagnosed { field: &input.name, files: &self.files, diagnosis: &diagnosis, provenance };

@@ -142,9 +142,13 @@ fn an_affine_state_is_compared_with_the_affine_part() {
 fn results_of_a_method_are_like_it_and_go_to_the_page() {
     let folder = Folder::new();
     folder.mms("run axis_aligned_2d --cells 8 --vtk right --frames 2").exits(0);
-    let run =
-        folder.mms("diagnose axis_aligned_2d right --like shape=cpgimp --output out").exits(0);
-    run.prints("like shape=cpgimp,integrator=leapfrog").prints("next: ");
+    let like = "diagnose axis_aligned_2d right --h 0.125 --like shape=cpgimp --output out";
+    folder.mms(like).exits(0).prints("like shape=cpgimp,integrator=leapfrog").prints("next: ");
+    let document = folder.mms(&format!("{like} --json")).exits(0).json();
+    let number = |key: &str| document["like"][key].as_f64().unwrap();
+    // It is that method, on that grid.
+    assert!((number("factor") - 1.0).abs() < 0.02, "{}", number("factor"));
+    assert!(number("apart") < 0.03, "{}", number("apart"));
     folder.mms("report out").exits(0);
     let page = folder.read("out/report.html");
     assert!(page.contains("The user's error") && page.contains("Diagnoses"), "{page}");

@@ -150,15 +150,16 @@ pub const CRATES: &[Crate] = &[
             "evidence hypothesis",
             "answer changed",
             "patterns place rank run",
-            "list pair",
+            "level list pair",
             "ordinary state table",
             "step",
+            "scene",
         ],
     },
     Crate {
         name: "mms-results",
         knows: &[],
-        layers: &["cell mistake names snapshot", "motion norm read write", "pairing"],
+        layers: &["cell mistake role snapshot", "names", "motion norm read write", "pairing"],
     },
     Crate {
         name: "mms-campaign",

@@ -16,6 +16,7 @@ use mms_runtime::{Condition, Face, Matrix, Vector};
 use crate::exact::{Exact, Quantity};
 
 pub use face::{away, faces};
+pub use output::earlier_velocity;
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
 pub struct Given<'a, const D: usize> {

@@ -82,6 +82,16 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     all
 }
 
+/// Velocities of an earlier time than they say, as leapfrog has them: that is no mistake. The size is by how much.
+pub fn earlier_velocity<const D: usize>() -> Hypothesis<D> {
+    let change = Change::Output(|at, quantity| {
+        let before = if quantity == Quantity::Velocity { at.size[0] } else { 0.0 };
+        at.exact.values(quantity, at.time - before, at.reference)
+    });
+    Hypothesis::amount("earlier_velocity", "velocities of an earlier time", vec![0.0], change)
+        .of_mesh()
+}
+
 /// Components shifted by one place.
 fn swapped<const D: usize>(at: &Given<'_, D>, quantity: Quantity) -> Vec<f64> {
     let mut values = at.exact.values(quantity, at.time, at.reference);

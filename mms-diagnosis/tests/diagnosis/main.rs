@@ -341,6 +341,7 @@ fn velocities_of_half_a_step_earlier_are_no_mistake() {
     };
     let snapshots = vec![snapshot(0.015), snapshot(0.03)];
     let found = said(&[Mesh { cell_size: 1.0 / 12.0, snapshots }]);
-    assert!(found.error > 10.0 * found.expected.min(1e-3), "{}", found.error);
+    // Half a step of velocity is an error of some percent.
+    assert!(found.error > 0.01, "{}", found.error);
     assert_eq!(name(&found), "nothing");
 }

@@ -1,30 +1,33 @@
-//! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
+//! Diagnosis of a field of any dimension. Nothing that its callers compile depends on the dimension.
 
-mod evidence;
-
-use mms_diagnosis::answer::Diagnosis;
-use mms_diagnosis::changed::Without;
-use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
-use mms_diagnosis::exact::{Exact, vectors};
-use mms_diagnosis::hypothesis::{Hypothesis, all};
-use mms_diagnosis::list::{Listed, listed};
-use mms_diagnosis::smooth::Smooth;
-use mms_diagnosis::state::{self, Computed};
-use mms_diagnosis::table::{self, Measure, Table};
-use mms_diagnosis::{ordinary, patterns, step};
 use mms_runtime::body::bounding_box;
 use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
-use mms_runtime::{ManufacturedField, Method};
+use mms_runtime::{ManufacturedField, Matrix, Method};
 
-pub use evidence::{Reading, read};
+use crate::answer::{Diagnosis, Rung};
+use crate::changed::Without;
+use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use crate::exact::{Exact, vectors};
+use crate::hypothesis::{Hypothesis, all};
+use crate::list::{Listed, listed};
+use crate::run::Obstacle;
+use crate::smooth::Smooth;
+use crate::state::{self, Response};
+use crate::table::{self, Measure, Table};
+use crate::{ordinary, patterns, step};
 
 /// What there is to look at.
 pub enum Evidence {
     /// Results of meshes, from coarse to fine.
     Results(Vec<Mesh>),
     /// Accelerations or residuals at an exact state, of the finest mesh.
-    State(StateOf),
+    State {
+        /// What was computed.
+        response: Response,
+        /// h.
+        cell_size: f64,
+    },
     /// Stresses beside H: numbers of points, tensors by rows.
     Law(LawOf),
 }
@@ -37,33 +40,21 @@ impl Evidence {
                 let names = meshes.last().and_then(|it| it.snapshots.first());
                 let names = names
                     .map_or(Vec::new(), |it| it.values.iter().map(|(it, _)| it.name()).collect());
-                format!("{} of {} mesh(es)", names.join(", "), meshes.len())
+                let sizes: Vec<_> =
+                    meshes.iter().map(|it| format!("{:.3e}", it.cell_size)).collect();
+                format!(
+                    "{} of {} mesh(es), h = {}",
+                    names.join(", "),
+                    meshes.len(),
+                    sizes.join(", ")
+                )
             }
-            Evidence::State(StateOf { computed: Computed::Acceleration, time, .. }) => {
-                format!("accelerations at the exact state of t = {time}")
-            }
-            Evidence::State(StateOf { time, .. }) => {
-                format!("residuals at the exact state of t = {time}")
+            Evidence::State { response, .. } => {
+                format!("{}, at t = {}", Rung::State(response.computed).says(), response.time)
             }
             Evidence::Law(_) => "F and stress, without a solver".into(),
         }
     }
-}
-
-/// Accelerations or residuals.
-pub struct StateOf {
-    /// Which of them.
-    pub computed: Computed,
-    /// The time.
-    pub time: f64,
-    /// X.
-    pub reference: Vec<f64>,
-    /// The values.
-    pub values: Vec<f64>,
-    /// The volumes of points.
-    pub volumes: Option<Vec<f64>>,
-    /// h.
-    pub cell_size: f64,
 }
 
 /// The stresses of a law.
@@ -104,7 +95,7 @@ pub fn diagnose(
     scene: &Scene<f64>,
     evidence: &Evidence,
     solver: &Solver,
-) -> anyhow::Result<Diagnosis> {
+) -> Result<Diagnosis, Obstacle> {
     match scene {
         Scene::Line(field) => of(field.as_ref(), evidence, solver),
         Scene::Plane(field) => of(field.as_ref(), evidence, solver),
@@ -125,13 +116,13 @@ fn of<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     evidence: &Evidence,
     solver: &Solver,
-) -> anyhow::Result<Diagnosis>
+) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
     let cell_size = match evidence {
         Evidence::Results(meshes) => meshes.last().map_or(1.0, |mesh| mesh.cell_size),
-        Evidence::State(state) => state.cell_size,
+        Evidence::State { cell_size, .. } => *cell_size,
         Evidence::Law(_) => 1.0,
     };
     let speed = Exact::new(field, 1.0, 1.0).wave_speed();
@@ -145,16 +136,8 @@ where
             }
             of_results(&exact, meshes, &hypotheses, solver.like.as_ref())
         }
-        Evidence::State(state) => {
-            let response = state::Response {
-                computed: state.computed,
-                time: state.time,
-                reference: state.reference.clone(),
-                values: state.values.clone(),
-                volumes: state.volumes.clone(),
-                without: solver.without,
-                step: None,
-            };
+        Evidence::State { response, .. } => {
+            let response = Response { without: solver.without, ..response.clone() };
             Ok(state::diagnose(&exact, &response, &hypotheses)?)
         }
         Evidence::Law(law) => of_law(&exact, law, hypotheses),
@@ -166,7 +149,7 @@ fn of_results<const D: usize>(
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
     like: Option<&Method>,
-) -> anyhow::Result<Diagnosis>
+) -> Result<Diagnosis, Obstacle>
 where
     f64: Solve<D>,
 {
@@ -177,27 +160,25 @@ where
     }
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
     let points = points.min().unwrap_or(0);
-    anyhow::ensure!(
-        points >= FEWEST_POINTS,
-        "{points} points are too few to tell one mistake from another; expected {FEWEST_POINTS} at least, over all of the body"
-    );
+    if points < FEWEST_POINTS {
+        return Err(Obstacle::TooFewPoints { found: points, least: FEWEST_POINTS });
+    }
     let smooth = Smooth::new(&exact.domain.body, points, DEGREE)?;
     let frame = Frame::new(exact, &snapshots, smooth);
-    anyhow::ensure!(
-        !frame.times.is_empty(),
-        "all results are at the start of the time window, where the state is given: expected results at a later time"
-    );
-    Ok(ordinary::diagnose(exact, &frame, meshes, hypotheses, like)?)
+    if frame.times.is_empty() {
+        return Err(Obstacle::AtStart);
+    }
+    ordinary::diagnose(exact, &frame, meshes, hypotheses, like)
 }
 
 fn of_law<const D: usize>(
     exact: &Exact<'_, D>,
     law: &LawOf,
     hypotheses: Vec<Hypothesis<D>>,
-) -> anyhow::Result<Diagnosis> {
+) -> Result<Diagnosis, Obstacle> {
     let tensors = |numbers: &[f64]| {
         let each = numbers.chunks_exact(D * D);
-        each.map(mms_runtime::Matrix::<f64, D>::from_row_slice).collect::<Vec<_>>()
+        each.map(Matrix::<f64, D>::from_row_slice).collect::<Vec<_>>()
     };
     let gradient = tensors(&law.gradient);
     let reference = if law.reference.is_empty() {
@@ -208,7 +189,5 @@ fn of_law<const D: usize>(
     };
     let stress = tensors(&law.stress);
     let table = Table { reference, gradient, measure: law.measure, stress, rounding: law.rounding };
-    table::diagnose(exact, &table, hypotheses).ok_or_else(|| {
-        anyhow::anyhow!("the exact stress is not finite at a row: is det F <= 0 there?")
-    })
+    table::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
 }

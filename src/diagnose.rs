@@ -1,16 +1,17 @@
-//! Reads evidence from files.
+//! From the results of a solver to what diagnosis looks at: results, accelerations at an exact state, or a table of a law.
 
 use anyhow::{Context as _, bail, ensure};
+use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
 use mms_diagnosis::exact::Quantity;
-use mms_diagnosis::state::Computed;
+use mms_diagnosis::scene::{Evidence, LawOf};
+use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::Snapshot;
 use mms_results::motion::resolve;
 use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
 use mms_results::norm::Mesh;
 
-use super::{Evidence, LawOf, StateOf};
 use crate::judge::results::{Results, placed};
 use crate::session::exact::Exact;
 
@@ -42,7 +43,7 @@ pub fn read(
         return law(snapshot.context("expected a table of F and stress")?, reading, exact);
     }
     if let Some(state) = state(&all, reading, exact)? {
-        return Ok(Evidence::State(state));
+        return Ok(state);
     }
     let mut levels = Vec::new();
     for (at, results) in all.iter().enumerate() {
@@ -128,7 +129,7 @@ fn state(
     all: &[Results],
     reading: &Reading<'_>,
     exact: &mut Exact,
-) -> anyhow::Result<Option<StateOf>> {
+) -> anyhow::Result<Option<Evidence>> {
     let Some(results) = all.last() else { return Ok(None) };
     let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
     let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
@@ -158,14 +159,16 @@ fn state(
             None => None,
         };
         let cell_size = size(reading.sizes.last().copied(), &mesh, exact);
-        return Ok(Some(StateOf {
+        let response = Response {
             computed,
             time,
+            reference,
             values: found.numbers,
             volumes,
-            cell_size,
-            reference,
-        }));
+            without: Without::default(),
+            step: None,
+        };
+        return Ok(Some(Evidence::State { response, cell_size }));
     }
     Ok(None)
 }

@@ -1,0 +1,137 @@
+//! The meshes of a user's that are looked at, and runs of our own on grids of about their size.
+
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::thread;
+
+use mms_runtime::Method;
+use mms_runtime::study::Solve;
+
+use crate::changed::Without;
+use crate::evidence::{Frame, Mesh, Seen};
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Hypothesis};
+use crate::run::{Obstacle, Plan, written};
+use crate::smooth::less;
+
+/// A mesh is finer than another by this factor at least.
+const REFINED: f64 = 1.2;
+/// How much of what falls with h^2 from mesh to mesh is looked at, where two meshes tell it from what does not.
+const FALLING: f64 = 0.25;
+
+/// One mesh.
+pub struct Level<'a, const D: usize> {
+    /// The results.
+    pub mesh: &'a Mesh,
+    /// Their errors.
+    pub seen: Seen,
+    /// The runs.
+    pub plan: Plan<'a, D>,
+    /// The errors of right methods; `None` of one that stops.
+    right: Vec<Option<Vec<f64>>>,
+}
+
+impl<'a, const D: usize> Level<'a, D>
+where
+    f64: Solve<D>,
+{
+    fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &'a Frame<D>,
+        mesh: &'a Mesh,
+        like: Option<&Method>,
+    ) -> Result<Self, Obstacle> {
+        let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
+        let plan = Plan::new(exact, frame, mesh, Without::default(), like)?;
+        let right = on_all_processors(plan.methods(), |method| plan.right(method));
+        Ok(Level { mesh, seen, plan, right })
+    }
+
+    /// The errors that a right method would make on the mesh.
+    pub fn right(&self, method: usize) -> Option<Vec<f64>> {
+        let ratio = (self.mesh.cell_size / self.plan.cell_size()).powi(2);
+        self.right[method].as_ref().map(|it| it.iter().map(|it| it * ratio).collect())
+    }
+}
+
+/// The finest mesh, and the next coarser one if there is one.
+pub struct Levels<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    frame: &'a Frame<D>,
+    /// The finest.
+    pub fine: Level<'a, D>,
+    coarse: Option<Level<'a, D>>,
+}
+
+impl<'a, const D: usize> Levels<'a, D>
+where
+    f64: Solve<D>,
+{
+    /// Of results of meshes, from coarse to fine, and a method that they may be of.
+    ///
+    /// # Errors
+    /// Values that are not finite; runs that would take too long.
+    pub fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &'a Frame<D>,
+        meshes: &'a [Mesh],
+        like: Option<&Method>,
+    ) -> Result<Self, Obstacle> {
+        let mesh = meshes.last().ok_or(Obstacle::NotFinite)?;
+        let level = |mesh| Level::new(exact, frame, mesh, like);
+        let is_coarser = |it: &&Mesh| it.cell_size > REFINED * mesh.cell_size;
+        let coarse = meshes.iter().rev().find(is_coarser).map(level).transpose()?;
+        Ok(Levels { exact, frame, fine: level(mesh)?, coarse })
+    }
+
+    /// Whether there are two.
+    pub fn are_two(&self) -> bool {
+        self.coarse.is_some()
+    }
+
+    /// Errors on two meshes as what does not fall with h^2, and a part of what does; of one mesh as they are.
+    pub fn together(&self, of: impl Fn(&Level<'a, D>) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+        let fine = of(&self.fine)?;
+        let Some(level) = &self.coarse else { return Some(fine) };
+        let coarse = of(level)?;
+        let ratio = (level.mesh.cell_size / self.fine.mesh.cell_size).powi(2);
+        let length = ratio.hypot(1.0);
+        let pairs = || fine.iter().zip(&coarse);
+        let steady = pairs().map(|(fine, coarse)| (ratio * fine - coarse) / length);
+        let falling = pairs().map(|(fine, coarse)| FALLING * (fine + ratio * coarse) / length);
+        Some(steady.chain(falling).collect())
+    }
+
+    /// The error that a hypothesis makes on a mesh by a method, less that of a right solver. The size is that on the finest.
+    pub fn wrong(
+        &self,
+        level: &Level<'a, D>,
+        method: usize,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Option<Vec<f64>> {
+        let ratio = level.mesh.cell_size / self.fine.mesh.cell_size;
+        let factor = if hypothesis.is_of_mesh { ratio } else { 1.0 };
+        let size: Vec<f64> = size.iter().map(|it| it * factor).collect();
+        if let Change::Output(_) = hypothesis.change {
+            return written(self.exact, self.frame, level.mesh, hypothesis, &size);
+        }
+        let wrong = level.plan.wrong(method, hypothesis, &size)?;
+        Some(less(&wrong, 1.0, level.right[method].as_ref()?))
+    }
+}
+
+/// What a function makes of the numbers below `count`, in their order.
+pub fn on_all_processors<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let take = || Some(next.fetch_add(1, Relaxed)).filter(|it| *it < count);
+        std::iter::from_fn(take).map(|at| (at, of(at))).collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let mut all: Vec<(usize, T)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
+        workers.into_iter().flat_map(|it| it.join().expect("a run that ends")).collect()
+    });
+    all.sort_by_key(|(at, _)| *at);
+    all.into_iter().map(|(_, it)| it).collect()
+}

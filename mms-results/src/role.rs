@@ -1,0 +1,105 @@
+//! What an array may be: quantities, with the names that codes have for them.
+
+/// How many numbers a quantity has in D dimensions: one, D, or D x D.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// One.
+    Scalar,
+    /// One for each dimension.
+    Vector,
+    /// A matrix.
+    Tensor,
+    /// A matrix that is its own transpose.
+    Symmetric,
+}
+
+macro_rules! roles {
+    ($($variant:ident $name:literal $symbol:literal $form:ident [$($word:literal)*] $doc:literal,)*) => {
+        /// What an array may be.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Role {
+            $(#[doc = $doc] $variant,)*
+        }
+
+        impl Role {
+            /// All of them.
+            pub const ALL: &[Role] = &[$(Role::$variant,)*];
+
+            /// Its identifier.
+            pub fn name(self) -> &'static str {
+                match self { $(Role::$variant => $name,)* }
+            }
+
+            /// Its symbol.
+            pub fn symbol(self) -> &'static str {
+                match self { $(Role::$variant => $symbol,)* }
+            }
+
+            /// How many numbers it has.
+            pub fn form(self) -> Form {
+                match self { $(Role::$variant => Form::$form,)* }
+            }
+
+            /// What codes call it, in small letters without what separates words; a single letter as it is.
+            fn words(self) -> &'static [&'static str] {
+                match self { $(Role::$variant => &[$($word),*],)* }
+            }
+        }
+    };
+}
+
+roles! {
+    Reference "reference_position" "X" Vector ["X" "referencecoordinates" "initialposition" "initialcoordinates" "materialposition"]
+        "Reference position X.",
+    Position "position" "x" Vector ["currentposition" "presentposition" "deformedposition" "currentcoordinates"]
+        "Present position x.",
+    Place "place" "points" Vector ["x" "position" "positions" "pos" "points" "point" "coordinates" "coords" "coord"]
+        "Positions that may be X or x.",
+    Displacement "displacement" "u" Vector ["u" "U" "d" "displacements" "disp" "displ"] "Displacement u.",
+    Velocity "velocity" "v" Vector ["v" "V" "velocities" "vel"] "Velocity v.",
+    Acceleration "acceleration" "a" Vector ["a" "A" "accelerations" "accel" "acc"] "Acceleration a.",
+    Residual "residual" "r" Vector ["r" "residuals"] "Residual of the balance of momentum, per reference volume.",
+    DisplacementGradient "displacement_gradient" "H" Tensor ["H" "gradu"] "Displacement gradient H.",
+    DeformationGradient "deformation_gradient" "F" Tensor ["F" "defgrad" "deformationgradients"] "Deformation gradient F.",
+    Jacobian "jacobian" "J" Scalar ["J" "detf"] "J = det F.",
+    RightCauchyGreen "right_cauchy_green" "C" Symmetric [] "Right Cauchy-Green tensor.",
+    LeftCauchyGreen "left_cauchy_green" "B" Symmetric [] "Left Cauchy-Green tensor.",
+    GreenLagrange "green_lagrange" "E" Symmetric ["E" "greenlagrangestrain" "greenstrain"] "Green-Lagrange strain E.",
+    MassDensity "mass_density" "rho" Scalar ["rho" "density" "massdensity"] "Mass per present volume.",
+    StrainEnergy "strain_energy" "W" Scalar ["W" "strainenergydensity" "elasticenergydensity"] "Strain-energy density W.",
+    FirstPiolaKirchhoff "first_piola_kirchhoff" "P" Tensor ["P" "pk1" "piola1" "firstpiola" "firstpiolakirchhoffstress"]
+        "First Piola-Kirchhoff stress P.",
+    CauchyStress "cauchy_stress" "sigma" Symmetric ["sigma" "cauchy" "sig"] "Cauchy stress sigma.",
+    KirchhoffStress "kirchhoff_stress" "tau" Symmetric ["tau" "kirchhoff"] "Kirchhoff stress tau.",
+    BodyForce "body_force" "b" Vector ["b"] "Body force b per mass.",
+    SecondPiolaKirchhoff "second_piola_kirchhoff" "S" Symmetric ["S" "pk2" "piola2" "secondpiola" "secondpiolakirchhoffstress"]
+        "Second Piola-Kirchhoff stress S.",
+    Pressure "pressure" "p" Scalar ["p"] "Pressure.",
+    VonMises "von_mises" "von_mises" Scalar ["mises" "vonmisesstress"] "Von Mises stress.",
+    Traction "traction" "traction" Vector ["tractions" "surfacetraction" "boundarytraction"]
+        "Traction P N, per reference area.",
+    Normal "normal" "N" Vector ["N" "normals" "unitnormal" "unitnormals"] "Reference unit normal N of the boundary.",
+    Volume "volume" "volume" Scalar ["vol"] "A weight: the volume of a point or cell.",
+    Mass "mass" "mass" Scalar [] "A weight: the mass of a point.",
+}
+
+impl Role {
+    /// The role of an identifier, a symbol, or what codes call it.
+    pub fn from_name(name: &str) -> Option<Role> {
+        let all = || Role::ALL.iter().copied();
+        let exact = all().find(|role| role.name() == name || role.symbol() == name);
+        exact.or_else(|| all().find(|role| role.is_called(name)))
+    }
+
+    pub(crate) fn is_called(self, name: &str) -> bool {
+        let plain = plain(name);
+        self.words().contains(&name)
+            || plain.len() > 1
+                && (self.words().contains(&&*plain) || self::plain(self.name()) == plain)
+    }
+}
+
+/// A name in small letters, without what separates words.
+pub(crate) fn plain(name: &str) -> String {
+    name.chars().filter(|it| it.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
