@@ -141,8 +141,8 @@ fn an_affine_state_is_compared_with_the_affine_part() {
 #[test]
 fn results_of_a_method_are_like_it_and_go_to_the_page() {
     let folder = Folder::new();
-    folder.mms("run axis_aligned_2d --cells 8 --vtk right --frames 2").exits(0);
-    let like = "diagnose axis_aligned_2d right --h 0.125 --like shape=cpgimp --output out";
+    folder.mms("run axis_aligned_2d --cells 16 --vtk right --frames 2").exits(0);
+    let like = "diagnose axis_aligned_2d right --h 0.0625 --like shape=cpgimp --output out";
     folder.mms(like).exits(0).prints("like shape=cpgimp,integrator=leapfrog").prints("next: ");
     let document = folder.mms(&format!("{like} --json")).exits(0).json();
     let number = |key: &str| document["like"][key].as_f64().unwrap();
