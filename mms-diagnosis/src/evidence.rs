@@ -3,7 +3,7 @@
 use mms_runtime::Vector;
 
 use crate::exact::{Exact, Quantity, vectors};
-use crate::smooth::Smooth;
+use crate::smooth::{Smooth, less};
 
 /// What a solver wrote on one mesh, at one time or more.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,26 +78,27 @@ impl<const D: usize> Frame<D> {
         }
     }
 
-    /// Errors of values at points and times, which `values` gives.
-    pub fn see(
-        &self,
-        mut errors: impl FnMut(usize, Quantity) -> Option<(Vec<Vector<f64, D>>, Vec<f64>)>,
-    ) -> Option<Seen> {
+    /// What is compared: the positions of times, with each quantity.
+    pub fn each(&self) -> impl Iterator<Item = (usize, Quantity)> {
+        let quantities = |at| self.quantities.iter().map(move |(quantity, _)| (at, *quantity));
+        (0..self.times.len()).flat_map(quantities)
+    }
+
+    /// What is seen of errors at the points of a mesh, of each time and quantity; `None` where one is not finite.
+    pub fn see(&self, mesh: &Mesh, errors: &[Vec<f64>]) -> Option<Seen> {
         let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
         let (mut all, mut held) = (0.0, 0.0);
-        for at in 0..self.times.len() {
-            for &(quantity, size) in &self.quantities {
-                let (points, values) = errors(at, quantity)?;
-                let scaled: Vec<f64> = values.iter().map(|value| value / size).collect();
-                if scaled.iter().any(|it| !it.is_finite()) {
-                    return None;
-                }
-                let (coefficients, share) = self.smooth.fit(&points, &scaled);
-                let square =
-                    scaled.iter().map(|it| it * it).sum::<f64>() / points.len().max(1) as f64;
-                (all, held) = (all + square, held + share * square);
-                seen.coefficients.extend(coefficients);
+        let sizes = self.quantities.iter().map(|(_, size)| size).cycle();
+        for (((at, _), errors), size) in self.each().zip(errors).zip(sizes) {
+            let points = vectors(&nearest(mesh, self.times[at])?.reference);
+            let scaled: Vec<f64> = errors.iter().map(|error| error / size).collect();
+            if scaled.iter().any(|it| !it.is_finite()) {
+                return None;
             }
+            let (coefficients, share) = self.smooth.fit(&points, &scaled);
+            let square = scaled.iter().map(|it| it * it).sum::<f64>() / points.len().max(1) as f64;
+            (all, held) = (all + square, held + share * square);
+            seen.coefficients.extend(coefficients);
         }
         seen.share = if all > 0.0 { held / all } else { 1.0 };
         Some(seen)
@@ -123,13 +124,13 @@ impl<const D: usize> Frame<D> {
 
     /// The errors of a mesh; `None` where one is not finite.
     pub fn errors_of(&self, exact: &Exact<'_, D>, mesh: &Mesh) -> Option<Seen> {
-        self.see(|at, quantity| {
+        let one = |(at, quantity): (usize, Quantity)| {
             let snapshot = nearest(mesh, self.times[at])?;
-            let points = vectors(&snapshot.reference);
             let (_, values) = snapshot.values.iter().find(|(it, _)| *it == quantity)?;
-            let right = exact.values(quantity, snapshot.time, &points);
-            Some((points, values.iter().zip(right).map(|(a, b)| a - b).collect()))
-        })
+            let right = exact.values(quantity, snapshot.time, &vectors(&snapshot.reference));
+            Some(less(values, 1.0, &right))
+        };
+        self.see(mesh, &self.each().map(one).collect::<Option<Vec<_>>>()?)
     }
 }
 

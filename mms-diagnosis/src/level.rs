@@ -15,6 +15,8 @@ use crate::smooth::less;
 
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
+/// Steps times particles that a run may take: some seconds.
+const MOST_WORK: f64 = 3e6;
 /// How much of what falls with h^2 from mesh to mesh is looked at, where two meshes tell it from what does not.
 const FALLING: f64 = 0.25;
 
@@ -41,8 +43,9 @@ where
         like: Option<&Method>,
     ) -> Result<Self, Obstacle> {
         let seen = frame.errors_of(exact, mesh).ok_or(Obstacle::NotFinite)?;
-        let plan = Plan::new(exact, frame, mesh, Without::default(), like)?;
-        let right = on_all_processors(plan.methods(), |method| plan.right(method));
+        let plan = Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?;
+        let right = |method| Some(frame.see(mesh, &plan.right(method)?)?.coefficients);
+        let right = on_all_processors(plan.methods(), right);
         Ok(Level { mesh, seen, plan, right })
     }
 
@@ -112,10 +115,11 @@ where
         let ratio = level.mesh.cell_size / self.fine.mesh.cell_size;
         let factor = if hypothesis.is_of_mesh { ratio } else { 1.0 };
         let size: Vec<f64> = size.iter().map(|it| it * factor).collect();
+        let seen = |errors: &[Vec<f64>]| Some(self.frame.see(level.mesh, errors)?.coefficients);
         if let Change::Output(_) = hypothesis.change {
-            return written(self.exact, self.frame, level.mesh, hypothesis, &size);
+            return seen(&written(self.exact, self.frame, level.mesh, hypothesis, &size)?);
         }
-        let wrong = level.plan.wrong(method, hypothesis, &size)?;
+        let wrong = seen(&level.plan.wrong(method, hypothesis, &size)?)?;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
 }

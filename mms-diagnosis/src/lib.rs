@@ -16,6 +16,8 @@
 //! one of several right methods of our own makes. [`answer`] says whether what is left is no more than that, and which
 //! hypotheses do as well. Where none does, [`pair`] looks for two, and [`place`] says where the error is.
 //!
+//! Where an error is no more than a method's, the same runs tell which mistakes it [excludes](excluded).
+//!
 //! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
 //! that it may have; and what it leaves is small where the method's own error is.
 //!
@@ -26,6 +28,7 @@ pub mod answer;
 pub mod changed;
 pub mod evidence;
 pub mod exact;
+pub mod excluded;
 pub mod hypothesis;
 pub mod law;
 pub mod level;

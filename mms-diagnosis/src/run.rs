@@ -15,12 +15,10 @@ use crate::evidence::{Frame, Mesh, Snapshot, nearest};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::hypothesis::{Change, Given, Hypothesis};
 use crate::sample::Sampling;
+use crate::smooth::less;
 
 /// Cells along the longest edge, at least and at most, in one to three dimensions.
 const CELLS: [[usize; 2]; 3] = [[16, 64], [8, 32], [4, 8]];
-
-/// Steps times particles that a run may take: some seconds.
-const MOST_WORK: f64 = 3e6;
 
 /// Why results cannot be diagnosed.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,7 +149,7 @@ impl<'a, const D: usize> Plan<'a, D>
 where
     f64: Solve<D>,
 {
-    /// For results of a mesh, in a frame: on a grid that is coarser, if its runs would take too long.
+    /// For results of a mesh, in a frame: on a coarser grid, where a run would take more steps times particles than `most_work`.
     ///
     /// # Errors
     /// They would take too long on any.
@@ -161,6 +159,7 @@ where
         mesh: &'a Mesh,
         without: Without,
         like: Option<&Method>,
+        most_work: f64,
     ) -> Result<Self, Obstacle> {
         let [lower, upper] = bounding_box(&exact.domain.body).map_err(|_| Obstacle::NotFinite)?;
         let longest = (upper - lower).max();
@@ -178,7 +177,7 @@ where
             let along = |edge: f64| (2.0 * cells as f64 * edge / longest).max(1.0);
             (upper - lower).iter().copied().map(along).product::<f64>()
         };
-        let fits = |cells: &usize| steps(*cells) * particles(*cells) <= MOST_WORK;
+        let fits = |cells: &usize| steps(*cells) * particles(*cells) <= most_work;
         let cells =
             (least..=wanted).rev().find(fits).ok_or(Obstacle::TooManySteps(steps(least)))?;
         let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
@@ -227,22 +226,22 @@ where
         self.methods[method].integrator == IntegratorName::Leapfrog
     }
 
-    /// The errors of a right solver; `None` where it stops.
-    pub fn right(&self, method: usize) -> Option<Vec<f64>> {
+    /// The errors of a right solver at the user's points, of each time and quantity; `None` where it stops.
+    pub fn right(&self, method: usize) -> Option<Vec<Vec<f64>>> {
         self.errors(method, &Changed::right(self.exact, self.without))
     }
 
-    /// The errors of a solver with a mistake; `None` where it stops.
+    /// Those of a solver with a mistake; `None` where it stops.
     pub fn wrong(
         &self,
         method: usize,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
-    ) -> Option<Vec<f64>> {
+    ) -> Option<Vec<Vec<f64>>> {
         self.errors(method, &Changed::with(self.exact, self.without, hypothesis, size))
     }
 
-    fn errors(&self, index: usize, field: &Changed<'_, D>) -> Option<Vec<f64>> {
+    fn errors(&self, index: usize, field: &Changed<'_, D>) -> Option<Vec<Vec<f64>>> {
         let [start, _] = self.exact.domain.time;
         let method = &self.methods[index];
         let end = method.setup.end_time?;
@@ -265,13 +264,10 @@ where
         let is_leapfrog = method.integrator == IntegratorName::Leapfrog;
         let before = if is_leapfrog { run.level.time_step / 2.0 } else { 0.0 };
         let samplings = self.samplings[index].get_or_init(|| self.samplings(&states));
-        let seen = self.frame.see(|at, quantity| {
-            let snapshot = nearest(self.mesh, self.frame.times[at])?;
-            let errors = self.error(states[at], quantity, before);
-            let values = samplings[at].values(&errors, quantity.components(D));
-            Some((vectors(&snapshot.reference), values))
-        });
-        seen.map(|seen| seen.coefficients)
+        let one = |(at, quantity): (usize, Quantity)| {
+            samplings[at].values(&self.error(states[at], quantity, before), quantity.components(D))
+        };
+        Some(self.frame.each().map(one).collect())
     }
 
     /// From the particles of states to the points of the user's results at their times.
@@ -309,22 +305,22 @@ fn reference<const D: usize>(state: &State) -> Vec<Vector<f64, D>> {
     vectors(&pairs.map(|(x, u)| x - u).collect::<Vec<_>>())
 }
 
-/// The errors that a mistake in what is written makes, at points of a user's.
+/// The errors that a mistake in what is written makes at a user's points, of each time and quantity; `None` of another mistake.
 pub fn written<const D: usize>(
     exact: &Exact<'_, D>,
     frame: &Frame<D>,
     mesh: &Mesh,
     hypothesis: &Hypothesis<D>,
     size: &[f64],
-) -> Option<Vec<f64>> {
+) -> Option<Vec<Vec<f64>>> {
     let Change::Output(change) = hypothesis.change else { return None };
-    let seen = frame.see(|at, quantity| {
+    let one = |(at, quantity): (usize, Quantity)| {
         let snapshot = nearest(mesh, frame.times[at])?;
         let points = vectors(&snapshot.reference);
         let given = Given { exact, size, time: snapshot.time, reference: &points, gradient: &[] };
         let wrong = change(&given, quantity);
         let right = exact.values(quantity, snapshot.time, &points);
-        Some((points, wrong.iter().zip(right).map(|(a, b)| a - b).collect()))
-    });
-    seen.map(|seen| seen.coefficients)
+        Some(less(&wrong, 1.0, &right))
+    };
+    frame.each().map(one).collect()
 }

@@ -9,6 +9,7 @@ use crate::answer::{Diagnosis, Rung};
 use crate::changed::Without;
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, vectors};
+use crate::excluded::{Excluded, Study, excluded};
 use crate::hypothesis::{Hypothesis, all};
 use crate::list::{Listed, listed};
 use crate::run::Obstacle;
@@ -103,6 +104,18 @@ pub fn diagnose(
     }
 }
 
+/// Which mistakes results exclude whose errors are no more than those of a method.
+///
+/// # Errors
+/// Runs of our own that would take too long, or that stop.
+pub fn excludes(scene: &Scene<f64>, study: &Study) -> Result<Vec<Excluded>, Obstacle> {
+    match scene {
+        Scene::Line(field) => excludes_of(field.as_ref(), study),
+        Scene::Plane(field) => excludes_of(field.as_ref(), study),
+        Scene::Space(field) => excludes_of(field.as_ref(), study),
+    }
+}
+
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     match scene {
@@ -110,6 +123,27 @@ pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
         Scene::Plane(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
         Scene::Space(field) => listed(&Exact::new(field.as_ref(), 1.0, 1.0)),
     }
+}
+
+/// A field, and what a solver with this h takes; without a time step, about that of the largest Courant number.
+fn exact<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    cell_size: f64,
+    time_step: Option<f64>,
+) -> Exact<'_, D> {
+    let ordinary = || COURANT * cell_size / Exact::new(field, 1.0, 1.0).wave_speed();
+    Exact::new(field, cell_size, time_step.unwrap_or_else(ordinary))
+}
+
+fn excludes_of<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    study: &Study,
+) -> Result<Vec<Excluded>, Obstacle>
+where
+    f64: Solve<D>,
+{
+    let exact = exact(field, study.cell_size, study.time_step);
+    excluded(&exact, study, &all(&exact))
 }
 
 fn of<const D: usize>(
@@ -125,9 +159,7 @@ where
         Evidence::State { cell_size, .. } => *cell_size,
         Evidence::Law(_) => 1.0,
     };
-    let speed = Exact::new(field, 1.0, 1.0).wave_speed();
-    let time_step = solver.time_step.unwrap_or(COURANT * cell_size / speed);
-    let exact = Exact::new(field, cell_size, time_step);
+    let exact = exact(field, cell_size, solver.time_step);
     let hypotheses = all(&exact);
     match evidence {
         Evidence::Results(meshes) => {

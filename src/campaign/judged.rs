@@ -59,7 +59,8 @@ impl<'a> Judged<'a> {
                 judged.warnings = measurement.warnings.clone();
                 stopped(&mut measurement.measured, planned, &jobs);
                 let provenance = provenance(planned);
-                match Judgements::of_results(&exact, &files, measurement, provenance) {
+                let time_step = jobs.iter().map(|job| job.time_step).reduce(f64::min);
+                match Judgements::of_results(&exact, &files, measurement, time_step, provenance) {
                     Ok(judgements) => judged.judgements = Some(judgements),
                     Err(error) => judged.mistake = Some(format!("{error:#}")),
                 }

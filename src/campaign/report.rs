@@ -10,7 +10,7 @@ use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
 use super::work::Outcome;
 use crate::provenance::Provenance;
-use crate::report::{Judgements, duration, plain, pretty, to_the_right, write_files};
+use crate::report::{Judgements, Union, duration, plain, pretty, to_the_right, write_files};
 
 /// A campaign that was carried out, or what was asked for of it.
 pub struct Report<'a> {
@@ -45,6 +45,7 @@ impl Report<'_> {
         if self.studies.iter().any(|it| it.planned.is_whole()) {
             parts.push(self.matrix());
         }
+        parts.extend(self.excluded().map(|it| it.text()));
         parts.push(self.tally());
         parts.join("\n\n")
     }
@@ -56,6 +57,14 @@ impl Report<'_> {
             table.add_row(judged.row());
         }
         to_the_right(table).to_string()
+    }
+
+    /// What the studies that pass exclude together.
+    fn excluded(&self) -> Option<Union> {
+        Union::new(self.studies.iter().filter_map(|it| {
+            let exclusions = it.judgements.as_ref()?.exclusions.as_ref()?;
+            Some((it.planned.study.name.as_str(), exclusions))
+        }))
     }
 
     fn tally(&self) -> String {
@@ -76,6 +85,7 @@ impl Report<'_> {
             "solver": solver.name,
             "solver_version": solver.version,
             "studies": self.studies.iter().map(Judged::document).collect::<Vec<_>>(),
+            "excluded": self.excluded().map(|it| it.document()),
             "passed": self.studies.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count(),
         });
         self.provenance.sign(document)

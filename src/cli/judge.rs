@@ -34,6 +34,9 @@ use crate::store::digest;
 /// shown. fail: it lies below. not asymptotic: else. Two levels are held to the order alone. exact to round-off: no error of
 /// results is more than rounding makes, in files with the digits of single precision at least.
 ///
+/// Beside a pass of u, v or F stands what it excludes: the mistakes that `mms diagnose` knows, by what they add to a run of this
+/// project's own solver, over the finest error.
+///
 /// Exit codes: 0 pass, or exact to round-off; 1 another verdict; 2 bad usage, or a bad table.
 #[derive(Args)]
 pub struct Judge {

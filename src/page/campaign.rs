@@ -13,6 +13,14 @@ pub struct Campaign {
     solver: String,
     solver_version: Option<String>,
     studies: Vec<Study>,
+    excluded: Option<Vec<Excluded>>,
+}
+
+/// A mistake, and the study that excludes it.
+#[derive(Deserialize)]
+struct Excluded {
+    hypothesis: String,
+    by: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -77,6 +85,7 @@ impl Section for Campaign {
         let place = |at: usize| format!("{id}-study-{}", at + 1);
         html! {
             (self.matrix(&place))
+            @if let Some(all) = &self.excluded { (exclusions(all)) }
             @for (at, study) in self.studies.iter().enumerate() {
                 details id=(place(at)) {
                     summary { (study.name) ": " (study.word()) }
@@ -115,6 +124,23 @@ impl Campaign {
             ]
         });
         table("Studies", &columns, rows)
+    }
+}
+
+/// The mistakes that no study excludes, and which excludes the others.
+fn exclusions(all: &[Excluded]) -> Markup {
+    let open = all.iter().filter(|it| it.by.is_none()).map(|it| it.hypothesis.as_str());
+    let open: Vec<&str> = open.collect();
+    let rows = all.iter().filter_map(|it| {
+        let by = it.by.as_ref()?;
+        Some(vec![html! { (it.hypothesis) }, html! { (by) }])
+    });
+    html! {
+        @if !open.is_empty() { p { "Mistakes that no study excludes: " (open.join(", ")) "." } }
+        details {
+            summary { "Mistakes that are excluded: " (all.len() - open.len()) " of " (all.len()) }
+            (table("Excluded mistakes", &[words("mistake"), words("by")], rows))
+        }
     }
 }
 

@@ -7,9 +7,10 @@ use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
 use mms_spec::foreign::{Foreign, shown};
 use serde_json::{Map, Value, json};
 
+use super::excluded::Exclusions;
 use super::picture::{Line, Picture};
 use super::text::{plain, pretty, to_the_right, write_files};
-use crate::judge::results::Measurement;
+use crate::judge::results::{Measurement, exclusions};
 use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
 use crate::provenance::Provenance;
 use crate::session::exact::Exact;
@@ -26,6 +27,8 @@ pub struct Judgements {
     pub judged: Vec<Judged>,
     /// How the errors were measured, in sentences.
     pub notes: Vec<String>,
+    /// What a pass excludes, of results.
+    pub exclusions: Option<Exclusions>,
     /// What the document has besides.
     pub more: Map<String, Value>,
     /// Where the verdicts are from.
@@ -65,6 +68,7 @@ impl Judgements {
             judged,
             measured,
             notes: Vec::new(),
+            exclusions: None,
             more: Map::new(),
             provenance,
         })
@@ -78,11 +82,16 @@ impl Judgements {
         exact: &Exact,
         files: &[String],
         measurement: Measurement,
+        time_step: Option<f64>,
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
+        let report = Self::of(exact.title(), measurement.measured.clone(), provenance)?;
+        let exclusions = match report.verdict().is_good() {
+            true => exclusions(exact, &measurement, time_step)?,
+            false => None,
+        };
         let more = more(&exact.input().name, files, &measurement);
-        let report = Self::of(exact.title(), measurement.measured, provenance)?;
-        Ok(Self { notes: measurement.notes, more, ..report })
+        Ok(Self { notes: measurement.notes, exclusions, more, ..report })
     }
 
     /// The quantity that decides, its position and the verdict.
@@ -151,6 +160,7 @@ impl Judgements {
             let (count, all) = (passed.count(), self.judged.len());
             parts.push(format!("{}: {count} of {all} quantities pass", self.verdict()));
         }
+        parts.extend(self.exclusions.as_ref().map(Exclusions::text));
         parts.join("\n\n")
     }
 
@@ -226,6 +236,8 @@ impl Judgements {
         });
         if let Value::Object(document) = &mut document {
             document.extend(self.more.clone());
+            let excluded = self.exclusions.as_ref().map(Exclusions::document);
+            document.extend(excluded.map(|it| ("excluded".into(), it)));
         }
         self.provenance.sign(document)
     }

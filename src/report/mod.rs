@@ -3,6 +3,7 @@
 pub mod accuracy;
 mod comparison;
 mod diagnosis;
+mod excluded;
 pub(crate) mod extremes;
 pub(crate) mod file;
 pub(crate) mod front;
@@ -18,6 +19,7 @@ pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
 pub use diagnosis::{Diagnosed, Hypotheses};
+pub use excluded::{Exclusions, Union};
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
 pub(crate) use results::{differences, with_baseline};

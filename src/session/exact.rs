@@ -5,10 +5,12 @@ use std::collections::btree_map::Entry;
 use std::sync::Arc;
 use std::thread;
 
+use dashu_ratio::RBig;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_program::block::{Plan, Prepared, Room, Way};
+use mms_runtime::scene::Scene;
 use mms_spec::Face;
 use mms_spec::quantity::{Quantity, Shape};
 
@@ -25,6 +27,8 @@ const MANY: usize = 1 << 16;
 /// A field with numbers for its parameters.
 pub struct Exact {
     input: Input,
+    /// Parameters that were set, by position.
+    set: BTreeMap<usize, RBig>,
     parameters: Vec<f64>,
     /// Its dimension.
     pub dimension: usize,
@@ -44,11 +48,20 @@ impl Exact {
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
         input.hold(settings)?;
-        let parameters = input.compiled.parameters::<f64>(&input.settings(settings)?);
+        let set = input.settings(settings)?;
+        let parameters = input.compiled.parameters::<f64>(&set);
         let (body, window) = domain(&input.compiled.program, &parameters);
         let dimension = input.compiled.field.dimension;
         let (tensors, prepared) = (dimension, BTreeMap::new());
-        Ok(Exact { input, parameters, dimension, window, body, tensors, prepared })
+        Ok(Exact { input, set, parameters, dimension, window, body, tensors, prepared })
+    }
+
+    /// The field for the solver.
+    ///
+    /// # Errors
+    /// A field that is out of step with its file.
+    pub fn scene(&self) -> anyhow::Result<Scene<f64>> {
+        self.input.scene_with(&self.set, |code| code.double)
     }
 
     /// The same, whose tensors have all nine components if that is asked for.

@@ -67,6 +67,10 @@ fn a_solver_that_converges_passes_and_nothing_is_done_twice() {
     let document = run.json();
     let study = &document["studies"][0];
     assert_eq!((&study["verdict"], &document["passed"]), (&"pass".into(), &1.into()));
+    let together = document["excluded"].as_array().expect("what is excluded");
+    let by =
+        |name: &str| &together.iter().find(|it| it["hypothesis"] == name).expect("a name")["by"];
+    assert_eq!((by("force_sign"), by("lambda_factor")), (&"bar_1d".into(), &Value::Null));
     for (level, cells) in
         study["judgement"]["levels"].as_array().expect("levels").iter().zip([8, 16, 32])
     {

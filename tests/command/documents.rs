@@ -158,6 +158,17 @@ cells = [8, 16]
 time = [0.001]
 "#;
 
+/// One that copies what `mms run` wrote.
+const PASSES: &str = r#"
+[solver]
+run = "cp -r states{cells} {output}"
+output = "{output}/*/*.pvd"
+[[study]]
+field = "bar.toml"
+cells = [8, 16]
+quantity = ["u"]
+"#;
+
 /// A bar so short that a wave along it grows.
 const SOFT: &str = r#"
 [field]
@@ -215,6 +226,7 @@ fn documents_have_the_keys_of_the_page() {
     folder.write("law.csv", "F,P\n1.1,3e5\n1.2,6e5\n0.9,-3e5\n");
     folder.write("broken.toml", "[field]\ntitle = 1\n");
     folder.write("campaign.toml", CAMPAIGN);
+    folder.write("passes.toml", PASSES);
     for (heading, arguments, code) in [
         ("list", "list", 0),
         ("show", "show bar.toml", 0),
@@ -245,14 +257,17 @@ fn documents_have_the_keys_of_the_page() {
         ),
         ("judge-same", "judge --same a.csv b.csv", 0),
         ("diagnose", "diagnose bar.toml law.csv --quantity stress", 1),
-        ("run", "run bar.toml --cells 16 --vtk states", 0),
-        ("diagnose", "diagnose bar.toml states --like shape=linear", 0),
+        ("run", "run bar.toml --cells 8 --vtk states8", 0),
+        ("run", "run bar.toml --cells 16 --vtk states16", 0),
+        ("judge", "judge bar.toml states8 states16 --quantity u", 0),
+        ("diagnose", "diagnose bar.toml states16 --like shape=linear", 0),
         ("hypotheses", "diagnose bar.toml --list", 0),
         ("state", "state bar.toml --cells 4 --time 0.01 --without stress -o state.vtu", 0),
         ("state", "state generalized_vortex --cells 2 --time 0.5 -o state.npz", 0),
         ("campaign-runs", "campaign campaign.toml --dry-run", 0),
         ("campaign", "campaign campaign.toml", 3),
         ("campaign-runs", "campaign campaign.toml --list", 0),
+        ("campaign", "campaign passes.toml", 0),
         ("campaign-suggest", "campaign campaign.toml --suggest", 0),
         ("studies", "study bar.toml --cells 8,16 --formulation total --shape linear,ugimp", 0),
         ("verify", "verify --quick --row startup/usl", 0),

@@ -91,6 +91,15 @@ fn counts_of_points_give_h_and_the_verdict_its_exit_code() {
     let run = folder.mms("judge bar_1d out8 out16 out32 --quantity u").exits(0);
     run.prints("h: (measure of the body / points)^(1/D)").prints("X: X = x - u");
     run.prints("at 5 times").prints("pass: observed order 2.0");
+    // The bar has lambda = 0.
+    let document = folder.mms("judge bar_1d out8 out16 out32 --quantity u --json").json();
+    let excluded = document["excluded"].as_array().expect("what is excluded");
+    let mistake = |name: &str| excluded.iter().find(|it| it["hypothesis"] == name).expect("a name");
+    assert_eq!(mistake("lambda_factor")["excluded"], false);
+    assert_eq!(mistake("force_sign")["excluded"], true);
+    // The error is some thousandths of u, and b makes u.
+    let part = mistake("force_factor")["from"].as_f64().expect("a size");
+    assert!((1e-4..1e-2).contains(&part), "{part}");
     let higher = folder.mms("judge bar_1d out8 out16 out32 --quantity u --expected-order 3");
     higher.exits(1).prints("fail");
 }

@@ -274,6 +274,12 @@ fn the_numbers_of_a_campaign_are_those_of_its_document() {
     assert_rows(&runs, array(&study["runs"]), &keys);
     let levels = tables.remove("Errors").expect("levels");
     assert_judged(&levels, &judgement["quantities"][0]);
+    let mistakes = tables.remove("Mistakes").expect("mistakes");
+    assert_rows(&mistakes, array(&judgement["excluded"]), &["hypothesis", "", "times", "says"]);
+    let excluded = tables.remove("Excluded mistakes").expect("excluded mistakes");
+    let is_excluded = |it: &&Value| !it["by"].is_null();
+    let all: Vec<_> = array(&campaign["excluded"]).iter().filter(is_excluded).cloned().collect();
+    assert_rows(&excluded, &all, &["hypothesis", "by"]);
     assert!(tables.is_empty(), "{:?}", tables.keys());
 }
 

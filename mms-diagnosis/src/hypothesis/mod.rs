@@ -230,6 +230,15 @@ impl<const D: usize> Hypothesis<D> {
         title(self.name, self.which, self.face)
     }
 
+    /// How far from the right size a mistake is looked for: of a factor of any size where a term is missing, or there twice.
+    pub fn farthest(&self) -> f64 {
+        let Size::Any { right, range: [least, most], .. } = &self.size else { return 0.0 };
+        match right.as_slice() {
+            [right] if *right != 0.0 && *most == f64::MAX => right.abs(),
+            right => right.iter().map(|it| (it - least).max(most - it)).fold(0.0, f64::max),
+        }
+    }
+
     /// Whether a size may be.
     pub fn allows(&self, size: &[f64]) -> bool {
         match self.size {

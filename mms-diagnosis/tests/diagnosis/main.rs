@@ -7,7 +7,8 @@ use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
-use mms_diagnosis::hypothesis::all;
+use mms_diagnosis::excluded::{Shown, Study, excluded};
+use mms_diagnosis::hypothesis::{self, all};
 use mms_diagnosis::smooth::Smooth;
 use mms_diagnosis::state::{self, Computed, Response};
 use mms_diagnosis::table::{self, Measure, Table};
@@ -244,8 +245,8 @@ impl Observer for Last {
     }
 }
 
-/// What is said of a run of cubic splines, which are none of the shape functions of diagnosis.
-fn of_solver(mistaken: &Mistaken) -> Diagnosis {
+/// The last state of a run of cubic splines, which are none of the shape functions of diagnosis.
+fn solved(mistaken: &Mistaken) -> State {
     let setup = Setup { end_time: Some(0.03), ..Setup::default() };
     let (shape, formulation) = (ShapeName::CubicBspline, FormulationName::Total);
     let method = Method { shape, formulation, setup, ..Method::default() };
@@ -254,7 +255,12 @@ fn of_solver(mistaken: &Mistaken) -> Diagnosis {
     let field: &dyn ManufacturedField<f64, 2> = mistaken;
     let run = f64::run(field, &method, &cells, Watch::Displacement, &mut last).unwrap();
     assert!(run.level.errors.is_ok());
-    let state = last.0.unwrap();
+    last.0.unwrap()
+}
+
+/// What is said of it.
+fn of_solver(mistaken: &Mistaken) -> Diagnosis {
+    let state = solved(mistaken);
     let pairs = state.position.iter().zip(&state.displacement);
     let reference: Vec<f64> = pairs.map(|(x, u)| x - u).collect();
     let values = vec![(Quantity::Displacement, state.displacement.clone())];
@@ -278,6 +284,51 @@ fn a_mistake_in_a_solver_is_named() {
         ..right
     };
     assert_eq!(name(&of_solver(&sign)), "force_sign");
+}
+
+#[test]
+fn what_a_small_error_excludes_would_make_a_larger_one() {
+    let exact = exact(&LOADED, 12.0);
+    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force };
+    let (own, error) = (solved(&right), 2e-4);
+    let study = Study {
+        cell_size: 1.0 / 12.0,
+        time_step: None,
+        times: vec![0.03],
+        errors: vec![(Quantity::Displacement, error)],
+    };
+    let all = excluded(&exact, &study, &all(&exact)).unwrap();
+    let shown = |title: &str| all.iter().find(|it| it.title == title).unwrap().shown;
+    let least = |title: &str| match shown(title) {
+        Shown::From { least, .. } => least,
+        other => panic!("{title}: {other:?}"),
+    };
+    // What a mistake adds to a run, over that error.
+    let added = |mistaken: &Mistaken| {
+        let state = solved(mistaken);
+        let pairs = state.displacement.iter().zip(&own.displacement);
+        let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+        (square / (state.displacement.len() / 2) as f64).sqrt() / error
+    };
+    let lambda = [LAMBDA * (1.0 + least("lambda_factor")), MU];
+    let mu = [LAMBDA, MU * (1.0 + least("mu_factor"))];
+    for moduli in [lambda, mu] {
+        let times = added(&Mistaken { moduli, ..right });
+        assert!((0.7..1.4).contains(&times), "{moduli:?}: {times}");
+    }
+    let swapped = added(&Mistaken { moduli: [MU, LAMBDA], ..right });
+    match shown("moduli_swapped") {
+        Shown::Always(Some(times)) => assert!((times / swapped - 1.0).abs() < 0.3),
+        other => panic!("{other:?}"),
+    }
+    // Moduli that are the same everywhere are so at x.
+    assert!(matches!(shown("moduli_at_present"), Shown::Never(times) if times < 1e-9));
+    // An error as large as the body excludes no mistake that leaves it whole.
+    let coarse = Study { errors: vec![(Quantity::Displacement, 1.0)], ..study };
+    let all = excluded(&exact, &coarse, &hypothesis::all(&exact)).unwrap();
+    for name in ["lambda_factor", "mu_factor", "moduli_swapped", "start_at_rest"] {
+        assert!(!all.iter().find(|it| it.name == name).unwrap().is_excluded(), "{name}");
+    }
 }
 
 /// What is said of results of meshes.

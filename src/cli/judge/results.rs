@@ -82,7 +82,7 @@ impl Judge {
             return self.against(path, &exact.title(), &measurement);
         }
         let provenance = this_command("judge", exact.input().provenance(&options.set));
-        let report = Judgements::of_results(&exact, &self.files, measurement, provenance)?;
+        let report = Judgements::of_results(&exact, &self.files, measurement, None, provenance)?;
         self.tell(&report)
     }
 

@@ -2,9 +2,10 @@
 //!
 //! [`files`] reads them, with `mms-results`; [`times`] finds those at which meshes can be compared; [`level`] measures a
 //! snapshot against the field's program ([`Exact`]), and finds the floor that the rounding of the file makes;
-//! [`baseline`] and [`same`] compare results with results.
+//! [`baseline`] and [`same`] compare results with results; [`excluded`] finds the mistakes that a small error excludes.
 
 mod baseline;
+mod excluded;
 mod expected;
 mod files;
 mod iterative;
@@ -20,6 +21,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
+pub use excluded::exclusions;
 pub use files::{Results, placed};
 pub use level::{Reading, Sampling, weight};
 pub use same::{Same, same};

@@ -1,0 +1,206 @@
+//! What results with a small error exclude: mistakes that would have made a larger one.
+//!
+//! The error of a mistake is that which it adds to a run of this project's own solver, on a grid no finer than that of the results: a
+//! root mean square over the body, the largest over times, as that of the results is.
+
+use mms_runtime::Fill;
+use mms_runtime::body::{Filling, bounding_box};
+use mms_runtime::study::Solve;
+
+use crate::changed::Without;
+use crate::evidence::{Frame, Mesh, Snapshot};
+use crate::exact::{Exact, Quantity};
+use crate::hypothesis::{Hypothesis, Kind, Size, title};
+use crate::level::on_all_processors;
+use crate::run::{Obstacle, Plan, written};
+use crate::smooth::{Smooth, less};
+
+/// Results whose errors are known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// h of the finest mesh.
+    pub cell_size: f64,
+    /// Its time step, if that is known.
+    pub time_step: Option<f64>,
+    /// The times.
+    pub times: Vec<f64>,
+    /// The quantities, each with its root mean square error on the finest mesh, the largest over the times.
+    pub errors: Vec<(Quantity, f64)>,
+}
+
+/// Which mistakes of a kind the results would have shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shown {
+    /// The mistake, whose error is so many times that of the results; or it stops the solver.
+    Always(Option<f64>),
+    /// Those whose size is further than this from the right one.
+    From {
+        /// The size of a right solver.
+        right: f64,
+        /// The least distance from it that is shown.
+        least: f64,
+    },
+    /// None: the error of the mistake, or of the largest that it may be, is so many times that of the results, less than once.
+    Never(f64),
+}
+
+/// A mistake, and whether it is excluded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excluded {
+    /// Its name, with which of several it is.
+    pub name: String,
+    /// The same, with the face that it is on.
+    pub title: String,
+    /// What it is.
+    pub says: &'static str,
+    /// Whether it is a mistake or a choice.
+    pub kind: Kind,
+    /// Whether the results would have shown it.
+    pub shown: Shown,
+}
+
+impl Excluded {
+    /// Whether the mistake is excluded, be it of a size or more.
+    pub fn is_excluded(&self) -> bool {
+        !matches!(self.shown, Shown::Never(_))
+    }
+}
+
+/// Steps times particles that a run may take: a fraction of a second, of which there are a hundred.
+const MOST_WORK: f64 = 3e5;
+
+/// The runs that are compared.
+struct Runs<'a, const D: usize> {
+    exact: &'a Exact<'a, D>,
+    frame: &'a Frame<D>,
+    mesh: &'a Mesh,
+    plan: Plan<'a, D>,
+    right: Vec<Vec<f64>>,
+    errors: &'a [(Quantity, f64)],
+}
+
+/// What a study of a field excludes, of each hypothesis.
+///
+/// # Errors
+/// Runs that would take too long, or that stop without a mistake.
+pub fn excluded<const D: usize>(
+    exact: &Exact<'_, D>,
+    study: &Study,
+    hypotheses: &[Hypothesis<D>],
+) -> Result<Vec<Excluded>, Obstacle>
+where
+    f64: Solve<D>,
+{
+    let mesh = places(exact, study)?;
+    let snapshots: Vec<&Snapshot> = mesh.snapshots.iter().collect();
+    let frame = Frame::new(exact, &snapshots, Smooth::new(&exact.domain.body, 1, [0; 3])?);
+    if frame.times.is_empty() {
+        return Err(Obstacle::AtStart);
+    }
+    let plan = Plan::new(exact, &frame, &mesh, Without::default(), None, MOST_WORK)?;
+    let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
+    let runs = Runs { exact, frame: &frame, mesh: &mesh, plan, right, errors: &study.errors };
+    let one = |at: usize| {
+        let it = &hypotheses[at];
+        Excluded {
+            name: title(it.name, it.which, None),
+            title: it.title(),
+            says: it.says,
+            kind: it.kind,
+            shown: runs.shown(it),
+        }
+    };
+    Ok(on_all_processors(hypotheses.len(), one))
+}
+
+/// Points all over the body, at the times of a study.
+fn places<const D: usize>(exact: &Exact<'_, D>, study: &Study) -> Result<Mesh, Obstacle> {
+    let [lower, upper] = bounding_box(&exact.domain.body)?;
+    let spacing = (upper - lower) / POINTS[D - 1];
+    let points = Filling::new(&exact.domain.body, Fill::Fitted, &spacing)?.position;
+    let reference: Vec<f64> = points.iter().flat_map(|x| x.iter().copied()).collect();
+    let values = || study.errors.iter().map(|(quantity, _)| (*quantity, Vec::new())).collect();
+    let snapshot =
+        |time: &f64| Snapshot { time: *time, reference: reference.clone(), values: values() };
+    Ok(Mesh { cell_size: study.cell_size, snapshots: study.times.iter().map(snapshot).collect() })
+}
+
+/// Points along an axis at which errors are looked at, in one to three dimensions.
+const POINTS: [f64; 3] = [64.0, 24.0, 10.0];
+
+impl<const D: usize> Runs<'_, D>
+where
+    f64: Solve<D>,
+{
+    fn shown(&self, hypothesis: &Hypothesis<D>) -> Shown {
+        let Size::Any { right, first, .. } = &hypothesis.size else {
+            return match self.times(hypothesis, &[]) {
+                Some(times) if times < 1.0 => Shown::Never(times),
+                times => Shown::Always(times),
+            };
+        };
+        let axes = (0..right.len()).map(|axis| self.least(hypothesis, axis, first[axis]));
+        // Of a vector, what is shown whatever its direction.
+        let least = axes.fold(0.0, f64::max);
+        let farthest = hypothesis.farthest();
+        match least < farthest {
+            true => Shown::From { right: right[0], least },
+            false => Shown::Never(farthest / least),
+        }
+    }
+
+    /// The least distance from the right size along an axis that is shown: first as if the error grew with it, and then with
+    /// what it is about there.
+    fn least(&self, hypothesis: &Hypothesis<D>, axis: usize, first: f64) -> f64 {
+        let Size::Any { right, .. } = &hypothesis.size else { return 0.0 };
+        let mut step = first - right[axis];
+        let mut last = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let mut at = right.clone();
+            at[axis] += step;
+            match self.times(hypothesis, &at) {
+                Some(times) if times > 0.0 => {
+                    last = step.abs() / times;
+                    if (times - 1.0).abs() < NEAR {
+                        break;
+                    }
+                    // No further than from where it was to where that leads, for that may be far away.
+                    step = (step / times).clamp(-FARTHEST * step.abs(), FARTHEST * step.abs());
+                }
+                Some(_) => return f64::INFINITY,
+                // So large a mistake stops the solver.
+                None => (step, last) = (step / FARTHEST, step.abs()),
+            }
+        }
+        last
+    }
+
+    /// How many times the error of the results that of a mistake is, in the quantity that shows it best; `None` where it stops
+    /// the solver.
+    fn times(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<f64> {
+        let own = match written(self.exact, self.frame, self.mesh, hypothesis, size) {
+            Some(errors) => errors,
+            None => {
+                let wrong = self.plan.wrong(0, hypothesis, size)?;
+                wrong.iter().zip(&self.right).map(|(a, b)| less(a, 1.0, b)).collect()
+            }
+        };
+        let each = self.frame.each().zip(&own).zip(self.frame.quantities.iter().cycle());
+        let times = each.map(|(((_, quantity), added), (_, size))| {
+            let count = added.len() / quantity.components(D);
+            let mean = added.iter().map(|it| it * it).sum::<f64>() / count.max(1) as f64;
+            let error = self.errors.iter().find(|(it, _)| *it == quantity);
+            mean.sqrt() / error.map_or(f64::INFINITY, |(_, error)| error.max(f64::EPSILON * size))
+        });
+        let times: Vec<f64> = times.collect();
+        let is_finite = times.iter().all(|it| it.is_finite());
+        is_finite.then(|| times.into_iter().fold(0.0, f64::max))
+    }
+}
+
+/// How often a size is looked for.
+const ROUNDS: usize = 3;
+/// An error is that of the results within this part of it.
+const NEAR: f64 = 0.2;
+/// By how many times a size changes at most.
+const FARTHEST: f64 = 1e3;

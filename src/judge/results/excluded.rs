@@ -1,0 +1,54 @@
+//! The errors by which results exclude mistakes.
+
+use mms_diagnosis::exact::Quantity;
+use mms_diagnosis::excluded::Study;
+use mms_diagnosis::scene::excludes;
+
+use super::{Measured, Measurement};
+use crate::report::Exclusions;
+use crate::session::exact::Exact;
+
+/// The quantities by which mistakes are excluded.
+const QUANTITIES: [(&str, Quantity); 3] = [
+    ("displacement", Quantity::Displacement),
+    ("velocity", Quantity::Velocity),
+    ("deformation_gradient", Quantity::DisplacementGradient),
+];
+
+/// What results with these errors exclude, whose finest has this time step; nothing without errors of the motion.
+///
+/// # Errors
+/// The field cannot be run.
+pub fn exclusions(
+    exact: &Exact,
+    measurement: &Measurement,
+    time_step: Option<f64>,
+) -> anyhow::Result<Option<Exclusions>> {
+    let measured = &measurement.measured;
+    let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
+    let error = |name: &str| error(measured, name, finest);
+    let errors: Vec<_> =
+        QUANTITIES.iter().filter_map(|(name, it)| Some((*name, *it, error(name)?))).collect();
+    let Some(names) =
+        errors.iter().map(|(name, _, e)| format!("{e:.1e} of {name}")).reduce(|a, b| a + ", " + &b)
+    else {
+        return Ok(None);
+    };
+    let study = Study {
+        cell_size: finest,
+        time_step,
+        times: measurement.times.clone(),
+        errors: errors.into_iter().map(|(_, quantity, error)| (quantity, error)).collect(),
+    };
+    let all = excludes(&exact.scene()?, &study).map_err(|obstacle| obstacle.to_string());
+    Ok(Some(Exclusions { of: names, all }))
+}
+
+/// The root mean square error of a quantity on the finest mesh, or its floor; of replicates the largest.
+fn error(measured: &Measured, name: &str, finest: f64) -> Option<f64> {
+    let quantity = measured.quantities.iter().find(|it| it.name == *name)?;
+    let norm = quantity.norms.iter().find(|it| it.name == *"l2")?;
+    let runs = measured.runs.iter().zip(&norm.errors).zip(&norm.floors);
+    let finest = runs.filter(|((run, _), _)| run.cell_size == finest);
+    finest.filter_map(|((_, error), floor)| Some(error.as_ref()?.max(*floor))).reduce(f64::max)
+}

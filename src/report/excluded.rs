@@ -1,0 +1,149 @@
+//! What a pass excludes, as text and in a JSON document.
+
+use mms_diagnosis::excluded::{Excluded, Shown};
+use serde_json::{Value, json};
+
+/// Which mistakes results exclude, or why that is not known.
+pub struct Exclusions {
+    /// Of which errors that is said.
+    pub of: String,
+    /// Each hypothesis.
+    pub all: Result<Vec<Excluded>, String>,
+}
+
+/// What several results exclude together.
+pub struct Union {
+    /// The name of each mistake, and which results exclude it.
+    all: Vec<(String, Option<String>)>,
+}
+
+impl Union {
+    /// Of some results, each with a name; nothing, where of none is known what they exclude.
+    pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Union> {
+        let mut all: Vec<(String, Option<String>)> = Vec::new();
+        for (source, exclusions) in of {
+            for it in exclusions.all.iter().flatten() {
+                let at = all.iter().position(|(name, _)| *name == it.name);
+                let at = at.unwrap_or_else(|| {
+                    all.push((it.name.clone(), None));
+                    all.len() - 1
+                });
+                if it.is_excluded() {
+                    all[at].1.get_or_insert_with(|| source.to_owned());
+                }
+            }
+        }
+        (!all.is_empty()).then_some(Union { all })
+    }
+
+    /// What a person reads.
+    pub fn text(&self) -> String {
+        let of = |is_excluded: bool| {
+            let names = self.all.iter().filter(|(_, by)| by.is_some() == is_excluded);
+            listed(names.map(|(name, _)| name.clone()))
+        };
+        let lines = [("excluded by what passes", of(true)), ("still open", of(false))];
+        let lines = lines.iter().filter(|(_, names)| !names.is_empty());
+        lines.map(|(head, names)| format!("{head}: {names}")).collect::<Vec<_>>().join("\n")
+    }
+
+    /// What a program reads.
+    pub fn document(&self) -> Value {
+        self.all.iter().map(|(name, by)| json!({ "hypothesis": name, "by": by })).collect()
+    }
+}
+
+/// What a text says of some hypotheses.
+type Says = (&'static str, fn(&Excluded) -> Option<String>);
+
+/// The lines of a text: what is excluded, from which size on, what is not, and what the field does not see.
+const LINES: [Says; 4] = [
+    ("excluded", |it| matches!(it.shown, Shown::Always(_)).then(|| it.title.clone())),
+    ("excluded from a size on", |it| match it.shown {
+        Shown::From { right, least } => Some(format!("{} {}", it.title, size(right, least))),
+        Shown::Always(_) | Shown::Never(_) => None,
+    }),
+    ("not excluded", |it| match it.shown {
+        Shown::Never(times) if times > UNSEEN => {
+            Some(format!("{} ({:.0} % of the error)", it.title, 100.0 * times))
+        }
+        _ => None,
+    }),
+    ("no error in such results", |it| {
+        matches!(it.shown, Shown::Never(times) if times <= UNSEEN).then(|| it.title.clone())
+    }),
+];
+
+/// The size of a mistake that is shown: of a factor as a part of it.
+fn size(right: f64, least: f64) -> String {
+    if right == 1.0 { format!("{:.2} %", 100.0 * least) } else { format!("{least:.2e}") }
+}
+
+/// What makes no more than this part of an error makes none, but for rounding.
+const UNSEEN: f64 = 1e-6;
+
+/// Names between commas: what they are of is said once, as in `material [hencky, ogden]`.
+fn listed(names: impl IntoIterator<Item = String>) -> String {
+    names.into_iter().fold(String::new(), |all, name| {
+        let open = all.rfind('[').map(|at| all[..at].rsplit(", ").next().unwrap_or_default());
+        match (all.strip_suffix(']'), name.split_once('['), open) {
+            (Some(before), Some((of, which)), Some(last)) if of == last => {
+                format!("{before}, {which}")
+            }
+            _ if all.is_empty() => name,
+            _ => format!("{all}, {name}"),
+        }
+    })
+}
+
+impl Exclusions {
+    /// What a person reads.
+    pub fn text(&self) -> String {
+        let all = match &self.all {
+            Err(reason) => return format!("which mistakes that excludes is not known: {reason}"),
+            Ok(all) => all,
+        };
+        let line = |(head, says): &Says| {
+            let names = listed(all.iter().filter_map(says));
+            (!names.is_empty()).then(|| format!("  {head}: {names}"))
+        };
+        let mut lines =
+            vec![format!("mistakes, by what they add to the finest error, {}:", self.of)];
+        lines.extend(LINES.iter().filter_map(line));
+        lines.join("\n")
+    }
+
+    /// What a program reads.
+    pub fn document(&self) -> Value {
+        let each = |it: &Vec<Excluded>| it.iter().map(document).collect::<Vec<_>>();
+        self.all.as_ref().map_or(Value::Null, |all| json!(each(all)))
+    }
+}
+
+fn document(it: &Excluded) -> Value {
+    let (times, right, from) = match it.shown {
+        Shown::Always(times) => (times, None, None),
+        Shown::From { right, least } => (None, Some(right), Some(least)),
+        Shown::Never(times) => (Some(times), None, None),
+    };
+    json!({
+        "hypothesis": it.title,
+        "says": it.says,
+        "kind": it.kind.name(),
+        "excluded": it.is_excluded(),
+        "times": times,
+        "right": right,
+        "from": from,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::listed;
+
+    #[test]
+    fn what_names_are_of_is_said_once() {
+        let names = ["a", "law [b]", "law [c]", "low [d]", "e", "law [f]"].map(String::from);
+        assert_eq!(listed(names), "a, law [b, c], low [d], e, law [f]");
+    }
+}
