@@ -54,6 +54,8 @@ pub struct Ranked {
     pub is_plausible: bool,
     /// Whether its size was found, and so may be what fits best.
     pub is_sized: bool,
+    /// Whether that is a known one.
+    pub is_known: bool,
     /// The mistakes that are the same formula, for such results of any field.
     pub equivalent_always: Vec<String>,
     /// Those that explain this error as well.
@@ -66,6 +68,11 @@ impl Ranked {
     /// The name, with the face and which it is.
     pub fn title(&self) -> String {
         title(self.name, self.which, self.face)
+    }
+
+    /// Whether it fits with a size that nobody would have expected.
+    fn is_free(&self) -> bool {
+        self.is_sized && !self.is_known
     }
 }
 
@@ -291,21 +298,20 @@ pub fn ranked<const D: usize>(
     needs: &[&str],
 ) -> Vec<Ranked> {
     all.retain(|it| it.share.is_finite());
-    // Shares that differ by rounding leave the order of the list.
-    let order =
-        |it: &Explained| (is_plausible(&hypotheses[it.hypothesis], it), (it.share * 1e6).round());
-    all.sort_by(|a, b| {
-        let (a, b) = (order(a), order(b));
-        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
-    });
     let mut ranked: Vec<Ranked> =
         all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it)).collect();
+    // Of shares that differ by rounding, first what fits without a size that was looked for, and then the order of the list.
+    let share = |it: &Ranked| (it.explained * 1e6).round();
+    ranked.sort_by(|a, b| {
+        let plausible = b.is_plausible.cmp(&a.is_plausible);
+        plausible.then(share(b).total_cmp(&share(a))).then(a.is_free().cmp(&b.is_free()))
+    });
     let Some(best) = ranked.first() else { return ranked };
     let remains = |share: f64| 1.0 - share;
     let most = AS_WELL * remains(best.explained) + UNSEEN;
     let as_well = ranked[1..].iter().take_while(|it| it.is_plausible);
     let as_well: Vec<&Ranked> = as_well.filter(|it| remains(it.explained) <= most).collect();
-    let names = hypotheses[all[0].hypothesis].name;
+    let names = hypotheses[best.hypothesis].name;
     let is_same = |other: &&Ranked| {
         SAME.iter().any(|group| {
             let has = |name: &str| group.iter().any(|(it, _)| *it == name);
@@ -327,7 +333,7 @@ fn one<const D: usize>(
     hypothesis: &Hypothesis<D>,
     explained: &Explained,
 ) -> Ranked {
-    let mut name = hypothesis.name;
+    let (mut name, mut is_known) = (hypothesis.name, false);
     let mut says = hypothesis.says.to_owned();
     let factor =
         if explained.size.is_empty() { vec![explained.scale] } else { explained.size.clone() };
@@ -348,6 +354,7 @@ fn one<const D: usize>(
         let known = known.iter().find(|it| near(it) && away(it) <= nearest + explained.margin);
         // What is nearly right has no name of its own.
         if let Some(known) = known.filter(|it| (it.size - right[0]).abs() > explained.margin) {
+            is_known = true;
             (name, says) = (known.name, format!("{found:.3} = {:.3}: {}", known.size, known.says));
         }
     }
@@ -363,6 +370,7 @@ fn one<const D: usize>(
         explained: explained.share,
         is_plausible: is_plausible(hypothesis, explained),
         is_sized: hypothesis.size != Size::Fixed,
+        is_known,
         equivalent_always: Vec::new(),
         equivalent_here: Vec::new(),
         needs: Vec::new(),

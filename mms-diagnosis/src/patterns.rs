@@ -57,6 +57,7 @@ pub fn diagnose<const D: usize>(
             explained: 1.0 - (apart / off).powi(2),
             is_plausible: true,
             is_sized: false,
+            is_known: false,
             equivalent_always: Vec::new(),
             equivalent_here: Vec::new(),
             needs: Vec::new(),

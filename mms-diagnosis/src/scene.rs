@@ -5,8 +5,9 @@ use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
 use mms_runtime::{ManufacturedField, Matrix, Method};
 
-use crate::answer::{Diagnosis, Rung};
+use crate::answer::{Diagnosis, Ranked, Rung};
 use crate::changed::Without;
+use crate::closed_form::{self, Subject, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, vectors};
 use crate::excluded::{Excluded, Study, excluded};
@@ -116,6 +117,15 @@ pub fn excludes(scene: &Scene<f64>, study: &Study) -> Result<Vec<Excluded>, Obst
     }
 }
 
+/// The mistake that gives a closed form from paper; `None` where none does.
+pub fn closed_form(scene: &Scene<f64>, subject: Subject, values: &Values<'_>) -> Option<Ranked> {
+    match scene {
+        Scene::Line(field) => closed_form_of(field.as_ref(), subject, values),
+        Scene::Plane(field) => closed_form_of(field.as_ref(), subject, values),
+        Scene::Space(field) => closed_form_of(field.as_ref(), subject, values),
+    }
+}
+
 /// All hypotheses about a field.
 pub fn hypotheses(scene: &Scene<f64>) -> Vec<Listed> {
     match scene {
@@ -133,6 +143,15 @@ fn exact<const D: usize>(
 ) -> Exact<'_, D> {
     let ordinary = || COURANT * cell_size / Exact::new(field, 1.0, 1.0).wave_speed();
     Exact::new(field, cell_size, time_step.unwrap_or_else(ordinary))
+}
+
+fn closed_form_of<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    subject: Subject,
+    values: &Values<'_>,
+) -> Option<Ranked> {
+    let exact = exact(field, 1.0, None);
+    closed_form::diagnose(&exact, subject, values, all(&exact))
 }
 
 fn excludes_of<const D: usize>(

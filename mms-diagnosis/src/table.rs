@@ -22,18 +22,16 @@ pub enum Measure {
     Cauchy,
 }
 
-/// A measure of tau at F; what is not finite where F is singular.
-fn measured<const D: usize>(
-    measure: Measure,
-    f: &Matrix<f64, D>,
-    tau: &Matrix<f64, D>,
-) -> Matrix<f64, D> {
-    let inverse = f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN));
-    match measure {
-        Measure::FirstPiola => tau * inverse.transpose(),
-        Measure::SecondPiola => inverse * tau * inverse.transpose(),
-        Measure::Kirchhoff => *tau,
-        Measure::Cauchy => tau / determinant(f),
+impl Measure {
+    /// This measure of tau at F; what is not finite where F is singular.
+    pub fn of<const D: usize>(self, f: &Matrix<f64, D>, tau: &Matrix<f64, D>) -> Matrix<f64, D> {
+        let inverse = f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN));
+        match self {
+            Measure::FirstPiola => tau * inverse.transpose(),
+            Measure::SecondPiola => inverse * tau * inverse.transpose(),
+            Measure::Kirchhoff => *tau,
+            Measure::Cauchy => tau / determinant(f),
+        }
     }
 }
 
@@ -53,7 +51,7 @@ pub struct Table<const D: usize> {
 }
 
 /// What a law may lose of its digits, over the largest stress.
-const ARITHMETIC: f64 = 1e-11;
+pub const ARITHMETIC: f64 = 1e-11;
 /// Which part of the squared error a named mistake explains at least: it is there to round-off.
 const EXPLAINED: f64 = 1.0 - 1e-6;
 
@@ -82,11 +80,12 @@ pub fn diagnose<const D: usize>(
     if table.measure != Measure::FirstPiola {
         hypotheses.push(Hypothesis::first_piola());
     }
-    let hypotheses = hypotheses.as_slice();
+    hypotheses
+        .retain(|it| matches!(it.change, Change::Stress(_)) && it.name != "moduli_at_present");
     let deformation: Vec<_> = table.gradient.iter().map(|h| h + Matrix::identity()).collect();
     let flat = |stress: &[Matrix<f64, D>], measure: Measure| -> Vec<f64> {
         let pairs = deformation.iter().zip(stress);
-        pairs.flat_map(|(f, tau)| measured(measure, f, tau).as_slice().to_vec()).collect()
+        pairs.flat_map(|(f, tau)| measure.of(f, tau).as_slice().to_vec()).collect()
     };
     let tau = exact.stress(&table.reference, &table.gradient);
     let right = flat(&tau, table.measure);
@@ -99,8 +98,7 @@ pub fn diagnose<const D: usize>(
     let largest = right.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
     let count = (right.len() as f64).sqrt();
     let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
-    let error = Error::new(all, Vec::new(), Vec::new(), floor);
-    let make = |hypothesis: &Hypothesis<D>, at: &[f64]| {
+    let wrong = |hypothesis: &Hypothesis<D>, at: &[f64]| {
         let mut wrong = tau.clone();
         let given = Given {
             exact,
@@ -120,12 +118,21 @@ pub fn diagnose<const D: usize>(
             .map(|(wrong, right)| (wrong - right) / scale)
             .collect::<Vec<f64>>()
     };
-    let mut explained: Vec<_> = hypotheses
-        .iter()
-        .enumerate()
-        .filter(|(_, it)| matches!(it.change, Change::Stress(_)) && it.name != "moduli_at_present")
-        .filter_map(|(index, hypothesis)| explain(index, hypothesis, &error, &make))
-        .collect();
+    Some(to_round_off(exact, &hypotheses, all, floor, &wrong))
+}
+
+/// Diagnoses numbers that mistakes make to round-off, from how far they are off; up to `floor` that is nothing. `wrong` says
+/// how far a hypothesis puts them off.
+pub fn to_round_off<const D: usize>(
+    exact: &Exact<'_, D>,
+    hypotheses: &[Hypothesis<D>],
+    off: Vec<f64>,
+    floor: f64,
+    wrong: &impl Fn(&Hypothesis<D>, &[f64]) -> Vec<f64>,
+) -> Diagnosis {
+    let error = Error::new(off, Vec::new(), Vec::new(), floor);
+    let one = |(index, hypothesis)| explain(index, hypothesis, &error, wrong);
+    let mut explained: Vec<_> = hypotheses.iter().enumerate().filter_map(one).collect();
     let (found, excess) = (size(&error.all), error.excess());
     let cannot_be_seen = unseen(hypotheses, &explained, floor);
     explained.retain(|it| size(&it.response) > floor);
@@ -134,7 +141,7 @@ pub fn diagnose<const D: usize>(
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
     let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
     let finding = finding(exact_ones, excess, [1.0; 2], NEARER);
-    Some(Diagnosis {
+    Diagnosis {
         finding,
         rung: Rung::Law,
         ranked,
@@ -145,5 +152,5 @@ pub fn diagnose<const D: usize>(
         like: None,
         place: None,
         fields: None,
-    })
+    }
 }

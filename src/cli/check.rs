@@ -1,9 +1,11 @@
 //! `mms check`: every mistake of a file, and every claim it makes.
 
+mod mistaken;
 mod proof;
 pub mod stability;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use mms_codegen::Compiled;
@@ -16,6 +18,7 @@ use mms_codegen::certify::written;
 use mms_codegen::certify::written::{Gap, gaps};
 use mms_codegen::compile::Failure;
 use mms_codegen::selection::{Entry, Freeze, Selection};
+use mms_diagnosis::answer::Ranked;
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::{Foreign, shown};
 use mms_spec::source::Sources;
@@ -69,7 +72,7 @@ impl Check {
         for file in &self.files {
             let path = Foreign::from(file.to_string_lossy());
             let (outcome, document) = match read(file, &options) {
-                Ok(Ok(compiled)) => self.report(&path, &compiled)?,
+                Ok(Ok(compiled)) => self.report(&path, &Arc::new(compiled))?,
                 Ok(Err(mut failure)) => {
                     // What is frozen here is what is set, and its mistakes are said of that.
                     let entry = |it: &Diagnostic| options.selection.entry(it.span);
@@ -123,8 +126,9 @@ impl Check {
         Ok((Outcome::BadInput, document))
     }
 
-    fn report(&self, path: &Foreign, compiled: &Compiled) -> anyhow::Result<(Outcome, Value)> {
+    fn report(&self, path: &Foreign, compiled: &Arc<Compiled>) -> anyhow::Result<(Outcome, Value)> {
         let comparisons = compare(compiled);
+        let named = mistaken::named(compiled, &comparisons);
         let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
         let gaps = gaps(compiled);
         let mut certificate = certify(compiled);
@@ -154,12 +158,16 @@ impl Check {
             proofs.extend(rest_line(&rest));
             proofs.extend(stability::text(&stability, &certificate));
             proofs.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
-            print(&text(path, compiled, proofs, &gaps, &comparisons))?;
+            print(&text(path, compiled, proofs, &gaps, (&comparisons, &named)))?;
         }
         let claims: Vec<_> = certificate.claims.iter().map(proof::claim).collect();
         let objections: Vec<_> =
             objections.iter().map(|it| located(&compiled.sources, it)).collect();
-        let checks: Vec<_> = comparisons.iter().map(comparison_document).collect();
+        let checks = comparisons
+            .iter()
+            .zip(&named)
+            .map(|(it, named)| comparison_document(it, named.as_ref()));
+        let checks: Vec<_> = checks.collect();
         let outcome = if refuted { Outcome::Refuted } else { Outcome::AsExpected };
         let gaps: Vec<_> = gaps.iter().map(|gap| gap_document(compiled, gap)).collect();
         Ok((
@@ -230,7 +238,7 @@ fn gap_document(compiled: &Compiled, gap: &Gap) -> Value {
     })
 }
 
-fn comparison_document(comparison: &Comparison) -> Value {
+fn comparison_document(comparison: &Comparison, named: Option<&Ranked>) -> Value {
     let (status, found, undefined) = match &comparison.finding {
         Finding::Agrees => ("passed", None, 0),
         Finding::Differs(found) => ("failed", Some(found), 0),
@@ -254,6 +262,7 @@ fn comparison_document(comparison: &Comparison) -> Value {
         "status": status,
         "undefined_points": undefined,
         "difference": difference,
+        "acts_as": named.map(mistaken::document),
     })
 }
 
@@ -262,7 +271,7 @@ fn text(
     compiled: &Compiled,
     proofs: Vec<String>,
     gaps: &[Gap],
-    comparisons: &[Comparison],
+    (comparisons, named): (&[Comparison], &[Option<Ranked>]),
 ) -> String {
     let mut lines = vec![format!("{}: {}", path.shown(), compiled.field.title.shown())];
     lines.extend(proofs);
@@ -283,7 +292,7 @@ fn text(
             shown(compiled.sources.slice(gap.span)),
         ));
     }
-    for comparison in comparisons {
+    for (comparison, named) in comparisons.iter().zip(named) {
         let quantity = comparison.quantity.name();
         let source = comparison.source.as_ref().map(Foreign::shown);
         let source = source.as_deref().unwrap_or("no source given");
@@ -298,6 +307,7 @@ fn text(
             Finding::Differs(found) => {
                 lines.push(format!("  check  {quantity} FAILED ({source})"));
                 lines.push(describe(compiled, comparison, found));
+                lines.extend(named.as_ref().map(mistaken::says));
             }
             Finding::Undefined { points, first } => {
                 lines.push(format!(

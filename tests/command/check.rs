@@ -35,8 +35,10 @@ fn the_sign_printed_on_the_slides_is_refuted_with_exit_1() {
     let folder = changed("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)");
     let run = folder.mms("check bar.toml").exits(1);
     run.prints("FAILED").prints(&format!("bar.toml:{}", place("\"(X*(2*length - X)*dA2")));
+    run.prints("it acts as force_sign: the sign of Div P in b");
     let checks = &folder.mms("check bar.toml --json").exits(1).json()["files"][0]["checks"];
     assert_eq!(checks[0]["status"], "failed");
+    assert_eq!(checks[0]["acts_as"]["hypothesis"], "force_sign");
     assert!(checks[0]["difference"]["derived"].is_number(), "{checks}");
 }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
-use super::mms::Folder;
+use super::mms::{BAR, Folder};
 
 const PAGE: &str = include_str!("../../docs/reference/json.md");
 
@@ -216,6 +216,10 @@ fn documents_have_the_keys_of_the_page() {
     let mut reader = Reader { tables: &tables, met: BTreeSet::new() };
     let folder = Folder::with_bar("bar.toml");
     folder.write("faulty.toml", FAULTY);
+    folder.write(
+        "sign.toml",
+        &BAR.replace("+ young/rho0*(1 + F^-2)*A)", "- young/rho0*(1 + F^-2)*A)"),
+    );
     folder.write("loaded.toml", LOADED);
     folder.write("soft.toml", SOFT);
     folder.write("errors.csv", "h,l1,l2,linf\n8,1,1352,3\n4,2,352,\n2,3,96,4\n1,4,28,5\n");
@@ -231,7 +235,7 @@ fn documents_have_the_keys_of_the_page() {
         ("list", "list", 0),
         ("show", "show bar.toml", 0),
         ("show", "show plane_strain_transversely_isotropic --quantity u", 0),
-        ("check", "check bar.toml faulty.toml loaded.toml soft.toml broken.toml", 2),
+        ("check", "check bar.toml faulty.toml loaded.toml sign.toml soft.toml broken.toml", 2),
         ("eval", "eval bar.toml --at 0.5 --at 7 --time 99", 0),
         ("emit", "emit bar.toml --target c --quantity u", 0),
         ("emit", "emit bar.toml --target c --quantity u -o emitted --check", 1),

@@ -42,13 +42,16 @@ pub enum Initial<'a, const D: usize> {
     Gradient(&'a mut [Matrix<f64, D>]),
 }
 
+/// Changes b, from what is right.
+pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
+
 /// Changes stresses, from what is right.
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
 /// What a hypothesis changes. The functions are given what is right.
 pub enum Change<const D: usize> {
     /// b.
-    Force(fn(&Given<'_, D>, &mut [Vector<f64, D>])),
+    Force(OfForce<D>),
     /// tau in the body.
     Stress(OfStress<D>),
     /// tau whose tractions act on the face.

@@ -5,6 +5,7 @@ mod field;
 use field::{DENSITY, LAMBDA, MU, Square};
 use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
 use mms_diagnosis::changed::Without;
+use mms_diagnosis::closed_form::{self, Subject};
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
 use mms_diagnosis::excluded::{Shown, Study, excluded};
@@ -89,6 +90,37 @@ fn a_law_is_named_to_round_off() {
     assert_eq!(quadratic.ranked[0].which, Some("neo_hookean_quadratic"));
     // What nobody has thought of.
     assert_eq!(name(&of_law(|h| right(h) + h * h * 100.0)), "unexplained");
+}
+
+/// What is said of a closed form of b, whose values are these.
+fn of_form(force: impl Fn(f64, &Point) -> Point) -> Option<&'static str> {
+    let exact = exact(&LOADED, 20.0);
+    let values = |time: f64, x: &[f64]| {
+        let points = x.chunks(2).map(Point::from_column_slice);
+        points.flat_map(|x| force(time, &x).as_slice().to_vec()).collect()
+    };
+    let found = closed_form::diagnose(&exact, Subject::BodyForce, &values, all(&exact));
+    found.map(|it| it.name)
+}
+
+#[test]
+fn a_closed_form_of_b_is_named() {
+    let a = field::acceleration;
+    let b = field::body_force;
+    let with = |time: f64, x: &Point, moduli: [f64; 2]| {
+        a(time, x) - field::divergence(time, x, |h| field::first(h, moduli)) / DENSITY
+    };
+    assert_eq!(of_form(b), None);
+    assert_eq!(of_form(|t, x| a(t, x) * 2.0 - b(t, x)), Some("force_sign"));
+    assert_eq!(of_form(|t, x| b(t, x) - a(t, x)), Some("inertia_missing"));
+    assert_eq!(of_form(|t, x| -b(t, x)), Some("force_reversed"));
+    assert_eq!(of_form(|t, x| with(t, x, [MU, LAMBDA])), Some("moduli_swapped"));
+    assert_eq!(of_form(|t, x| with(t, x, [LAMBDA + 2.0 / 3.0 * MU, MU])), Some("lambda_bulk"));
+    let transposed = |h: &Tensor| field::first(h, [LAMBDA, MU]).transpose();
+    let wrong = |t: f64, x: &Point| a(t, x) - field::divergence(t, x, transposed) / DENSITY;
+    assert_eq!(of_form(wrong), Some("stress_transposed"));
+    // What nobody has thought of.
+    assert_eq!(of_form(|t, x| b(t, x) + Point::new(x[0] * x[1], t)), None);
 }
 
 /// What is said of these accelerations at the exact state.

@@ -1,0 +1,78 @@
+//! The mistake that gives a closed form which differs.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use mms_codegen::Compiled;
+use mms_codegen::certify::closed_form::{Comparison, Finding};
+use mms_diagnosis::answer::Ranked;
+use mms_diagnosis::closed_form::Subject;
+use mms_diagnosis::scene::closed_form;
+use mms_diagnosis::table::Measure;
+use mms_mechanics::Output;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
+use serde_json::{Value, json};
+
+/// What is looked at of a quantity.
+fn subject(quantity: Quantity) -> Option<Subject> {
+    match quantity {
+        Quantity::BodyForce => Some(Subject::BodyForce),
+        Quantity::FirstPiolaKirchhoff => Some(Subject::Stress(Measure::FirstPiola)),
+        Quantity::CauchyStress => Some(Subject::Stress(Measure::Cauchy)),
+        Quantity::SecondPiolaKirchhoff => Some(Subject::Stress(Measure::SecondPiola)),
+        _ => None,
+    }
+}
+
+/// What each closed form of a field acts as, where that has a name.
+pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
+    let named = |(check, it): (usize, &Comparison)| match it.finding {
+        Finding::Differs(_) => subject(it.quantity).and_then(|it| of(compiled, check, it)),
+        _ => None,
+    };
+    comparisons.iter().enumerate().map(named).collect()
+}
+
+/// The mistake that gives the closed form of a check.
+fn of(compiled: &Arc<Compiled>, check: usize, subject: Subject) -> Option<Ranked> {
+    let (program, defaults) = (compiled.checks(), BTreeMap::new());
+    let (dimension, parameters) = (compiled.field.dimension, compiled.parameters(&defaults));
+    let outputs = [Output::Expected(check)];
+    let values = |time: f64, points: &[f64]| {
+        let mut interpreter = Interpreter::<f64, _>::new(&program, &parameters);
+        let plan = interpreter.plan(&outputs);
+        interpreter.set_time(&time);
+        let at = |point: &[f64]| {
+            interpreter.set_point(&plan, Point::at(point));
+            interpreter.output(outputs[0])
+        };
+        points.chunks_exact(dimension).flat_map(at).collect()
+    };
+    closed_form(&mms_interpreted::scene(compiled.clone(), &defaults), subject, &values)
+}
+
+/// Mistakes that give the same formula.
+fn others(it: &Ranked) -> Vec<String> {
+    [it.equivalent_always.as_slice(), it.equivalent_here.as_slice()].concat()
+}
+
+/// What a person reads.
+pub fn says(it: &Ranked) -> String {
+    let others = others(it);
+    let or = match others.is_empty() {
+        true => String::new(),
+        false => format!("; it may as well be {}", others.join(", ")),
+    };
+    format!("    it acts as {}: {}{or}", it.title(), it.says)
+}
+
+/// What a program reads.
+pub fn document(it: &Ranked) -> Value {
+    json!({
+        "hypothesis": it.title(),
+        "says": it.says,
+        "factor": if it.factor.len() == 1 { json!(it.factor[0]) } else { Value::Null },
+        "equivalent": others(it),
+    })
+}
