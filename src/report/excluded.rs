@@ -3,13 +3,7 @@
 use mms_diagnosis::excluded::{Excluded, Shown};
 use serde_json::{Value, json};
 
-/// Which mistakes results exclude, or why that is not known.
-pub struct Exclusions {
-    /// Of which errors that is said.
-    pub of: String,
-    /// Each hypothesis.
-    pub all: Result<Vec<Excluded>, String>,
-}
+use crate::judge::results::Exclusions;
 
 /// What several results exclude together.
 pub struct Union {

@@ -7,10 +7,9 @@ use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
 use mms_spec::foreign::{Foreign, shown};
 use serde_json::{Map, Value, json};
 
-use super::excluded::Exclusions;
 use super::picture::{Line, Picture};
 use super::text::{plain, pretty, to_the_right, write_files};
-use crate::judge::results::{Measurement, exclusions};
+use crate::judge::results::{Exclusions, Measurement, exclusions};
 use crate::judge::{Judged, Measured, Norm, Quantity, Refined, worst};
 use crate::provenance::Provenance;
 use crate::session::exact::Exact;

@@ -19,7 +19,7 @@ pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
 pub use diagnosis::{Diagnosed, Hypotheses};
-pub use excluded::{Exclusions, Union};
+pub use excluded::Union;
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
 pub(crate) use results::{differences, with_baseline};

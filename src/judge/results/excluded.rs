@@ -1,12 +1,19 @@
 //! The errors by which results exclude mistakes.
 
 use mms_diagnosis::exact::Quantity;
-use mms_diagnosis::excluded::Study;
+use mms_diagnosis::excluded::{Excluded, Study};
 use mms_diagnosis::scene::excludes;
 
 use super::{Measured, Measurement};
-use crate::report::Exclusions;
 use crate::session::exact::Exact;
+
+/// Which mistakes results exclude, or why that is not known.
+pub struct Exclusions {
+    /// Of which errors that is said.
+    pub of: String,
+    /// Each hypothesis.
+    pub all: Result<Vec<Excluded>, String>,
+}
 
 /// The quantities by which mistakes are excluded.
 const QUANTITIES: [(&str, Quantity); 3] = [

@@ -21,7 +21,7 @@ use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 pub use baseline::{Baseline, Compared};
-pub use excluded::exclusions;
+pub use excluded::{Exclusions, exclusions};
 pub use files::{Results, placed};
 pub use level::{Reading, Sampling, weight};
 pub use same::{Same, same};
