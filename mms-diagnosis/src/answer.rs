@@ -60,6 +60,8 @@ pub struct Ranked {
     pub equivalent_always: Vec<String>,
     /// Those that explain this error as well.
     pub equivalent_here: Vec<String>,
+    /// How many of these are as simple.
+    pub rivals: usize,
     /// What separates them.
     pub needs: Vec<String>,
 }
@@ -206,8 +208,8 @@ pub struct Diagnosis {
     pub cannot_be_seen: Vec<String>,
     /// The size of the error over that of the exact solution.
     pub error: f64,
-    /// That of a right solver, as far as is known.
-    pub expected: f64,
+    /// The least and the largest that right solvers make, as far as is known.
+    pub expected: [f64; 2],
     /// Two hypotheses that explain together what none does alone.
     pub pair: Option<Pair>,
     /// A right method with such an error.
@@ -243,8 +245,10 @@ const SAME: [&[(&str, Option<f64>)]; 2] = [
 
 /// More hypotheses that explain an error as well as the best one say that the results tell nothing apart.
 const ALIKE: usize = 5;
-/// By how much a response may have to be scaled in a mistake that has no size, and besides over what it leaves of the error.
+/// By how much a response may have to be scaled in a mistake that has no size, at least and at most for what methods differ by, and
+/// besides over what it leaves of the error.
 const SCALED: f64 = 0.03;
+const MOST_SCALED: f64 = 0.08;
 const SCALED_BY_LEFT: f64 = 0.5;
 /// What may be left besides, over how many times the method's error an error is.
 const LEFT_BY_METHOD: f64 = 0.1;
@@ -252,6 +256,8 @@ const LEFT_BY_METHOD: f64 = 0.1;
 /// squared error that is not looked at.
 const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
+/// What leaves no more than this part of an error is clear, whatever else does.
+const CLEAR: f64 = 0.06;
 /// A size is a known one within this of itself, or within what is sure of it, but for no more than this.
 const KNOWN: f64 = 0.03;
 const SURE: f64 = 0.1;
@@ -261,56 +267,78 @@ fn left(share: f64) -> f64 {
     (1.0 - share).max(0.0).sqrt()
 }
 
-/// Whether a hypothesis may be of the size that was found.
-fn is_plausible<const D: usize>(hypothesis: &Hypothesis<D>, explained: &Explained) -> bool {
-    let most = SCALED + SCALED_BY_LEFT * left(explained.share);
+/// Whether a hypothesis may be of the size that was found, where methods differ by such a part of what they compute.
+fn is_plausible<const D: usize>(
+    hypothesis: &Hypothesis<D>,
+    explained: &Explained,
+    apart: f64,
+) -> bool {
+    let most = apart.clamp(SCALED, MOST_SCALED) + SCALED_BY_LEFT * left(explained.share);
     let scaled = (explained.scale - 1.0).abs() <= most;
     scaled && explained.scale > 0.0 && hypothesis.allows(&explained.size)
 }
 
-/// What is found where hypotheses explain so much of an error that is so many times that of the method. A mistake that is
-/// named leaves no more than this part of it, where the method makes next to nothing of it: one that has no size, and one whose
-/// size was found. It leaves no more than `nearer` times what a hypothesis of a size that it cannot have leaves: else something
-/// like that is at work.
-pub fn finding(ranked: &[Ranked], excess: f64, most: [f64; 2], nearer: f64) -> Finding {
-    let most = |it: &Ranked| most[usize::from(it.is_sized)] + LEFT_BY_METHOD / excess;
-    let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
-    let nearest = others.fold(f64::INFINITY, f64::min);
-    match ranked.first() {
-        _ if excess <= 1.0 => Finding::Nothing,
-        Some(best)
-            if best.is_plausible
-                && best.equivalent_here.len() <= ALIKE
-                && left(best.explained) <= most(best)
-                && left(best.explained) <= nearer * nearest =>
-        {
-            Finding::Named
+/// When a mistake is named.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// How many times that of methods the error is at least: of a mistake whose size was to be expected (it has none, or a known
+    /// one), and of one of any size.
+    pub excess: [f64; 2],
+    /// Which part of the error it leaves at most, where methods make next to nothing of it: of a mistake that has no size, and of
+    /// one whose size was found.
+    pub left: [f64; 2],
+    /// What each leaves at most over what a hypothesis of a size that it cannot have leaves: else something like that is at work.
+    pub nearer: [f64; 2],
+}
+
+impl Limits {
+    /// What is found where hypotheses explain so much of an error that is so many times that of methods.
+    pub fn finding(&self, ranked: &[Ranked], excess: f64) -> Finding {
+        let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
+        let nearest = others.fold(f64::INFINITY, f64::min);
+        let names = |best: &Ranked| {
+            let kind = usize::from(best.is_sized);
+            let most = self.left[kind] + LEFT_BY_METHOD / excess.max(1.0);
+            let left = left(best.explained);
+            excess > self.excess[usize::from(best.is_free())]
+                && best.is_plausible
+                && best.rivals <= ALIKE
+                && left <= most
+                && left <= (self.nearer[kind] * nearest).max(CLEAR)
+        };
+        match ranked.first() {
+            Some(best) if names(best) => Finding::Named,
+            _ if excess <= 1.0 => Finding::Nothing,
+            _ => Finding::Unexplained,
         }
-        _ => Finding::Unexplained,
     }
 }
 
-/// Hypotheses in the order of what they explain, those first that may be.
+/// Hypotheses in the order of what they explain, those first that may be, where methods differ by a part `apart` of what they
+/// compute.
 pub fn ranked<const D: usize>(
     exact: &Exact<'_, D>,
     hypotheses: &[Hypothesis<D>],
     mut all: Vec<Explained>,
+    apart: f64,
     needs: &[&str],
 ) -> Vec<Ranked> {
     all.retain(|it| it.share.is_finite());
     let mut ranked: Vec<Ranked> =
-        all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it)).collect();
-    // Of shares that differ by rounding, first what fits without a size that was looked for, and then the order of the list.
+        all.iter().map(|it| one(exact, &hypotheses[it.hypothesis], it, apart)).collect();
+    // Shares that differ by rounding leave the order of the list.
     let share = |it: &Ranked| (it.explained * 1e6).round();
-    ranked.sort_by(|a, b| {
-        let plausible = b.is_plausible.cmp(&a.is_plausible);
-        plausible.then(share(b).total_cmp(&share(a))).then(a.is_free().cmp(&b.is_free()))
-    });
+    ranked.sort_by(|a, b| b.is_plausible.cmp(&a.is_plausible).then(share(b).total_cmp(&share(a))));
     let Some(best) = ranked.first() else { return ranked };
     let remains = |share: f64| 1.0 - share;
     let most = AS_WELL * remains(best.explained) + UNSEEN;
-    let as_well = ranked[1..].iter().take_while(|it| it.is_plausible);
-    let as_well: Vec<&Ranked> = as_well.filter(|it| remains(it.explained) <= most).collect();
+    let is_as_good = |it: &Ranked| it.is_plausible && remains(it.explained) <= most;
+    // What fits without a size that was looked for is the simpler explanation.
+    if let Some(simpler) = ranked.iter().position(|it| is_as_good(it) && !it.is_free()) {
+        ranked[..=simpler].rotate_right(1);
+    }
+    let best = &ranked[0];
+    let as_well: Vec<&Ranked> = ranked[1..].iter().filter(|it| is_as_good(it)).collect();
     let names = hypotheses[best.hypothesis].name;
     let is_same = |other: &&Ranked| {
         SAME.iter().any(|group| {
@@ -323,8 +351,11 @@ pub fn ranked<const D: usize>(
     let here: Vec<String> = as_well.iter().filter(|it| !is_same(it)).map(|it| it.title()).collect();
     let needs =
         if here.is_empty() { Vec::new() } else { needs.iter().map(|it| (*it).into()).collect() };
+    let rivals = as_well.iter().filter(|it| !is_same(it) && it.is_free() <= best.is_free());
+    let rivals = rivals.count();
     let first = &mut ranked[0];
     (first.equivalent_always, first.equivalent_here, first.needs) = (always, here, needs);
+    first.rivals = rivals;
     ranked
 }
 
@@ -332,6 +363,7 @@ fn one<const D: usize>(
     exact: &Exact<'_, D>,
     hypothesis: &Hypothesis<D>,
     explained: &Explained,
+    apart: f64,
 ) -> Ranked {
     let (mut name, mut is_known) = (hypothesis.name, false);
     let mut says = hypothesis.says.to_owned();
@@ -368,11 +400,12 @@ fn one<const D: usize>(
         factor,
         margin: explained.margin,
         explained: explained.share,
-        is_plausible: is_plausible(hypothesis, explained),
+        is_plausible: is_plausible(hypothesis, explained, apart),
         is_sized: hypothesis.size != Size::Fixed,
         is_known,
         equivalent_always: Vec::new(),
         equivalent_here: Vec::new(),
+        rivals: 0,
         needs: Vec::new(),
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, Initial};
+use crate::hypothesis::{Change, Given, Hypothesis, Motion};
 
 /// Terms that are left out on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,12 +59,16 @@ impl<'a, const D: usize> Changed<'a, D> {
         Given { exact: self.exact, size, time, reference, gradient }
     }
 
-    /// Changes a quantity of the initial state, and no later one.
-    fn start(&self, time: f64, reference: &[Vector<f64, D>], initial: Initial<'_, D>) {
-        if let Some((Hypothesis { change: Change::Start(change), .. }, size)) = self.mistake
-            && time == self.exact.domain.time[0]
-        {
-            change(&self.given(size, time, reference, &[]), initial);
+    /// Changes a quantity of the motion, as it is at the start or on walls.
+    fn moved(&self, time: f64, reference: &[Vector<f64, D>], motion: Motion<'_, D>) {
+        let Some((hypothesis, size)) = self.mistake else { return };
+        let is_start = time == self.exact.domain.time[0];
+        match hypothesis.change {
+            Change::Start(change) if is_start => {
+                change(&self.given(size, time, reference, &[]), motion);
+            }
+            Change::Wall(change) => change(&self.given(size, time, reference, &[]), motion),
+            _ => {}
         }
     }
 }
@@ -113,12 +117,12 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
 
     fn displacement(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
         self.exact.field.displacement(time, x, out);
-        self.start(time, x, Initial::Displacement(out));
+        self.moved(time, x, Motion::Displacement(out));
     }
 
     fn velocity(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
         self.exact.field.velocity(time, x, out);
-        self.start(time, x, Initial::Velocity(out));
+        self.moved(time, x, Motion::Velocity(out));
     }
 
     fn acceleration(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
@@ -138,7 +142,7 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
 
     fn displacement_gradient(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Matrix<f64, D>]) {
         self.exact.field.displacement_gradient(time, x, out);
-        self.start(time, x, Initial::Gradient(out));
+        self.moved(time, x, Motion::Gradient(out));
     }
 
     fn surface_stress(

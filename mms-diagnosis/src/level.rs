@@ -11,7 +11,7 @@ use crate::evidence::{Frame, Mesh, Seen};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis};
 use crate::run::{Obstacle, Plan, written};
-use crate::smooth::less;
+use crate::smooth::{less, size};
 
 /// A mesh is finer than another by this factor at least.
 const REFINED: f64 = 1.2;
@@ -89,6 +89,14 @@ where
     /// Whether there are two.
     pub fn are_two(&self) -> bool {
         self.coarse.is_some()
+    }
+
+    /// The order with which the error falls from one mesh to the other, of two.
+    pub fn order(&self) -> Option<f64> {
+        let coarse = self.coarse.as_ref()?;
+        let [fine, coarse] = [&self.fine, coarse];
+        let errors = size(&coarse.seen.coefficients) / size(&fine.seen.coefficients);
+        Some(errors.ln() / (coarse.mesh.cell_size / fine.mesh.cell_size).ln())
     }
 
     /// Errors on two meshes as what does not fall with h^2, and a part of what does; of one mesh as they are.

@@ -67,6 +67,6 @@ fn shown_by<const D: usize>(change: &Change<D>) -> &'static str {
         Change::Stress(_) => "law, exact state, step, results",
         Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
         Change::Start(_) => "step, results",
-        Change::Condition(_) | Change::Output(_) => "results",
+        Change::Condition(_) | Change::Output(_) | Change::Wall(_) => "results",
     }
 }

@@ -4,7 +4,7 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
 use mms_runtime::{Fill, Method};
 
-use crate::answer::{Diagnosis, Explained, Fields, Finding, Like, Rung, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Explained, Fields, Finding, Like, Limits, Rung, ranked, unseen};
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
@@ -58,12 +58,22 @@ where
         Look { exact, frame, levels, hypotheses, error }
     }
 
-    /// The largest error that a right method of ours would make on the finest mesh.
-    fn ordinary(&self) -> f64 {
+    /// The errors that right methods of ours would make on the finest mesh, from the least to the largest.
+    fn ordinary(&self) -> Vec<f64> {
         let fine = &self.levels.fine;
         let methods = (0..fine.plan.methods()).filter(|it| fine.plan.is_of_second_order(*it));
-        let sizes = methods.filter_map(|it| Some(size(&fine.right(it)?)));
-        sizes.fold(self.error.floor, f64::max)
+        let mut sizes: Vec<f64> = methods.filter_map(|it| Some(size(&fine.right(it)?))).collect();
+        sizes.sort_by(f64::total_cmp);
+        if sizes.is_empty() { vec![self.error.floor] } else { sizes }
+    }
+
+    /// Whether an error may be that of a right method, though none of ours has such a one: on two meshes it falls, or is about
+    /// that of the middle one of ours.
+    fn is_ordinary(&self, error: f64, ordinary: &[f64]) -> bool {
+        let times = UNEXPLAINED[usize::from(self.levels.are_two())];
+        let most = |of: usize| error <= times * ordinary[of].max(self.error.floor);
+        let falls = self.levels.order().is_none_or(|order| order >= FALLS);
+        most(ordinary.len() - 1) && (falls || most(ordinary.len() / 2))
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
@@ -160,13 +170,17 @@ where
     }
 }
 
-/// Which part of the error a mistake that is named may leave: one that has no size, and one whose size was found.
-const LEFT: [f64; 2] = [0.25, 0.12];
-/// And over what a hypothesis of a size that it cannot have leaves.
-const NEARER: f64 = 0.95;
+/// When a mistake is named, on one mesh and on two. What has no size to be fitted and explains an error is there, however small it
+/// is: right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size.
+const LIMITS: [Limits; 2] = [
+    Limits { excess: [0.05, 1.0], left: [0.35, 0.12], nearer: [1.3, 0.95] },
+    Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer: [1.3, 0.95] },
+];
 /// An error that no hypothesis explains is not held against a solver, where it is no larger than so many times that of right
 /// methods of ours: on one mesh and on two.
 const UNEXPLAINED: [f64; 2] = [4.0, 3.0];
+/// Errors that fall with this order from mesh to mesh are those of a method.
+const FALLS: f64 = 0.7;
 
 /// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of.
 ///
@@ -185,7 +199,7 @@ where
     let look = Look::new(exact, frame, Levels::new(exact, frame, meshes, like)?, hypotheses);
     let explained = look.all();
     let seen = &look.levels.fine.seen;
-    let (error, expected) = (size(&seen.coefficients), look.ordinary());
+    let (error, ordinary) = (size(&seen.coefficients), look.ordinary());
     let mut needs = Vec::new();
     if meshes.len() < 2 {
         needs.push("a second mesh");
@@ -194,10 +208,11 @@ where
         needs.push("a second time");
     }
     needs.push("accelerations at an exact state");
-    let ranked = ranked(exact, hypotheses, explained.clone(), &needs);
+    let middle = ordinary[ordinary.len() / 2];
+    let ranked = ranked(exact, hypotheses, explained.clone(), middle, &needs);
     let kind = usize::from(look.levels.are_two());
-    let finding = match finding(&ranked, look.error.excess(), LEFT, NEARER) {
-        Finding::Unexplained if error <= UNEXPLAINED[kind] * expected => Finding::Nothing,
+    let finding = match LIMITS[kind].finding(&ranked, look.error.excess()) {
+        Finding::Unexplained if look.is_ordinary(error, &ordinary) => Finding::Nothing,
         found => found,
     };
     let named = ranked.first().filter(|_| finding == Finding::Named);
@@ -215,7 +230,7 @@ where
         ranked,
         cannot_be_seen,
         error,
-        expected,
+        expected: [ordinary[0], ordinary[ordinary.len() - 1]],
         pair: (finding == Finding::Unexplained)
             .then(|| pair::best(&look.error, hypotheses, &explained))
             .flatten(),

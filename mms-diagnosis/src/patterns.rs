@@ -6,9 +6,15 @@ use crate::exact::{Exact, vectors};
 use crate::hypothesis::Kind;
 use crate::smooth::size;
 
-/// What is found so, for a list of all hypotheses.
-pub const LISTED: [(&str, &str); 1] =
-    [("points_permuted", "the values of points stand in another order than their positions")];
+/// What is found so: its name, and what it is.
+type Pattern = (&'static str, &'static str);
+
+const PERMUTATION: Pattern =
+    ("points_permuted", "the values of points stand in another order than their positions");
+const ZERO: Pattern = ("output_zero", "results are 0");
+
+/// All of them, for a list of hypotheses.
+pub const LISTED: [Pattern; 2] = [PERMUTATION, ZERO];
 
 /// Values that are the exact ones of other points, to this part of their errors, stand in another order.
 const PERMUTED: f64 = 0.1;
@@ -27,6 +33,9 @@ pub fn diagnose<const D: usize>(
     if off.is_nan() || off <= 0.1 * scale || points.len() < 16 {
         return None;
     }
+    if computed.iter().all(|it| *it == 0.0) {
+        return Some(named(ZERO, [off, 0.0], scale));
+    }
     // Of each component, the sorted values are those of the exact solution, whatever their order.
     let sorted = |values: &[f64]| -> Vec<f64> {
         let columns = (0..components).flat_map(|component| {
@@ -42,34 +51,40 @@ pub fn diagnose<const D: usize>(
     let of_right = rows(&right, components);
     let is_permuted =
         apart < PERMUTED * off && distance(&ordered, &of_right) < 2.0 * PERMUTED * off;
-    is_permuted.then(|| Diagnosis {
+    is_permuted.then(|| named(PERMUTATION, [off, apart], scale))
+}
+
+/// A pattern that leaves so much of what results are off, each over the size of the exact solution.
+fn named((name, says): Pattern, [off, left]: [f64; 2], scale: f64) -> Diagnosis {
+    Diagnosis {
         finding: Finding::Named,
         rung: Rung::Results,
         ranked: vec![Ranked {
             hypothesis: usize::MAX,
-            name: "points_permuted",
-            says: LISTED[0].1.into(),
+            name,
+            says: says.into(),
             kind: Kind::Mistake,
             face: None,
             which: None,
             factor: Vec::new(),
             margin: 0.0,
-            explained: 1.0 - (apart / off).powi(2),
+            explained: 1.0 - (left / off).powi(2),
             is_plausible: true,
             is_sized: false,
             is_known: false,
             equivalent_always: Vec::new(),
             equivalent_here: Vec::new(),
+            rivals: 0,
             needs: Vec::new(),
         }],
         cannot_be_seen: Vec::new(),
         error: off / scale,
-        expected: apart / scale,
+        expected: [left / scale; 2],
         pair: None,
         like: None,
         place: None,
         fields: None,
-    })
+    }
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {

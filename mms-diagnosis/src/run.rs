@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 use mms_runtime::body::bounding_box;
 use mms_runtime::study::{Frame as State, Observer, Solve, Watch};
 use mms_runtime::{
-    Division, FormulationName, IntegratorName, ManufacturedField, Method, Refusal, Setup,
-    ShapeName, Transfer, Vector,
+    Condition, Division, FormulationName, IntegratorName, ManufacturedField, Method, Refusal,
+    Setup, ShapeName, Transfer, Vector,
 };
 
 use crate::changed::{Changed, Without};
@@ -96,12 +96,17 @@ pub const OTHERS: [usize; 3] = [1, 4, 8];
 
 /// Methods that are right, and unlike each other. The first has particles as a quadrature has points: finite elements. The
 /// second is smooth, and damps. The others are what particles make of it that lie anywhere in cells.
-fn methods(setup: &Setup) -> Vec<Method> {
-    let integrated = |integrator, shape, formulation, transfer, offset, jitter| Method {
+fn methods(setup: &Setup, may_be_offset: bool) -> Vec<Method> {
+    let integrated = |integrator, shape, formulation, transfer, offset: f64, jitter| Method {
         shape,
         integrator,
         formulation,
-        setup: Setup { transfer, offset: [offset; 3], jitter, ..setup.clone() },
+        setup: Setup {
+            transfer,
+            offset: if may_be_offset { [offset; 3] } else { [0.0; 3] },
+            jitter,
+            ..setup.clone()
+        },
     };
     let method = |shape, formulation, transfer, offset, jitter| {
         integrated(IntegratorName::Leapfrog, shape, formulation, transfer, offset, jitter)
@@ -181,7 +186,11 @@ where
         let cells =
             (least..=wanted).rev().find(fits).ok_or(Obstacle::TooManySteps(steps(least)))?;
         let end = frame.times.iter().copied().fold(exact.domain.time[0], f64::max);
-        let mut methods = methods(&Setup { end_time: Some(end), ..Setup::default() });
+        // Walls stand at nodes.
+        let is_wall = |it: &Condition| matches!(it, Condition::Fixed | Condition::Roller);
+        let may_be_offset = !exact.domain.faces.iter().any(|(_, it)| is_wall(it));
+        let setup = Setup { end_time: Some(end), ..Setup::default() };
+        let mut methods = methods(&setup, may_be_offset);
         methods.extend(like.map(|like| {
             let setup = Setup { end_time: Some(end), threads: 1, ..like.setup.clone() };
             Method { setup, ..like.clone() }

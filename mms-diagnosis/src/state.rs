@@ -11,10 +11,10 @@ use mms_runtime::{
 };
 
 pub use crate::answer::Computed;
-use crate::answer::{Diagnosis, Finding, Rung, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Finding, Limits, Rung, ranked, unseen};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, Initial, away, faces};
+use crate::hypothesis::{Change, Given, Hypothesis, Motion, away, faces};
 use crate::pair;
 use crate::rank::{Error, explain};
 use crate::smooth::{Smooth, less, size};
@@ -273,7 +273,7 @@ pub fn diagnose<const D: usize>(
     let is_shown = |change: &Change<D>| match change {
         Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density => true,
         Change::Start(_) => response.step.is_some(),
-        Change::Condition(_) | Change::Output(_) => false,
+        Change::Condition(_) | Change::Output(_) | Change::Wall(_) => false,
     };
     let right_sums = weak.sums(&Changed::right(exact, response.without));
     let right = weak.computed(response, &right_sums, 1.0);
@@ -303,7 +303,7 @@ pub fn diagnose<const D: usize>(
                 gradient: &[],
             };
             let right = v.clone();
-            change(&given, Initial::Velocity(&mut v));
+            change(&given, Motion::Velocity(&mut v));
             let change = v.iter().zip(right).map(|(v, right)| (v - right) / step).collect();
             return weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect();
         }
@@ -330,16 +330,18 @@ pub fn diagnose<const D: usize>(
         exact,
         hypotheses,
         explained.clone(),
+        0.0,
         &["another term left out (`--without`)", "another field"],
     );
-    let finding = finding(&ranked, excess, [LEFT; 2], NEARER);
+    let limits = Limits { excess: [1.0; 2], left: [LEFT; 2], nearer: [NEARER; 2] };
+    let finding = limits.finding(&ranked, excess);
     Ok(Diagnosis {
         finding,
         rung: if response.step.is_some() { Rung::Step } else { Rung::State(response.computed) },
         ranked,
         cannot_be_seen,
         error: found,
-        expected: floor,
+        expected: [floor; 2],
         pair: (finding == Finding::Unexplained)
             .then(|| pair::best(&error, hypotheses, &explained))
             .flatten(),

@@ -3,7 +3,7 @@
 use mms_runtime::tensor::determinant;
 use mms_runtime::{Matrix, Vector};
 
-use crate::answer::{Diagnosis, Ranked, Rung, finding, ranked, unseen};
+use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis};
 use crate::rank::{Error, explain};
@@ -136,18 +136,20 @@ pub fn to_round_off<const D: usize>(
     let (found, excess) = (size(&error.all), error.excess());
     let cannot_be_seen = unseen(hypotheses, &explained, floor);
     explained.retain(|it| size(&it.response) > floor);
-    let ranked = ranked(exact, hypotheses, explained, &["other F: with shear, and of other sizes"]);
+    let ranked =
+        ranked(exact, hypotheses, explained, 0.0, &["other F: with shear, and of other sizes"]);
     let remains = |share: f64| (1.0 - share).max(0.0).sqrt() * found;
     let is_exact = |it: &Ranked| it.explained >= EXPLAINED || remains(it.explained) <= 2.0 * floor;
     let exact_ones = if ranked.first().is_some_and(is_exact) { ranked.as_slice() } else { &[] };
-    let finding = finding(exact_ones, excess, [1.0; 2], NEARER);
+    let limits = Limits { excess: [1.0; 2], left: [1.0; 2], nearer: [NEARER; 2] };
+    let finding = limits.finding(exact_ones, excess);
     Diagnosis {
         finding,
         rung: Rung::Law,
         ranked,
         cannot_be_seen,
         error: found,
-        expected: floor,
+        expected: [floor; 2],
         pair: None,
         like: None,
         place: None,

@@ -358,7 +358,7 @@ impl Meaning {
         }
         let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
         let largest = numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-        let stored = stored.unwrap_or(Stored::Double);
+        let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
         Ok(Values {
             components: columns.len(),
             rounding: stored.rounding(largest),

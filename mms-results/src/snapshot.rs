@@ -19,6 +19,9 @@ pub enum Stored {
     Digits(u32),
 }
 
+/// Those that a number has in single precision which is no fraction of few digits in base 2.
+const LAST_BITS: u32 = 0b11_1111;
+
 impl Stored {
     /// Half a unit in the last place of a number of this magnitude.
     pub fn rounding(self, magnitude: f64) -> f64 {
@@ -32,6 +35,17 @@ impl Stored {
             Stored::Digits(digits) => {
                 0.5 * 10f64.powi(magnitude.log10().floor() as i32 + 1 - digits as i32)
             }
+        }
+    }
+
+    /// How these numbers were stored at first: in single precision, where all are numbers of it and some have its last bits.
+    pub fn at_first(self, numbers: &[f64]) -> Stored {
+        let is_finer = self != Stored::Whole && self.rounding(1.0) < Stored::Single.rounding(1.0);
+        let is_single = |it: &f64| f64::from(*it as f32).to_bits() == it.to_bits();
+        let has_last_bits = |it: &f64| (*it as f32).to_bits() & LAST_BITS != 0;
+        match is_finer && numbers.iter().all(is_single) && numbers.iter().any(has_last_bits) {
+            true => Stored::Single,
+            false => self,
         }
     }
 

@@ -14,6 +14,7 @@ pub struct Diagnosis {
     evidence: String,
     finding: String,
     error: f64,
+    least_expected_error: f64,
     expected_error: f64,
     ranked: Vec<Hypothesis>,
     cannot_be_seen: Vec<String>,
@@ -70,7 +71,8 @@ impl Section for Diagnosis {
     fn body(&self, id: &str) -> Markup {
         html! {
             p {
-                "The error is " (number(Some(self.error), |it| format!("{it:.2e}"))) " of the solution; a right solver would be at about "
+                "The error is " (number(Some(self.error), |it| format!("{it:.2e}"))) " of the solution; right methods make "
+                (number(Some(self.least_expected_error), |it| format!("{it:.1e}"))) " to "
                 (number(Some(self.expected_error), |it| format!("{it:.1e}"))) "."
             }
             @if let (Some(best), "named") = (self.ranked.first(), self.finding.as_str()) {

@@ -31,11 +31,11 @@ impl Diagnosed<'_> {
     pub fn text(&self) -> String {
         let it = self.diagnosis;
         let mut parts = vec![format!(
-            "{}: {}\nthe error is {:.2e} of the solution; a right solver would be at about {:.1e}",
+            "{}: {}\nthe error is {:.2e} of the solution; {}",
             self.field.shown(),
             it.rung.says(),
             it.error,
-            it.expected
+            ordinary(it.expected)
         )];
         parts.push(self.finding());
         if it.finding != Finding::Nothing {
@@ -97,7 +97,8 @@ impl Diagnosed<'_> {
             "evidence": it.rung.says(),
             "finding": it.finding.name(),
             "error": it.error,
-            "expected_error": it.expected,
+            "least_expected_error": it.expected[0],
+            "expected_error": it.expected[1],
             "ranked": it.ranked.iter().map(ranked).collect::<Vec<_>>(),
             "cannot_be_seen": it.cannot_be_seen,
             "pair": it.pair.as_ref().map(|it| json!({ "hypotheses": it.hypotheses, "explained": it.explained })),
@@ -107,6 +108,14 @@ impl Diagnosed<'_> {
             "next": it.rung.next(it.finding),
             "provenance": self.provenance,
         })
+    }
+}
+
+/// What right solvers make.
+fn ordinary([least, most]: [f64; 2]) -> String {
+    match least == most {
+        true => format!("a right solver would be at about {most:.1e}"),
+        false => format!("right methods make {least:.1e} to {most:.1e} on such a grid"),
     }
 }
 

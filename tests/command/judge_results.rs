@@ -1,6 +1,8 @@
 //! `mms judge FIELD FILE..`: results of the project's own solver, of a mesh of finite elements, and of files that are
 //! wrong.
 
+use std::fs;
+
 use serde_json::Value;
 
 use super::mms::{Folder, Run};
@@ -121,6 +123,20 @@ fn floors_of_files_are_found() {
         "`c.csv`: the error of displacement is at its floor of 1.2e-6, which rounding of the file",
     );
     run.prints("u = x - X").prints("observed order 3.97 (l2; 2 levels, h 4.000e0 to h 2.000e0)");
+}
+
+/// Numbers of single precision that were written with the digits of double precision may lie beside the body.
+#[test]
+fn single_precision_is_seen_behind_its_digits() {
+    let folder = Folder::with_bar("bar.toml");
+    let text = fs::read_to_string(folder.path("bar.toml")).expect("the bar");
+    folder.write("short.toml", &text.replace("length = { value = 1", "length = { value = 0.8"));
+    let rows: String = (0..=4)
+        .map(|at| f64::from(0.2_f32 * at as f32))
+        .fold(String::new(), |all, x| all + &format!("0,{x},0\n"));
+    assert!(f64::from(0.8_f32) > 0.8 && rows.contains("0.800000011920929"), "{rows}");
+    folder.write("a.csv", &format!("time,X,u\n{rows}"));
+    folder.mms("judge short.toml a.csv --h 1").exits(1).prints("X: X as given");
 }
 
 /// Times whose digits let neighbours be the same are told apart by which is nearer.

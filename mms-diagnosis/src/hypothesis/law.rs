@@ -12,7 +12,10 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         "the stress times a factor",
         1.3,
         Change::Stress(|at, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
-        |_| powers_of_ten("stress_missing", "the stress is missing"),
+        |_| {
+            let missing = Known::new(0.0, "stress_missing", "the stress is missing");
+            [vec![missing], units()].concat()
+        },
     )];
     if exact.law.is_some() {
         all.extend(of_moduli());
@@ -134,10 +137,9 @@ fn with_moduli<const D: usize>(
     }
 }
 
-/// Nothing, and factors of units.
-pub(super) fn powers_of_ten(nothing: &'static str, says: &'static str) -> Vec<Known> {
+/// Factors of units.
+pub(super) fn units() -> Vec<Known> {
     let power =
         |power: i32| Known::new(10f64.powi(power), "units", format!("another unit: 10^{power}"));
-    let powers = [-9, -6, -3, -2, -1, 1, 2, 3, 6, 9].map(power);
-    [Known::new(0.0, nothing, says)].into_iter().chain(powers).collect()
+    [-9, -6, -3, -2, -1, 1, 2, 3, 6, 9].map(power).to_vec()
 }

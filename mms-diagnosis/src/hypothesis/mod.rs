@@ -10,6 +10,7 @@ mod law;
 mod output;
 mod start;
 mod stress;
+mod wall;
 
 use mms_runtime::{Condition, Face, Matrix, Vector};
 
@@ -32,8 +33,8 @@ pub struct Given<'a, const D: usize> {
     pub gradient: &'a [Matrix<f64, D>],
 }
 
-/// A quantity of the initial state.
-pub enum Initial<'a, const D: usize> {
+/// A quantity of a motion, at the start or of walls.
+pub enum Motion<'a, const D: usize> {
     /// u.
     Displacement(&'a mut [Vector<f64, D>]),
     /// v.
@@ -48,6 +49,9 @@ pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
 /// Changes stresses, from what is right.
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
+/// Changes a motion, from what is right.
+pub type OfMotion<const D: usize> = fn(&Given<'_, D>, Motion<'_, D>);
+
 /// What a hypothesis changes. The functions are given what is right.
 pub enum Change<const D: usize> {
     /// b.
@@ -59,7 +63,9 @@ pub enum Change<const D: usize> {
     /// rho0, by the size as a factor.
     Density,
     /// The initial state.
-    Start(fn(&Given<'_, D>, Initial<'_, D>)),
+    Start(OfMotion<D>),
+    /// The motion that is prescribed on faces, and at the start that of the body.
+    Wall(OfMotion<D>),
     /// What holds on the face.
     Condition(Condition),
     /// Nothing that is computed: what is written of a quantity.
@@ -75,6 +81,7 @@ impl<const D: usize> Change<D> {
             Change::Surface(_) => "traction",
             Change::Density => "mass",
             Change::Start(_) => "start",
+            Change::Wall(_) => "prescribed motion",
             Change::Condition(_) => "boundary condition",
             Change::Output(_) => "output",
         }
@@ -262,6 +269,7 @@ pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         density::all(),
         face::all(exact),
         start::all(exact),
+        wall::all(exact),
         output::all(exact),
     ];
     families.into_iter().flatten().collect()

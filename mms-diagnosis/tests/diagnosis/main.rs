@@ -392,6 +392,7 @@ fn what_is_written_wrongly_is_named() {
     assert_eq!(name(&of_results(u)), "nothing");
     assert_eq!(name(&of_results(|t, x| Point::new(u(t, x)[1], u(t, x)[0]))), "components_swapped");
     assert_eq!(name(&of_results(|t, x| u(t, x) * 1000.0)), "units");
+    assert_eq!(name(&of_results(|_, _| Point::zeros())), "output_zero");
     let offset = of_results(|t, x| u(t, &(x + Point::new(1.0 / 24.0, 1.0 / 24.0))));
     assert_eq!(name(&offset), "points_offset");
     assert!((offset.ranked[0].factor[0] * 24.0 - 1.0).abs() < 0.1, "{:?}", offset.ranked[0].factor);

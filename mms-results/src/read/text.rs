@@ -144,6 +144,18 @@ mod tests {
     }
 
     #[test]
+    fn single_precision_is_known_by_its_numbers() {
+        let single = [0.0, 0.5, f64::from(0.8_f32)];
+        assert_eq!(Stored::Double.at_first(&single), Stored::Single);
+        assert_eq!(Stored::Digits(17).at_first(&single), Stored::Single);
+        assert_eq!(Stored::Digits(6).at_first(&single), Stored::Digits(6));
+        assert_eq!(Stored::Whole.at_first(&[16_777_215.0]), Stored::Whole);
+        // Fractions of few digits in base 2 are the same in both.
+        assert_eq!(Stored::Double.at_first(&[0.0, 0.5, 0.8125]), Stored::Double);
+        assert_eq!(Stored::Double.at_first(&[0.5, 0.8]), Stored::Double);
+    }
+
+    #[test]
     fn numbers_of_fortran_are_read() {
         assert_eq!(number("1.5D-3"), Some(1.5e-3));
         assert_eq!(number("-2e5"), Some(-2e5));
