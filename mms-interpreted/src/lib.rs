@@ -5,6 +5,8 @@
 //! path on the command line, it is interpreted. `mms eval` interprets in both cases; `mms study` runs compiled
 //! code where there is some.
 
+mod points;
+
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
@@ -24,6 +26,8 @@ use mms_runtime::{
 use mms_spec::Claim;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
+
+pub use points::AtPoints;
 
 /// How many outputs a solver asks for.
 const ASKED: usize = 9;

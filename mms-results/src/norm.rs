@@ -65,6 +65,21 @@ pub fn over_points(
     (sums.weight > 0.0 && sums.weight.is_finite()).then(|| sums.norms())
 }
 
+/// The norms of the differences at points, as of [`over_points`].
+pub fn of_differences(
+    computed: &[f64],
+    exact: &[f64],
+    components: usize,
+    weights: Option<&[f64]>,
+) -> Option<Norms> {
+    over_points(lengths(computed, exact, components), weights)
+}
+
+/// The largest absolute value; 0 where there is none.
+pub fn largest(of: &[f64]) -> f64 {
+    of.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
+}
+
 /// What of the exact solution is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {

@@ -2,7 +2,7 @@
 
 use mms_results::Cells;
 use mms_results::cell::{Local, Shape};
-use mms_results::norm::{Asked, Exact, Mesh, lengths, over_points};
+use mms_results::norm::{Asked, Exact, Mesh, largest, lengths, of_differences, over_points};
 
 #[test]
 fn norms_over_points_are_their_definitions() {
@@ -10,6 +10,9 @@ fn norms_over_points_are_their_definitions() {
     assert_eq!(errors, [5.0, 0.0]);
     let norms = over_points(errors.iter().copied(), None).unwrap();
     assert_eq!((norms.l1, norms.l2, norms.linf, norms.at), (2.5, 12.5_f64.sqrt(), 5.0, 0));
+    let differences = of_differences(&[3.0, 4.0, 1.0, 0.0], &[0.0, 0.0, 1.0, 0.0], 2, None);
+    assert_eq!(differences, Some(norms));
+    assert_eq!((largest(&[-3.0, 2.0]), largest(&[])), (3.0, 0.0));
     let weighted = over_points(errors.iter().copied(), Some(&[1.0, 3.0])).unwrap();
     assert_eq!((weighted.l1, weighted.l2, weighted.linf), (1.25, 2.5, 5.0));
     assert_eq!(over_points([], None), None);

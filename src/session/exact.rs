@@ -2,14 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::sync::Arc;
-use std::thread;
 
 use dashu_ratio::RBig;
+use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
-use mms_program::block::{Plan, Prepared, Room, Way};
 use mms_runtime::scene::Scene;
 use mms_spec::Face;
 use mms_spec::quantity::{Quantity, Shape};
@@ -20,9 +18,6 @@ use super::plane::{Beyond, NEEDED, SPACE, nine};
 
 /// What part of the time window two times may differ by that are one: sums of time steps round.
 pub const SAME: f64 = 1e-9;
-
-/// From so many points on all processors share them.
-const MANY: usize = 1 << 16;
 
 /// A field with numbers for its parameters.
 pub struct Exact {
@@ -38,7 +33,7 @@ pub struct Exact {
     pub body: Extent<f64>,
     /// Rows of tensors: its dimension, or three.
     tensors: usize,
-    prepared: BTreeMap<Output, Prepared<f64>>,
+    prepared: BTreeMap<Output, AtPoints>,
 }
 
 impl Exact {
@@ -217,40 +212,21 @@ impl Exact {
         output: Output,
         components: usize,
         time: f64,
-        [points, normals]: [&[f64]; 2],
+        places: [&[f64]; 2],
     ) -> anyhow::Result<Vec<f64>> {
         let prepared = match self.prepared.entry(output) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
         };
-        let prepared = &*prepared;
-        let dimension = self.dimension;
-        let count = points.len() / dimension;
-        let mut values = vec![0.0; count * components];
-        let rows = count.div_ceil(if count < MANY { 1 } else { processors() }).max(1);
-        let shares =
-            points.chunks(rows * dimension).zip(values.chunks_mut((rows * components).max(1)));
-        thread::scope(|scope| {
-            for (at, (points, values)) in shares.enumerate() {
-                let normals = normals.get(at * rows * dimension..).unwrap_or_default();
-                let mut work = move || {
-                    let room = &mut Room::default();
-                    prepared.at_points(room, time, dimension, [points, normals], values);
-                };
-                // Few points are done before a thread has started.
-                if rows == count { work() } else { drop(scope.spawn(work)) }
-            }
-        });
-        Ok(values)
+        Ok(prepared.values(components, time, self.dimension, places, processors()))
     }
 }
 
-fn prepared(input: &Input, parameters: &[f64], output: Output) -> anyhow::Result<Prepared<f64>> {
+fn prepared(input: &Input, parameters: &[f64], output: Output) -> anyhow::Result<AtPoints> {
     let own = match output {
         Output::Quantity(quantity) => input.on_request(quantity)?,
         _ => None,
     };
     let program = own.as_ref().unwrap_or(&input.compiled.program);
-    let plan = Plan::new(program, &[output], Output::is_quantity);
-    Ok(Prepared::new(Arc::new(plan), Way::portable(), parameters))
+    Ok(AtPoints::new(program, output, parameters))
 }

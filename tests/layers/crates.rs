@@ -196,7 +196,7 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &[],
+        layers: &["points"],
     },
     Crate {
         name: "mms-capi",

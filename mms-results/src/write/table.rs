@@ -1,6 +1,7 @@
 //! A table in CSV: a line for each point at each time. Numbers have the shortest digits that read back as the same number.
 
-use std::io::{self, Write};
+use std::fmt::Write as _;
+use std::io;
 
 use super::{Column, Shape, State};
 
@@ -11,29 +12,33 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 /// What the writer says.
-pub fn csv(states: &[&State], out: &mut dyn Write) -> io::Result<()> {
+pub fn csv(states: &[&State], out: &mut dyn io::Write) -> io::Result<()> {
     let Some(first) = states.first() else { return Ok(()) };
     let names = first.columns.iter().flat_map(|column| names(column, first.dimension));
     let header: Vec<String> = std::iter::once("time".to_owned()).chain(names).collect();
-    writeln!(out, "{}", header.join(","))?;
+    out.write_all(format!("{}\n", header.join(",")).as_bytes())?;
     states.iter().try_for_each(|state| lines(state, out))
 }
 
-fn lines(state: &State, out: &mut dyn Write) -> io::Result<()> {
+fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
     let sizes = state.columns.iter().map(|column| column.shape.components(state.dimension));
     let sizes: Vec<usize> = sizes.collect();
     let rows = state.columns.first().map_or(0, |column| column.values.len() / sizes[0]);
+    let time = format!("{:?}", state.time);
+    let mut line = String::new();
     for row in 0..rows {
-        write!(out, "{:?}", state.time)?;
+        line.clone_from(&time);
         for (column, &size) in state.columns.iter().zip(&sizes) {
             for value in &column.values[row * size..][..size] {
-                match column.shape {
-                    Shape::Whole => write!(out, ",{value}")?,
-                    _ => write!(out, ",{value:?}")?,
-                }
+                // A text takes what is written to it.
+                let _ = match column.shape {
+                    Shape::Whole => write!(line, ",{value}"),
+                    _ => write!(line, ",{value:?}"),
+                };
             }
         }
-        writeln!(out)?;
+        line.push('\n');
+        out.write_all(line.as_bytes())?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! The iterative error of a solver: how far results are from those of a smaller tolerance on the same mesh.
 
 use anyhow::{Context as _, bail, ensure};
-use mms_results::norm::{lengths, over_points};
+use mms_results::norm::{lengths, of_differences, over_points};
 use mms_results::pairing::{self, Pairs};
 use mms_results::{Snapshot, names::Values};
 use mms_spec::foreign::shown;
@@ -89,7 +89,7 @@ fn differences(
         let Some((_, b)) = of_other.iter().find(|(it, _)| it == quantity) else { continue };
         let norms = match a.is_of_cells || pairs == Pairs::InOrder(a.numbers.len() / a.components) {
             true if a.numbers.len() == b.numbers.len() => {
-                over_points(lengths(&a.numbers, &b.numbers, a.components), None)
+                of_differences(&a.numbers, &b.numbers, a.components, None)
             }
             true => bail!("{}: {} is of other points or cells", other.path, quantity.name()),
             false => over_points(paired(a, b, &pairs), None),

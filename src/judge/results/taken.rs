@@ -3,7 +3,7 @@
 use anyhow::{anyhow, bail};
 use mms_results::motion::Motion;
 use mms_results::names::Values;
-use mms_results::norm::{Asked, Mesh, lengths, over_points};
+use mms_results::norm::{Asked, Mesh, largest, lengths, of_differences};
 use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
@@ -90,8 +90,8 @@ impl Taken<'_> {
         exact: &[f64],
         (sampling, weights, floor): (Sampling, Option<&[f64]>, f64),
     ) -> anyhow::Result<Errors> {
-        let errors = lengths(&values.numbers, exact, self.exact.components(quantity));
-        let found = over_points(errors, weights);
+        let components = self.exact.components(quantity);
+        let found = of_differences(&values.numbers, exact, components, weights);
         let found =
             found.ok_or_else(|| anyhow!("{}: no points with a weight", self.snapshot.path))?;
         let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
@@ -207,10 +207,6 @@ impl Taken<'_> {
         }
         Ok(floor)
     }
-}
-
-fn largest(of: &[f64]) -> f64 {
-    of.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
 fn largest_change(a: &[f64], b: &[f64], components: usize) -> f64 {

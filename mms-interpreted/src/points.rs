@@ -1,0 +1,52 @@
+//! One output at many points, in double precision.
+
+use std::sync::Arc;
+use std::thread;
+
+use mms_mechanics::{Output, Program};
+use mms_program::block::{Plan, Prepared, Room, Way};
+
+/// From so many points on threads share them.
+const MANY: usize = 1 << 16;
+
+/// An output of a program, for one set of parameters. What evaluates it is compiled in this crate, once.
+pub struct AtPoints {
+    prepared: Prepared<f64>,
+}
+
+impl AtPoints {
+    /// With the stages that parameters decide computed.
+    pub fn new(program: &Program, output: Output, parameters: &[f64]) -> Self {
+        let plan = Plan::new(program, &[output], Output::is_quantity);
+        AtPoints { prepared: Prepared::new(Arc::new(plan), Way::portable(), parameters) }
+    }
+
+    /// So many components at points X, and with normals N if it takes them, whose coordinates stand one after the other; by
+    /// so many threads where it is worth it.
+    pub fn values(
+        &self,
+        components: usize,
+        time: f64,
+        dimension: usize,
+        [points, normals]: [&[f64]; 2],
+        threads: usize,
+    ) -> Vec<f64> {
+        let count = points.len() / dimension;
+        let mut values = vec![0.0; count * components];
+        let rows = count.div_ceil(if count < MANY { 1 } else { threads }).max(1);
+        let shares =
+            points.chunks(rows * dimension).zip(values.chunks_mut((rows * components).max(1)));
+        thread::scope(|scope| {
+            for (at, (points, values)) in shares.enumerate() {
+                let normals = normals.get(at * rows * dimension..).unwrap_or_default();
+                let mut work = move || {
+                    let room = &mut Room::default();
+                    self.prepared.at_points(room, time, dimension, [points, normals], values);
+                };
+                // Few points are done before a thread has started.
+                if rows == count { work() } else { drop(scope.spawn(work)) }
+            }
+        });
+        values
+    }
+}
