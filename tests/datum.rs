@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use mms_codegen::{Compiled, Selection, compile_with};
-use mms_mechanics::Output;
+use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
@@ -40,7 +40,17 @@ fn postfix(ast: &Ast) -> String {
     shown.collect::<Vec<_>>().join(" ")
 }
 
-/// What is under the heading of a step, as the page shows it.
+/// The lines of a program that an output needs.
+fn needed(program: &Program, output: Output) -> String {
+    let needed = program.needed(&[output]);
+    let is_shown = |line: &&str| match line.strip_prefix("  v").and_then(|it| it.split_once(' ')) {
+        Some((index, _)) => index.parse().is_ok_and(|index: usize| needed[index]),
+        None => !line.starts_with("  ") || line.contains(&format!("{output:?} = ")),
+    };
+    program.to_string().lines().filter(is_shown).collect::<Vec<_>>().join("\n")
+}
+
+/// What every step makes, as the page shows it.
 fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let formula = &compiled.field.displacement[0];
     let ast = syntax::parse(formula, &mut Vec::new()).expect("a right formula");
@@ -61,8 +71,8 @@ fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
         ("resolve", print(compiled.model.displacement[0])),
         ("derive", print(compiled.derived.quantities[&Quantity::Jacobian][0])),
         ("simplify", print(compiled.derivation.quantities[&Quantity::Jacobian][0])),
-        ("schedule", compiled.program.to_string()),
-        ("emit", format!("    {}\n    }}", &emitted[function..function + length])),
+        ("schedule", needed(&compiled.program, output)),
+        ("emit", format!("{}\n}}", emitted[function..function + length].replace("\n    ", "\n"))),
         ("interpret", format!("{:?}", interpreter.output(output)[0])),
     ]
 }
@@ -73,7 +83,10 @@ fn the_page_shows_what_every_step_makes() {
     let compiled = bar();
     let shown: String = steps(&compiled)
         .into_iter()
-        .map(|(step, datum)| format!("{step}:\n\n```text\n{}\n```\n\n", datum.trim_end()))
+        .map(|(step, datum)| {
+            format!("{step:<12}{}\n", datum.trim_end().replace('\n', "\n            "))
+        })
         .collect();
+    let shown = format!("```text\n{shown}```\n");
     assert!(page.contains(&shown), "ARCHITECTURE.md, \"One datum\", should have\n\n{shown}");
 }

@@ -159,6 +159,6 @@ fn logarithms(compiled: &Compiled, outputs: &[Output]) -> usize {
     let needed = program.needed(outputs);
     let instrs = program.instrs.iter().zip(needed).filter(|(_, needed)| *needed);
     instrs
-        .filter(|(instr, _)| matches!(instr.op, Op::Unary(Function::Ln | Function::Ln1p, _)))
+        .filter(|(instr, _)| matches!(instr.op, Op::Unary(Function::Ln | Function::Ln1p, ..)))
         .count()
 }

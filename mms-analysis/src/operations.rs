@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Derivation;
 use mms_program::schedule::{cost, schedule, schedule_plainly};
-use mms_program::{Op, Program, Stage};
+use mms_program::{Op, Program, Stage, unary_name};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 use mms_symbolic::pass::half_turns::half_turns;
@@ -61,7 +61,8 @@ fn by_kind(program: &Program<()>) -> BTreeMap<&'static str, usize> {
             Op::Subtract(..) => "subtract",
             Op::Multiply(..) => "multiply",
             Op::Divide(..) => "divide",
-            Op::Unary(function, _) | Op::Binary(function, ..) => function.name(),
+            Op::Unary(function, small, _) => unary_name(function, small),
+            Op::Binary(function, ..) => function.name(),
         };
         *counts.entry(kind).or_default() += 1;
     }

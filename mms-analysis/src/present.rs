@@ -54,13 +54,13 @@ pub enum Unplaced {
 
 /// The inverse of the motion of a field at one time.
 pub struct Inverse<'a> {
-    motion: Motion<'a>,
+    motion: Instant<'a>,
     body: Extent<f64>,
     tiles: Vec<Tile>,
 }
 
 /// The motion at one time, in intervals and in double precision.
-struct Motion<'a> {
+struct Instant<'a> {
     plan: Vec<bool>,
     bounds: Interpreter<'a, Interval, Output>,
     values: Interpreter<'a, f64, Output>,
@@ -100,7 +100,7 @@ impl<'a> Inverse<'a> {
         let values = compiled.parameters::<f64>(set);
         let (body, _) = domain(&compiled.program, &values);
         let bounds = compiled.parameters::<Interval>(set);
-        let mut motion = Motion::new(&compiled.program, &bounds, &values, time);
+        let mut motion = Instant::new(&compiled.program, &bounds, &values, time);
         let tiles = tiles(&mut motion, &body);
         Inverse { motion, body, tiles }
     }
@@ -108,7 +108,7 @@ impl<'a> Inverse<'a> {
     /// X of the point that is at x; `rounding` is how far each of its coordinates may be from what was meant.
     ///
     /// # Errors
-    /// None, more than one, or nobody knows.
+    /// No point of the body is there, more than one is, or that is not proved.
     pub fn reference(&mut self, x: &[f64], rounding: f64) -> Result<Vec<f64>, Unplaced> {
         let mut open: Vec<Tile> =
             self.tiles.iter().filter(|tile| tile.may_hold(x)).cloned().collect();
@@ -161,13 +161,13 @@ fn is_new(found: &[Vec<f64>], point: &[f64]) -> bool {
     found.iter().all(far)
 }
 
-impl<'a> Motion<'a> {
+impl<'a> Instant<'a> {
     fn new(program: &'a Program, bounds: &[Interval], values: &[f64], time: f64) -> Self {
         let mut bounds = Interpreter::new(program, bounds);
         bounds.set_time(&Interval::from_f64(time));
         let mut values = Interpreter::new(program, values);
         values.set_time(&time);
-        Motion { plan: values.plan(&[POSITION, GRADIENT]), bounds, values }
+        Instant { plan: values.plan(&[POSITION, GRADIENT]), bounds, values }
     }
 
     /// x and F over a box.
@@ -184,7 +184,7 @@ impl<'a> Motion<'a> {
 }
 
 /// Cuts the body until the motion is one to one on each part, or there are too many.
-fn tiles(motion: &mut Motion<'_>, body: &Extent<f64>) -> Vec<Tile> {
+fn tiles(motion: &mut Instant<'_>, body: &Extent<f64>) -> Vec<Tile> {
     let all = match body {
         Extent::Box([lower, upper]) => {
             lower.iter().zip(upper).map(|(a, b)| Interval::new(*a, *b)).collect()
@@ -212,7 +212,7 @@ fn may_meet(body: &Extent<f64>, sides: &[Interval]) -> bool {
 }
 
 impl Tile {
-    fn new(motion: &mut Motion<'_>, sides: Vec<Interval>) -> Self {
+    fn new(motion: &mut Instant<'_>, sides: Vec<Interval>) -> Self {
         let wide: Vec<Interval> = sides.iter().map(|side| widened(*side)).collect();
         let middle: Vec<f64> = middle(&sides);
         let [natural, gradient] = motion.over(&wide);
@@ -257,7 +257,7 @@ impl Tile {
     }
 
     /// The solution in the tile and its margin, where there is one.
-    fn solve(&self, motion: &mut Motion<'_>, x: &[f64]) -> Found {
+    fn solve(&self, motion: &mut Instant<'_>, x: &[f64]) -> Found {
         let Some(contraction) = &self.contraction else { return Found::Undecided };
         let [at_middle, _] = motion.over(&exact(&middle(&self.sides)));
         let step = contraction.step(&at_middle, x);
@@ -328,7 +328,7 @@ impl Contraction {
     /// The middle of an enclosure of the one solution near a place, where that is proved within the tile.
     fn verify(
         &self,
-        motion: &mut Motion<'_>,
+        motion: &mut Instant<'_>,
         x: &[f64],
         place: &[f64],
         wide: &[Interval],
@@ -349,7 +349,7 @@ impl Contraction {
 
 /// Newton's method, within a box.
 fn newton(
-    motion: &mut Motion<'_>,
+    motion: &mut Instant<'_>,
     x: &[f64],
     mut place: Vec<f64>,
     wide: &[Interval],

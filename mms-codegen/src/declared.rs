@@ -24,6 +24,7 @@ use mms_program::schedule::schedule;
 use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED, quoted};
 use mms_spec::source::Span;
 use mms_spec::{ExtremeSpec, Face, FieldSpec, Formula, MaterialSpec};
+use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::work::Work;
 
@@ -37,8 +38,6 @@ const STEPS_OF_COPY: u64 = 20;
 
 /// Messages say no more than so many values of parameters.
 const MAX_SHOWN: usize = 6;
-
-const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// What is wrong with the numbers of a field whose formulas have been resolved; `set` holds the parameters that do not
 /// have their default.

@@ -39,7 +39,7 @@ impl<'a> Later<'a> {
         kept
     }
 
-    /// The same as values.
+    /// Like [`Later::kept`], as values.
     pub fn kept_values(&self, written: &[Stage], reading: &[Stage]) -> Vec<Value> {
         let kept = self.kept(written, reading);
         (0..kept.len()).filter(|index| kept[*index]).map(|index| Value(index as u32)).collect()

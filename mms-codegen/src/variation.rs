@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use mms_mechanics::model::{Body, Model};
 use mms_spec::source::{Sources, Spanned};
 use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec};
-use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Function, Graph, HALF, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 
@@ -177,7 +177,7 @@ fn affine(graph: &mut Graph, model: &mut Model) {
 fn middle(graph: &mut Graph, body: &Body) -> Vec<Expr> {
     let mut half = |[lower, upper]: [Expr; 2]| {
         let sum = graph.add(lower, upper);
-        graph.scale(sum, Rational::from_parts(1.into(), 2u8.into()))
+        graph.scale(sum, HALF)
     };
     match body {
         Body::Box { lower, upper } => {

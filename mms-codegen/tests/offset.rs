@@ -1,8 +1,8 @@
 //! Fields about a place far from the origin are derived in coordinates less that place.
 
 use mms_codegen::compile::{Options, compile_unproved};
+use mms_symbolic::expr::Node;
 use mms_symbolic::expr::print::Names;
-use mms_symbolic::expr::{Function, Node};
 
 /// u of a bar, as it is derived from.
 fn displacement(parameters: &str, u: &str, bounds: [&str; 2]) -> String {
@@ -22,7 +22,7 @@ fn displacement(parameters: &str, u: &str, bounds: [&str; 2]) -> String {
     let offsets = graph
         .reachable(&[u])
         .into_iter()
-        .filter(|expr| matches!(graph.node(*expr), Node::Call(Function::Offset, _)));
+        .filter(|expr| matches!(graph.node(*expr), Node::Offset(_)));
     offsets.map(|offset| graph.print(offset, &names)).collect::<Vec<_>>().join(", ")
 }
 

@@ -17,7 +17,7 @@ use mms_math::{Double, Scalar as _};
 
 use crate::model::Model;
 use crate::place::{
-    Place, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
+    Spot, anywhere, bounds, defaults, edges, evaluate, is_identity, places, size, vanishes,
 };
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::curvature::{self, curvature};
@@ -42,10 +42,10 @@ pub struct Amplitude {
     index: usize,
     usual: Double,
     /// Places of the body, and places anywhere, where it is 0.
-    body: Vec<Place>,
-    anywhere: Vec<Place>,
+    body: Vec<Spot>,
+    anywhere: Vec<Spot>,
     /// Corners of the body, its middle and those of its faces, where it has its default.
-    edges: Vec<Place>,
+    edges: Vec<Spot>,
 }
 
 impl Amplitude {
@@ -63,7 +63,7 @@ impl Amplitude {
             of_motion.contains(&symbol) && !of_body.contains(&symbol)
         });
         let edges = edges(graph, model, &defaults);
-        let moves = |places: &[Place]| {
+        let moves = |places: &[Spot]| {
             let values = evaluate(graph, &model.displacement, places);
             model.displacement.iter().any(|u| !vanishes(&values[*u]))
         };
@@ -210,8 +210,9 @@ impl Amplitude {
                         least => least.unwrap_or(Keeps::All),
                     }
                 }
-                Node::Call(_, arguments) => {
-                    arguments.iter().filter_map(of).max().unwrap_or(Keeps::None)
+                Node::Call(..) | Node::Offset(_) | Node::Small(..) => {
+                    let operands = node.children().filter_map(|operand| of(&operand));
+                    operands.max().unwrap_or(Keeps::None)
                 }
             };
             if keeps == Keeps::None && matches!(node, Node::Sum(..)) {

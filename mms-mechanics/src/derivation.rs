@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use crate::amplitude::{Amplitude, mended};
-use crate::invariant::Kind;
+use crate::invariant::{Kind, SUPPLIED_VOLUME};
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use crate::material::{self, Law};
 use crate::misread;
 use crate::model::Model;
 use crate::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Symbol};
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
@@ -138,7 +138,7 @@ fn strain_quantities(graph: &mut Graph, strain: &Strain) -> BTreeMap<Quantity, V
     let identity = Tensor::identity(graph, strain.gradient.dimension());
     let right = identity.add(graph, &strain.right);
     let left = identity.add(graph, &strain.left);
-    let half = graph.number(Rational::from_parts(1.into(), 2u8.into()));
+    let half = graph.number(HALF);
     let lagrange = strain.right.scale(graph, half);
     BTreeMap::from([
         (Quantity::RightCauchyGreen, right.components().to_vec()),
@@ -225,6 +225,8 @@ fn balance_quantities(
 
 /// The strain of a displacement gradient that the caller supplies.
 fn supplied(graph: &mut Graph, model: &Model) -> Strain {
+    // A leaf of its own, which only bounds put in place of what H makes of it.
+    graph.symbol(SUPPLIED_VOLUME);
     let dimension = model.displacement.len();
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
@@ -235,7 +237,7 @@ fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, 
     let strain = supplied(graph, model);
     let modulus = law.fastest_modulus(graph, &model.kind);
     let squared_speed = graph.div(modulus, model.density);
-    let speed = graph.power(squared_speed, Rational::from_parts(1.into(), 2u8.into()));
+    let speed = graph.power(squared_speed, HALF);
     BTreeMap::from([
         (Response::Density, vec![model.density]),
         (Response::WaveSpeed, vec![speed]),

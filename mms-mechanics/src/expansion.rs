@@ -49,7 +49,8 @@ fn parts(graph: &mut Graph, energy: Expr) -> Option<Part> {
     let mut parts = BTreeMap::<Expr, Part>::new();
     for expr in graph.reachable(&[energy]) {
         let part = match graph.node(expr).clone() {
-            Node::Number(_) | Node::Pi => constant(graph, expr),
+            // Of coordinates alone, which moduli may depend on.
+            Node::Number(_) | Node::Pi | Node::Offset(_) | Node::Small(..) => constant(graph, expr),
             Node::Symbol(symbol) => leaf(graph, expr, symbol),
             Node::Sum(constant, terms) => sum(graph, constant, &terms, &parts),
             Node::Product(factors) => {

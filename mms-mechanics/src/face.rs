@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::model::Body;
 use mms_spec::Face;
-use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
 /// The radius, among the coordinates of [`polar`].
@@ -51,7 +51,7 @@ fn radius(graph: &mut Graph) -> Expr {
     let coordinates = [0, 1].map(|axis| graph.symbol(Symbol::Coordinate(axis)));
     let squares = coordinates.map(|coordinate| (graph.power(coordinate, 2), Rational::ONE));
     let square = graph.sum(squares);
-    graph.power(square, Rational::from_parts(1.into(), 2u8.into()))
+    graph.power(square, HALF)
 }
 
 /// The direction in which the angle grows, at that angle, or its opposite.

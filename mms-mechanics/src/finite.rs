@@ -34,10 +34,11 @@
 //! no second derivative of W by F, and u is differentiated twice at most. a0 has three components; those along
 //! dimensions that a field lacks stretch nothing.
 
-use crate::defect::{Defect, on};
+use crate::divergence::Terms;
 use crate::invariant::{FIBRE, FIRST, SECOND, VOLUME};
 use crate::kinematics::{Fibre, Motion, Strain, total};
 use crate::material::{Gradient, at, chained_gradient, explicit_gradient, gradient};
+use crate::misread;
 use crate::tensor::{Tensor, dot};
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
@@ -63,7 +64,7 @@ pub(super) struct Finite {
 }
 
 impl Finite {
-    /// From W, a function of the departures `symbols`.
+    /// Differentiates W, a function of the departures `symbols`.
     pub fn new(graph: &mut Graph, energy: Expr, symbols: &'static [Symbol]) -> Self {
         let slopes =
             [FIRST, SECOND, VOLUME].map(|invariant| differentiate(graph, &[energy], invariant)[0]);
@@ -138,61 +139,35 @@ impl Finite {
         stress.add(graph, &pull)
     }
 
-    /// Div P:
-    ///
-    /// ```text
-    /// (Div P)_i = alpha Lap u_i + F_iJ alpha,J + beta (F C)_iJ,J + (F C)_iJ beta,J
-    ///           + (gamma,J - gamma g_J) F^-1_Ji + graded + fibres,   g_J = F^-1_Kk u_k,KJ = (ln J),J
-    /// ```
-    ///
-    /// where alpha,J and its like are through the strain, and what is graded through X.
+    /// Div P from its terms: see [`crate::divergence`]. alpha,J and its like are through the strain, and what is graded
+    /// through X; g_J = F^-1_Kk u_k,KJ.
     pub fn divergence(&self, graph: &mut Graph, motion: &Motion) -> Vec<Expr> {
         let dimension = motion.displacement.len();
         let strain = &motion.strain;
         let laplacian = motion.laplacian(graph);
-        let log_volume = &motion.log_volume_gradient;
         let right = {
             let identity = Tensor::identity(graph, dimension);
             identity.add(graph, &strain.right)
         };
         let cubic = strain.deformation.mul(graph, &right);
         let roots = [self.alpha, self.beta, self.gamma];
-        let [alpha_slope, beta_slope, gamma_slope] =
-            roots.map(|root| chained_gradient(graph, motion, root, self.symbols));
+        let slopes = roots.map(|root| chained_gradient(graph, motion, root, self.symbols));
         let graded = self.graded_divergence(graph, strain);
         let values = at(graph, strain, &roots);
-        let (alpha, beta, gamma) = (values[0], values[1], values[2]);
-        let beta = if on(Defect::SecondInvariant) { graph.number(0) } else { beta };
         let cubic_divergence = cubic_divergence(graph, motion, &right, &laplacian);
-        let fibres = self.fibre_divergence(graph, motion);
-        let one = graph.number(1);
-        let pressure: Vec<Expr> = (0..dimension)
-            .map(|axis| {
-                let constant = on(Defect::PressureGradient);
-                let slope = if constant { graph.number(0) } else { gamma_slope[axis] };
-                let volume = on(Defect::VolumeGradient);
-                let gamma = if volume { graph.mul(gamma, strain.jacobian) } else { gamma };
-                let product = graph.mul(gamma, log_volume[axis]);
-                graph.sub(slope, product)
-            })
-            .collect();
-        (0..dimension)
-            .map(|row| {
-                let mut pairs = vec![(alpha, laplacian[row]), (beta, cubic_divergence[row])];
-                for axis in 0..dimension {
-                    let swapped = on(Defect::DivergenceIndex);
-                    let (i, j) = if swapped { (axis, row) } else { (row, axis) };
-                    pairs.push((strain.deformation.at(i, j), alpha_slope[axis]));
-                    pairs.push((cubic.at(i, j), beta_slope[axis]));
-                    pairs.push((strain.inverse.at(j, i), pressure[axis]));
-                }
-                if !on(Defect::GradedModuli) {
-                    pairs.push((graded[row], one));
-                }
-                pairs.extend(fibres.iter().flat_map(|fibres| fibres[row]));
-                dot(graph, pairs)
-            })
-            .collect()
+        let terms = Terms {
+            deformation: strain.deformation.clone(),
+            cubic,
+            inverse: strain.inverse.clone(),
+            coefficients: [values[0], values[1], values[2]],
+            slopes,
+            laplacian,
+            cubic_divergence,
+            log_volume: motion.log_volume_gradient.clone(),
+            graded,
+            fibres: self.fibre_divergence(graph, motion),
+        };
+        misread::divergence(graph, terms, strain.jacobian).sum(graph)
     }
 
     /// dP_iJ/dX_J at fixed H, of moduli that depend on X: as P itself it is small where the strain is,
@@ -239,7 +214,6 @@ impl Finite {
         let rows = fibre.present.iter().zip(turned).enumerate();
         let parts = rows.map(|(row, (present, turned))| {
             let stretched = motion.second_gradient[row].contract(graph, &squared);
-            let pull = if on(Defect::FibrePull) { graph.number(0) } else { pull };
             [(*present, pull), (delta, graph.add(stretched, turned))]
         });
         Some(parts.collect())

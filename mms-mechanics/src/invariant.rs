@@ -23,6 +23,9 @@ pub const EXCESS: Symbol = Symbol::Invariant(6);
 /// q, the sum of the principal minors of C - I of two rows. Densities do not know it.
 pub const MINORS: Symbol = Symbol::Invariant(7);
 
+/// j as whoever bounds a stress supplies it, beside H: he knows J better than H tells it. Densities do not know it.
+pub const SUPPLIED_VOLUME: Symbol = Symbol::Invariant(8);
+
 /// An invariant as densities know it.
 #[derive(Clone, Copy, Debug)]
 pub struct Invariant {

@@ -14,7 +14,7 @@ use crate::invariant::{
 use crate::model::Model;
 use crate::place::cancel;
 use crate::tensor::{Tensor, dot};
-use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
@@ -233,7 +233,7 @@ impl Fibre {
 }
 
 fn small_strain(graph: &mut Graph, gradient: &Tensor) -> Tensor {
-    let half = graph.number(Rational::from_parts(1.into(), 2u8.into()));
+    let half = graph.number(HALF);
     let transposed = gradient.transpose();
     gradient.add(graph, &transposed).scale(graph, half)
 }

@@ -21,11 +21,13 @@
 
 pub mod amplitude;
 pub mod boundary;
+pub mod candidates;
 #[cfg(feature = "defects")]
 pub mod defect;
 #[cfg(not(feature = "defects"))]
 mod defect;
 pub mod derivation;
+mod divergence;
 mod expansion;
 pub mod extent;
 pub mod face;

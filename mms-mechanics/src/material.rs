@@ -12,7 +12,7 @@ use crate::invariant::Kind;
 use crate::kinematics::{Motion, Strain};
 use crate::small_strain::{self, SmallStrain};
 use crate::tensor::{Tensor, dot};
-use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::relations::Relations;
@@ -35,7 +35,7 @@ enum Stress {
 }
 
 impl Law {
-    /// From W, a density of that kind.
+    /// Derives the coefficients of the stress from W, a density of that kind.
     pub fn new(graph: &mut Graph, energy: Expr, kind: &Kind) -> Self {
         let stress = match kind {
             Kind::Isotropic | Kind::Fibrous(_) => {
@@ -163,7 +163,7 @@ pub fn tangent(graph: &mut Graph, energy: Expr, kind: &Kind, strain: &Strain) ->
 }
 
 fn half() -> Rational {
-    Rational::from_parts(1.into(), 2u8.into())
+    HALF
 }
 
 /// The derivative of an invariant by F.

@@ -2,7 +2,49 @@
 //! function returns the right one.
 
 use crate::defect::{Defect, on};
-use mms_symbolic::expr::{Expr, Graph};
+use crate::divergence::Terms;
+use mms_symbolic::expr::{Expr, Graph, HALF};
+
+/// What Div P is made of.
+pub(super) fn divergence(graph: &mut Graph, mut terms: Terms, jacobian: Expr) -> Terms {
+    let zero = |graph: &mut Graph, slots: &mut [Expr]| slots.fill(graph.number(0));
+    if on(Defect::SecondInvariant) {
+        zero(graph, &mut terms.coefficients[1..2]);
+    }
+    if on(Defect::PressureGradient) {
+        zero(graph, &mut terms.slopes[2]);
+    }
+    if on(Defect::VolumeGradient) {
+        terms.log_volume.iter_mut().for_each(|slope| *slope = graph.mul(jacobian, *slope));
+    }
+    if on(Defect::DivergenceIndex) {
+        for tensor in [&mut terms.deformation, &mut terms.cubic, &mut terms.inverse] {
+            *tensor = tensor.transpose();
+        }
+    }
+    if on(Defect::GradedModuli) {
+        zero(graph, &mut terms.graded);
+    }
+    if on(Defect::FibrePull) {
+        for [(_, pull), _] in terms.fibres.iter_mut().flatten() {
+            *pull = graph.number(0);
+        }
+    }
+    terms
+}
+
+/// The gradient of div u, in Div P at small strain.
+pub(super) fn dilatation(graph: &mut Graph, right: Vec<Expr>) -> Vec<Expr> {
+    if on(Defect::SmallDilatation) { vec![graph.number(0); right.len()] } else { right }
+}
+
+/// The velocity of a body that is turned, of which the Coriolis term has twice.
+pub(super) fn turned_velocity(graph: &mut Graph, right: &[Expr]) -> Vec<Expr> {
+    if !on(Defect::Coriolis) {
+        return right.to_vec();
+    }
+    right.iter().map(|rate| graph.scale(*rate, HALF)).collect()
+}
 
 /// b = a - Div P/rho0.
 pub(super) fn body_force(

@@ -21,10 +21,9 @@ use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
+use mms_symbolic::expr::print::AXES;
 use written::Read;
 pub use written::{Part, Written};
-
-const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// A parameter of a field.
 #[derive(Clone, Debug)]
@@ -199,7 +198,7 @@ impl Model {
         self.displacement.iter().chain([density, energy]).chain(others).copied().collect()
     }
 
-    /// Replaces these, the closed forms and what has a name.
+    /// Replaces the formulas that may depend on X, the closed forms and the named definitions.
     pub fn map_in_space(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
         for exprs in [&mut self.displacement, &mut self.arguments] {
             *exprs = made(exprs);

@@ -4,14 +4,14 @@
 //! apart, and no formula must lose them once more: k (X - s) - w t is one sum in the graph, k X - k s - w t, and k
 //! s - w t would be rounded first; what multiplies out squares has X^2 and s^2 apart. So parameters that a field
 //! has nothing of but coordinates less them, and the corner of a box that is far from the origin, are taken from
-//! the coordinates before anything is derived. X - s becomes a value of its own, [`Function::Offset`]: to every
+//! the coordinates before anything is derived. X - s becomes a value of its own, [`Node::Offset`]: to every
 //! pass it is a leaf as exact as X is, with the slope 1, and in the program a difference.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::model::{Body, Model};
 use crate::place::{defaults, value_with};
-use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::substitute::{coordinates, substitute};
 
 /// How many times larger than the body a coordinate is where it is far from the origin.
@@ -23,7 +23,7 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
     let mut places = said(graph, model);
     places.extend(far_corners(graph, model, &places));
     let offsets = coordinates(graph, places, |graph, coordinate, place| {
-        let offset = graph.call(Function::Offset, &[coordinate, place]);
+        let offset = graph.offset(coordinate, place);
         graph.add(offset, place)
     });
     if !offsets.is_empty() {

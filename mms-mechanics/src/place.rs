@@ -6,7 +6,7 @@ use mms_math::{Double, Scalar as _};
 use crate::extent::{Extent, halton, spread};
 use crate::model::{Body, Model};
 use mms_program::interpret::{Number as _, binary, unary};
-use mms_symbolic::expr::{ByExpr, Expr, Function, Graph, Node, Rational, Symbol};
+use mms_symbolic::expr::{ByExpr, Expr, Graph, Node, Rational, Symbol};
 
 /// At how many places, anywhere, an identity is looked at, and how many of them must have a value.
 const ANYWHERE: usize = 24;
@@ -20,7 +20,7 @@ const CANCELLED: f64 = 1e-24;
 
 /// Values of the parameters, of X and of t.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct Spot {
     pub parameters: Vec<Double>,
     pub coordinates: Vec<Double>,
     pub time: Double,
@@ -37,13 +37,13 @@ pub(super) fn cancel(graph: &mut Graph, model: &Model, terms: &[Expr]) -> bool {
     is_identity(&sums.collect::<Vec<_>>())
 }
 
-/// 0 wherever there is a value.
+/// Whether some values are finite, and all of these are 0.
 pub(super) fn vanishes(values: &[Double]) -> bool {
     let mut finite = values.iter().filter(|value| value.to_f64().is_finite()).peekable();
     finite.peek().is_some() && finite.all(|value| value.to_f64() == 0.0)
 }
 
-/// 0 at enough places for any signs of the parameters and of X.
+/// Whether values are 0 at so many places that they are 0 for any signs of the parameters and of X.
 pub(super) fn is_identity(values: &[Double]) -> bool {
     let finite = values.iter().filter(|value| value.to_f64().is_finite()).count();
     finite >= ENOUGH && vanishes(values)
@@ -68,20 +68,20 @@ pub(super) fn bounds(model: &Model) -> Vec<Expr> {
     [&of_body[..], &model.domain.time].concat()
 }
 
-/// So many places of the body.
+/// As many places of the body as asked for.
 pub(super) fn places(
     graph: &Graph,
     model: &Model,
     parameters: &[Double],
     count: usize,
-) -> Vec<Place> {
+) -> Vec<Spot> {
     // The first points of the sequence have simple fractions, where X may be Y.
     let fractions: Vec<[Double; 4]> = (101..101 + count).map(halton).collect();
     places_at(graph, model, parameters, &fractions)
 }
 
-/// Its corners, its middle and those of its edges and faces, at the first time and halfway.
-pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Place> {
+/// The corners of the body, its middle and those of its edges and faces, at the first time and halfway.
+pub(super) fn edges(graph: &Graph, model: &Model, parameters: &[Double]) -> Vec<Spot> {
     let dimension = model.displacement.len();
     let ends = [0.0, 0.5, 1.0].map(Double::from_f64);
     let of_index = |index: usize| {
@@ -102,7 +102,7 @@ fn places_at(
     model: &Model,
     parameters: &[Double],
     fractions: &[[Double; 4]],
-) -> Vec<Place> {
+) -> Vec<Spot> {
     let nowhere = nowhere(parameters);
     let of = |bound: &Expr| value(graph, *bound, &nowhere);
     let extent = match &model.domain.body {
@@ -114,7 +114,7 @@ fn places_at(
         }
     };
     let [first, last] = [0, 1].map(|end: usize| of(&model.domain.time[end]));
-    let place = |fractions: &[Double; 4]| Place {
+    let place = |fractions: &[Double; 4]| Spot {
         parameters: parameters.to_vec(),
         coordinates: extent.point(fractions),
         time: first + (last - first) * fractions[3],
@@ -133,7 +133,7 @@ pub(super) fn anywhere(
     model: &Model,
     parameters: &[Double],
     nothing: Option<usize>,
-) -> Vec<Place> {
+) -> Vec<Spot> {
     let usual: Vec<Double> =
         parameters.iter().map(size).chain(extent(graph, model, parameters)).collect();
     let place = |index: usize| {
@@ -148,7 +148,7 @@ pub(super) fn anywhere(
         }
         let coordinates = all.by_ref().take(3).collect();
         let time = all.next().unwrap_or(Double::from_f64(0.5));
-        Place { parameters, coordinates, time }
+        Spot { parameters, coordinates, time }
     };
     (101..101 + ANYWHERE).map(place).collect()
 }
@@ -175,11 +175,11 @@ pub(super) fn value_with(graph: &Graph, expr: Expr, parameters: &[Double]) -> Do
 }
 
 /// Values of the parameters, for what does not depend on X and t.
-fn nowhere(parameters: &[Double]) -> Place {
-    Place { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
+fn nowhere(parameters: &[Double]) -> Spot {
+    Spot { parameters: parameters.to_vec(), coordinates: Vec::new(), time: Double::from_f64(0.0) }
 }
 
-fn value(graph: &Graph, expr: Expr, place: &Place) -> Double {
+fn value(graph: &Graph, expr: Expr, place: &Spot) -> Double {
     evaluate(graph, &[expr], std::slice::from_ref(place))[expr][0]
 }
 
@@ -200,7 +200,7 @@ impl std::ops::Index<Expr> for Values {
 }
 
 /// The values of everything that `roots` are made of; what cancels is 0.
-pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Place]) -> Values {
+pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Spot]) -> Values {
     let mut values = ByExpr::<Vec<Double>>::of(roots);
     let reached = graph.reachable(roots);
     graph.work().spend(STEPS_OF_VALUE * (reached.len() * places.len()) as u64);
@@ -213,7 +213,7 @@ pub(super) fn evaluate(graph: &Graph, roots: &[Expr], places: &[Place]) -> Value
 }
 
 /// The value of a node, where `of` has those of its operands.
-pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Double {
+pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Spot) -> Double {
     let zero = Double::from_f64(0.0);
     let without = |value: Double, scale: f64| {
         if value.to_f64().abs() <= CANCELLED * scale { zero } else { value }
@@ -240,11 +240,13 @@ pub(super) fn at(node: &Node, of: impl Fn(Expr) -> Double, place: &Place) -> Dou
             .iter()
             .map(|(base, exponent)| power(of(*base), exponent))
             .fold(Double::from_f64(1.0), |product, factor| product * factor),
-        Node::Call(function @ (Function::Atan2 | Function::Powf | Function::Offset), arguments) => {
-            binary(*function, of(arguments[0]), of(arguments[1]))
-        }
-        // The sine of a rounded pi is not 0.
-        Node::Call(function, arguments) => without(unary(*function, of(arguments[0])), 1e-4),
+        Node::Call(function, arguments) => match arguments[..] {
+            [a, b] => binary(*function, of(a), of(b)),
+            // The sine of a rounded pi is not 0.
+            _ => without(unary(*function, None, of(arguments[0])), 1e-4),
+        },
+        Node::Offset([coordinate, place]) => of(*coordinate) - of(*place),
+        Node::Small(_, angle) => of(*angle),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::material::Law;
 use crate::model::Model;
 use crate::tensor::Tensor;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Graph, Rational};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational};
 use mms_symbolic::pass::relations::Relations;
 
 /// The components of a quantity on request; none of any other.
@@ -77,17 +77,16 @@ fn pressure(graph: &mut Graph, stress: &Tensor) -> Expr {
 /// From differences of the normal stresses, in which the pressure cancels: s:s = ((s1 - s2)^2 + (s2 - s3)^2 + (s3 - s1)^2)/3 and
 /// the squares of the shear stresses.
 fn von_mises(graph: &mut Graph, stress: &Tensor) -> Expr {
-    let half = Rational::from_parts(1.into(), 2u8.into());
     let three_halves = Rational::from_parts(3.into(), 2u8.into());
     let mut terms = Vec::new();
     for row in 0..3 {
         let next = (row + 1) % 3;
         let difference = graph.sub(stress.at(row, row), stress.at(next, next));
-        terms.push((graph.power(difference, 2), half.clone()));
+        terms.push((graph.power(difference, 2), HALF));
         for shear in [stress.at(row, next), stress.at(next, row)] {
             terms.push((graph.power(shear, 2), three_halves.clone()));
         }
     }
     let square = graph.sum(terms);
-    graph.power(square, half)
+    graph.power(square, HALF)
 }

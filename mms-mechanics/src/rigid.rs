@@ -11,13 +11,13 @@
 //! that small angles keep their digits. That holds for materials that are frame-indifferent. The others are
 //! refused a rotation: those whose W is written in the small strain, and those whose file claims no more.
 
-use crate::defect::{Defect, on};
 use crate::derivation::{Derivation, Response};
 use crate::kinematics::total;
+use crate::misread;
 use crate::model::{RigidMotion, Rotation};
 use crate::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Function, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 
 impl Rotation {
@@ -35,7 +35,7 @@ impl Rotation {
     pub fn excess(&self, graph: &mut Graph) -> Tensor {
         let quarter = self.quarter_turn(graph);
         let (Rotation::Plane { angle } | Rotation::Space { angle, .. }) = self;
-        let half = graph.scale(*angle, Rational::from_parts(1.into(), 2u8.into()));
+        let half = graph.scale(*angle, HALF);
         let (sine, cosine) =
             (graph.call(Function::Sin, &[half]), graph.call(Function::Cos, &[half]));
         let square = quarter.mul(graph, &quarter).scale(graph, sine);
@@ -117,10 +117,8 @@ impl<'a> Twin<'a> {
         let reference: Vec<Expr> =
             (0..displacement.len()).map(|axis| graph.symbol(Symbol::Coordinate(axis))).collect();
         let position = sum(graph, [&reference, displacement]);
-        let twice: Vec<Expr> = inner.quantities[&Quantity::Velocity]
-            .iter()
-            .map(|velocity| graph.scale(*velocity, if on(Defect::Coriolis) { 1 } else { 2 }))
-            .collect();
+        let velocity = misread::turned_velocity(graph, &inner.quantities[&Quantity::Velocity]);
+        let twice: Vec<Expr> = velocity.iter().map(|rate| graph.scale(*rate, 2)).collect();
         let swung = excess.apply(graph, &reference);
         let carried = first.apply(graph, &position);
         let (turned, coriolis) = (second.apply(graph, &position), first.apply(graph, &twice));

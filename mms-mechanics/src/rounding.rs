@@ -4,7 +4,7 @@
 use mms_math::{Double, Scalar as _};
 
 use crate::model::Model;
-use crate::place::{Place, STEPS_OF_VALUE, Values, at, defaults, evaluate, places};
+use crate::place::{STEPS_OF_VALUE, Spot, Values, at, defaults, evaluate, places};
 use mms_program::interpret::Number as _;
 use mms_symbolic::expr::{ByExpr, Expr, Graph, Node};
 
@@ -23,14 +23,14 @@ const MUCH: f64 = 16.0;
 /// At how many places errors are looked at.
 const PLACES: usize = 4;
 
-/// Where errors are looked at.
+/// The places at which rounding errors are bounded.
 #[derive(Clone, Debug, Default)]
 pub struct Rounding {
-    places: Vec<Place>,
+    places: Vec<Spot>,
 }
 
 impl Rounding {
-    /// At some places of the body, with the defaults of the parameters.
+    /// Takes some places of the body, with the parameters at their defaults.
     pub fn new(graph: &Graph, model: &Model) -> Self {
         Rounding { places: places(graph, model, &defaults(graph, model), PLACES) }
     }
@@ -86,7 +86,7 @@ impl Rounding {
         graph: &Graph,
         roots: &[Expr],
         values: &Values,
-        (index, place): (usize, &Place),
+        (index, place): (usize, &Spot),
     ) -> ByExpr<f64> {
         let mut errors = ByExpr::of(roots);
         for expr in values.reached.iter().copied() {
@@ -113,7 +113,7 @@ fn error(
     value: Double,
     of: impl Fn(Expr) -> Double,
     errors: &ByExpr<f64>,
-    place: &Place,
+    place: &Spot,
 ) -> f64 {
     // Of anything but a sum every operand is changed, and the node evaluated with it.
     let changed = |child: Expr| {
@@ -149,7 +149,7 @@ mod tests {
     /// At X = 1/2 and t = 1/3.
     fn rounding() -> Rounding {
         let [coordinate, time] = [0.5, 1.0 / 3.0].map(Double::from_f64);
-        Rounding { places: vec![Place { parameters: vec![], coordinates: vec![coordinate], time }] }
+        Rounding { places: vec![Spot { parameters: vec![], coordinates: vec![coordinate], time }] }
     }
 
     #[test]

@@ -4,8 +4,8 @@
 //! # Candidates
 //!
 //! The derivation is made once without relations and, if the displacement has some, once more with the motion
-//! reduced by them, so that det F = 1 of a rotation is 1 from the start. Of every quantity each form is made that
-//! the passes give; all are scheduled. A pass that outgrows the graph is undone.
+//! reduced by them, so that det F = 1 of a rotation is 1 from the start. `candidates` makes of every quantity each form
+//! that the passes give, by name, and chooses; all are scheduled. A pass that outgrows the graph is undone.
 //!
 //! # Cost
 //!
@@ -45,22 +45,21 @@
 use std::collections::BTreeMap;
 
 use crate::amplitude::Amplitude;
+use crate::candidates::{
+    Accuracy, Candidate, Components, Rewriting, candidates, choose_all, reduced, unexpanded,
+};
 use crate::derivation::derive_settled;
 use crate::derivation::{Derivation, derive};
 use crate::kinematics::Route;
 use crate::model::Model;
 use crate::model::RigidMotion;
 use crate::rounding::Rounding;
-use mms_program::schedule::{Cost, cost, steps};
+use mms_program::schedule::{cost, steps};
 use mms_spec::Form;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
-use mms_symbolic::pass::absorb::absorb;
-use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::gather::gather;
-use mms_symbolic::pass::nest::nest;
-use mms_symbolic::pass::reduce::reduce;
-use mms_symbolic::pass::relations::{Relations, lateness};
+use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::separate::separate;
 use mms_symbolic::pass::shift::shift;
 
@@ -74,7 +73,7 @@ const FORCES: [Quantity; 5] = [
 ];
 
 /// The components of quantities.
-type Quantities = BTreeMap<Quantity, Vec<Expr>>;
+type Quantities = Components<Quantity>;
 
 /// Simplifies those quantities of a derivation without relations that are wanted, and its
 /// responses; other quantities stay as they are.
@@ -86,87 +85,55 @@ pub fn simplify(
     wanted: impl Fn(Quantity) -> bool,
 ) -> Derivation {
     let relations = Relations::find(graph, &model.displacement);
-    let fine = |quantity| wanted(quantity) && is_fine(quantity);
-    let coarse = |quantity| wanted(quantity) && !is_fine(quantity);
+    let of_strain = |quantity| wanted(quantity) && vanishes_with_the_strain(quantity);
+    let others = |quantity| wanted(quantity) && !vanishes_with_the_strain(quantity);
     // Relations that are used early keep the motion short, and all that follows from it.
     let unrelated = Relations::default();
     let used = if relations.is_empty() { vec![&unrelated] } else { vec![&unrelated, &relations] };
-    let mut of_gradient = vec![plain.quantities.clone()];
-    of_gradient.extend(derived(graph, model, Route::Gradient, &used[1..]));
-    let of_deformation = derived(graph, model, Route::Deformation, &used);
-    let all = [of_gradient.clone(), of_deformation].concat();
-    let mut quantities = plain.quantities.clone();
+    let mut by_gradient = vec![plain.quantities.clone()];
+    by_gradient.extend(derived(graph, model, Route::Gradient, &used[1..]));
+    let by_deformation = derived(graph, model, Route::Deformation, &used);
+    let by_all_routes = [by_gradient.clone(), by_deformation].concat();
     let (rounding, unasked) = (Rounding::new(graph, model), Rounding::default());
-    let cost_alone = Digits { amplitude: None, rounding: &unasked };
-    // The fast form is the cheapest, and loses digits at small amplitudes anyway.
-    let usual = match form {
-        Form::Fast => cost_alone,
-        Form::Stable => Digits { rounding: &rounding, ..cost_alone },
-    };
-    quantities.extend(cheapest(graph, only(&all, coarse), &relations, usual));
-    let amplitude = match form {
-        Form::Fast => None,
-        Form::Stable => Amplitude::find(graph, model),
-    };
-    let digits = Digits { amplitude: amplitude.as_ref(), rounding: &rounding };
-    match form {
-        Form::Fast => quantities.extend(cheapest(graph, only(&all, fine), &relations, usual)),
-        Form::Stable => {
-            let settled = settled(graph, model, &relations, digits, fine).unwrap_or_default();
-            let forms = only(&of_gradient, |quantity| {
-                let is_exact = |settled: &Vec<Expr>| rounding.is_small(graph, settled);
-                fine(quantity) && !settled.get(&quantity).is_some_and(is_exact)
-            });
-            let before = cheapest(graph, forms, &relations, usual);
-            let settled = digits.worth_it(graph, &before, settled);
-            quantities.extend(before);
-            quantities.extend(settled);
-            mend(graph, model, &relations, digits, &mut quantities, coarse);
+    let any = Accuracy { amplitude: None, rounding: &unasked };
+    let exact = Accuracy { rounding: &rounding, ..any };
+    let mut quantities = plain.quantities.clone();
+    let amplitude;
+    let accuracy = match form {
+        // The cheapest, which loses digits at small amplitudes.
+        Form::Fast => {
+            let all = only(&by_all_routes, others);
+            quantities.extend(cheapest(graph, &all, &relations, any));
+            let all = only(&by_all_routes, of_strain);
+            quantities.extend(cheapest(graph, &all, &relations, any));
+            exact
         }
-    }
+        Form::Stable => {
+            let all = only(&by_all_routes, others);
+            quantities.extend(cheapest(graph, &all, &relations, exact));
+            amplitude = Amplitude::find(graph, model);
+            let accuracy = Accuracy { amplitude: amplitude.as_ref(), ..exact };
+            let rewritten = rewritten(graph, model, &relations, accuracy, of_strain);
+            let rewritten = rewritten.unwrap_or_default();
+            let derived = only(&by_gradient, |quantity| {
+                let is_exact = |rewritten: &Vec<Expr>| rounding.is_small(graph, rewritten);
+                of_strain(quantity) && !rewritten.get(&quantity).is_some_and(is_exact)
+            });
+            let usual = cheapest(graph, &derived, &relations, exact);
+            let rewritten = preferred(graph, rewritten, &usual, accuracy);
+            quantities.extend(usual);
+            quantities.extend(rewritten);
+            repair(graph, model, &relations, accuracy, &mut quantities, others);
+            accuracy
+        }
+    };
     for quantity in FORCES.into_iter().filter(|quantity| wanted(*quantity)) {
         let Some(components) = quantities.get_mut(&quantity) else { continue };
-        *components = parted(graph, std::mem::take(components), digits);
-        *components = fused(graph, std::mem::take(components), digits);
+        *components = parted(graph, std::mem::take(components), accuracy);
+        *components = fused(graph, std::mem::take(components), accuracy);
     }
-    let responses = vec![plain.responses.clone()];
-    Derivation {
-        quantities,
-        responses: cheapest(graph, responses, &Relations::default(), cost_alone),
-    }
-}
-
-/// What is asked of a form beside its cost.
-#[derive(Clone, Copy)]
-struct Digits<'a> {
-    /// With what it shall keep its digits where that is small.
-    amplitude: Option<&'a Amplitude>,
-    /// Where it shall be as exact as others.
-    rounding: &'a Rounding,
-}
-
-impl Digits<'_> {
-    /// Whether components keep their digits at small amplitudes.
-    fn are_kept(self, graph: &Graph, components: &[Expr]) -> bool {
-        self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
-    }
-
-    /// Those of the settled forms that are about as exact as what was there before, or exact enough. They come first,
-    /// for strains may become small with other parameters than an amplitude; but large ones they may make worse.
-    fn worth_it(self, graph: &Graph, before: &Quantities, mut settled: Quantities) -> Quantities {
-        settled.retain(|quantity, settled| {
-            let mut ways = vec![&settled[..]];
-            let before = before.get(quantity).filter(|before| self.are_kept(graph, before));
-            ways.extend(before.map(|before| &before[..]));
-            self.rounding.first(graph, &ways) == Some(settled)
-        });
-        settled
-    }
-
-    /// Whether `after` is as good as `before`.
-    fn allow(self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
-        self.are_kept(graph, after) && self.rounding.allows(graph, before, after)
-    }
+    let responses = cheapest(graph, std::slice::from_ref(&plain.responses), &unrelated, any);
+    Derivation { quantities, responses }
 }
 
 /// What a motion comes to by one route, with each of these relations; what would outgrow the graph is left out.
@@ -183,75 +150,111 @@ fn derived(
     used.iter().filter_map(with).collect()
 }
 
-/// Of each form these quantities alone.
-fn only(forms: &[Quantities], kept: impl Fn(Quantity) -> bool) -> Vec<Quantities> {
-    let mut forms = forms.to_vec();
-    for form in &mut forms {
-        form.retain(|quantity, _| kept(*quantity));
+/// Of each derivation these quantities alone.
+fn only(derived: &[Quantities], wanted: impl Fn(Quantity) -> bool) -> Vec<Quantities> {
+    let mut derived = derived.to_vec();
+    for quantities in &mut derived {
+        quantities.retain(|quantity, _| wanted(*quantity));
     }
-    forms
+    derived
 }
 
-/// Quantities that vanish with the displacement or the strain, with all that cancels taken apart: see
+/// The chosen one of all candidates of some derivations of the same.
+fn cheapest<K: Ord + Copy>(
+    graph: &mut Graph,
+    derived: &[Components<K>],
+    relations: &Relations,
+    accuracy: Accuracy<'_>,
+) -> Components<K> {
+    let all = |graph: &mut Graph, derived: &_| candidates(graph, derived, relations);
+    cheapest_of(graph, derived, all, accuracy)
+}
+
+/// The same of other candidates.
+fn cheapest_of<K: Ord + Copy>(
+    graph: &mut Graph,
+    derived: &[Components<K>],
+    candidates: impl Fn(&mut Graph, &Components<K>) -> Vec<Candidate<K>>,
+    accuracy: Accuracy<'_>,
+) -> Components<K> {
+    let Some(first) = derived.first() else { return Components::new() };
+    if graph.work().is_over() {
+        return first.clone();
+    }
+    let all: Vec<_> = derived.iter().flat_map(|derived| candidates(graph, derived)).collect();
+    choose_all(graph, first, &all, accuracy)
+}
+
+/// Quantities that vanish with the displacement or the strain, after cancellation rewriting: see
 /// [`derive_settled`].
-fn settled(
+fn rewritten(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    digits: Digits<'_>,
-    is_fine: impl Fn(Quantity) -> bool,
+    accuracy: Accuracy<'_>,
+    wanted: impl Fn(Quantity) -> bool,
 ) -> Option<Quantities> {
-    let amplitude = digits.amplitude;
+    let amplitude = accuracy.amplitude;
     let settled = graph.attempt(|graph| derive_settled(graph, model, relations, amplitude));
-    let forms = only(&[settled?.ok()??], is_fine);
-    // To multiply out what was settled would undo it, modulo the relations of whole angles alone
+    let settled = only(&[settled?.ok()??], wanted);
+    // To multiply out what was rewritten would undo it, modulo the relations of whole angles alone
     // it does not: they do not occur in what is small.
-    let rewrite = |graph: &mut Graph, components: Vec<Expr>| {
-        let mut ways = kept_apart(graph, components.clone());
-        if !relations.is_empty() {
-            ways.extend(graph.attempt(|graph| reduce(graph, &components, relations)));
-        }
-        ways
+    let candidates = |graph: &mut Graph, derived: &_| {
+        let mut all = unexpanded(graph, derived);
+        all.extend(reduced(graph, Rewriting::Reduced, derived, relations));
+        all
     };
-    Some(cheapest_of(graph, &forms, rewrite, digits))
+    Some(cheapest_of(graph, &settled, candidates, accuracy))
 }
 
-/// Other quantities, where they lose digits at small amplitudes, in a form that keeps more.
-fn mend(
+/// Those of the rewritten quantities that are about as exact as the usual ones, or exact enough. They come first,
+/// for strains may become small with other parameters than an amplitude; but large ones they may make worse.
+fn preferred(
+    graph: &Graph,
+    mut rewritten: Quantities,
+    usual: &Quantities,
+    accuracy: Accuracy<'_>,
+) -> Quantities {
+    rewritten.retain(|quantity, rewritten| {
+        let mut ways = vec![&rewritten[..]];
+        let usual = usual.get(quantity).filter(|usual| accuracy.is_kept(graph, usual));
+        ways.extend(usual.map(|usual| &usual[..]));
+        accuracy.rounding.first(graph, &ways) == Some(rewritten)
+    });
+    rewritten
+}
+
+/// Gives other quantities, where they lose digits at small amplitudes, a form that keeps more.
+fn repair(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    digits: Digits<'_>,
+    accuracy: Accuracy<'_>,
     quantities: &mut Quantities,
-    is_coarse: impl Fn(Quantity) -> bool,
+    others: impl Fn(Quantity) -> bool,
 ) {
-    let amplitude = digits.amplitude;
-    let coarse = |quantities: &Quantities| {
-        let coarse = quantities.iter().filter(|(quantity, _)| is_coarse(**quantity));
-        coarse.map(|(quantity, components)| (*quantity, components.clone())).collect::<Quantities>()
-    };
+    let amplitude = accuracy.amplitude;
     // The part of Div P that is due to gradients of the moduli is as small as the stress is.
     let is_graded = is_graded(graph, model);
-    let mut lost = coarse(quantities);
+    let mut lost = only(std::slice::from_ref(quantities), &others).swap_remove(0);
     lost.retain(|quantity, components| {
-        is_graded && FORCES.contains(quantity) || !digits.are_kept(graph, components)
+        is_graded && FORCES.contains(quantity) || !accuracy.is_kept(graph, components)
     });
     if !lost.is_empty() {
         let derived = derived(graph, model, Route::Settled(amplitude), &[relations]);
-        let forms = only(&derived, |quantity| lost.contains_key(&quantity));
-        let settled = cheapest_of(graph, &forms, kept_apart, digits);
-        let settled = digits.worth_it(graph, &lost, settled);
-        quantities.extend(settled);
+        let derived = only(&derived, |quantity| lost.contains_key(&quantity));
+        let rewritten = cheapest_of(graph, &derived, unexpanded, accuracy);
+        quantities.extend(preferred(graph, rewritten, &lost, accuracy));
     }
-    // Where what is of first order cancels, none of these forms keeps its digits.
+    // Where what is of first order cancels, none of these keeps its digits.
     let mut of_second_order = Quantities::new();
-    for (quantity, components) in coarse(quantities) {
+    for (quantity, components) in only(std::slice::from_ref(quantities), &others).swap_remove(0) {
         let bent = |graph: &mut Graph| amplitude?.of_second_order(graph, &components);
         let bent = graph.attempt(bent).flatten();
         of_second_order.extend(bent.map(|components| (quantity, components)));
     }
-    let usual = Digits { amplitude: None, ..digits };
-    quantities.extend(cheapest_of(graph, &[of_second_order], kept_apart, usual));
+    let exact = Accuracy { amplitude: None, ..accuracy };
+    quantities.extend(cheapest_of(graph, &[of_second_order], unexpanded, exact));
 }
 
 /// Whether moduli or the direction of fibres depend on X.
@@ -267,7 +270,7 @@ fn is_graded(graph: &Graph, model: &Model) -> bool {
 /// Whether a quantity vanishes with the strain or the displacement, so that an error of the size of
 /// eps is too much for it. The others are of the size of 1, of X or of a derivative of second order,
 /// whatever the strain.
-fn is_fine(quantity: Quantity) -> bool {
+fn vanishes_with_the_strain(quantity: Quantity) -> bool {
     match quantity {
         Quantity::Displacement
         | Quantity::DisplacementGradient
@@ -305,72 +308,17 @@ pub fn twins(
     [plain, simplified]: [&Derivation; 2],
 ) -> (Derivation, Derivation) {
     let [plain, simplified] = [plain, simplified].map(|inner| rigid.compose(graph, inner));
-    let forms = vec![plain.quantities.clone(), simplified.quantities];
-    let digits = Digits { amplitude: None, rounding: &Rounding::default() };
-    let quantities = cheapest(graph, forms, &Relations::default(), digits);
+    let derived = [plain.quantities.clone(), simplified.quantities];
+    let any = Accuracy { amplitude: None, rounding: &Rounding::default() };
+    let quantities = cheapest(graph, &derived, &Relations::default(), any);
     (plain, Derivation { quantities, responses: simplified.responses })
 }
 
-/// The cheapest components for every key, of which some forms are known; of equals, the first.
-fn cheapest<K: Ord + Copy>(
-    graph: &mut Graph,
-    forms: Vec<BTreeMap<K, Vec<Expr>>>,
-    relations: &Relations,
-    digits: Digits<'_>,
-) -> BTreeMap<K, Vec<Expr>> {
-    cheapest_of(graph, &forms, |graph, components| ways(graph, components, relations), digits)
-}
-
-/// The same of what `rewrite` makes of each form: of those that keep their digits at a small amplitude, if there are
-/// such, and that are as exact as others.
-fn cheapest_of<K: Ord + Copy>(
-    graph: &mut Graph,
-    forms: &[BTreeMap<K, Vec<Expr>>],
-    rewrite: impl Fn(&mut Graph, Vec<Expr>) -> Vec<Vec<Expr>>,
-    digits: Digits<'_>,
-) -> BTreeMap<K, Vec<Expr>> {
-    let mut written = Vec::new();
-    if graph.work().is_over() {
-        return forms.first().cloned().unwrap_or_default();
-    }
-    for form in forms {
-        let components: Vec<Expr> = form.values().flatten().copied().collect();
-        written.extend(rewrite(graph, components));
-    }
-    let mut position = 0;
-    let mut best = BTreeMap::new();
-    for (key, components) in forms.first().into_iter().flatten() {
-        let range = position..position + components.len();
-        position = range.end;
-        if graph.work().is_over() {
-            best.insert(*key, components.clone());
-            continue;
-        }
-        let mut costs = BTreeMap::<&[Expr], Cost>::new();
-        let mut ways: Vec<&[Expr]> = written.iter().map(|way| &way[range.clone()]).collect();
-        for way in &ways {
-            costs.entry(way).or_insert_with(|| cost(graph, way));
-        }
-        ways.sort_by_key(|way| costs[way]);
-        ways.dedup();
-        let are_kept = |way: &&[Expr]| digits.are_kept(graph, way);
-        if ways.iter().any(&are_kept) {
-            ways.retain(are_kept);
-        }
-        // Digits are not bought at any price.
-        let least = ways.first().map_or(0, |way| costs[way].per_point);
-        ways.retain(|way| costs[way].per_point <= 2 * least);
-        let cheapest = digits.rounding.first(graph, &ways);
-        best.insert(*key, cheapest.map_or_else(|| components.clone(), <[Expr]>::to_vec));
-    }
-    best
-}
-
 /// Components with what X determines apart from what t does, where that is worth it and as exact.
-fn parted(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<Expr> {
+fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
     let is_better = |graph: &Graph, parted: &[Expr]| {
         let is_worth_it = cost(graph, &components).is_worth(cost(graph, parted));
-        is_worth_it && digits.allow(graph, &components, parted)
+        is_worth_it && accuracy.allows(graph, &components, parted)
     };
     match graph.attempt(|graph| separate(graph, &components)) {
         Some(parted) if parted != components && is_better(graph, &parted) => parted,
@@ -380,10 +328,12 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<E
 
 /// Components with one number in place of two that differ by a constant, and constants added up, where products that are
 /// added cost nothing and it is worth it and as exact.
-fn fused(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<Expr> {
+fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
     let shifted = graph.attempt(|graph| shift(graph, &components));
     let shifted = shifted.filter(|shifted| *shifted != components);
-    let mut ways = shifted.map_or_else(Vec::new, |shifted| kept_apart(graph, shifted));
+    let shifted = shifted.map(|shifted| unexpanded(graph, &BTreeMap::from([((), shifted)])));
+    let shifted = shifted.into_iter().flatten().map(|mut it| it.components.remove(&()));
+    let mut ways: Vec<Vec<Expr>> = shifted.flatten().collect();
     ways.push(components.clone());
     for way in ways.clone() {
         ways.extend(graph.attempt(|graph| gather(graph, &way)));
@@ -393,33 +343,8 @@ fn fused(graph: &mut Graph, components: Vec<Expr>, digits: Digits<'_>) -> Vec<Ex
     let counted = ways.into_iter().map(|way| (steps(graph, &way), way));
     let mut better: Vec<_> = counted.filter(|(steps, _)| before.is_worth(*steps)).collect();
     better.sort_by_key(|(steps, _)| *steps);
-    let best = better.into_iter().find(|(_, way)| digits.allow(graph, &components, way));
+    let best = better.into_iter().find(|(_, way)| accuracy.allows(graph, &components, way));
     best.map_or(components, |(_, way)| way)
-}
-
-/// Expressions as they are, and with factors taken out or in; no sum is multiplied out.
-fn kept_apart(graph: &mut Graph, components: Vec<Expr>) -> Vec<Vec<Expr>> {
-    let mut ways = vec![components.clone()];
-    ways.extend(graph.attempt(|graph| nest(graph, &components, &lateness)));
-    ways.extend(graph.attempt(|graph| {
-        let factored = factor(graph, &components);
-        absorb(graph, &factored)
-    }));
-    ways.extend(graph.attempt(|graph| factor(graph, &components)));
-    ways
-}
-
-/// Expressions as they are, and rewritten; what would outgrow the graph is left out.
-///
-/// They are rewritten together, since what they have in common is then rewritten once.
-pub fn ways(graph: &mut Graph, components: Vec<Expr>, relations: &Relations) -> Vec<Vec<Expr>> {
-    let mut ways = kept_apart(graph, components.clone());
-    let among = Relations::find(graph, &components).at_points(graph);
-    let all = [Some(relations.clone()), relations.thorough(), Some(among)];
-    for relations in all.into_iter().flatten().filter(|relations| !relations.is_empty()) {
-        ways.extend(graph.attempt(|graph| reduce(graph, &components, &relations)));
-    }
-    ways
 }
 
 #[cfg(test)]
@@ -441,8 +366,8 @@ mod tests {
             [(b, w), (c, square)].map(|(factor, number)| graph.mul(factor, number));
         let second = graph.sum([a, second, third].map(|term| (term, Rational::ONE)));
         let before = vec![first, second];
-        let digits = Digits { amplitude: None, rounding: &Rounding::default() };
-        let after = fused(&mut graph, before.clone(), digits);
+        let any = Accuracy { amplitude: None, rounding: &Rounding::default() };
+        let after = fused(&mut graph, before.clone(), any);
         let [before, after] = [before, after].map(|components| steps(&graph, &components));
         // x^2, w, w y and two steps for the sum; then x^2 - 2, w y, and (b + c) w + (a + 2 c).
         assert_eq!((before.per_point, after.per_point), (5, 3));

@@ -8,12 +8,12 @@
 //! W is taken as it is at any H, though it stands for an elastic solid at small ones only: it changes under
 //! rotations.
 
-use crate::defect::{Defect, on};
 use crate::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
 use crate::kinematics::{Motion, Strain};
 use crate::material::{Gradient, at, gradient};
+use crate::misread;
 use crate::tensor::{Tensor, dot};
-use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 
@@ -27,7 +27,7 @@ pub(super) struct SmallStrain {
 }
 
 impl SmallStrain {
-    /// From W.
+    /// Differentiates W.
     pub fn new(graph: &mut Graph, energy: Expr) -> Self {
         let [pressure, half] =
             [SMALL_TRACE, SMALL_SQUARE].map(|by| differentiate(graph, &[energy], by)[0]);
@@ -51,16 +51,15 @@ impl SmallStrain {
         let identity = Tensor::identity(graph, dimension);
         let (laplacian, dilatation) =
             (motion.laplacian(graph), motion.contract_second_gradient(graph, &identity));
+        let dilatation = misread::dilatation(graph, dilatation);
         let shear = at(graph, &motion.strain, &[self.shear])[0];
         let symbols = Kind::SmallStrain.symbols();
         let [pressure_slope, shear_slope] =
             [self.pressure, self.shear].map(|root| gradient(graph, motion, root, symbols));
-        let half = Rational::from_parts(1.into(), 2u8.into());
         (0..dimension)
             .map(|row| {
-                let terms = [laplacian[row], dilatation[row]].map(|term| (term, half.clone()));
-                let shown = if on(Defect::SmallDilatation) { 1 } else { 2 };
-                let curvature = graph.sum(terms.into_iter().take(shown));
+                let terms = [laplacian[row], dilatation[row]].map(|term| (term, HALF));
+                let curvature = graph.sum(terms);
                 let turned = (0..dimension).map(|axis| (strain.at(row, axis), shear_slope[axis]));
                 let turned = dot(graph, turned);
                 let sheared = graph.mul(shear, curvature);

@@ -65,7 +65,7 @@ impl Tensor {
         Self::from_components(self.dimension, settle(graph, &reduced))
     }
 
-    /// The same matrix, where it keeps its digits, else what does: see [`Amplitude::mend`].
+    /// The same matrix, with forms that keep their digits for components that lose them: see [`Amplitude::mend`].
     pub(super) fn mend(
         &self,
         graph: &mut Graph,

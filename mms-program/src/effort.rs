@@ -26,24 +26,14 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
     let Some(function) = function else { return OF_INTERVALS };
     let farthest = lower.abs().max(upper.abs());
     match function {
-        Function::Offset | Function::WithinTurns | Function::WithinTurnsPi => OF_INTERVALS,
-        Function::Sin
-        | Function::SinNearZero
-        | Function::SinWithinOne
-        | Function::Cos
-        | Function::CosNearZero
-        | Function::CosWithinOne
-        | Function::SinPi
-        | Function::CosPi
-        | Function::Tan
+        Function::WithinTurns | Function::WithinTurnsPi => OF_INTERVALS,
+        Function::Sin | Function::Cos | Function::SinPi | Function::CosPi | Function::Tan
             if farthest > LARGEST_QUICK_ANGLE =>
         {
             SLOW + (FOR_EACH_BIT * farthest.log2().min(1024.0)) as u64
         }
         // Near 0 the value is too near to the argument for the fast way to tell them apart.
-        Function::Sin | Function::SinNearZero | Function::SinWithinOne | Function::SinPi
-            if lower != 0.0 && lower.abs().min(upper.abs()) < 1e-8 =>
-        {
+        Function::Sin | Function::SinPi if lower != 0.0 && lower.abs().min(upper.abs()) < 1e-8 => {
             SLOW
         }
         Function::Exp if farthest > 600.0 => SLOW,
@@ -54,16 +44,12 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
         | Function::Ln1p
         | Function::Ln1pRest
         | Function::Sin
-        | Function::SinNearZero
-        | Function::SinWithinOne
         | Function::SinPi
         | Function::Cos
-        | Function::CosNearZero
-        | Function::CosWithinOne
         | Function::CosPi => QUICK,
         Function::Powf => 8 * QUICK,
-        Function::ExpM1 | Function::Tan | Function::Sinh | Function::Cosh | Function::Tanh => SLOW,
         Function::Asin | Function::Acos | Function::Atan | Function::Atan2 => SLOWER,
+        _ => SLOW,
     }
 }
 
@@ -72,18 +58,12 @@ pub fn of_digits(function: Option<Function>, bits: usize, exponent: isize) -> u6
     let words = (bits / 256) as u64;
     let Some(function) = function else { return OF_DIGITS * words };
     let of_few = match function {
-        Function::Offset | Function::WithinTurns | Function::WithinTurnsPi => OF_DIGITS,
+        Function::WithinTurns | Function::WithinTurnsPi => OF_DIGITS,
         Function::Sqrt | Function::Cbrt => 4 * OF_DIGITS,
         // A large angle is reduced in as many more digits.
-        Function::Sin
-        | Function::SinNearZero
-        | Function::SinWithinOne
-        | Function::SinPi
-        | Function::Cos
-        | Function::CosNearZero
-        | Function::CosWithinOne
-        | Function::CosPi
-        | Function::Tan => SHORT + SHORT * exponent.clamp(0, 1 << 12) as u64 / 256,
+        Function::Sin | Function::SinPi | Function::Cos | Function::CosPi | Function::Tan => {
+            SHORT + SHORT * exponent.clamp(0, 1 << 12) as u64 / 256
+        }
         Function::Exp | Function::ExpM1 => SHORT,
         _ => LONG,
     };

@@ -221,6 +221,7 @@ impl<T: Bounds> Scalar for Fan<T> {
 mod tests {
     use super::*;
     use crate::interpret::{binary, unary};
+    use mms_symbolic::expr::Small;
 
     /// What is made of two numbers by all operations.
     fn made<T: Number>(x: T, y: T) -> Vec<T> {
@@ -238,7 +239,13 @@ mod tests {
             binary(Function::Powf, y.clone(), x.clone()),
         ];
         let functions = Function::ALL.iter().filter(|function| function.arity() == 1);
-        made.extend(functions.map(|function| unary(*function, x.clone() * y.clone())));
+        let functions = functions.map(|function| (*function, None));
+        let small = [Small::NearZero, Small::WithinOne].map(Some);
+        let small = [Function::Sin, Function::Cos].map(|function| small.map(|it| (function, it)));
+        let functions = functions.chain(small.into_iter().flatten());
+        made.extend(
+            functions.map(|(function, small)| unary(function, small, x.clone() * y.clone())),
+        );
         let whole = made.iter().cloned().reduce(|sum, term| sum + term);
         made.extend(whole);
         made

@@ -29,7 +29,7 @@ pub struct Fusion {
 }
 
 impl Fusion {
-    /// Every sum as it is.
+    /// No sum takes a product up.
     pub fn none(instrs: &[Instr]) -> Self {
         Fusion { fused: vec![None; instrs.len()], absorbed: vec![false; instrs.len()] }
     }

@@ -4,7 +4,7 @@ use mms_math::{Double, Scalar};
 
 use crate::effort;
 use crate::program::{Key, Op, Program, Value};
-use mms_symbolic::expr::{Function, Rational, Stage, Symbol};
+use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 use mms_symbolic::work::Work;
 
 /// A scalar that takes exact constants.
@@ -106,12 +106,12 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         Self::prepared(program, parameters, None, 1)
     }
 
-    /// The same within a budget. When that is over, what is computed is not a number.
+    /// Like [`Interpreter::new`], within a budget of work: when it is over, no value is a number.
     pub fn within(work: &'a Work, program: &'a Program<K>, parameters: &[T]) -> Self {
         Self::prepared(program, parameters, Some(work), 1)
     }
 
-    /// The same of a scalar that does the work of so many.
+    /// Like [`Interpreter::within`], for a scalar of which one operation is charged as so many.
     pub fn as_many(work: &'a Work, program: &'a Program<K>, parameters: &[T], times: u64) -> Self {
         Self::prepared(program, parameters, Some(work), times)
     }
@@ -132,7 +132,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         interpreter
     }
 
-    /// From now on it does the work of so many.
+    /// Charges every operation from now on as so many.
     pub fn charge(&mut self, times: u64) {
         self.times = times;
     }
@@ -153,13 +153,18 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
     /// Runs the Point and PointTime stages of a plan.
     pub fn set_point(&mut self, plan: &[bool], point: Point<'_, T>) {
         let dimension = point.gradient.len().isqrt();
+        self.set_leaves(plan, |symbol| match symbol {
+            Symbol::Coordinate(axis) => point.coordinates[axis].clone(),
+            Symbol::Normal(axis) => point.normal[axis].clone(),
+            Symbol::Gradient(row, column) => point.gradient[row * dimension + column].clone(),
+            _ => unreachable!("earlier stages have run"),
+        });
+    }
+
+    /// Like [`Interpreter::set_point`], for a program with other leaves: the caller has the value of each.
+    pub fn set_leaves(&mut self, plan: &[bool], leaf: impl Fn(Symbol) -> T) {
         for stage in [Stage::Point, Stage::PointTime] {
-            self.run(stage, plan, |symbol| match symbol {
-                Symbol::Coordinate(axis) => point.coordinates[axis].clone(),
-                Symbol::Normal(axis) => point.normal[axis].clone(),
-                Symbol::Gradient(row, column) => point.gradient[row * dimension + column].clone(),
-                _ => unreachable!("earlier stages have run"),
-            });
+            self.run(stage, plan, &leaf);
         }
     }
 
@@ -191,7 +196,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
             return true;
         }
         let steps = match &self.program.instrs[index].op {
-            Op::Unary(function, a) | Op::Binary(function, a, _) => {
+            Op::Unary(function, _, a) | Op::Binary(function, a, _) => {
                 self.values[a.index()].steps(Some(*function))
             }
             Op::Constant(number) => self.values[index].steps(None) + effort::of_constant(number),
@@ -232,53 +237,39 @@ pub fn apply<T: Scalar>(
         Op::Multiply(a, b) => of(a) * of(b),
         Op::Divide(a, b) => of(a) / of(b),
         Op::Negate(a) => -of(a),
-        Op::Unary(function, a) => unary(*function, of(a)),
+        Op::Unary(function, small, a) => unary(*function, *small, of(a)),
         Op::Binary(function, a, b) => binary(*function, of(a), of(b)),
     }
 }
 
-/// A function of one argument.
-pub fn unary<T: Scalar>(function: Function, x: T) -> T {
-    match function {
-        Function::Sqrt => x.sqrt(),
-        Function::Cbrt => x.cbrt(),
-        Function::Exp => x.exp(),
-        Function::ExpM1 => x.exp_m1(),
-        Function::Ln => x.ln(),
-        Function::Ln1p => x.ln_1p(),
-        Function::Ln1pRest => x.ln_1p_rest(),
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::SinNearZero => x.sin_near_zero(),
-        Function::CosNearZero => x.cos_near_zero(),
-        Function::SinWithinOne => x.sin_within_one(),
-        Function::CosWithinOne => x.cos_within_one(),
-        Function::SinPi => x.sin_pi(),
-        Function::CosPi => x.cos_pi(),
-        Function::WithinTurns => x.within_turns(),
-        Function::WithinTurnsPi => x.within_turns_pi(),
-        Function::Tan => x.tan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Atan2 | Function::Powf | Function::Offset => {
-            unreachable!("a function of two arguments")
+macro_rules! evaluate {
+    (
+        one { $($one:ident $one_method:ident $one_at_zero:tt $one_doc:literal,)* }
+        two { $($two:ident $two_method:ident $two_at_zero:tt $two_doc:literal,)* }
+    ) => {
+        /// A function of one argument, of which something may be proved.
+        pub fn unary<T: Scalar>(function: Function, small: Option<Small>, x: T) -> T {
+            match (function, small) {
+                (Function::Sin, Some(Small::NearZero)) => x.sin_near_zero(),
+                (Function::Cos, Some(Small::NearZero)) => x.cos_near_zero(),
+                (Function::Sin, Some(Small::WithinOne)) => x.sin_within_one(),
+                (Function::Cos, Some(Small::WithinOne)) => x.cos_within_one(),
+                $((Function::$one, _) => x.$one_method(),)*
+                $((Function::$two, _))|* => unreachable!("a function of two arguments"),
+            }
         }
-    }
+
+        /// A function of two arguments.
+        pub fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
+            match function {
+                $(Function::$two => a.$two_method(b),)*
+                _ => unreachable!("a function of one argument"),
+            }
+        }
+    };
 }
 
-/// A function of two arguments.
-pub fn binary<T: Scalar>(function: Function, a: T, b: T) -> T {
-    match function {
-        Function::Atan2 => a.atan2(b),
-        Function::Powf => a.powf(b),
-        Function::Offset => a - b,
-        _ => unreachable!("a function of one argument"),
-    }
-}
+mms_symbolic::for_functions!(evaluate);
 
 #[cfg(test)]
 mod tests {

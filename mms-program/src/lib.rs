@@ -48,4 +48,4 @@ mod program;
 pub mod schedule;
 
 pub use mms_symbolic::expr::Stage;
-pub use program::{Instr, Key, Op, Program, Value};
+pub use program::{Instr, Key, Op, Program, Value, unary_name};

@@ -16,7 +16,7 @@ use mms_symbolic::expr::Symbol;
 /// How many sums and products a number is worth that one loop over points leaves to the next one.
 pub const WORTH_IN_CACHE: usize = 1;
 
-/// And one that is kept of a point: it comes from memory.
+/// The same of a number that is kept of a point and comes from memory.
 pub const WORTH_IN_MEMORY: usize = 3;
 
 /// What a loop has to do at least, as [`weight`] counts.

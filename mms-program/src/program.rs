@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Debug, Display, Formatter};
 use std::ops::Range;
 
-use mms_symbolic::expr::{Function, Rational, Stage, Symbol};
+use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 
 /// What names an output of a program. Outputs are scheduled in the order of their keys.
 pub trait Key: Copy + Ord + Debug {}
@@ -41,8 +41,8 @@ pub enum Op {
     Divide(Value, Value),
     /// -a
     Negate(Value),
-    /// f(a)
-    Unary(Function, Value),
+    /// f(a), and what is proved of a where that lets a quicker form of f do
+    Unary(Function, Option<Small>, Value),
     /// f(a, b)
     Binary(Function, Value, Value),
 }
@@ -52,7 +52,7 @@ impl Op {
     pub fn operands(&self) -> impl Iterator<Item = Value> {
         let pair = match *self {
             Op::Constant(_) | Op::Pi | Op::Input(_) => [None, None],
-            Op::Negate(a) | Op::Unary(_, a) => [Some(a), None],
+            Op::Negate(a) | Op::Unary(_, _, a) => [Some(a), None],
             Op::Add(a, b)
             | Op::Subtract(a, b)
             | Op::Multiply(a, b)
@@ -73,7 +73,7 @@ impl Op {
             Op::Multiply(a, b) => Op::Multiply(rename(a), rename(b)),
             Op::Divide(a, b) => Op::Divide(rename(a), rename(b)),
             Op::Negate(a) => Op::Negate(rename(a)),
-            Op::Unary(function, a) => Op::Unary(function, rename(a)),
+            Op::Unary(function, small, a) => Op::Unary(function, small, rename(a)),
             Op::Binary(function, a, b) => Op::Binary(function, rename(a), rename(b)),
         }
     }
@@ -81,6 +81,17 @@ impl Op {
     /// Whether the operation computes: constants, loads and a change of sign are free.
     pub fn is_counted(&self) -> bool {
         !matches!(self, Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_))
+    }
+}
+
+/// The name of a function of one argument, of which something may be proved, as the scalar trait spells it.
+pub fn unary_name(function: Function, small: Option<Small>) -> &'static str {
+    match (function, small) {
+        (Function::Sin, Some(Small::NearZero)) => "sin_near_zero",
+        (Function::Cos, Some(Small::NearZero)) => "cos_near_zero",
+        (Function::Sin, Some(Small::WithinOne)) => "sin_within_one",
+        (Function::Cos, Some(Small::WithinOne)) => "cos_within_one",
+        (other, _) => other.name(),
     }
 }
 
@@ -173,7 +184,9 @@ impl<K: Key> Display for Program<K> {
                 Op::Multiply(a, b) => writeln!(f, "v{} * v{}", a.0, b.0),
                 Op::Divide(a, b) => writeln!(f, "v{} / v{}", a.0, b.0),
                 Op::Negate(a) => writeln!(f, "-v{}", a.0),
-                Op::Unary(function, a) => writeln!(f, "{}(v{})", function.name(), a.0),
+                Op::Unary(function, small, a) => {
+                    writeln!(f, "{}(v{})", unary_name(*function, *small), a.0)
+                }
                 Op::Binary(function, a, b) => {
                     writeln!(f, "{}(v{}, v{})", function.name(), a.0, b.0)
                 }

@@ -84,7 +84,7 @@ impl Reading {
         let (operands, is_sum) = match &node {
             Node::Sum(_, terms) => (terms, true),
             Node::Product(factors) => (factors, false),
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Call(..) => return None,
+            _ => return None,
         };
         let groups = self.groups(operands);
         if groups.len() < 2 && operands.len() < 3 {
@@ -138,16 +138,7 @@ impl Reading {
 
 /// A node over other operands.
 fn with_operands(node: &Node, others: &BTreeMap<Expr, Expr>) -> Node {
-    let other = |child: &Expr| others.get(child).copied().unwrap_or(*child);
-    let weighted = |operands: &[(Expr, Rational)]| {
-        operands.iter().map(|(child, weight)| (other(child), weight.clone())).collect()
-    };
-    match node {
-        Node::Number(_) | Node::Pi | Node::Symbol(_) => node.clone(),
-        Node::Sum(constant, terms) => Node::Sum(constant.clone(), weighted(terms)),
-        Node::Product(factors) => Node::Product(weighted(factors)),
-        Node::Call(function, arguments) => {
-            Node::Call(*function, arguments.iter().map(other).collect())
-        }
-    }
+    let mut node = node.clone();
+    node.map_children(|child| others.get(&child).copied().unwrap_or(child));
+    node
 }

@@ -224,24 +224,7 @@ fn command(function: Function) -> String {
         | Function::Asin
         | Function::Acos
         | Function::Atan => format!("\\{}", word(function)),
-        Function::Sqrt
-        | Function::Cbrt
-        | Function::ExpM1
-        | Function::Ln1p
-        | Function::Ln1pRest
-        | Function::SinNearZero
-        | Function::CosNearZero
-        | Function::SinWithinOne
-        | Function::CosWithinOne
-        | Function::SinPi
-        | Function::CosPi
-        | Function::WithinTurns
-        | Function::WithinTurnsPi
-        | Function::Atan2
-        | Function::Powf
-        | Function::Offset => {
-            format!("\\operatorname{{{}}}", word(function).replace('_', "\\_"))
-        }
+        other => format!("\\operatorname{{{}}}", word(other).replace('_', "\\_")),
     }
 }
 

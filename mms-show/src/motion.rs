@@ -11,7 +11,8 @@ use mms_mechanics::resolve::Scope;
 use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
 use mms_spec::{Formula, LetSpec};
-use mms_symbolic::expr::{Expr, Rational, Symbol};
+use mms_symbolic::expr::print::AXES;
+use mms_symbolic::expr::{Expr, HALF, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
 /// The longest formula that is repeated in place of the name of what it says: F_11 is written out
@@ -36,7 +37,7 @@ impl Formulas {
         let pi = reading.graph.pi();
         formulas.define("pi", pi);
         formulas.given("t", Symbol::Time, reading);
-        for (axis, name) in ["X", "Y", "Z"].iter().take(compiled.field.dimension).enumerate() {
+        for (axis, name) in AXES.iter().take(compiled.field.dimension).enumerate() {
             formulas.given(name, Symbol::Coordinate(axis), reading);
         }
         for (index, parameter) in compiled.model.parameters.iter().enumerate() {
@@ -154,12 +155,11 @@ impl Quantities {
         self.add(reading, compiled, Quantity::RightCauchyGreen, &right);
         let left = matrix_product(reading, &deformation, &transposed, dimension);
         self.add(reading, compiled, Quantity::LeftCauchyGreen, &left);
-        let half = Rational::from_parts(1.into(), 2u8.into());
         let right = self.symmetric(reading, Quantity::RightCauchyGreen);
         let lagrange: Vec<Expr> = (right.into_iter().enumerate())
             .map(|(k, component)| {
                 let identity = reading.graph.number(i32::from(k / dimension == k % dimension));
-                reading.graph.sum([(component, half.clone()), (identity, -half.clone())])
+                reading.graph.sum([(component, HALF), (identity, -HALF)])
             })
             .collect();
         self.add(reading, compiled, Quantity::GreenLagrange, &lagrange);

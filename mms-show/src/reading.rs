@@ -11,6 +11,7 @@ use super::text::Text;
 use super::walk::{Names, write};
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
@@ -66,12 +67,9 @@ pub(super) struct Reading {
 
 impl Names for Reading {
     fn name(&self, symbol: Symbol) -> Name {
-        const AXES: [&str; 3] = ["X", "Y", "Z"];
         match symbol {
-            Symbol::Parameter(index) => match index.checked_sub(self.parameters.len()) {
-                None => Name::plain(self.parameters[index].as_str()),
-                Some(id) => self.entries[id].name.clone(),
-            },
+            Symbol::Parameter(index) => Name::plain(self.parameters[index].as_str()),
+            Symbol::Local(id) => self.entries[id].name.clone(),
             Symbol::Time => Name::plain("t"),
             Symbol::Coordinate(axis) => Name::plain(AXES[axis]),
             Symbol::Normal(axis) => Name::indexed("N", (axis + 1).to_string()),
@@ -111,13 +109,13 @@ impl Reading {
 
     /// The symbol of an entry.
     pub fn symbol(&self, id: Id) -> Symbol {
-        Symbol::Parameter(self.parameters.len() + id)
+        Symbol::Local(id)
     }
 
     /// The entry of a symbol, where it stands for one.
     pub fn entry_of(&self, symbol: Symbol) -> Option<Id> {
         match symbol {
-            Symbol::Parameter(index) => index.checked_sub(self.parameters.len()),
+            Symbol::Local(id) => Some(id),
             _ => None,
         }
     }

@@ -9,7 +9,7 @@ use super::reading::Reading;
 use super::stress::{slope, volume};
 use mms_codegen::compile::Compiled;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Rational};
+use mms_symbolic::expr::{Expr, HALF, Rational};
 
 /// The positions of the invariants in their list.
 const TRACE: usize = 4;
@@ -74,7 +74,6 @@ pub(super) fn derive(
 fn small_strain(reading: &mut Reading, quantities: &Quantities) -> Vec<Expr> {
     let dimension = quantities.dimension;
     let gradient = quantities.components(reading, Quantity::DisplacementGradient);
-    let half = Rational::from_parts(1.into(), 2u8.into());
     let mut strain: Vec<Expr> = Vec::new();
     for k in 0..gradient.len() {
         let (row, column) = (k / dimension, k % dimension);
@@ -83,7 +82,7 @@ fn small_strain(reading: &mut Reading, quantities: &Quantities) -> Vec<Expr> {
             continue;
         }
         let pair = [gradient[k], gradient[column * dimension + row]];
-        let value = reading.graph.sum(pair.map(|component| (component, half.clone())));
+        let value = reading.graph.sum(pair.map(|component| (component, HALF)));
         let index =
             if dimension == 1 { String::new() } else { format!("{}{}", row + 1, column + 1) };
         strain.push(reading.named(Name::indexed("eps", index), value, "derived"));

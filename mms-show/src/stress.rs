@@ -21,7 +21,7 @@ use super::small_strain;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::invariant::Kind;
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Expr, Rational};
+use mms_symbolic::expr::{Expr, HALF, Rational};
 
 /// The positions of the invariants in their list.
 pub(super) const I1: usize = 0;
@@ -284,8 +284,7 @@ fn invariants(
     let graph = &mut reading.graph;
     let contracted = graph.add(contracted, missing);
     let square = graph.power(first, 2);
-    let half = Rational::from_parts(1.into(), 2u8.into());
-    let second = graph.sum([(square, half.clone()), (contracted, -half)]);
+    let second = graph.sum([(square, HALF), (contracted, -HALF)]);
     let second = reading.named(Name::plain("I2"), second, "derived");
     vec![(I1, first), (I2, second), (J, jacobian)]
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol, magnitude};
+use mms_symbolic::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol, magnitude};
 
 use super::name::Name;
 
@@ -130,11 +130,12 @@ impl Writer<'_> {
             }
             Node::Sum(constant, terms) => self.terms(constant, terms, pieces),
             Node::Product(factors) => vec![self.product(factors, pieces)],
-            Node::Call(Function::Offset, arguments) => {
+            Node::Offset(operands) => {
                 let signs = [Rational::ONE, Rational::NEG_ONE];
-                let terms: Vec<_> = arguments.iter().copied().zip(signs).collect();
+                let terms: Vec<_> = operands.iter().copied().zip(signs).collect();
                 self.terms(&Rational::ZERO, &terms, pieces)
             }
+            Node::Small(_, angle) => pieces[angle].clone(),
             Node::Call(function, arguments) => Term::of(self.call(*function, arguments, pieces)),
         }
     }
@@ -214,7 +215,11 @@ impl Writer<'_> {
             Node::Symbol(Symbol::Coordinate(_) | Symbol::Time) => 3,
             Node::Symbol(_) => 2,
             Node::Call(Function::Sqrt | Function::Cbrt, _) => 4,
-            Node::Sum(..) | Node::Product(_) | Node::Call(..) => 5,
+            Node::Sum(..)
+            | Node::Product(_)
+            | Node::Call(..)
+            | Node::Offset(_)
+            | Node::Small(..) => 5,
         }
     }
 
@@ -237,7 +242,7 @@ impl Writer<'_> {
         if exponent.is_one() {
             return base;
         }
-        if *exponent == Rational::from_parts(1.into(), 2u8.into()) {
+        if *exponent == HALF {
             return self.root(2, piece);
         }
         let to_function = exponent.is_int() && self.notation.has_powers_of_functions();
@@ -266,29 +271,7 @@ impl Writer<'_> {
                 let argument = self.one_more(arguments[0], pieces);
                 self.elementary(Function::Ln, vec![self.sum(&argument)])
             }
-            Function::Exp
-            | Function::ExpM1
-            | Function::Ln
-            | Function::Ln1pRest
-            | Function::Sin
-            | Function::Cos
-            | Function::SinNearZero
-            | Function::CosNearZero
-            | Function::SinWithinOne
-            | Function::CosWithinOne
-            | Function::SinPi
-            | Function::CosPi
-            | Function::WithinTurns
-            | Function::WithinTurnsPi
-            | Function::Tan
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Atan2
-            | Function::Offset => {
+            _ => {
                 let arguments = arguments.iter().map(|argument| self.sum(&pieces[argument]));
                 self.elementary(function, arguments.collect())
             }

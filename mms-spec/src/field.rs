@@ -126,7 +126,7 @@ pub fn read_field(
         Some(entry) => reader.formulas(&entry, dimension, &one_per_dimension(dimension)),
         None => vec![Formula::reported(root.span); dimension],
     };
-    let place = Place::read(&root, dimension, &mut reader);
+    let place = Setup::read(&root, dimension, &mut reader);
     let known: Vec<&str> =
         parameters.iter().map(|parameter| parameter.name.value.as_str()).collect();
     let evidence = Evidence::read(&root, dimension, &names, &known, &mut reader);
@@ -204,13 +204,13 @@ fn components(entry: &Entry<'_>) -> Option<usize> {
 }
 
 /// Where and when: `[domain]`, `[boundary]`, `[rigid]`.
-struct Place {
+struct Setup {
     domain: DomainSpec,
     boundary: Vec<BoundarySpec>,
     rigid: Option<RigidSpec>,
 }
 
-impl Place {
+impl Setup {
     fn read<'a>(root: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Self {
         let entry = reader.required_table(root, "domain");
         let read = entry.map(|entry| domain(&entry, dimension, reader));
@@ -222,7 +222,7 @@ impl Place {
             })
             .unwrap_or_default();
         let rigid = root.get("rigid").and_then(|entry| rigid(&entry, dimension, reader));
-        Place { domain: read.unwrap_or_else(|| reported(dimension, root.span)), boundary, rigid }
+        Setup { domain: read.unwrap_or_else(|| reported(dimension, root.span)), boundary, rigid }
     }
 }
 

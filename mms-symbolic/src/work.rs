@@ -22,12 +22,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 pub struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// Asks for it; there is no way back.
+    /// Asks for the stop; that cannot be taken back.
     pub fn ask(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked.
+    /// Whether a stop has been asked for.
     pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
@@ -62,12 +62,12 @@ impl Work {
         Work { left: Arc::clone(&self.left), stop: self.stop.clone() }
     }
 
-    /// Sets what is left, whatever was.
+    /// Sets how many steps are left.
     pub fn allow(&self, steps: u64) {
         self.left.store(steps, Ordering::Relaxed);
     }
 
-    /// What is left.
+    /// How many steps are left.
     pub fn left(&self) -> u64 {
         if self.stop.is_asked() { 0 } else { self.left.load(Ordering::Relaxed) }
     }
@@ -79,7 +79,7 @@ impl Work {
         self.left.store(left.saturating_sub(steps), Ordering::Relaxed);
     }
 
-    /// What `work` comes to with so many steps of its own: what was left is left.
+    /// Runs `work` with so many steps of its own, which are not taken from what is left.
     pub fn aside<R>(&self, steps: u64, work: impl FnOnce() -> R) -> R {
         let left = self.left.load(Ordering::Relaxed);
         self.allow(steps);
@@ -93,7 +93,7 @@ impl Work {
         self.left() == 0
     }
 
-    /// Who may ask to stop.
+    /// The handle by which somebody may ask for a stop.
     pub fn stop(&self) -> &Stop {
         &self.stop
     }

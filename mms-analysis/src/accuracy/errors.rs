@@ -37,7 +37,7 @@ pub struct Tally<const BITS: usize> {
 }
 
 impl<const BITS: usize> Tally<BITS> {
-    /// Nothing was compared yet.
+    /// A tally of nothing.
     pub fn new(precision: Precision) -> Self {
         Tally {
             precision,
@@ -85,7 +85,7 @@ impl<const BITS: usize> Tally<BITS> {
         (error.clone() / size).to_f64() / self.precision.eps()
     }
 
-    /// What they are.
+    /// The errors that were found.
     pub fn finish(mut self) -> Errors {
         let scaled = self.ratio(&self.largest_error, self.largest_value.clone());
         self.relative.sort_by(f64::total_cmp);

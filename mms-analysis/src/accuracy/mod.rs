@@ -14,7 +14,7 @@ mod errors;
 mod points;
 pub mod probe;
 pub mod regime;
-mod subject;
+mod variants;
 
 use std::collections::BTreeMap;
 use std::panic::resume_unwind;
@@ -29,8 +29,8 @@ pub use points::{Input, Place, inputs};
 
 use probe::Search;
 use regime::{Case, REGIMES, Regime};
-pub use subject::Compile;
-use subject::{Subject, first_line};
+pub use variants::Compile;
+use variants::{Variants, first_line};
 
 use mms_codegen::compile::{Compiled, Failure, Options};
 use mms_codegen::variation::Variation;
@@ -134,7 +134,7 @@ pub struct Varied {
 
 /// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.
 pub fn vary(compile: Compile<'_>, options: &Options, regime: &Regime) -> Result<Varied, String> {
-    let subject = Subject::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
+    let subject = Variants::new(compile, options, &[]).map_err(|failure| first_line(&failure))?;
     let case = regime.case(&subject, Search::Everywhere)?;
     let values = case.values(Precision::F64);
     let variation = match case.variation {
@@ -157,7 +157,7 @@ pub fn measure(
     request: &Request,
     mut progress: impl FnMut(&Foreign),
 ) -> Result<Accuracy, Failure> {
-    let subject = Subject::new(compile, &request.options, &request.quantities)?;
+    let subject = Variants::new(compile, &request.options, &request.quantities)?;
     let mut accuracy = Accuracy::default();
     let wanted = |name: &str| match &request.regimes {
         Some(names) => names.iter().any(|wanted| wanted == name),
@@ -190,7 +190,7 @@ impl Accuracy {
         &mut self,
         name: &Foreign,
         case: Result<Case, String>,
-        subject: &Subject,
+        subject: &Variants,
         request: &Request,
     ) {
         let mut leave_out = |quantity, precision, reason: String| {
@@ -243,7 +243,7 @@ struct Made {
 }
 
 impl Made {
-    fn new(case: Case, subject: &Subject, request: &Request) -> Result<Self, String> {
+    fn new(case: Case, subject: &Variants, request: &Request) -> Result<Self, String> {
         let compiled = |form: &Form| Ok((*form, subject.of_case(&case, *form)?));
         let forms = request.forms.iter().map(compiled).collect::<Result<_, String>>()?;
         let reference = subject.of_case(&case, Form::Stable)?;

@@ -23,7 +23,7 @@ pub enum Place {
     Largest,
 }
 
-/// How many windows later is late.
+/// By how many time windows [`Place::Late`] is later.
 pub const LATE: f64 = 1e6;
 
 /// What one evaluation takes.

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use super::points::{LATE, Place, exact, size};
 use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
-use super::subject::Subject;
+use super::variants::Variants;
 use mms_codegen::compile::Compiled;
 use mms_codegen::variation::Variation;
 use mms_program::precision::Precision;
@@ -124,7 +124,7 @@ impl Case {
 
 impl Regime {
     /// How the regime is made for a field; otherwise why it cannot be.
-    pub(super) fn case(&self, subject: &Subject, search: Search) -> Result<Case, String> {
+    pub(super) fn case(&self, subject: &Variants, search: Search) -> Result<Case, String> {
         let plain = Case::plain();
         Ok(match self.kind {
             Kind::Declared => plain,
@@ -176,7 +176,7 @@ impl Regime {
 
 /// A setting of the amplitude: of the field's own, or of the factor of a variation.
 fn with_amplitude(
-    subject: &Subject,
+    subject: &Variants,
     setting: impl Fn(&Compiled, &Amplitude) -> Result<Setting, String>,
 ) -> Result<Case, String> {
     let plain = Case::plain();

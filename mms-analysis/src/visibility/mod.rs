@@ -31,7 +31,7 @@ pub const POINTS: usize = 32;
 /// What is no more than this part of its natural size is 0 to all digits that are left.
 pub const NEGLIGIBLE: f64 = 1e-60;
 
-/// Whether a term is there.
+/// Whether a field has a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
     /// It is not 0 at some point.

@@ -207,11 +207,10 @@ impl Stress {
 /// where p is. A parameter that the density takes as a number only, such as an exponent, has none.
 fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
-    let share = |k: usize| Symbol::Parameter(model.parameters.len() + k);
     let mut varied = model.arguments.clone();
     let mut is_varied = Vec::new();
     for (k, value) in model.arguments.iter().enumerate() {
-        let leaf = graph.symbol(share(k));
+        let leaf = graph.symbol(Symbol::Local(k));
         let factor = graph.call(Function::Exp, &[leaf]);
         varied[k] = graph.mul(*value, factor);
         is_varied.push(energy_with(graph, field, material, &varied).is_some());
@@ -222,11 +221,11 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
     let energy = energy_with(graph, field, material, &varied).unwrap_or(model.energy);
     let divergence = divergence(graph, &Model { energy, ..model.clone() });
     let (zero, count) = (graph.number(0), model.arguments.len());
-    let at_rest: BTreeMap<Symbol, Expr> = (0..count).map(|k| (share(k), zero)).collect();
+    let at_rest: BTreeMap<Symbol, Expr> = (0..count).map(|k| (Symbol::Local(k), zero)).collect();
     let undefined = graph.call(Function::Ln, &[zero]);
     let term = |(k, (name, _)): (usize, &(Spanned<String>, Formula))| {
         let slopes = match is_varied[k] {
-            true => differentiate(graph, &divergence, share(k)),
+            true => differentiate(graph, &divergence, Symbol::Local(k)),
             false => vec![undefined],
         };
         (Term::Parameter(name.value.clone()), substitute(graph, &slopes, &at_rest))

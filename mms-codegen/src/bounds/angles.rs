@@ -18,21 +18,18 @@ use mms_mechanics::model::Model;
 use mms_program::Stage;
 use mms_program::interval::Interval;
 use mms_spec::FieldSpec;
-use mms_symbolic::expr::{Expr, Function, Graph, Node, Symbol};
+use mms_symbolic::expr::{Expr, Function, Graph, Node, Small, Symbol};
 use mms_symbolic::pass::substitute::rebuild;
 
-/// What is proved of the magnitude of an angle, and the sine and the cosine of such: less than they know
+/// The magnitude that is proved of small angles: less than the sine and the cosine of such know
 /// (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
-const KINDS: [(f64, [Function; 2]); 2] = [
-    (1.0 + 1.0 / 32.0, [Function::SinWithinOne, Function::CosWithinOne]),
-    (1.5, [Function::SinNearZero, Function::CosNearZero]),
-];
+const LIMITS: [(f64, Small); 2] = [(1.0 + 1.0 / 32.0, Small::WithinOne), (1.5, Small::NearZero)];
 
 /// How many cells and operations a proof may take.
 const CELLS: usize = 128;
 const OPERATIONS: usize = 50_000;
 
-/// Sines and cosines for angles near zero in place of those whose angles are proved to be.
+/// Says of the angles of sines and cosines that they are small where that is proved.
 pub fn near_zero(
     graph: &mut Graph,
     field: &FieldSpec,
@@ -44,18 +41,18 @@ pub fn near_zero(
     if candidates.is_empty() {
         return;
     }
-    let small: BTreeMap<Expr, [Function; 2]> = graph.aside(|graph| {
+    let proved: BTreeMap<Expr, Small> = graph.aside(|graph| {
         let chart = Chart::new(graph, field, model, None);
-        let with_functions = |angle| Some((angle, functions_of(graph, &chart, angle)?));
-        candidates.into_iter().filter_map(with_functions).collect()
+        let proved = |angle| Some((angle, proved(graph, &chart, angle)?));
+        candidates.into_iter().filter_map(proved).collect()
     });
     for components in outputs.values_mut() {
         *components = rebuild(graph, components, |graph, node| {
             if let Node::Call(function @ (Function::Sin | Function::Cos), angle) = &node
-                && let Some([sin, cos]) = small.get(&angle[0])
+                && let Some(small) = proved.get(&angle[0])
             {
-                let own = if *function == Function::Sin { sin } else { cos };
-                return graph.call(*own, angle);
+                let angle = graph.small(*small, angle[0]);
+                return graph.call(*function, &[angle]);
             }
             graph.remake(node)
         });
@@ -86,19 +83,19 @@ fn is_bounded(graph: &Graph, model: &Model, expr: Expr) -> bool {
             .range
             .is_some_and(|range| range.into_iter().all(|bound| is_bounded(graph, model, bound))),
         Symbol::Time | Symbol::Coordinate(_) => true,
-        Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => false,
+        Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) | Symbol::Local(_) => false,
     })
 }
 
-/// The sine and the cosine of an angle that is proved to be small.
-fn functions_of(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Function; 2]> {
+/// What is proved of an angle.
+fn proved(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<Small> {
     let angle = chart.pull_back(graph, &[angle]);
     let formulas = Formulas::new(graph, chart, &angle);
     let (mut bounds, mut values) = (formulas.run::<Interval>(chart), formulas.run::<f64>(chart));
     let limit = (OPERATIONS / formulas.size()).min(CELLS);
     // The smallest limit that is not refuted is proved.
     let enough = |bound: f64, attained: f64| {
-        KINDS.iter().find(|(limit, _)| attained <= *limit).is_none_or(|(limit, _)| bound <= *limit)
+        LIMITS.iter().find(|(limit, _)| attained <= *limit).is_none_or(|(limit, _)| bound <= *limit)
     };
     let found = largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
         let place = chart.place(&cell.0);
@@ -113,5 +110,5 @@ fn functions_of(graph: &mut Graph, chart: &Chart, angle: Expr) -> Option<[Functi
             at,
         }
     });
-    KINDS.into_iter().find_map(|(limit, kind)| (found.bound <= limit).then_some(kind))
+    LIMITS.into_iter().find_map(|(limit, small)| (found.bound <= limit).then_some(small))
 }

@@ -11,7 +11,7 @@ use mms_mechanics::face;
 use mms_mechanics::face::{ANGLE, RADIUS};
 use mms_mechanics::model::Model;
 use mms_mechanics::tensor::Tensor;
-use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::interpret::{Interpreter, Number};
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
@@ -295,7 +295,7 @@ impl<T: Number> Run<'_, T, Output> {
     /// All parameters, t and X at values of the variables.
     pub fn point(&mut self, values: &[T]) -> Spot<T> {
         let [parameters, coordinates] = self
-            .at(values, [&[], &[]], &[Output::Parameters, Output::Coordinates])
+            .at(values, &[Output::Parameters, Output::Coordinates])
             .try_into()
             .unwrap_or_else(|_| unreachable!("two outputs were asked for"));
         Spot { parameters, time: self.chart.split(values).0, coordinates }
@@ -303,19 +303,19 @@ impl<T: Number> Run<'_, T, Output> {
 }
 
 impl<T: Number, K: Key> Run<'_, T, K> {
-    /// Of a scalar that does the work of so many.
+    /// Charges every operation as so many.
     pub fn charge(&mut self, times: u64) {
         self.times = times;
         self.ready.iter_mut().for_each(|ready| ready.charge(times));
     }
 
-    /// Some outputs at values of the variables, and of N and H where they are left open.
-    pub fn at(
-        &mut self,
-        values: &[T],
-        [normal, gradient]: [&[T]; 2],
-        outputs: &[K],
-    ) -> Vec<Vec<T>> {
+    /// Some outputs at values of the variables.
+    pub fn at(&mut self, values: &[T], outputs: &[K]) -> Vec<Vec<T>> {
+        self.with(values, |_| unreachable!("all leaves are variables"), outputs)
+    }
+
+    /// Some outputs at values of the variables and of the leaves that are left open.
+    pub fn with(&mut self, values: &[T], open: impl Fn(Symbol) -> T, outputs: &[K]) -> Vec<Vec<T>> {
         let known = self.plans.iter().position(|(planned, _)| planned == outputs);
         let plan = known.unwrap_or_else(|| {
             self.plans.push((outputs.to_vec(), self.program.needed(outputs)));
@@ -333,8 +333,10 @@ impl<T: Number, K: Key> Run<'_, T, K> {
         };
         let (time, coordinates) = self.chart.split(values);
         interpreter.set_time(&time);
-        let point = Point { coordinates: &coordinates, normal, gradient };
-        interpreter.set_point(&self.plans[plan].1, point);
+        interpreter.set_leaves(&self.plans[plan].1, |symbol| match symbol {
+            Symbol::Coordinate(axis) => coordinates[axis].clone(),
+            other => open(other),
+        });
         outputs.iter().map(|output| interpreter.output(*output)).collect()
     }
 }

@@ -29,7 +29,7 @@ enum Output {
 }
 
 impl Formulas {
-    /// Of formulas that were pulled back to a chart.
+    /// Differentiates formulas that were pulled back to a chart.
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
         let mut outputs = BTreeMap::from([(Output::Values, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
@@ -48,7 +48,7 @@ impl Formulas {
         self.program.instrs.len()
     }
 
-    /// Ready to be evaluated in a scalar.
+    /// Prepares their evaluation in a scalar.
     pub fn run<'a, T: Number>(&'a self, chart: &'a Chart) -> Evaluation<'a, T> {
         let mut outputs = vec![Output::Values];
         outputs.extend((0..self.variables).map(Output::Slopes));
@@ -63,7 +63,7 @@ pub struct Enclosures<'a> {
 }
 
 impl<'a> Enclosures<'a> {
-    /// Of formulas in a chart.
+    /// Prepares bounds of formulas in a chart.
     pub fn new(formulas: &'a Formulas, chart: &'a Chart) -> Self {
         Enclosures { evaluation: formulas.run(chart), known: HashMap::new() }
     }
@@ -94,7 +94,7 @@ pub struct Evaluation<'a, T: Number> {
 impl<T: Number> Evaluation<'_, T> {
     /// The values.
     pub fn values(&mut self, place: &[T]) -> Vec<T> {
-        self.run.at(place, [&[], &[]], &self.outputs[..1]).swap_remove(0)
+        self.run.at(place, &self.outputs[..1]).swap_remove(0)
     }
 }
 
@@ -112,7 +112,7 @@ impl Evaluation<'_, Interval> {
     /// form f(c) + f'(box) (box - c), whose excess shrinks with the square of the box (Moore,
     /// Kearfott & Cloud, Introduction to Interval Analysis, 2009, section 6.3).
     pub fn enclose(&mut self, place: &[Interval]) -> Enclosure {
-        let mut outputs = self.run.at(place, [&[], &[]], &self.outputs);
+        let mut outputs = self.run.at(place, &self.outputs);
         let slopes = outputs.split_off(1);
         let mut values = outputs.swap_remove(0);
         let centre: Vec<Interval> =

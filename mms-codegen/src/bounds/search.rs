@@ -18,7 +18,7 @@ const SMALLEST: f64 = 1.0 / (1u64 << 40) as f64;
 pub struct Cell(pub Vec<Interval>);
 
 impl Cell {
-    /// All of it.
+    /// The whole unit box.
     pub fn whole(dimension: usize) -> Self {
         Cell(vec![Interval::new(0.0, 1.0); dimension])
     }

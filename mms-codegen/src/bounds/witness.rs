@@ -3,6 +3,7 @@
 use super::chart::{Chart, Spot};
 use mms_math::Scalar as _;
 use mms_program::precise::Precise;
+use mms_symbolic::expr::print::AXES;
 
 /// What it may take to find a place, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 10_000_000;
@@ -18,10 +19,8 @@ pub struct Witness {
     pub parameters: Vec<(usize, f64)>,
 }
 
-const AXES: [&str; 3] = ["X", "Y", "Z"];
-
 impl Witness {
-    /// At fractions of the way through a chart; and the spot itself, in 77 digits.
+    /// The witness at fractions of the way through a chart, and its spot in 77 digits.
     pub fn at(chart: &Chart, fractions: &[f64]) -> (Witness, Spot<Precise>) {
         let fractions: Vec<Precise> = fractions.iter().map(|it| Precise::from_f64(*it)).collect();
         Self::at_precise(chart, &fractions)

@@ -18,7 +18,7 @@ use mms_math::Scalar as _;
 
 use super::finite::corners;
 use super::limits::{Limit, Must, limits, limits_of};
-use super::motion::Motion;
+use super::motion::ChartMotion;
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::{Evaluation, Formulas};
 use crate::bounds::search::{Cell, Measure, largest};
@@ -69,7 +69,7 @@ pub fn exits(
     graph: &mut Graph,
     chart: &Chart,
     compiled: &Compiled,
-    motion: Option<&Motion>,
+    motion: Option<&ChartMotion>,
     [cells, operations]: [usize; 2],
 ) -> (Vec<Exit>, usize) {
     let Written { field, energy } = &compiled.model.written;
@@ -193,7 +193,7 @@ fn invariants(
     graph: &mut Graph,
     chart: &Chart,
     compiled: &Compiled,
-    motion: &Motion,
+    motion: &ChartMotion,
 ) -> BTreeMap<Symbol, Expr> {
     let kind = match &compiled.model.kind {
         Kind::Fibrous(direction) => Kind::Fibrous(chart.pull_back(graph, direction)),

@@ -9,7 +9,7 @@ use super::ellipticity::{self, Ellipticity};
 use super::finite::{self, Finite};
 use super::jacobian::{self, Jacobian};
 use super::message;
-use super::motion::Motion;
+use super::motion::ChartMotion;
 use super::rates::{self, Frame, Rates, Searches};
 use super::reach;
 use crate::bounds::chart::Chart;
@@ -58,7 +58,7 @@ const QUICK_NODES: usize = 2_000;
 /// At how many points of each face a compilation evaluates a claim.
 const QUICK_POINTS: usize = 4;
 
-/// What is known of a field, and what is not.
+/// What was proved of a field, what was refuted, and what is open.
 #[derive(Clone, Debug)]
 pub struct Certificate {
     /// Every claim of the file, in its order.
@@ -89,7 +89,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     let mut budget = Budget::default();
     budget.begin(&graph, FORMULAS);
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
-    let motion = Motion::new(&mut graph, &chart, compiled);
+    let motion = ChartMotion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     budget.end(&graph, "the formulas of J and the strain");
     // What a compilation finds is found first, so that both say the same.
@@ -204,7 +204,7 @@ pub fn wave_speed(
     let mut graph = room(compiled);
     graph.work().allow(4 * RATES);
     let chart = chart_of(&mut graph, compiled, set);
-    let motion = Motion::new(&mut graph, &chart, compiled);
+    let motion = ChartMotion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
     let (Jacobian::Positive(bounds), _) = jacobian::bound(&chart, &formulas, CELLS) else {
         return None;

@@ -64,8 +64,8 @@ impl Finding {
     }
 }
 
-/// What a claim is about.
-struct Subject {
+/// What a claim compares.
+struct Compared {
     /// What must be 0; for `prescribed` and `traction`, what must exist.
     components: Vec<Expr>,
     /// What is 0 if the claim holds, component by component: the scale of each.
@@ -81,7 +81,7 @@ enum Scale {
     Modulus,
 }
 
-impl Subject {
+impl Compared {
     /// The scales of the components as numbers, each found once.
     fn scales(&self, compiled: &Compiled) -> Vec<f64> {
         let found = |scale: Scale, find: fn(&Compiled) -> f64| match self.scales.contains(&scale) {
@@ -191,8 +191,8 @@ impl<'a> OnFace<'a> {
     }
 
     /// What a claim is about, for any parameters.
-    fn subject(&self, graph: &mut Graph, claim: Claim) -> Subject {
-        let with = |components: Vec<Expr>, scale: Scale| Subject {
+    fn subject(&self, graph: &mut Graph, claim: Claim) -> Compared {
+        let with = |components: Vec<Expr>, scale: Scale| Compared {
             scales: vec![scale; components.len()],
             components,
         };

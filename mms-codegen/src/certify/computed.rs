@@ -69,7 +69,7 @@ pub struct AsComputed {
 }
 
 impl AsComputed {
-    /// Of a field of which there is nothing to prove.
+    /// What is said where nothing was asked.
     pub const NOT_ASKED: AsComputed =
         AsComputed { finding: Finding::NotAsked, angles: None, cells: 0 };
 }
@@ -83,18 +83,18 @@ pub fn bound(
     jacobian: (Expr, [f64; 2]),
     operations: usize,
 ) -> [AsComputed; 2] {
-    let subject = Subject::new(compiled);
-    let operands = Operands::new(graph, chart, &subject, jacobian);
+    let quantities = QuantityProgram::new(compiled);
+    let operands = Operands::new(graph, chart, &quantities, jacobian);
     [
-        subject.bound::<Double, f64>(chart, &operands, operations),
-        subject.bound::<Single, f32>(chart, &operands, operations),
+        quantities.bound::<Double, f64>(chart, &operands, operations),
+        quantities.bound::<Single, f32>(chart, &operands, operations),
     ]
 }
 
 /// What a precision does not compute at a corner or in the middle of a chart, though it has a value there. It proves
 /// nothing.
 pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Option<Finding> {
-    let subject = Subject::new(compiled);
+    let quantities = QuantityProgram::new(compiled);
     let whole = Cell::whole(chart.variables().len());
     let mut at = chart.points::<f64>();
     let operations = compiled.program.instrs.len() as u64;
@@ -105,13 +105,13 @@ pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Opti
         }
         let spot = at.point(&chart.place(fractions));
         let (quantity, cause) = match precision {
-            Precision::F32 => subject.failure::<f32>(&spot)?,
-            Precision::F64 => subject.failure::<f64>(&spot)?,
+            Precision::F32 => quantities.failure::<f32>(&spot)?,
+            Precision::F64 => quantities.failure::<f64>(&spot)?,
             Precision::Wide => return None,
         };
         chart.work().spend(STEPS_OF_DIGITS * operations);
         let (witness, exact) = Witness::at(chart, fractions);
-        subject.has_value(&exact, quantity).then_some(Finding::Fails(quantity, witness, cause))
+        quantities.has_value(&exact, quantity).then_some(Finding::Fails(quantity, witness, cause))
     };
     corners(&whole).iter().chain([&whole.centre()]).find_map(&mut fails)
 }
@@ -125,8 +125,8 @@ fn computed<F: Format>(spot: &Spot<Interval>) -> Spot<Computed<F>> {
     }
 }
 
-/// The part of a program that makes the quantities.
-struct Subject<'a> {
+/// The part of a program that computes the quantities.
+struct QuantityProgram<'a> {
     program: &'a Program,
     /// What the quantities need.
     plan: Vec<bool>,
@@ -140,25 +140,25 @@ struct Values<T: Number> {
     wide: Vec<T::Wide>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> QuantityProgram<'a> {
     fn new(compiled: &'a Compiled) -> Self {
         let program = &compiled.program;
         let is_quantity = |output: &&Output| matches!(output, Output::Quantity(_));
         let outputs: Vec<Output> = program.outputs.keys().filter(is_quantity).copied().collect();
         let plan = program.needed(&outputs);
         let angle = |(index, needed): (usize, &bool)| match program.instrs[index].op {
-            Op::Unary(function, angle) if *needed => Some((angle.index(), unit(function)?)),
+            Op::Unary(function, _, angle) if *needed => Some((angle.index(), unit(function)?)),
             _ => None,
         };
         let angles = plan.iter().enumerate().filter_map(angle).collect();
-        Subject { program, plan, angles }
+        QuantityProgram { program, plan, angles }
     }
 
     /// What is divided by, and what roots, logarithms, powers and arcs are taken of, in order.
     fn sensitive(&self) -> Vec<usize> {
         let of = |op: &Op| match *op {
             Op::Divide(_, x) => Some(x),
-            Op::Unary(function, x) if ends(function) => Some(x),
+            Op::Unary(function, _, x) if ends(function) => Some(x),
             Op::Binary(Function::Powf, x, _) => Some(x),
             _ => None,
         };
@@ -178,7 +178,7 @@ impl<'a> Subject<'a> {
         operations: usize,
     ) -> AsComputed {
         let dimension = chart.variables().len();
-        let mut judge = Judge { subject: self, chart, operands, spots: chart.points() };
+        let mut judge = Judge { quantities: self, chart, operands, spots: chart.points() };
         let mut at = chart.points::<f64>();
         let (mut worst, mut failure) = (None::<(f64, Cell)>, None);
         let mut fails = |fractions: &[f64]| {
@@ -343,8 +343,8 @@ impl<'a> Subject<'a> {
         let op = &self.program.instrs[index].op;
         let of: Vec<String> = op.operands().map(|value| number(value.index())).collect();
         match (op, of.as_slice()) {
-            (Op::Unary(function, _), [x]) => format!("{}({x})", function.of_any_argument().name()),
-            (Op::Binary(Function::Offset, ..) | Op::Subtract(..), [a, b]) => format!("{a} - {b}"),
+            (Op::Unary(function, ..), [x]) => format!("{}({x})", function.name()),
+            (Op::Subtract(..), [a, b]) => format!("{a} - {b}"),
             (Op::Binary(function, ..), [a, b]) => format!("{}({a}, {b})", function.name()),
             (Op::Add(..), [a, b]) => format!("{a} + {b}"),
             (Op::Multiply(..), [a, b]) => format!("{a} * {b}"),
@@ -372,7 +372,7 @@ fn ends(function: Function) -> bool {
 
 /// In which unit a circular function takes its angle.
 fn unit(function: Function) -> Option<f64> {
-    match function.of_any_argument() {
+    match function {
         Function::Sin | Function::Cos | Function::Tan => Some(1.0),
         Function::SinPi | Function::CosPi => Some(core::f64::consts::PI),
         _ => None,
@@ -405,10 +405,10 @@ impl Operands {
     fn new(
         graph: &mut Graph,
         chart: &Chart,
-        subject: &Subject<'_>,
+        quantities: &QuantityProgram<'_>,
         jacobian: (Expr, [f64; 2]),
     ) -> Self {
-        let known = graph.attempt(|graph| Self::find(graph, chart, subject, jacobian));
+        let known = graph.attempt(|graph| Self::find(graph, chart, quantities, jacobian));
         let is_void = graph.is_exhausted();
         let none = || Operands { known: Vec::new(), formulas: None };
         known.filter(|_| !is_void).unwrap_or_else(none)
@@ -417,11 +417,11 @@ impl Operands {
     fn find(
         graph: &mut Graph,
         chart: &Chart,
-        subject: &Subject<'_>,
+        quantities: &QuantityProgram<'_>,
         (jacobian, bounds): (Expr, [f64; 2]),
     ) -> Self {
-        let positions = subject.sensitive();
-        let exprs = expressions(graph, subject.program);
+        let positions = quantities.sensitive();
+        let exprs = expressions(graph, quantities.program);
         let exprs: Vec<Expr> = positions.iter().map(|index| exprs[*index]).collect();
         let exprs = chart.pull_back(graph, &exprs);
         let one = graph.number(1);
@@ -468,8 +468,7 @@ fn expressions(graph: &mut Graph, program: &Program) -> Vec<Expr> {
             Op::Multiply(a, b) => graph.mul(of(a), of(b)),
             Op::Divide(a, b) => graph.div(of(a), of(b)),
             Op::Negate(a) => graph.scale(of(a), -1),
-            Op::Unary(function, a) => circular(graph, *function, of(a)),
-            Op::Binary(Function::Offset, a, b) => graph.sub(of(a), of(b)),
+            Op::Unary(function, _, a) => circular(graph, *function, of(a)),
             Op::Binary(function, a, b) => graph.call(*function, &[of(a), of(b)]),
         };
         made.push(expr);
@@ -484,7 +483,7 @@ fn circular(graph: &mut Graph, function: Function, x: Expr) -> Expr {
         Function::CosPi => Function::Cos,
         // Only sines and cosines of it are taken, to which turns are nothing.
         other if other.takes_turns_off() => return x,
-        other => return graph.call(other.of_any_argument(), &[x]),
+        other => return graph.call(other, &[x]),
     };
     let pi = graph.pi();
     let angle = graph.mul(pi, x);
@@ -493,7 +492,7 @@ fn circular(graph: &mut Graph, function: Function, x: Expr) -> Expr {
 
 /// Bounds a program in cells.
 struct Judge<'a> {
-    subject: &'a Subject<'a>,
+    quantities: &'a QuantityProgram<'a>,
     chart: &'a Chart,
     operands: &'a Operands,
     spots: Run<'a, Interval, crate::bounds::chart::Output>,
@@ -504,14 +503,14 @@ impl Judge<'_> {
     fn judge<F: Format>(&mut self, cell: &Cell) -> (Option<Quantity>, Option<f64>) {
         let place = self.chart.place(&cell.0);
         let spot = computed::<F>(&self.spots.point(&place));
-        self.chart.work().spend(STEPS * self.subject.program.instrs.len() as u64);
-        let mut values = self.subject.bounded(&spot, |index| self.operands.of(index, &[]));
+        self.chart.work().spend(STEPS * self.quantities.program.instrs.len() as u64);
+        let mut values = self.quantities.bounded(&spot, |index| self.operands.of(index, &[]));
         if let Some(formulas) = &self.operands.formulas
-            && self.subject.gap(&values).is_some()
+            && self.quantities.gap(&values).is_some()
         {
             let bounds = formulas.run::<Interval>(self.chart).enclose(&place).values;
-            values = self.subject.bounded(&spot, |index| self.operands.of(index, &bounds));
+            values = self.quantities.bounded(&spot, |index| self.operands.of(index, &bounds));
         }
-        (self.subject.gap(&values), self.subject.angle_error(&values))
+        (self.quantities.gap(&values), self.quantities.angle_error(&values))
     }
 }

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::motion::{Motion, without_volume};
+use super::motion::{ChartMotion, without_volume};
 use crate::bounds::chart::{Chart, Spot};
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
+use mms_mechanics::invariant::SUPPLIED_VOLUME;
 use mms_mechanics::{Output, Program};
-use mms_program::interpret::{Interpreter, Number, Point};
+use mms_program::interpret::{Interpreter, Number};
 use mms_program::interval::Interval;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
@@ -35,7 +36,7 @@ pub fn bound(
     graph: &mut Graph,
     chart: &Chart,
     compiled: &Compiled,
-    motion: &Motion,
+    motion: &ChartMotion,
     least_jacobian: f64,
     limit: usize,
 ) -> (Finite, usize) {
@@ -137,9 +138,6 @@ struct Quantities<'a> {
     whole: Program,
 }
 
-/// What stands for J - 1.
-const VOLUME: Symbol = Symbol::Gradient(0, 0);
-
 impl<'a> Quantities<'a> {
     fn new(graph: &mut Graph, compiled: &Compiled, work: &'a Work) -> Self {
         let mut outputs = BTreeMap::new();
@@ -153,7 +151,7 @@ impl<'a> Quantities<'a> {
         }
         let whole = schedule_plainly(graph, &outputs);
         let jacobian = compiled.derived.quantities[&Quantity::Jacobian][0];
-        let values = without_volume(graph, jacobian, VOLUME);
+        let values = without_volume(graph, jacobian);
         for (output, components) in &mut outputs {
             if *output != Output::Quantity(Quantity::Jacobian) {
                 *components = replace(graph, components, &values);
@@ -181,9 +179,11 @@ impl<'a> Quantities<'a> {
         interpreter.set_time(&spot.time);
         let volume = jacobian.map(|jacobian| jacobian - T::from_f64(1.0));
         let all = vec![true; program.instrs.len()];
-        let coordinates = &spot.coordinates;
-        let gradient = volume.as_slice();
-        interpreter.set_point(&all, Point { coordinates, normal: &[], gradient });
+        interpreter.set_leaves(&all, |symbol| match (symbol, &volume) {
+            (Symbol::Coordinate(axis), _) => spot.coordinates[axis].clone(),
+            (SUPPLIED_VOLUME, Some(volume)) => volume.clone(),
+            _ => unreachable!("quantities are of a position and a time"),
+        });
         let lacks = |quantity: &Quantity| {
             !interpreter.output(Output::Quantity(*quantity)).iter().all(&well)
         };

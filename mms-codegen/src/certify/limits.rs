@@ -77,7 +77,12 @@ pub fn limits_of(graph: &mut Graph, expr: Expr) -> Vec<Limit> {
             factors.iter().filter_map(|(base, exponent)| of_power(graph, *base, exponent)).collect()
         }
         Node::Call(function, arguments) => of_call(graph, function, arguments),
-        Node::Sum(..) | Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
+        Node::Sum(..)
+        | Node::Number(_)
+        | Node::Pi
+        | Node::Symbol(_)
+        | Node::Offset(_)
+        | Node::Small(..) => Vec::new(),
     }
 }
 
@@ -123,10 +128,6 @@ fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<L
         | Function::ExpM1
         | Function::Sin
         | Function::Cos
-        | Function::SinNearZero
-        | Function::CosNearZero
-        | Function::SinWithinOne
-        | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
         | Function::WithinTurns
@@ -134,8 +135,7 @@ fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<L
         | Function::Sinh
         | Function::Cosh
         | Function::Tanh
-        | Function::Atan
-        | Function::Offset => Vec::new(),
+        | Function::Atan => Vec::new(),
     }
 }
 
@@ -245,7 +245,7 @@ mod tests {
         }));
         // Half a turn and half a turn are a whole one.
         assert!(!sees_cut(|graph, angle| {
-            let half = graph.scale(angle, Rational::from_parts(1.into(), 2u8.into()));
+            let half = graph.scale(angle, mms_symbolic::expr::HALF);
             let twice = graph.add(half, half);
             graph.call(Function::Cos, &[twice])
         }));

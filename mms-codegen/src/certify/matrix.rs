@@ -28,7 +28,7 @@ pub fn split(entries: &[Interval]) -> (Vec<f64>, f64) {
     (middles, radius)
 }
 
-/// No eigenvalue of a symmetric row-major matrix of numbers is greater in magnitude.
+/// A bound that no eigenvalue of a symmetric row-major matrix exceeds in magnitude.
 pub fn spectral_radius(matrix: &[f64]) -> f64 {
     match matrix.len() {
         1 => radius_of::<1>(matrix),
@@ -348,7 +348,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Of the directions in a line, a plane or space.
+    /// The grid of directions in a line, a plane or space.
     pub fn new(dimension: usize) -> Self {
         let (directions, sine_squared) = match dimension {
             1 => (vec![[1.0, 0.0, 0.0]], 0.0),

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use crate::bounds::chart::Chart;
 use crate::compile::Compiled;
 use mms_mechanics::Response;
-use mms_mechanics::invariant::Kind;
+use mms_mechanics::invariant::{Kind, SUPPLIED_VOLUME};
 use mms_mechanics::kinematics::Strain;
 use mms_mechanics::tensor::Tensor;
 use mms_spec::quantity::Quantity;
@@ -21,7 +21,7 @@ use mms_symbolic::pass::substitute::replace;
 /// basis of radius and angle: what does not depend on a rotation is bounded as sharply with it as
 /// without.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct ChartMotion {
     dimension: usize,
     /// H in the basis of space, of a material whose stress does not follow from C alone.
     pub oriented: Option<Vec<Expr>>,
@@ -39,12 +39,12 @@ pub struct Motion {
     pub squared_rate: Option<Expr>,
     /// rho0.
     pub density: Expr,
-    /// P at a gradient H that is supplied; for isotropic materials, with [`PRINCIPAL_VOLUME`] for
+    /// P at a gradient H that is supplied; for isotropic materials, with [`SUPPLIED_VOLUME`] for
     /// J - 1.
     pub stress: Vec<Expr>,
 }
 
-impl Motion {
+impl ChartMotion {
     /// The motion of a compiled field.
     pub fn new(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
         let derived = &compiled.derived;
@@ -63,7 +63,7 @@ impl Motion {
         // else, and all that matters of F is C, in whatever basis.
         let is_isotropic = compiled.model.kind == Kind::Isotropic;
         let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
-        Motion {
+        ChartMotion {
             dimension,
             oriented: (!is_isotropic).then_some(cartesian),
             gradient,
@@ -94,15 +94,12 @@ fn squared_rate(graph: &mut Graph, jacobian: Expr, right_rate: &[Expr]) -> Optio
     Some(graph.sum([(rate, Rational::from(2)), (shear, one.clone()), (product, -one)]))
 }
 
-/// What stands for J - 1 in the stress of isotropic materials.
-pub const PRINCIPAL_VOLUME: Symbol = Symbol::Normal(0);
-
 /// A stress with the symbol for J - 1.
 fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> {
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
     let jacobian = Strain::new(graph, gradient, &Kind::Isotropic, &Relations::default()).jacobian;
-    let values = without_volume(graph, jacobian, PRINCIPAL_VOLUME);
+    let values = without_volume(graph, jacobian);
     replace(graph, stress, &values)
 }
 
@@ -137,14 +134,14 @@ fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     }
 }
 
-/// What J, J - 1 and what J is a multiple of are in terms of a symbol for J - 1. Interval arithmetic
+/// What J, J - 1 and what J is a multiple of are in terms of [`SUPPLIED_VOLUME`]. Interval arithmetic
 /// alone would not know that J is positive where it is small.
-pub fn without_volume(graph: &mut Graph, jacobian: Expr, change: Symbol) -> BTreeMap<Expr, Expr> {
+pub fn without_volume(graph: &mut Graph, jacobian: Expr) -> BTreeMap<Expr, Expr> {
     if graph.as_number(jacobian).is_some() {
         return BTreeMap::new();
     }
     let one = graph.number(1);
-    let change = graph.symbol(change);
+    let change = graph.symbol(SUPPLIED_VOLUME);
     let whole = graph.add(one, change);
     let less_one = graph.sub(jacobian, one);
     let (content, primitive) = graph.split_content(jacobian);

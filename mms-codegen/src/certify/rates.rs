@@ -19,7 +19,7 @@ use mms_math::Scalar as _;
 use super::matrix::{
     Grid, eigenvalues, largest_acoustic, largest_rate, largest_relative_rate, singular_values,
 };
-use super::motion::Motion;
+use super::motion::ChartMotion;
 use super::tangent::Tangent;
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::{Enclosures, Formulas, key};
@@ -31,7 +31,7 @@ use mms_symbolic::expr::{Expr, Graph};
 /// A bound that exceeds a value by no more than this part of it is sharp enough.
 const SHARPNESS: f64 = 0.1;
 
-/// No state of the field exceeds these.
+/// Bounds of rates that no state of the field exceeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// The largest principal stretch.
@@ -86,7 +86,7 @@ pub(super) fn bound(
 pub fn wave_speed(
     graph: &mut Graph,
     chart: &Chart,
-    motion: &Motion,
+    motion: &ChartMotion,
     jacobian: [f64; 2],
     limit: usize,
     (frame, speed): (Frame, f64),
@@ -100,7 +100,7 @@ pub fn wave_speed(
 /// What the search for each rate starts from.
 pub(super) struct Searches<'a> {
     pub chart: &'a Chart,
-    pub motion: &'a Motion,
+    pub motion: &'a ChartMotion,
     /// J, H and C - I, with which the formulas of every search begin.
     pub strain: Vec<Expr>,
     /// The bounds of J everywhere.
@@ -119,13 +119,18 @@ pub(super) struct Stretches {
 
 impl Stretches {
     /// The largest principal stretch; the dimensions that a field lacks are not stretched.
-    fn principal(&self, motion: &Motion) -> f64 {
+    fn principal(&self, motion: &ChartMotion) -> f64 {
         self.greatest.max(if motion.dimension() < 3 { 1.0 } else { 0.0 })
     }
 }
 
 impl<'a> Searches<'a> {
-    pub fn new(chart: &'a Chart, motion: &'a Motion, jacobian: [f64; 2], limit: usize) -> Self {
+    pub fn new(
+        chart: &'a Chart,
+        motion: &'a ChartMotion,
+        jacobian: [f64; 2],
+        limit: usize,
+    ) -> Self {
         let strain = [&[motion.jacobian][..], &motion.gradient, &motion.right].concat();
         let volume = Interval::new(jacobian[0], jacobian[1]);
         Searches { chart, motion, strain, volume, limit }

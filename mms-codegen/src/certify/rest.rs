@@ -50,7 +50,7 @@ impl Rest {
         }
     }
 
-    /// What a user should hear of it.
+    /// The warning for a user, where there is something to warn of.
     pub fn warning(&self, compiled: &Compiled) -> Option<Diagnostic> {
         match self {
             Rest::Stressed(stress, witness) => {
@@ -105,7 +105,7 @@ fn greatest(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Option<(Vec<
     for index in 1..=POINTS {
         let fractions = spread(index, chart.variables().len());
         let fractions: Vec<Precise> = fractions.iter().map(Precise::new).collect();
-        let mut stress = run.at(&chart.place(&fractions), [&[], &[]], &[()]).swap_remove(0);
+        let mut stress = run.at(&chart.place(&fractions), &[()]).swap_remove(0);
         let modulus = stress.pop()?.magnitude() * Precise::from_f64(DOUBT);
         let is_certain =
             |it: &Precise| it.is_defined() && !it.clone().magnitude().at_most(&modulus);

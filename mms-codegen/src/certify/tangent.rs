@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use mms_math::Scalar as _;
 
 use crate::bounds::chart::{Chart, Run};
+use mms_mechanics::invariant::SUPPLIED_VOLUME;
 use mms_program::Program;
 use mms_program::dual::Dual;
 use mms_program::fan::Fan;
 use mms_program::interpret::Number;
 use mms_program::interval::Interval;
 use mms_program::schedule::schedule_plainly;
-use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::expr::{Expr, Graph, Symbol};
 
 /// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
 pub struct Tangent<'a> {
@@ -54,7 +55,7 @@ impl<'a> Tangent<'a> {
         let mut volume = volume(&gradient);
         volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
         self.first.charge(gradient.len() as u64);
-        let stress = self.first.at(&place, [&[volume], &gradient], &[()]).swap_remove(0);
+        let stress = self.first.with(&place, leaves(&gradient, &volume), &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value, it.slope(column)))
     }
 
@@ -113,8 +114,18 @@ impl<'a> Tangent<'a> {
         let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
         let volume = volume(&gradient);
         self.second.charge(gradient.len() as u64);
-        let stress = self.second.at(&place, [&[volume], &gradient], &[()]).swap_remove(0);
+        let stress = self.second.with(&place, leaves(&gradient, &volume), &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value.value, it.slope(column).slope))
+    }
+}
+
+/// What a stress is a function of: H, and J - 1 in its own right.
+fn leaves<T: Clone>(gradient: &[T], volume: &T) -> impl Fn(Symbol) -> T {
+    let dimension = gradient.len().isqrt();
+    move |symbol| match symbol {
+        SUPPLIED_VOLUME => volume.clone(),
+        Symbol::Gradient(row, column) => gradient[row * dimension + column].clone(),
+        _ => unreachable!("a stress is a function of H"),
     }
 }
 

@@ -171,7 +171,7 @@ fn power(base: Precise, exponent: Precise) -> Precise {
 fn call(name: &str, arguments: &[Precise]) -> Precise {
     let function = Function::ALL.iter().find(|function| function.name() == name);
     match (function, arguments) {
-        (Some(function), [x]) => unary(*function, x.clone()),
+        (Some(function), [x]) => unary(*function, None, x.clone()),
         (Some(function), [a, b]) => binary(*function, a.clone(), b.clone()),
         // hypot is the one function that the graph has not.
         (None, [a, b]) => (a.clone() * a.clone() + b.clone() * b.clone()).sqrt(),

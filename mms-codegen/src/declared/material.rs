@@ -13,7 +13,7 @@ use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::source::Span;
-use mms_symbolic::expr::{Expr, Rational, Symbol};
+use mms_symbolic::expr::{Expr, HALF, Rational, Symbol};
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 
@@ -71,7 +71,7 @@ impl Declared<'_> {
         if is_one || graph.symbols(square).contains(&Symbol::Time) {
             return;
         }
-        let length = graph.power(square, Rational::from_parts(1.into(), 2u8.into()));
+        let length = graph.power(square, HALF);
         let [one, rounding] = [1.0, 1e-60].map(Precise::from_f64);
         let is_unit =
             |values: &[Precise]| (values[0].clone() - one.clone()).magnitude().at_most(&rounding);

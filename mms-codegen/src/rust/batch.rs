@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
 use super::quantity::at;
-use super::{Emitter, MATH, Place, RUNTIME, input};
+use super::{Context, Emitter, MATH, RUNTIME, input};
 use mms_mechanics::Output;
 use mms_program::loops::{Columns, Cut, is_worth_two};
 use mms_program::{Op, Stage, Value};
@@ -77,7 +77,7 @@ impl Emitter<'_> {
     fn points(&self, kept: &[Value]) -> TokenStream {
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
         let place =
-            Place { scalar: quote!(S), ..Place::at_points(quote!(self.0), &[Stage::Point]) };
+            Context { scalar: quote!(S), ..Context::at_points(quote!(self.0), &[Stage::Point]) };
         let body = self.statements(kept.iter().copied(), &place);
         let (dimension, position) = (self.dimension(), self.position());
         let count = self.axes().len() + kept.len();
@@ -215,7 +215,7 @@ impl Emitter<'_> {
         let (function, point) = (at(quantity), self.point_of(columns));
         let result = self.flat(quantity, quote!(at.#function(&#point #normal_argument)));
         let place =
-            Place { scalar: quote!(S), ..Place::at_points(quote!(at.field), &[Stage::Point]) };
+            Context { scalar: quote!(S), ..Context::at_points(quote!(at.field), &[Stage::Point]) };
         let made = self.one_by_one(&taken.made, &place);
         let axes = taken.columns.axes.iter().map(|axis| input(Symbol::Coordinate(*axis)));
         let taken = axes.chain(taken.columns.values.iter().map(|value| self.name(*value)));
@@ -282,7 +282,7 @@ impl Emitter<'_> {
 
 /// Whether an operation keeps the part of a processor busy that divides.
 fn divides(op: &Op) -> bool {
-    matches!(op, Op::Divide(..) | Op::Unary(Function::Sqrt, _))
+    matches!(op, Op::Divide(..) | Op::Unary(Function::Sqrt, ..))
 }
 
 /// Whether an operation is a function that is made of sums and products.

@@ -3,15 +3,15 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place, constant, input, pi};
+use super::{Context, Emitter, constant, input, pi};
 use mms_mechanics::Output;
 use mms_program::fusion::{Fused, Fusion};
-use mms_program::{Op, Value};
+use mms_program::{Op, Value, unary_name};
 use mms_symbolic::expr::Symbol;
 
 impl Emitter<'_> {
     /// What `outputs` need of the stages that a function computes.
-    pub(super) fn body(&self, outputs: &[Output], place: &Place) -> TokenStream {
+    pub(super) fn body(&self, outputs: &[Output], place: &Context) -> TokenStream {
         let roots = outputs.iter().flat_map(|output| self.values(*output)).copied();
         self.statements(roots, place)
     }
@@ -20,7 +20,7 @@ impl Emitter<'_> {
     pub(super) fn statements(
         &self,
         roots: impl IntoIterator<Item = Value>,
-        place: &Place,
+        place: &Context,
     ) -> TokenStream {
         let roots: Vec<Value> = roots.into_iter().collect();
         let needed = self.program.needed_for(roots.iter().copied());
@@ -42,7 +42,7 @@ impl Emitter<'_> {
     }
 
     /// These values, and nothing else.
-    pub(super) fn one_by_one(&self, values: &[Value], place: &Place) -> TokenStream {
+    pub(super) fn one_by_one(&self, values: &[Value], place: &Context) -> TokenStream {
         let body = Body { emitter: self, place, fusion: Fusion::none(&self.program.instrs) };
         values.iter().map(|value| body.statement(*value)).collect()
     }
@@ -51,7 +51,7 @@ impl Emitter<'_> {
 /// A function, and what its processor does in one go.
 struct Body<'a> {
     emitter: &'a Emitter<'a>,
-    place: &'a Place,
+    place: &'a Context,
     fusion: Fusion,
 }
 
@@ -108,8 +108,8 @@ impl Body<'_> {
                 let a = of(a);
                 quote!(-#a)
             }
-            Op::Unary(function, a) => {
-                let (function, a) = (format_ident!("{}", function.name()), of(a));
+            Op::Unary(function, small, a) => {
+                let (function, a) = (format_ident!("{}", unary_name(*function, *small)), of(a));
                 quote!(#a.#function())
             }
             Op::Binary(function, a, b) => {

@@ -10,7 +10,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::batch::{count, kernel, normal};
-use super::{Emitter, Place};
+use super::{Context, Emitter};
 use mms_program::Stage;
 use mms_program::loops::{Columns, Cut, WORTH_IN_CACHE, WORTH_IN_MEMORY};
 use mms_spec::quantity::Quantity;
@@ -26,7 +26,7 @@ impl Emitter<'_> {
         let cut = Cut::new(self.program, columns, WORTH_IN_CACHE);
         let handed = &cut.columns.values;
         let body = self
-            .statements(handed.iter().copied(), &Place::at_points(quote!(self), &[Stage::Point]));
+            .statements(handed.iter().copied(), &Context::at_points(quote!(self), &[Stage::Point]));
         let names = handed.iter().map(|value| self.name(*value));
         let of_first = dimension + normals..dimension + normals + handed.len();
         let reads = cut.columns.axes.iter().copied().chain(of_first);

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place};
+use super::{Context, Emitter};
 use mms_mechanics::Output;
 use mms_mechanics::boundary::Datum;
 use mms_program::Stage;
@@ -33,7 +33,7 @@ impl Emitter<'_> {
         };
         let doc = format!(" {what} on the face `{}`, at a point of it. Unit: {unit}.", face.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
-        let place = Place::at_points(quote!(self.field), own);
+        let place = Context::at_points(quote!(self.field), own);
         let output = Output::Face(face, datum);
         let (point, kind) = (self.point(), self.shape_type(Shape::Vector));
         let (body, value) =

@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place};
+use super::{Context, Emitter};
 use mms_mechanics::Response;
 use mms_mechanics::model::Body;
 use mms_mechanics::{Bound, Output};
@@ -29,7 +29,7 @@ impl Emitter<'_> {
                 None => format!(" {what}."),
             }
         });
-        let place = Place::once(quote!(), &[Stage::Parameter]);
+        let place = Context::once(quote!(), &[Stage::Parameter]);
         let outputs: Vec<_> = left.copied().map(Output::Parameter).collect();
         let body = self.body(&outputs, &place);
         let values = outputs.iter().map(|output| self.narrowed(self.values(*output)[0], &place));
@@ -93,7 +93,7 @@ impl Emitter<'_> {
     pub(super) fn field(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Parameter);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place::once(quote!(), &[Stage::Parameter]);
+        let place = Context::once(quote!(), &[Stage::Parameter]);
         let values: Vec<_> = kept.iter().map(|value| self.narrowed(*value, &place)).collect();
         let wide = self.kept_for_times();
         let wide_names: Vec<_> = wide.iter().map(|value| self.wide_name(*value)).collect();
@@ -142,7 +142,7 @@ impl Emitter<'_> {
     }
 
     fn bounds(&self) -> TokenStream {
-        let place = Place::at_points(quote!(self), &[]);
+        let place = Context::at_points(quote!(self), &[]);
         let function = |bound: Bound, name: &str, doc: &str| {
             let name = format_ident!("{name}");
             let values = self.values(Output::Bound(bound));
@@ -174,7 +174,7 @@ impl Emitter<'_> {
     fn responses(&self) -> TokenStream {
         let point = self.point();
         let gradient = self.gradient();
-        let place = Place::at_points(quote!(self), &[Stage::Point, Stage::PointTime]);
+        let place = Context::at_points(quote!(self), &[Stage::Point, Stage::PointTime]);
         let function = |response: Response, name: &str, doc: &str, shape: Shape, strained: bool| {
             let name = format_ident!("{name}");
             let gradient = strained.then(|| quote!(, #gradient));

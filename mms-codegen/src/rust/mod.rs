@@ -22,6 +22,7 @@ use mms_program::interpret::{parts, small_ratio};
 use mms_program::{Op, Stage, Value};
 use mms_spec::foreign::blanked;
 use mms_spec::quantity::Quantity;
+use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Rational, Symbol};
 
 pub use file::{File, file};
@@ -114,7 +115,7 @@ fn distinct(names: &[&str]) -> Vec<Ident> {
 
 /// Where the body of a function finds the values that earlier stages left. Those of the stage
 /// Time are members of `self`, and those of the stage Point of `point`.
-struct Place {
+struct Context {
     /// The struct that holds the Parameter stage.
     field: TokenStream,
     /// The stages that the function computes itself.
@@ -123,15 +124,15 @@ struct Place {
     scalar: TokenStream,
 }
 
-impl Place {
+impl Context {
     /// A function that computes `own` for every point.
     fn at_points(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T) }
+        Context { field, own, scalar: quote!(T) }
     }
 
     /// A function that computes `own` once, with more digits.
     fn once(field: TokenStream, own: &'static [Stage]) -> Self {
-        Place { field, own, scalar: quote!(T::Wide) }
+        Context { field, own, scalar: quote!(T::Wide) }
     }
 
     fn is_once(&self) -> bool {
@@ -224,7 +225,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// How a function reads a value: a literal, a local, or a member of an earlier stage's struct.
-    fn operand(&self, value: Value, place: &Place) -> TokenStream {
+    fn operand(&self, value: Value, place: &Context) -> TokenStream {
         let instr = self.program.instr(value);
         match &instr.op {
             Op::Constant(number) => return constant(number, &place.scalar),
@@ -258,7 +259,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// A value that this function computes with more digits, as it is kept.
-    fn narrowed(&self, value: Value, place: &Place) -> TokenStream {
+    fn narrowed(&self, value: Value, place: &Context) -> TokenStream {
         match self.program.instr(value).op {
             Op::Constant(ref number) => constant(number, &quote!(T)),
             Op::Pi => pi(&quote!(T)),
@@ -295,11 +296,11 @@ fn parameter_names(compiled: &Compiled) -> BTreeMap<usize, Ident> {
 /// The argument that supplies a leaf.
 fn input(symbol: Symbol) -> Ident {
     match symbol {
-        Symbol::Coordinate(axis) => format_ident!("{}", ["X", "Y", "Z"][axis]),
+        Symbol::Coordinate(axis) => format_ident!("{}", AXES[axis]),
         Symbol::Time => format_ident!("t"),
         Symbol::Normal(axis) => format_ident!("N{}", axis + 1),
         Symbol::Gradient(row, column) => format_ident!("H{}{}", row + 1, column + 1),
-        Symbol::Parameter(_) | Symbol::Invariant(_) => {
+        Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
             unreachable!("a member of the parameters, or gone after derivation")
         }
     }

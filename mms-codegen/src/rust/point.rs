@@ -3,7 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::{Emitter, Place, input};
+use super::{Context, Emitter, input};
 use mms_program::Stage;
 use mms_symbolic::expr::Symbol;
 
@@ -13,7 +13,7 @@ impl Emitter<'_> {
     pub(super) fn point_cache(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Point);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place::at_points(quote!(self), &[Stage::Point]);
+        let place = Context::at_points(quote!(self), &[Stage::Point]);
         let body = self.statements(kept.iter().copied(), &place);
         let (dimension, point) = (self.dimension(), self.point());
         let axes: Vec<_> = self.axes().map(|axis| input(Symbol::Coordinate(axis))).collect();

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Emitter, Place, input};
+use super::{Context, Emitter, input};
 use mms_mechanics::Output;
 use mms_program::Stage;
 use mms_spec::quantity::{Quantity, Shape};
@@ -19,7 +19,7 @@ impl Emitter<'_> {
     pub(super) fn at_time(&self) -> TokenStream {
         let kept = self.kept_in(Stage::Time);
         let names: Vec<_> = kept.iter().map(|value| self.name(*value)).collect();
-        let place = Place::once(quote!(self), &[Stage::Time]);
+        let place = Context::once(quote!(self), &[Stage::Time]);
         let body = self.statements(kept.iter().copied(), &place);
         let values = kept.iter().map(|value| self.narrowed(*value, &place));
         // Only where there is something to compute.
@@ -57,7 +57,7 @@ impl Emitter<'_> {
         let doc = format!(" {} Unit: {}.", quantity.doc(), quantity.unit());
         let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
-        let place = |own| Place::at_points(quote!(self.field), own);
+        let place = |own| Context::at_points(quote!(self.field), own);
         let (whole, rest) = (place(own), place(&own[1..]));
         let output = Output::Quantity(quantity);
         let point = self.point();
@@ -105,7 +105,7 @@ impl Emitter<'_> {
         }
     }
 
-    pub(super) fn shaped(&self, output: Output, shape: Shape, place: &Place) -> TokenStream {
+    pub(super) fn shaped(&self, output: Output, shape: Shape, place: &Context) -> TokenStream {
         let values: Vec<_> =
             self.values(output).iter().map(|value| self.operand(*value, place)).collect();
         match shape {

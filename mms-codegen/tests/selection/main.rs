@@ -12,7 +12,7 @@ use mms_mechanics::sample::samples;
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Op, Stage};
 use mms_spec::quantity::Quantity;
-use mms_symbolic::expr::{Function, Rational};
+use mms_symbolic::expr::{Function, Rational, Small};
 
 /// A field of one dimension; `{dimension}` and the like are filled in.
 const FIELD: &str = r#"
@@ -320,30 +320,19 @@ fn subsets_are_not_dearer_than_the_whole() {
     }
 }
 
-/// Which of the functions of angles the program calls.
-fn functions_of_angles(compiled: &Compiled) -> BTreeSet<Function> {
-    let angles = [
-        Function::Sin,
-        Function::Cos,
-        Function::SinNearZero,
-        Function::CosNearZero,
-        Function::SinWithinOne,
-        Function::CosWithinOne,
-    ];
+/// Which of the functions of angles the program calls, and what is proved of these.
+fn functions_of_angles(compiled: &Compiled) -> BTreeSet<(Function, Option<Small>)> {
     let called = compiled.program.instrs.iter().filter_map(|instr| match instr.op {
-        Op::Unary(function, _) if instr.stage >= Stage::Point => Some(function),
+        Op::Unary(function, small, _) if instr.stage >= Stage::Point => Some((function, small)),
         _ => None,
     });
-    called.filter(|function| angles.contains(function)).collect()
+    called.filter(|(function, _)| [Function::Sin, Function::Cos].contains(function)).collect()
 }
 
 #[test]
 fn nothing_is_taken_off_an_angle_that_is_proved_small() {
-    let (any, near_zero, within_one) = (
-        BTreeSet::from([Function::Sin, Function::Cos]),
-        BTreeSet::from([Function::SinNearZero, Function::CosNearZero]),
-        BTreeSet::from([Function::SinWithinOne, Function::CosWithinOne]),
-    );
+    let [any, near_zero, within_one] = [None, Some(Small::NearZero), Some(Small::WithinOne)]
+        .map(|small| BTreeSet::from([(Function::Sin, small), (Function::Cos, small)]));
     // The angle grows to `size`, which may be set to anything unless it is frozen or has a range.
     let text = FIELD.replace("size*X*(1 - X)*TIME", "sin(size*X^2*t)/10");
     let free = compiled(&text, &Selection::default());

@@ -11,7 +11,7 @@ use mms_codegen::certify::finite;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::jacobian;
 use mms_codegen::certify::jacobian::Jacobian;
-use mms_codegen::certify::motion::Motion;
+use mms_codegen::certify::motion::ChartMotion;
 use mms_codegen::compile::compile_unproved;
 use mms_codegen::{Compiled, Options};
 use mms_math::Scalar as _;
@@ -143,7 +143,7 @@ struct Promise {
 
 impl Promise {
     fn of(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Self {
-        let motion = Motion::new(graph, chart, compiled);
+        let motion = ChartMotion::new(graph, chart, compiled);
         let formulas = Formulas::new(graph, chart, &[motion.jacobian]);
         let none = Promise { double: false, single: false, smooth: false };
         let (Jacobian::Positive(bounds), _) = jacobian::bound(chart, &formulas, CELLS) else {

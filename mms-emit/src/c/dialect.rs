@@ -3,6 +3,7 @@
 use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::port::names::Rules;
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -44,24 +45,26 @@ pub const HEADERS: &str = "\
 pub struct C;
 
 impl Dialect for C {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String {
         match (wide, parts(number)) {
-            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
-            (true, (high, low)) => format!("wide_parts({}, {})", decimal(high), decimal(low)),
+            (true, (high, 0.0)) => format!("{}({})", calls.to("wide_of"), decimal(high)),
+            (true, (high, low)) => {
+                format!("{}({}, {})", calls.to("wide_parts"), decimal(high), decimal(low))
+            }
             (false, _) => format!("REAL({})", decimal(nearest(number))),
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
-        if wide { "wide_pi()".into() } else { "REAL(3.141592653589793)".into() }
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
+        if wide { format!("{}()", calls.to("wide_pi")) } else { "REAL(3.141592653589793)".into() }
     }
 
     fn input(&self, name: &str) -> String {
         if name == "t" { name.into() } else { format!("{name}[i]") }
     }
 
-    fn widened(&self, value: &str) -> String {
-        format!("wide_of((double){value})")
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
+        format!("{}((double){value})", calls.to("wide_of"))
     }
 
     fn narrowed(&self, value: &str) -> String {
@@ -76,19 +79,26 @@ impl Dialect for C {
         in_c_library(function).map_or(function.name().into(), |name| format!("MATH({name})"))
     }
 
-    fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {
+    fn arithmetic(
+        &self,
+        operation: Arithmetic,
+        a: &str,
+        b: &str,
+        wide: bool,
+        calls: &mut Calls,
+    ) -> String {
         let name = match operation {
             _ if !wide => return format!("{a} {} {b}", operation.sign()),
-            Arithmetic::Add => "add",
-            Arithmetic::Subtract => "sub",
-            Arithmetic::Multiply => "mul",
-            Arithmetic::Divide => "div",
+            Arithmetic::Add => "wide_add",
+            Arithmetic::Subtract => "wide_sub",
+            Arithmetic::Multiply => "wide_mul",
+            Arithmetic::Divide => "wide_div",
         };
-        format!("wide_{name}({a}, {b})")
+        format!("{}({a}, {b})", calls.to(name))
     }
 
-    fn negated(&self, a: &str, wide: bool) -> String {
-        if wide { format!("wide_neg({a})") } else { format!("-{a}") }
+    fn negated(&self, a: &str, wide: bool, calls: &mut Calls) -> String {
+        if wide { format!("{}({a})", calls.to("wide_neg")) } else { format!("-{a}") }
     }
 
     fn statement(&self, name: &str, value: &str, wide: bool) -> String {

@@ -6,18 +6,19 @@ use super::dialect::C;
 use super::header::{batch_head, head, subject};
 use super::{broken, comment};
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::{Callable, input};
 use crate::port::support::Support;
-use mms_mechanics::Output;
+use crate::text::indented;
 
 const WIDE: &str = include_str!("support/wide.c");
 const POINT: &str = include_str!("support/point.c");
 
 /// The text of `FIELD.c`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let functions = functions(port);
-    let support = |text| Support::new(text, &["/*", "#"]).needed(&functions).join("\n\n");
+    let bodies = port.bodies(&C);
+    let calls = bodies.calls();
+    let support = |text| Support::new(text, &["/*", "#"]).needed(&calls).join("\n\n");
     let (wide, point) = (support(WIDE), support(POINT));
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
     let mut text = comment(&port.header(), "");
@@ -44,27 +45,25 @@ pub(super) fn text(port: &Port<'_>) -> String {
         text += support;
         text += "\n\n";
     }
-    text + &functions
+    text + &functions(port, &bodies)
 }
 
-fn functions(port: &Port<'_>) -> String {
-    let mut text = defaults(port) + "\n" + &prepare(port) + "\n" + &at_time(port);
-    for callable in &port.callables {
+fn functions(port: &Port<'_>, bodies: &Bodies) -> String {
+    let mut text = defaults(port, &bodies.defaults) + "\n";
+    text += &(prepare(port, &bodies.prepare) + "\n" + &at_time(port, &bodies.at_time));
+    for (callable, body) in port.with_bodies(bodies) {
         text += "\n";
         text += &match callable.is_of_points() {
-            true => of_many_points(port, callable) + "\n" + &of_one_point(port, callable),
-            false => of_no_point(port, callable),
+            true => of_many_points(port, callable, body) + "\n" + &of_one_point(port, callable),
+            false => of_no_point(port, callable, body),
         };
     }
     text
 }
 
-fn defaults(port: &Port<'_>) -> String {
+fn defaults(port: &Port<'_>, body: &Body) -> String {
     let name = &port.name;
     let mut text = format!("{name}_parameters {name}_default_parameters(void)\n{{\n");
-    let roots: Vec<_> =
-        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&C, &roots, Place::Parameters);
     text += &format!("    {name}_parameters parameters;\n");
     text += &indented(&body.statements, 4);
     for (member, value) in port.parameters.values().zip(&body.results) {
@@ -76,15 +75,13 @@ fn defaults(port: &Port<'_>) -> String {
     text + "    return parameters;\n}\n"
 }
 
-fn prepare(port: &Port<'_>) -> String {
+fn prepare(port: &Port<'_>, body: &Body) -> String {
     let name = &port.name;
     let mut text =
         format!("{name}_field {name}_prepare(const {name}_parameters *parameters)\n{{\n");
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&C, &roots, Place::Parameters);
     text += &format!("    {name}_field field;\n");
     text += &indented(&body.statements, 4);
-    if !body.statements.iter().any(|statement| statement.contains("parameters->")) {
+    if !body.reads_parameters() {
         text += "    (void)parameters;\n";
     }
     for (value, result) in port.kept.iter().zip(&body.results) {
@@ -94,17 +91,16 @@ fn prepare(port: &Port<'_>) -> String {
         let wide = local(*value, true);
         let _ = writeln!(text, "    field.{wide} = {wide};");
     }
-    if roots.is_empty() {
+    if body.results.is_empty() {
         text += "    field.none = 0;\n";
     }
     text + "    return field;\n}\n"
 }
 
-fn at_time(port: &Port<'_>) -> String {
+fn at_time(port: &Port<'_>, body: &Body) -> String {
     let name = &port.name;
     let arguments = [format!("const {name}_field *field"), format!("{name}_real t")];
     let mut text = broken(&format!("{name}_instant {name}_at_time"), &arguments, "\n{\n");
-    let body = port.body(&C, &port.kept_at_times, Place::Times);
     text += &format!("    {name}_instant now;\n");
     text += &indented(&body.statements, 4);
     if !body.reads_kept {
@@ -123,8 +119,7 @@ fn at_time(port: &Port<'_>) -> String {
 }
 
 /// A loop over points, which is where a function is computed.
-fn of_many_points(port: &Port<'_>, callable: &Callable) -> String {
-    let body = port.body(&C, port.values(callable.output), Place::Points { timed: callable.time });
+fn of_many_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let mut text = batch_head(port, callable, "restrict ") + "\n{\n";
     if !body.reads_kept {
         let _ = writeln!(text, "    (void){};", if callable.time { "now" } else { "field" });
@@ -163,8 +158,7 @@ fn of_one_point(port: &Port<'_>, callable: &Callable) -> String {
 }
 
 /// A part of the domain.
-fn of_no_point(port: &Port<'_>, callable: &Callable) -> String {
-    let body = port.body(&C, port.values(callable.output), Place::Points { timed: false });
+fn of_no_point(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let mut text = head(port, callable) + "\n{\n";
     debug_assert!(subject(port, callable).ends_with("field"));
     if !body.reads_kept {
@@ -179,8 +173,4 @@ fn of_no_point(port: &Port<'_>, callable: &Callable) -> String {
         }
     }
     text + "}\n"
-}
-
-fn indented(statements: &[String], by: usize) -> String {
-    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -9,16 +10,18 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Cpp(pub usize);
 
 impl Dialect for Cpp {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String {
         match (wide, parts(number)) {
-            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
-            (true, (high, low)) => format!("wide{{{}, {}}}", decimal(high), decimal(low)),
+            (true, (high, 0.0)) => format!("{}({})", calls.to("wide_of"), decimal(high)),
+            (true, (high, low)) => {
+                format!("{}{{{}, {}}}", calls.to("wide"), decimal(high), decimal(low))
+            }
             (false, _) => format!("T({})", decimal(nearest(number))),
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
-        if wide { "wide_pi()".into() } else { "T(3.141592653589793)".into() }
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
+        if wide { format!("{}()", calls.to("wide_pi")) } else { "T(3.141592653589793)".into() }
     }
 
     /// Arguments are arrays: X, Y and Z are one, and so are the rows of H.
@@ -35,8 +38,8 @@ impl Dialect for Cpp {
         }
     }
 
-    fn widened(&self, value: &str) -> String {
-        format!("wide_of(static_cast<double>({value}))")
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
+        format!("{}(static_cast<double>({value}))", calls.to("wide_of"))
     }
 
     fn narrowed(&self, value: &str) -> String {

@@ -5,26 +5,32 @@ use std::fmt::Write as _;
 use super::dialect::Cpp;
 use crate::c::{broken, comment};
 use crate::port::Port;
-use crate::port::body::{Dialect as _, Place, local};
+use crate::port::body::{Bodies, Body, Dialect as _, local};
 use crate::port::callable::{Callable, input};
 use crate::port::faces::DOC;
 use crate::port::support::Support;
-use crate::text::wrapped;
-use mms_mechanics::Output;
+use crate::text::{indented, wrapped};
 use mms_program::Value;
 
 const WIDE: &str = include_str!("support/wide.hpp");
 const POINT: &str = include_str!("support/point.hpp");
 
+fn support(text: &'static str) -> Support {
+    Support::new(text, &["///", "#"])
+}
+
 /// The text of `FIELD.hpp`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let (name, upper) = (&port.name, port.name.to_ascii_uppercase());
-    let functions = functions(port);
-    let is_wide = functions.contains("wide");
-    // Operators are not called by name.
-    let called = format!("{functions} {}", if is_wide { "wide operator" } else { "" });
-    let needed = |text| Support::new(text, &["///", "#"]).needed(&called).join("\n\n");
-    let support =
+    let bodies = port.bodies(&Cpp(port.dimension()));
+    let (is_wide, mut calls) = (bodies.are_wide(), bodies.calls());
+    if is_wide {
+        // The type, and its operators, which are not called by name.
+        calls.to("wide");
+        calls.to("operator");
+    }
+    let needed = |text| support(text).needed(&calls).join("\n\n");
+    let supports =
         [needed(WIDE), needed(POINT)].map(|text| text.replace("FIELD_", &format!("{upper}_")));
     let mut header = port.header();
     header.push(format!(
@@ -44,16 +50,16 @@ pub(super) fn text(port: &Port<'_>) -> String {
                  #endif\n\n";
     }
     let _ = write!(text, "namespace {name} {{\n\n");
-    if support.iter().any(|text| !text.is_empty()) {
+    if supports.iter().any(|text| !text.is_empty()) {
         text += "namespace detail {\n\n";
-        for text_of in support.iter().filter(|text| !text.is_empty()) {
+        for text_of in supports.iter().filter(|text| !text.is_empty()) {
             text += text_of;
             text += "\n\n";
         }
         text += "} // namespace detail\n\n";
     }
     text += &types(port);
-    text += &functions.replace("FIELD_", &format!("{upper}_"));
+    text += &functions(port, &bodies).replace("FIELD_", &format!("{upper}_"));
     let _ = write!(text, "}} // namespace {name}\n\n#endif\n");
     text
 }
@@ -95,10 +101,11 @@ fn documented(text: &str, indent: &str) -> String {
     lines.iter().map(|line| format!("{indent}/// {line}\n")).collect()
 }
 
-fn functions(port: &Port<'_>) -> String {
-    let mut text = defaults(port) + "\n" + &prepare(port) + "\n" + &at_time(port) + "\n";
-    for callable in &port.callables {
-        text += &function(port, callable);
+fn functions(port: &Port<'_>, bodies: &Bodies) -> String {
+    let mut text = defaults(port, &bodies.defaults) + "\n";
+    text += &(prepare(port, &bodies.prepare) + "\n" + &at_time(port, &bodies.at_time) + "\n");
+    for (callable, body) in port.with_bodies(bodies) {
+        text += &function(port, callable, body);
         text += "\n";
         if callable.is_of_points() {
             text += &batch(callable);
@@ -111,20 +118,21 @@ fn functions(port: &Port<'_>) -> String {
 /// A function with its documentation.
 fn definition(doc: &str, result: &str, name: &str, arguments: &[String], body: &str) -> String {
     let head = broken(&format!("{result} {name}"), arguments, "");
-    let head = format!("template <class T> FIELD_FUNCTION\n{head}");
-    let using = if body.contains("wide") || body.contains("_pi(") || body.contains("ln_1p_rest") {
-        "    using namespace detail;\n"
-    } else {
-        ""
-    };
-    format!("{}{head}\n{{\n{using}{body}}}\n", documented(doc, ""))
+    format!("{}template <class T> FIELD_FUNCTION\n{head}\n{{\n{body}}}\n", documented(doc, ""))
 }
 
-fn defaults(port: &Port<'_>) -> String {
-    let roots: Vec<_> =
-        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&Cpp(port.dimension()), &roots, Place::Parameters);
-    let mut text = indented(&body.statements, 4) + "    Parameters<T> parameters{};\n";
+/// The statements of a body, which find what C++ lacks.
+fn statements(body: &Body) -> String {
+    let calls_support = [WIDE, POINT].iter().any(|text| support(text).defines_any(&body.calls));
+    let using = match body.is_wide || calls_support {
+        true => "    using namespace detail;\n",
+        false => "",
+    };
+    using.to_string() + &indented(&body.statements, 4)
+}
+
+fn defaults(port: &Port<'_>, body: &Body) -> String {
+    let mut text = statements(body) + "    Parameters<T> parameters{};\n";
     for (member, value) in port.parameters.values().zip(&body.results) {
         let _ = writeln!(text, "    parameters.{member} = {value};");
     }
@@ -133,10 +141,8 @@ fn defaults(port: &Port<'_>) -> String {
     definition(doc, "Parameters<T>", "default_parameters", &[], &text)
 }
 
-fn prepare(port: &Port<'_>) -> String {
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&Cpp(port.dimension()), &roots, Place::Parameters);
-    let mut text = indented(&body.statements, 4) + "    Field<T> field{};\n";
+fn prepare(port: &Port<'_>, body: &Body) -> String {
+    let mut text = statements(body) + "    Field<T> field{};\n";
     for (value, result) in port.kept.iter().zip(&body.results) {
         let _ = writeln!(text, "    field.{} = {result};", local(*value, false));
     }
@@ -145,15 +151,13 @@ fn prepare(port: &Port<'_>) -> String {
         let _ = writeln!(text, "    field.{wide} = {wide};");
     }
     text += "    return field;\n";
-    let reads = body.statements.iter().any(|statement| statement.contains("parameters."));
-    let argument = named("const Parameters<T> &", "parameters", reads);
+    let argument = named("const Parameters<T> &", "parameters", body.reads_parameters());
     let doc = "Computes once what only the parameters determine.";
     definition(doc, "Field<T>", "prepare", &[argument], &text)
 }
 
-fn at_time(port: &Port<'_>) -> String {
-    let body = port.body(&Cpp(port.dimension()), &port.kept_at_times, Place::Times);
-    let mut text = indented(&body.statements, 4) + "    Instant<T> now{};\n";
+fn at_time(port: &Port<'_>, body: &Body) -> String {
+    let mut text = statements(body) + "    Instant<T> now{};\n";
     for (value, result) in port.kept_at_times.iter().zip(&body.results) {
         let _ = writeln!(text, "    now.{} = {result};", local(*value, false));
     }
@@ -179,10 +183,8 @@ fn subject(callable: &Callable, is_read: bool) -> String {
 }
 
 /// A function of one point, or of none.
-fn function(port: &Port<'_>, callable: &Callable) -> String {
+fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let dialect = Cpp(port.dimension());
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&dialect, port.values(callable.output), place);
     let mut arguments = vec![subject(callable, body.reads_kept)];
     let mut doc = callable.documentation(port.dimension());
     for (array, count) in callable.arrays() {
@@ -191,7 +193,7 @@ fn function(port: &Port<'_>, callable: &Callable) -> String {
         arguments.push(named("const T *", array, reads));
         let _ = write!(doc, " {array}: {count}.");
     }
-    let mut text = indented(&body.statements, 4);
+    let mut text = statements(body);
     let result = if callable.is_scalar() {
         let _ = writeln!(text, "    return {};", body.results[0]);
         "T"
@@ -244,8 +246,4 @@ fn batch(callable: &Callable) -> String {
     text += "    }\n";
     let doc = "The same at n points: an array for each coordinate and each component.";
     definition(doc, "void", &format!("{}_batch", callable.name), &arguments, &text)
-}
-
-fn indented(statements: &[String], by: usize) -> String {
-    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
 }

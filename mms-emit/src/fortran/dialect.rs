@@ -2,6 +2,7 @@
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -9,21 +10,23 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Fortran;
 
 impl Dialect for Fortran {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String {
         match (wide, parts(number)) {
-            (true, (high, 0.0)) => format!("wide_of({}_dp)", decimal(high)),
-            (true, (high, low)) => format!("wide({}_dp, {}_dp)", decimal(high), decimal(low)),
+            (true, (high, 0.0)) => format!("{}({}_dp)", calls.to("wide_of"), decimal(high)),
+            (true, (high, low)) => {
+                format!("{}({}_dp, {}_dp)", calls.to("wide"), decimal(high), decimal(low))
+            }
             (false, (value, _)) if value < 0.0 => format!("({}_wp)", decimal(value)),
             (false, _) => format!("{}_wp", decimal(nearest(number))),
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
-        if wide { "wide_pi()".into() } else { "3.141592653589793_wp".into() }
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
+        if wide { format!("{}()", calls.to("wide_pi")) } else { "3.141592653589793_wp".into() }
     }
 
-    fn widened(&self, value: &str) -> String {
-        format!("wide_of(real({value}, dp))")
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
+        format!("{}(real({value}, dp))", calls.to("wide_of"))
     }
 
     fn narrowed(&self, value: &str) -> String {

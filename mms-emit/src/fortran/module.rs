@@ -5,28 +5,30 @@ use std::fmt::Write as _;
 use super::dialect::Fortran;
 use super::{comment, continued, declared, documented};
 use crate::port::Port;
-use crate::port::body::{Body, Place, local};
+use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::{Callable, input};
 use crate::port::faces::DOC;
 use crate::port::support::Support;
-use mms_mechanics::Output;
 use mms_program::Value;
 
 const WIDE: &str = include_str!("support/wide.f90");
 const POINT: &str = include_str!("support/point.f90");
 
 /// What operators stand for.
-const OPERATORS: &str = "wide_of wide_add wide_sub wide_neg wide_mul wide_div";
+const OPERATORS: [&str; 6] =
+    ["wide_of", "wide_add", "wide_sub", "wide_neg", "wide_mul", "wide_div"];
 
 /// The text of `FIELD.f90`.
 pub(super) fn text(port: &Port<'_>) -> String {
     let name = &port.name;
-    let procedures = procedures(port);
-    let is_wide = procedures.contains("wide");
-    let called = format!("{procedures} {}", if is_wide { OPERATORS } else { "" });
+    let bodies = port.bodies(&Fortran);
+    let (is_wide, mut calls) = (bodies.are_wide(), bodies.calls());
+    if is_wide {
+        OPERATORS.iter().for_each(|name| _ = calls.to(name));
+    }
     let needed = |text: &'static str| {
         let procedures = text.split_once("contains\n").map_or("", |(_, procedures)| procedures);
-        Support::new(procedures, &["!"]).needed(&called).join("\n\n")
+        Support::new(procedures, &["!"]).needed(&calls).join("\n\n")
     };
     let support = [needed(WIDE), needed(POINT)];
     let mut header = port.header();
@@ -64,7 +66,7 @@ pub(super) fn text(port: &Port<'_>) -> String {
     }
     text += &types(port);
     text += "contains\n\n";
-    text += &procedures;
+    text += &procedures(port, &bodies);
     for part in support.iter().filter(|part| !part.is_empty()) {
         let _ = write!(text, "\n{part}\n");
     }
@@ -97,13 +99,14 @@ fn names(values: &[Value], wide: bool) -> Vec<String> {
     values.iter().map(|value| local(*value, wide)).collect()
 }
 
-fn procedures(port: &Port<'_>) -> String {
-    let mut text = defaults(port) + "\n" + &prepare(port) + "\n" + &at_time(port);
-    for callable in &port.callables {
+fn procedures(port: &Port<'_>, bodies: &Bodies) -> String {
+    let mut text = defaults(port, &bodies.defaults) + "\n";
+    text += &(prepare(port, &bodies.prepare) + "\n" + &at_time(port, &bodies.at_time));
+    for (callable, body) in port.with_bodies(bodies) {
         text += "\n";
         text += &match (callable.is_of_points(), callable.is_scalar()) {
-            (true, _) => of_points(port, callable),
-            (false, is_scalar) => of_no_point(port, callable, is_scalar),
+            (true, _) => of_points(port, callable, body),
+            (false, is_scalar) => of_no_point(port, callable, body, is_scalar),
         };
     }
     text
@@ -125,16 +128,13 @@ fn statements(body: &Body, kind: &str, uses: &str) -> String {
     text
 }
 
-fn defaults(port: &Port<'_>) -> String {
-    let roots: Vec<_> =
-        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&Fortran, &roots, Place::Parameters);
+fn defaults(port: &Port<'_>, body: &Body) -> String {
     let mut text =
         "  !> The parameters of the field file, or those that were set in their place.\n  \
                     pure function default_parameters() result(parameters)\n    \
                     type(parameters_type) :: parameters\n"
             .to_string();
-    text += &statements(&body, "type(wide)", "");
+    text += &statements(body, "type(wide)", "");
     if port.parameters.is_empty() {
         text += "    parameters = parameters_type()\n";
     }
@@ -144,17 +144,15 @@ fn defaults(port: &Port<'_>) -> String {
     text + "  end function default_parameters\n"
 }
 
-fn prepare(port: &Port<'_>) -> String {
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&Fortran, &roots, Place::Parameters);
-    let reads = body.statements.iter().any(|statement| statement.contains("parameters%"));
+fn prepare(port: &Port<'_>, body: &Body) -> String {
+    let reads = body.reads_parameters();
     let mut text = "  !> Computes once what only the parameters determine.\n  \
                     pure function prepare(parameters) result(field)\n    \
                     type(parameters_type), intent(in) :: parameters\n    \
                     type(field_type) :: field\n"
         .to_string();
-    text += &statements(&body, "type(wide)", &unused(if reads { &[] } else { &["parameters"] }));
-    if roots.is_empty() {
+    text += &statements(body, "type(wide)", &unused(if reads { &[] } else { &["parameters"] }));
+    if body.results.is_empty() {
         text += "    field = field_type()\n";
     }
     for (value, result) in port.kept.iter().zip(&body.results) {
@@ -167,8 +165,7 @@ fn prepare(port: &Port<'_>) -> String {
     text + "  end function prepare\n"
 }
 
-fn at_time(port: &Port<'_>) -> String {
-    let body = port.body(&Fortran, &port.kept_at_times, Place::Times);
+fn at_time(port: &Port<'_>, body: &Body) -> String {
     let mut idle = Vec::new();
     idle.extend((!body.reads_kept).then_some("field"));
     idle.extend(body.inputs.is_empty().then_some("t"));
@@ -177,7 +174,7 @@ fn at_time(port: &Port<'_>) -> String {
                     type(field_type), intent(in) :: field\n    real(wp), intent(in) :: t\n    \
                     type(instant_type) :: now\n"
         .to_string();
-    text += &statements(&body, "type(wide)", &unused(&idle));
+    text += &statements(body, "type(wide)", &unused(&idle));
     if port.kept_at_times.is_empty() {
         text += "    now = instant_type()\n";
     }
@@ -188,9 +185,7 @@ fn at_time(port: &Port<'_>) -> String {
 }
 
 /// An elemental procedure: of one point, or of arrays of any shape.
-fn of_points(port: &Port<'_>, callable: &Callable) -> String {
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&Fortran, port.values(callable.output), place);
+fn of_points(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let (subject, kind) = match callable.time {
         true => ("now", "instant_type"),
         false => ("field", "field_type"),
@@ -220,7 +215,7 @@ fn of_points(port: &Port<'_>, callable: &Callable) -> String {
     text += &declared("real(wp), intent(in)", &inputs, "    ");
     text +=
         &declared(if is_scalar { "real(wp)" } else { "real(wp), intent(out)" }, &results, "    ");
-    text += &statements(&body, "real(wp)", &unused(&idle));
+    text += &statements(body, "real(wp)", &unused(&idle));
     for (component, value) in results.iter().zip(&body.results) {
         let _ = writeln!(text, "    {component} = {value}");
     }
@@ -230,15 +225,14 @@ fn of_points(port: &Port<'_>, callable: &Callable) -> String {
 }
 
 /// A part of the domain.
-fn of_no_point(port: &Port<'_>, callable: &Callable, is_scalar: bool) -> String {
-    let body = port.body(&Fortran, port.values(callable.output), Place::Points { timed: false });
+fn of_no_point(port: &Port<'_>, callable: &Callable, body: &Body, is_scalar: bool) -> String {
     let name = &callable.name;
     let count = callable.components.len();
     let shape = if is_scalar { String::new() } else { format!("({count})") };
     let mut text = documented(&callable.documentation(port.dimension()), "  ");
     let _ = writeln!(text, "  pure function {name}(field) result(out)");
     let _ = writeln!(text, "    type(field_type), intent(in) :: field\n    real(wp) :: out{shape}");
-    text += &statements(&body, "real(wp)", &unused(if body.reads_kept { &[] } else { &["field"] }));
+    text += &statements(body, "real(wp)", &unused(if body.reads_kept { &[] } else { &["field"] }));
     match is_scalar {
         true => {
             let _ = writeln!(text, "    out = {}", body.results[0]);

@@ -2,6 +2,7 @@
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -10,7 +11,7 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Julia;
 
 impl Dialect for Julia {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, _calls: &mut Calls) -> String {
         match (wide, parts(number)) {
             (true, (high, 0.0)) => format!("wide({})", decimal(high)),
             (true, (high, low)) => format!("wide({}, {})", decimal(high), decimal(low)),
@@ -18,11 +19,11 @@ impl Dialect for Julia {
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
+    fn pi(&self, wide: bool, _calls: &mut Calls) -> String {
         if wide { "BigFloat(pi)".into() } else { "T(pi)".into() }
     }
 
-    fn widened(&self, value: &str) -> String {
+    fn widened(&self, value: &str, _calls: &mut Calls) -> String {
         format!("wide({value})")
     }
 

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use super::dialect::Julia;
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Body, local};
 use crate::port::callable::Callable;
 use crate::port::faces::DOC;
 use crate::port::number::decimal;
-use crate::text::{listed, wrapped};
+use crate::text::{indented, listed, wrapped};
 use mms_program::Value;
 use mms_spec::quantity::Shape;
 
@@ -41,10 +41,11 @@ pub(super) fn text(port: &Port<'_>) -> String {
     );
     let (_, support) = POINT.split_once("\n\n").unwrap_or_default();
     text += support;
-    text += &prepare(port);
-    text += &at_time(port);
-    for callable in &port.callables {
-        text += &function(port, callable);
+    let bodies = port.bodies(&Julia);
+    text += &prepare(port, &bodies.prepare);
+    text += &at_time(&bodies.at_time);
+    for (callable, body) in port.with_bodies(&bodies) {
+        text += &function(port, callable, body);
     }
     text + "\nend\n"
 }
@@ -111,10 +112,6 @@ fn bracketed(open: &str, items: &[String], close: &str) -> String {
     }
 }
 
-fn indented(statements: &[String], by: usize) -> String {
-    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
-}
-
 /// The call of a constructor within digits enough.
 fn constructed(
     head: &str,
@@ -134,9 +131,7 @@ fn constructed(
     )
 }
 
-fn prepare(port: &Port<'_>) -> String {
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&Julia, &roots, Place::Parameters);
+fn prepare(port: &Port<'_>, body: &Body) -> String {
     let mut items: Vec<String> = body.results[..port.kept.len()].to_vec();
     items.extend(port.kept_wide.iter().map(|value| local(*value, true)));
     constructed(
@@ -148,8 +143,7 @@ fn prepare(port: &Port<'_>) -> String {
     )
 }
 
-fn at_time(port: &Port<'_>) -> String {
-    let body = port.body(&Julia, &port.kept_at_times, Place::Times);
+fn at_time(body: &Body) -> String {
     constructed(
         "at_time(field::Field{T}, t) where {T}",
         "Computes once what the parameters and the time determine.",
@@ -159,9 +153,7 @@ fn at_time(port: &Port<'_>) -> String {
     )
 }
 
-fn function(port: &Port<'_>, callable: &Callable) -> String {
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&Julia, port.values(callable.output), place);
+fn function(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let owner = if callable.time { "now::Instant{T}" } else { "field::Field{T}" };
     let mut arguments = vec![owner.to_string()];
     arguments.extend(callable.input_names());

@@ -2,6 +2,7 @@
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::nearest;
+use crate::port::support::Calls;
 use mms_program::Value;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -10,14 +11,14 @@ pub struct Karamelo<'a>(pub &'a str);
 
 impl Dialect for Karamelo<'_> {
     /// Without an exponent, which not all versions read.
-    fn literal(&self, number: &Rational, _wide: bool) -> String {
+    fn literal(&self, number: &Rational, _wide: bool, _calls: &mut Calls) -> String {
         match nearest(number) {
             value if value < 0.0 => format!("(0-{})", -value),
             value => format!("{value}"),
         }
     }
 
-    fn pi(&self, _wide: bool) -> String {
+    fn pi(&self, _wide: bool, _calls: &mut Calls) -> String {
         "PI".into()
     }
 
@@ -31,7 +32,7 @@ impl Dialect for Karamelo<'_> {
         }
     }
 
-    fn widened(&self, value: &str) -> String {
+    fn widened(&self, value: &str, _calls: &mut Calls) -> String {
         value.into()
     }
 
@@ -54,7 +55,7 @@ impl Dialect for Karamelo<'_> {
         }
     }
 
-    fn negated(&self, a: &str, _wide: bool) -> String {
+    fn negated(&self, a: &str, _wide: bool, _calls: &mut Calls) -> String {
         format!("0-{a}")
     }
 

@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 
 use self::dialect::Karamelo;
 use crate::port::Port;
-use crate::port::body::Place;
+use crate::port::body::Context;
 use crate::port::callable::Callable;
 use crate::port::names::Rules;
 use crate::python::module::comment;
@@ -74,7 +74,7 @@ fn text(port: &Port<'_>) -> String {
         port.callables.iter().filter(|callable| callable.is_of_places()).collect();
     let roots: Vec<Value> =
         callables.iter().flat_map(|callable| port.values(callable.output)).copied().collect();
-    let body = port.body(&Karamelo(name), &roots, Place::Everything);
+    let body = port.body(&Karamelo(name), &roots, Context::Everything);
     let mut header = port.header();
     header.push(format!(
         "Variables for an input file. Quantities are of the reference position x0, y0, z0 and of the time, and stand at the end; names with a number are steps on the way. Karamelo computes them in single precision. {name}_check.py checks the formulas."

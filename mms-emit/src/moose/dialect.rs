@@ -3,20 +3,21 @@
 use super::leaf;
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_symbolic::expr::{Function, Rational};
 
 /// How statements are written in a ParsedFunction.
 pub struct Moose;
 
 impl Dialect for Moose {
-    fn literal(&self, number: &Rational, _wide: bool) -> String {
+    fn literal(&self, number: &Rational, _wide: bool, _calls: &mut Calls) -> String {
         match nearest(number) {
             value if value < 0.0 => format!("({})", decimal(value)),
             value => decimal(value),
         }
     }
 
-    fn pi(&self, _wide: bool) -> String {
+    fn pi(&self, _wide: bool, _calls: &mut Calls) -> String {
         decimal(std::f64::consts::PI)
     }
 
@@ -24,7 +25,7 @@ impl Dialect for Moose {
         leaf(name)
     }
 
-    fn widened(&self, value: &str) -> String {
+    fn widened(&self, value: &str, _calls: &mut Calls) -> String {
         value.into()
     }
 
@@ -49,7 +50,7 @@ impl Dialect for Moose {
 
     /// Half turns are taken off without error, each of which changes the sign.
     fn call(&self, function: Function, arguments: &[String]) -> String {
-        let (x, pi) = (&arguments[0], self.pi(false));
+        let (x, pi) = (&arguments[0], decimal(std::f64::consts::PI));
         let turns = format!("floor({x} + 0.5)");
         let sign = format!("(1 - 2*({turns} - 2*floor(0.5*{turns})))");
         match function {

@@ -6,12 +6,13 @@
 mod check;
 mod dialect;
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 pub(super) use self::check::functions;
 use self::dialect::Moose;
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Context, local};
 use crate::port::callable::input;
 use crate::port::names::Rules;
 use crate::port::number::decimal;
@@ -77,15 +78,22 @@ fn text(port: &Port<'_>) -> String {
     let roots: Vec<Value> =
         places.clone().flat_map(|callable| port.values(callable.output)).copied().collect();
     let apart = apart(port, &roots);
-    let mut blocks = String::new();
+    let (mut blocks, mut read) = (String::new(), BTreeSet::new());
     for value in (0..apart.len()).filter(|index| apart[*index]) {
-        blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart);
+        blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart, &mut read);
     }
     for callable in places {
         let doc = callable.documentation(port.dimension());
         let values = port.values(callable.output);
         for (suffix, value) in callable.suffixes(port.dimension()).iter().zip(values) {
-            blocks += &block(port, &format!("{}{suffix}", callable.name), &doc, *value, &apart);
+            blocks += &block(
+                port,
+                &format!("{}{suffix}", callable.name),
+                &doc,
+                *value,
+                &apart,
+                &mut read,
+            );
         }
     }
     let mut header = port.header();
@@ -96,7 +104,7 @@ fn text(port: &Port<'_>) -> String {
     let defaults = &port.subject.vectors().defaults;
     for ((index, parameter), default) in port.parameters.iter().zip(defaults) {
         // MOOSE refuses what nobody reads.
-        if blocks.contains(&format!("${{{name}_{parameter}}}")) {
+        if read.contains(index) {
             text += "\n";
             text += &comment(&[port.parameter_doc(*index)], "");
             let _ = writeln!(text, "{name}_{parameter} = {}", decimal(*default));
@@ -121,8 +129,15 @@ fn apart(port: &Port<'_>, roots: &[Value]) -> Vec<bool> {
     apart
 }
 
-/// The block of one value.
-fn block(port: &Port<'_>, name: &str, doc: &str, value: Value, apart: &[bool]) -> String {
+/// The block of one value, which adds the parameters that it reads.
+fn block(
+    port: &Port<'_>,
+    name: &str,
+    doc: &str,
+    value: Value,
+    apart: &[bool],
+    read: &mut BTreeSet<usize>,
+) -> String {
     let program = port.program();
     let mut needed = vec![false; program.instrs.len()];
     let mut open: Vec<Value> = vec![value];
@@ -139,17 +154,21 @@ fn block(port: &Port<'_>, name: &str, doc: &str, value: Value, apart: &[bool]) -
     }
     known.sort();
     known.dedup();
-    let read = program.instrs.iter().zip(&needed).filter(|(_, needed)| **needed);
-    let parameters = read.filter_map(|(instr, _)| match instr.op {
-        Op::Input(Symbol::Parameter(index)) => Some(&port.parameters[&index]),
+    let here = program.instrs.iter().zip(&needed).filter(|(_, needed)| **needed);
+    let parameters = here.filter_map(|(instr, _)| match instr.op {
+        Op::Input(Symbol::Parameter(index)) => Some(index),
         _ => None,
     });
     let field = &port.name;
-    let (mut symbols, mut values): (Vec<String>, Vec<String>) =
-        parameters.map(|it| (format!("p_{it}"), format!("${{{field}_{it}}}"))).unzip();
+    let (mut symbols, mut values) = (Vec::new(), Vec::new());
+    for index in parameters {
+        read.insert(index);
+        symbols.push(format!("p_{}", port.parameters[&index]));
+        values.push(format!("${{{field}_{}}}", port.parameters[&index]));
+    }
     symbols.extend(known.iter().map(|value| local(*value, false)));
     values.extend(known.iter().map(|value| format!("{field}_{}", local(*value, false))));
-    let body = port.body_of(&Moose, &[value], Place::Everything, needed);
+    let body = port.body_of(&Moose, &[value], Context::Everything, needed);
     let mut text = format!("  [{field}_{name}]\n");
     if !doc.is_empty() {
         text += &comment(&[doc.to_string()], "    ");

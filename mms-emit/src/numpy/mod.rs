@@ -1,6 +1,6 @@
 //! Python: a module over NumPy arrays of any shape. Its printer is that of `python`.
 
-use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;
 
 /// Python with NumPy.
@@ -8,6 +8,6 @@ pub const TARGET: Target = Target {
     name: "numpy",
     alias: None,
     doc: "Python: a module over NumPy arrays, which broadcasts, and a check program",
-    emit: |subject| bundle(subject, PythonForm::NumPy),
+    emit: |subject| bundle(subject, Library::NumPy),
     words: PYTHON.words,
 };

@@ -2,6 +2,7 @@
 
 use crate::port::body::{Arithmetic, Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -9,7 +10,7 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Octave;
 
 impl Dialect for Octave {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, _calls: &mut Calls) -> String {
         match (wide, parts(number)) {
             (true, (high, low)) => format!("[{}, {}]", decimal(high), decimal(low)),
             (false, (value, _)) if value < 0.0 => format!("({})", decimal(value)),
@@ -17,12 +18,12 @@ impl Dialect for Octave {
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
-        if wide { "wide_pi()".into() } else { "pi".into() }
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
+        if wide { format!("{}()", calls.to("wide_pi")) } else { "pi".into() }
     }
 
-    fn widened(&self, value: &str) -> String {
-        format!("wide_of(double({value}))")
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
+        format!("{}(double({value}))", calls.to("wide_of"))
     }
 
     fn narrowed(&self, value: &str) -> String {
@@ -42,14 +43,21 @@ impl Dialect for Octave {
         name.into()
     }
 
-    fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, wide: bool) -> String {
+    fn arithmetic(
+        &self,
+        operation: Arithmetic,
+        a: &str,
+        b: &str,
+        wide: bool,
+        calls: &mut Calls,
+    ) -> String {
         let (wide_name, sign) = match operation {
             Arithmetic::Add => ("wide_add", "+"),
             Arithmetic::Subtract => ("wide_sub", "-"),
             Arithmetic::Multiply => ("wide_mul", ".*"),
             Arithmetic::Divide => ("wide_div", "./"),
         };
-        if wide { format!("{wide_name}({a}, {b})") } else { format!("{a} {sign} {b}") }
+        if wide { format!("{}({a}, {b})", calls.to(wide_name)) } else { format!("{a} {sign} {b}") }
     }
 
     fn statement(&self, name: &str, value: &str, _wide: bool) -> String {

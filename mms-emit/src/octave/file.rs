@@ -5,19 +5,24 @@ use std::fmt::Write as _;
 use super::comment;
 use super::dialect::Octave;
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Body, local};
 use crate::port::callable::Callable;
-use crate::port::support::Support;
-use mms_mechanics::Output;
+use crate::port::support::{Calls, Support};
+use crate::text::indented;
 
 const WIDE: &str = include_str!("support/wide.m");
 const POINT: &str = include_str!("support/point.m");
 
 /// The text of `FIELD.m`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let functions = defaults(port) + &prepare(port) + &at_time(port) + &evaluations(port);
-    let needed = |text| Support::new(text, &["%"]).needed(&functions);
-    let mut text = face(port) + &functions;
+    let bodies = port.bodies(&Octave);
+    let mut calls = bodies.calls();
+    let mut text = face(port) + &defaults(port, &bodies.defaults);
+    text += &(prepare(port, &bodies.prepare) + &at_time(port, &bodies.at_time));
+    for (callable, body) in port.with_bodies(&bodies) {
+        text += &evaluation(callable, body, &mut calls);
+    }
+    let needed = |text| Support::new(text, &["%"]).needed(&calls);
     for block in needed(POINT).into_iter().chain(needed(WIDE)) {
         let _ = write!(text, "\n{block}\n");
     }
@@ -68,16 +73,9 @@ fn usage(callable: &Callable) -> String {
     format!("{} = f.{}({})", results(callable), callable.name, arguments(callable))
 }
 
-fn indented(statements: &[String]) -> String {
-    statements.iter().map(|statement| format!("  {statement}\n")).collect()
-}
-
-fn defaults(port: &Port<'_>) -> String {
-    let roots: Vec<_> =
-        port.parameters.keys().map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&Octave, &roots, Place::Parameters);
+fn defaults(port: &Port<'_>, body: &Body) -> String {
     let mut text = "\nfunction parameters = default_parameters()\n".to_string();
-    text += &indented(&body.statements);
+    text += &indented(&body.statements, 2);
     text += "  parameters = struct();\n";
     for ((index, name), value) in port.parameters.iter().zip(&body.results) {
         text += &comment(&[port.parameter_doc(*index)], "  ");
@@ -86,11 +84,9 @@ fn defaults(port: &Port<'_>) -> String {
     text + "end\n"
 }
 
-fn prepare(port: &Port<'_>) -> String {
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&Octave, &roots, Place::Parameters);
+fn prepare(port: &Port<'_>, body: &Body) -> String {
     let mut text = "\nfunction field = prepare(parameters)\n".to_string();
-    text += &indented(&body.statements);
+    text += &indented(&body.statements, 2);
     text += "  field = struct();\n";
     for (value, result) in port.kept.iter().zip(&body.results) {
         let _ = writeln!(text, "  field.{} = {result};", local(*value, false));
@@ -101,10 +97,9 @@ fn prepare(port: &Port<'_>) -> String {
     text + "end\n"
 }
 
-fn at_time(port: &Port<'_>) -> String {
-    let body = port.body(&Octave, &port.kept_at_times, Place::Times);
+fn at_time(port: &Port<'_>, body: &Body) -> String {
     let mut text = "\nfunction now = at_time(field, t)\n".to_string();
-    text += &indented(&body.statements);
+    text += &indented(&body.statements, 2);
     text += "  now = struct();\n";
     for (value, result) in port.kept_at_times.iter().zip(&body.results) {
         let _ = writeln!(text, "  now.{} = {result};", local(*value, false));
@@ -112,25 +107,20 @@ fn at_time(port: &Port<'_>) -> String {
     text + "end\n"
 }
 
-fn evaluations(port: &Port<'_>) -> String {
-    port.callables.iter().map(|callable| evaluation(port, callable)).collect()
-}
-
-fn evaluation(port: &Port<'_>, callable: &Callable) -> String {
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&Octave, port.values(callable.output), place);
+fn evaluation(callable: &Callable, body: &Body, calls: &mut Calls) -> String {
     let mut text = format!(
         "\nfunction {} = evaluate_{}({})\n",
         results(callable),
         callable.name,
         arguments(callable)
     );
-    text += &indented(&body.statements);
+    text += &indented(&body.statements, 2);
     if callable.is_of_points() {
+        let shaped = calls.to("shaped");
         let like = callable.input_names().join(" + ");
         let _ = writeln!(text, "  like = {like};");
         for (component, result) in callable.components.iter().zip(&body.results) {
-            let _ = writeln!(text, "  {component} = shaped({result}, like);");
+            let _ = writeln!(text, "  {component} = {shaped}({result}, like);");
         }
     } else {
         let value = match body.results.as_slice() {

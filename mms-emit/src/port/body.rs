@@ -1,7 +1,9 @@
 //! One printer of instructions for all languages.
 
-use super::callable::input;
+use super::callable::{Callable, input};
+use super::support::Calls;
 use super::{AT_POINTS, Port};
+use mms_mechanics::Output;
 use mms_program::{Op, Stage, Value};
 use mms_symbolic::expr::{Function, Rational, Symbol};
 
@@ -61,44 +63,28 @@ pub fn in_c_library(function: Function) -> Option<&'static str> {
         Function::ExpM1 => Some("expm1"),
         Function::Powf => Some("pow"),
         Function::Ln1pRest
-        | Function::SinNearZero
-        | Function::CosNearZero
-        | Function::SinWithinOne
-        | Function::CosWithinOne
         | Function::SinPi
         | Function::CosPi
         | Function::WithinTurns
-        | Function::WithinTurnsPi
-        | Function::Offset => None,
-        Function::Sqrt
-        | Function::Cbrt
-        | Function::Exp
-        | Function::Sin
-        | Function::Cos
-        | Function::Tan
-        | Function::Sinh
-        | Function::Cosh
-        | Function::Tanh
-        | Function::Asin
-        | Function::Acos
-        | Function::Atan
-        | Function::Atan2 => Some(function.name()),
+        | Function::WithinTurnsPi => None,
+        other => Some(other.name()),
     }
 }
 
 /// How a language writes what programs are made of. `wide` says that a number has twice the digits of
-/// a double.
+/// a double. What is written with a function of the support text records it in `calls`; the printer
+/// itself records functions of programs.
 pub trait Dialect {
     /// A constant as an operand; one below 0 stands in brackets.
-    fn literal(&self, number: &Rational, wide: bool) -> String;
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String;
     /// pi.
-    fn pi(&self, wide: bool) -> String;
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String;
     /// What supplies a leaf in the function that is being written.
     fn input(&self, name: &str) -> String {
         name.into()
     }
     /// A number of the caller with twice the digits.
-    fn widened(&self, value: &str) -> String;
+    fn widened(&self, value: &str, calls: &mut Calls) -> String;
     /// The nearest number of the caller's precision.
     fn narrowed(&self, value: &str) -> String;
     /// A member of an argument.
@@ -118,11 +104,18 @@ pub trait Dialect {
         format!("wide_{}", function.name())
     }
     /// Arithmetic.
-    fn arithmetic(&self, operation: Arithmetic, a: &str, b: &str, _wide: bool) -> String {
+    fn arithmetic(
+        &self,
+        operation: Arithmetic,
+        a: &str,
+        b: &str,
+        _wide: bool,
+        _calls: &mut Calls,
+    ) -> String {
         format!("{a} {} {b}", operation.sign())
     }
     /// -a.
-    fn negated(&self, a: &str, _wide: bool) -> String {
+    fn negated(&self, a: &str, _wide: bool, _calls: &mut Calls) -> String {
         format!("-{a}")
     }
     /// What a value is called in the function that computes it.
@@ -133,9 +126,9 @@ pub trait Dialect {
     fn statement(&self, name: &str, value: &str, wide: bool) -> String;
 }
 
-/// Which function is being written, and so where operands are.
+/// Which function is being printed, and so where its operands are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Context {
     /// That which prepares a field.
     Parameters,
     /// That which goes to a time.
@@ -149,18 +142,18 @@ pub enum Place {
     Everything,
 }
 
-impl Place {
+impl Context {
     fn computes(self, stage: Stage) -> bool {
         match self {
-            Place::Parameters => stage == Stage::Parameter,
-            Place::Times => stage == Stage::Time,
-            Place::Points { .. } => AT_POINTS.contains(&stage),
-            Place::Everything => true,
+            Context::Parameters => stage == Stage::Parameter,
+            Context::Times => stage == Stage::Time,
+            Context::Points { .. } => AT_POINTS.contains(&stage),
+            Context::Everything => true,
         }
     }
 
     fn is_wide(self) -> bool {
-        matches!(self, Place::Parameters | Place::Times)
+        matches!(self, Context::Parameters | Context::Times)
     }
 }
 
@@ -181,11 +174,77 @@ pub struct Body {
     pub inputs: Vec<Symbol>,
     /// Whether it reads what an earlier stage kept.
     pub reads_kept: bool,
+    /// Whether its statements compute with twice the digits.
+    pub is_wide: bool,
+    /// The functions that it calls.
+    pub calls: Calls,
+}
+
+impl Body {
+    /// Whether it reads a parameter.
+    pub fn reads_parameters(&self) -> bool {
+        self.inputs.iter().any(|symbol| matches!(symbol, Symbol::Parameter(_)))
+    }
+}
+
+/// The bodies of all functions of a field.
+pub struct Bodies {
+    /// That which computes the default of each parameter.
+    pub defaults: Body,
+    /// That which prepares a field: what is kept, then what is kept with twice the digits.
+    pub prepare: Body,
+    /// That which goes to a time.
+    pub at_time: Body,
+    /// Those of the port's other functions, one each.
+    pub callables: Vec<Body>,
+}
+
+impl Bodies {
+    fn all(&self) -> impl Iterator<Item = &Body> {
+        [&self.defaults, &self.prepare, &self.at_time].into_iter().chain(&self.callables)
+    }
+
+    /// The functions that any of them calls.
+    pub fn calls(&self) -> Calls {
+        let mut calls = Calls::default();
+        self.all().for_each(|body| calls.extend(&body.calls));
+        calls
+    }
+
+    /// Whether any of them computes with twice the digits.
+    pub fn are_wide(&self) -> bool {
+        self.all().any(|body| body.is_wide)
+    }
 }
 
 impl Port<'_> {
+    /// The bodies of all functions in a language.
+    pub fn bodies(&self, dialect: &dyn Dialect) -> Bodies {
+        let defaults = self.parameters.keys().map(|it| self.values(Output::Parameter(*it))[0]);
+        let defaults: Vec<Value> = defaults.collect();
+        let kept: Vec<Value> = self.kept.iter().chain(&self.kept_wide).copied().collect();
+        let of = |callable: &Callable| {
+            let place = Context::Points { timed: callable.time };
+            self.body(dialect, self.values(callable.output), place)
+        };
+        Bodies {
+            defaults: self.body(dialect, &defaults, Context::Parameters),
+            prepare: self.body(dialect, &kept, Context::Parameters),
+            at_time: self.body(dialect, &self.kept_at_times, Context::Times),
+            callables: self.callables.iter().map(of).collect(),
+        }
+    }
+
+    /// The functions of a field, each with its body.
+    pub fn with_bodies<'a>(
+        &'a self,
+        bodies: &'a Bodies,
+    ) -> impl Iterator<Item = (&'a Callable, &'a Body)> {
+        self.callables.iter().zip(&bodies.callables)
+    }
+
     /// What computes `roots` in a function, as they are kept or returned.
-    pub fn body(&self, dialect: &dyn Dialect, roots: &[Value], place: Place) -> Body {
+    pub fn body(&self, dialect: &dyn Dialect, roots: &[Value], place: Context) -> Body {
         self.body_of(dialect, roots, place, self.program().needed_for(roots.iter().copied()))
     }
 
@@ -194,106 +253,126 @@ impl Port<'_> {
         &self,
         dialect: &dyn Dialect,
         roots: &[Value],
-        place: Place,
+        place: Context,
         needed: Vec<bool>,
     ) -> Body {
         let program = self.program();
         let computed =
             |index: &usize| needed[*index] && place.computes(program.instrs[*index].stage);
-        let mut body = Body {
-            statements: Vec::new(),
-            locals: Vec::new(),
-            results: roots.iter().map(|root| self.result(dialect, *root, place)).collect(),
-            inputs: Vec::new(),
-            reads_kept: false,
-        };
+        let wide = place.is_wide() && dialect.has_wide();
+        let mut printer = Printer { port: self, dialect, place, wide, calls: Calls::default() };
+        let (mut statements, mut locals) = (Vec::new(), Vec::new());
+        let results = roots.iter().map(|root| printer.result(*root)).collect();
         let mut read: Vec<Value> = roots.to_vec();
         for index in (0..program.instrs.len()).filter(computed) {
             let instr = &program.instrs[index];
             read.extend(instr.op.operands());
-            let Some(value) = self.operation(dialect, &instr.op, place) else { continue };
-            let wide = place.is_wide() && dialect.has_wide();
+            let Some(value) = printer.operation(&instr.op) else { continue };
             let name = dialect.local(Value(index as u32), wide);
-            body.statements.push(dialect.statement(&name, &value, wide));
-            body.locals.push(name);
+            statements.push(dialect.statement(&name, &value, wide));
+            locals.push(name);
         }
+        let (mut inputs, mut reads_kept) = (Vec::new(), false);
         for value in read {
             let instr = program.instr(value);
             match instr.op {
                 Op::Constant(_) | Op::Pi => {}
-                Op::Input(symbol) if place.computes(instr.stage) => body.inputs.push(symbol),
-                _ => body.reads_kept |= !place.computes(instr.stage),
+                Op::Input(symbol) if place.computes(instr.stage) => inputs.push(symbol),
+                _ => reads_kept |= !place.computes(instr.stage),
             }
         }
-        body.inputs.sort();
-        body.inputs.dedup();
-        body
+        inputs.sort();
+        inputs.dedup();
+        let is_wide = wide && !statements.is_empty();
+        Body { statements, locals, results, inputs, reads_kept, is_wide, calls: printer.calls }
     }
+}
 
+/// What prints the instructions of one function, and records what they call.
+struct Printer<'a> {
+    port: &'a Port<'a>,
+    dialect: &'a dyn Dialect,
+    place: Context,
+    wide: bool,
+    calls: Calls,
+}
+
+impl Printer<'_> {
     /// The right side of a statement; none where the value needs no statement.
-    fn operation(&self, dialect: &dyn Dialect, op: &Op, place: Place) -> Option<String> {
-        let wide = place.is_wide() && dialect.has_wide();
-        let of = |value: &Value| self.operand(dialect, *value, place);
-        let call = |function, arguments: &[String]| match wide {
-            true => format!("{}({})", dialect.wide_function(function), arguments.join(", ")),
-            false => dialect.call(function, arguments),
-        };
-        let arithmetic = |operation, a: &Value, b: &Value| {
-            Some(dialect.arithmetic(operation, &of(a), &of(b), wide))
-        };
+    fn operation(&mut self, op: &Op) -> Option<String> {
         match op {
             Op::Constant(_) | Op::Pi => None,
             Op::Input(Symbol::Parameter(index)) => {
-                Some(dialect.widened(&dialect.member(Owner::Parameters, &self.parameters[index])))
+                let parameter =
+                    self.dialect.member(Owner::Parameters, &self.port.parameters[index]);
+                Some(self.dialect.widened(&parameter, &mut self.calls))
             }
             Op::Input(_) => None,
-            Op::Add(a, b) => arithmetic(Arithmetic::Add, a, b),
-            Op::Subtract(a, b) => arithmetic(Arithmetic::Subtract, a, b),
-            Op::Multiply(a, b) => arithmetic(Arithmetic::Multiply, a, b),
-            Op::Divide(a, b) => arithmetic(Arithmetic::Divide, a, b),
-            Op::Negate(a) => Some(dialect.negated(&of(a), wide)),
-            Op::Unary(function, a) => Some(call(*function, &[of(a)])),
-            Op::Binary(function, a, b) => Some(call(*function, &[of(a), of(b)])),
+            Op::Add(a, b) => self.arithmetic(Arithmetic::Add, *a, *b),
+            Op::Subtract(a, b) => self.arithmetic(Arithmetic::Subtract, *a, *b),
+            Op::Multiply(a, b) => self.arithmetic(Arithmetic::Multiply, *a, *b),
+            Op::Divide(a, b) => self.arithmetic(Arithmetic::Divide, *a, *b),
+            Op::Negate(a) => {
+                let a = self.operand(*a);
+                Some(self.dialect.negated(&a, self.wide, &mut self.calls))
+            }
+            // What is proved of an angle is no use to functions of other languages.
+            Op::Unary(function, _, a) => Some(self.call(*function, &[*a])),
+            Op::Binary(function, a, b) => Some(self.call(*function, &[*a, *b])),
         }
     }
 
+    fn arithmetic(&mut self, operation: Arithmetic, a: Value, b: Value) -> Option<String> {
+        let (a, b) = (self.operand(a), self.operand(b));
+        Some(self.dialect.arithmetic(operation, &a, &b, self.wide, &mut self.calls))
+    }
+
+    fn call(&mut self, function: Function, arguments: &[Value]) -> String {
+        let arguments: Vec<String> = arguments.iter().map(|value| self.operand(*value)).collect();
+        if self.wide {
+            let name = self.dialect.wide_function(function);
+            return format!("{}({})", self.calls.to(&name), arguments.join(", "));
+        }
+        self.calls.to(&self.dialect.function(function));
+        self.dialect.call(function, &arguments)
+    }
+
     /// How a function reads a value: a literal, a local, an argument, or what an earlier stage kept.
-    fn operand(&self, dialect: &dyn Dialect, value: Value, place: Place) -> String {
-        let wide = place.is_wide() && dialect.has_wide();
-        let instr = self.program().instr(value);
+    fn operand(&mut self, value: Value) -> String {
+        let (dialect, place, wide) = (self.dialect, self.place, self.wide);
+        let instr = self.port.program().instr(value);
         match &instr.op {
-            Op::Constant(number) => return dialect.literal(number, wide),
-            Op::Pi => return dialect.pi(wide),
+            Op::Constant(number) => return dialect.literal(number, wide, &mut self.calls),
+            Op::Pi => return dialect.pi(wide, &mut self.calls),
             Op::Input(symbol)
                 if place.computes(instr.stage) && !matches!(symbol, Symbol::Parameter(_)) =>
             {
                 let name = dialect.input(&input(*symbol));
-                return if wide { dialect.widened(&name) } else { name };
+                return if wide { dialect.widened(&name, &mut self.calls) } else { name };
             }
             _ => {}
         }
         let name = local(value, wide);
         match place {
             _ if place.computes(instr.stage) => dialect.local(value, wide),
-            Place::Points { timed: true } => dialect.member(Owner::Time, &name),
+            Context::Points { timed: true } => dialect.member(Owner::Time, &name),
             _ => dialect.member(Owner::Field, &name),
         }
     }
 
     /// A value in the caller's precision.
-    fn result(&self, dialect: &dyn Dialect, value: Value, place: Place) -> String {
-        let instr = self.program().instr(value);
+    fn result(&mut self, value: Value) -> String {
+        let dialect = self.dialect;
+        let instr = self.port.program().instr(value);
         match &instr.op {
-            Op::Constant(number) => dialect.literal(number, false),
-            Op::Pi => dialect.pi(false),
-            Op::Input(Symbol::Time) if place == Place::Times => dialect.input("t"),
-            _ if place == Place::Times && instr.stage == Stage::Parameter => {
+            Op::Constant(number) => dialect.literal(number, false, &mut self.calls),
+            Op::Pi => dialect.pi(false, &mut self.calls),
+            Op::Input(Symbol::Time) if self.place == Context::Times => dialect.input("t"),
+            _ if self.place == Context::Times && instr.stage == Stage::Parameter => {
                 dialect.member(Owner::Field, &local(value, false))
             }
-            _ if place.is_wide() && dialect.has_wide() => {
-                dialect.narrowed(&self.operand(dialect, value, place))
-            }
-            _ => self.operand(dialect, value, place),
+            _ if self.wide => dialect.narrowed(&self.operand(value)),
+            _ => self.operand(value),
         }
     }
 }

@@ -6,9 +6,7 @@ use mms_mechanics::boundary::Datum;
 use mms_mechanics::{Bound, Output};
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
-
-/// The names of the coordinates.
-const AXES: [&str; 3] = ["X", "Y", "Z"];
+use mms_symbolic::expr::print::AXES;
 
 /// A function of an emitted field.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -113,7 +111,7 @@ pub fn input(symbol: Symbol) -> String {
         Symbol::Time => "t".into(),
         Symbol::Normal(axis) => format!("N{}", axis + 1),
         Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
-        Symbol::Parameter(_) | Symbol::Invariant(_) => {
+        Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
             unreachable!("a member of the parameters, or gone after derivation")
         }
     }

@@ -7,8 +7,6 @@
 //! a sum of positive terms; exp(x) - 1 is 2 exp(x/2) sinh(x/2), or a series of x/64 squared up. The lowered
 //! program is run by the interpreter in one precision, and its own errors decide what a check program accepts.
 
-use std::borrow::Cow;
-
 use mms_mechanics::Program;
 use mms_program::{Instr, Op, Stage, Value};
 use mms_symbolic::expr::{Function, Rational};
@@ -23,7 +21,7 @@ const SQUARINGS: u8 = 6;
 /// Terms of the series that are summed then.
 const TERMS: u8 = 10;
 
-/// A program of the same outputs in which only functions of `has` are called. Of angles nothing may be expected.
+/// A program of the same outputs in which only functions of `has` are called.
 pub fn lowered(program: &Program, has: &[Function]) -> Program {
     let mut lowering = Lowering { has, instrs: Vec::new(), stage: Stage::Parameter };
     let mut renamed: Vec<Value> = Vec::with_capacity(program.instrs.len());
@@ -31,7 +29,7 @@ pub fn lowered(program: &Program, has: &[Function]) -> Program {
         lowering.stage = instr.stage;
         let at = |value: &Value| renamed[value.index()];
         let value = match &instr.op {
-            Op::Unary(function, a) => lowering.call(*function, at(a)),
+            Op::Unary(function, _, a) => lowering.call(*function, at(a)),
             Op::Binary(function, a, b) => lowering.call_of_two(*function, at(a), at(b)),
             other => lowering.push(other.map(|value| at(&value))),
         };
@@ -40,19 +38,6 @@ pub fn lowered(program: &Program, has: &[Function]) -> Program {
     let values = |values: &Vec<Value>| values.iter().map(|it| renamed[it.index()]).collect();
     let outputs = program.outputs.iter().map(|(output, it)| (*output, values(it))).collect();
     Program { instrs: lowering.instrs, outputs }
-}
-
-/// A program in which nothing is expected of an angle: other languages' functions have no use for it.
-pub fn of_any_angle(program: &Program) -> Cow<'_, Program> {
-    let mut program = Cow::Borrowed(program);
-    for index in 0..program.instrs.len() {
-        if let Op::Unary(function, angle) = program.instrs[index].op
-            && function != function.of_any_argument()
-        {
-            program.to_mut().instrs[index].op = Op::Unary(function.of_any_argument(), angle);
-        }
-    }
-    program
 }
 
 struct Lowering<'a> {
@@ -103,7 +88,7 @@ impl Lowering<'_> {
 
     fn call(&mut self, function: Function, x: Value) -> Value {
         if self.has.contains(&function) && !function.takes_turns_off() {
-            return self.push(Op::Unary(function, x));
+            return self.push(Op::Unary(function, None, x));
         }
         match function {
             Function::Ln1p => {
@@ -170,13 +155,7 @@ impl Lowering<'_> {
             | Function::Tan => unreachable!("every language has {}", function.name()),
             // What is computed in one precision has lost its digits before.
             Function::WithinTurns | Function::WithinTurnsPi => x,
-            Function::SinNearZero
-            | Function::CosNearZero
-            | Function::SinWithinOne
-            | Function::CosWithinOne => unreachable!("angles may be any"),
-            Function::Atan2 | Function::Powf | Function::Offset => {
-                unreachable!("a function of two arguments")
-            }
+            Function::Atan2 | Function::Powf => unreachable!("a function of two arguments"),
         }
     }
 

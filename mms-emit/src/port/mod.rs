@@ -70,12 +70,12 @@ pub struct Port<'a> {
 impl<'a> Port<'a> {
     /// The field under the rules of a language.
     pub fn new(subject: &'a Subject<'a>, rules: &Rules) -> Self {
-        Self::of(subject, rules, lower::of_any_angle(&subject.compiled.program))
+        Self::of(subject, rules, Cow::Borrowed(&subject.compiled.program))
     }
 
     /// The same for a language that computes everything in one precision, with functions that it has.
     pub fn once(subject: &'a Subject<'a>, rules: &Rules, has: &[Function]) -> Self {
-        let lowered = lower::lowered(&lower::of_any_angle(&subject.compiled.program), has);
+        let lowered = lower::lowered(&subject.compiled.program, has);
         let mut port = Self::of(subject, rules, Cow::Owned(lowered));
         let mut kept = std::mem::take(&mut port.kept_wide);
         kept.append(&mut port.kept);

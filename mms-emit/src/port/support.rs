@@ -1,5 +1,31 @@
-//! The text that a language lacks: functions in its own words, of which only those are emitted that
-//! are called.
+//! The text that a language lacks: functions in its own words, of which only those are emitted that are called.
+//!
+//! What the code of a field calls is recorded while it is printed (`Calls`). What a support text calls itself is read
+//! from that text, which is ours and the same for every field.
+
+use std::collections::BTreeSet;
+
+/// The names that printed code calls.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Calls(BTreeSet<String>);
+
+impl Calls {
+    /// Records a name, and returns it to be printed.
+    pub fn to<'a>(&mut self, name: &'a str) -> &'a str {
+        self.0.insert(name.into());
+        name
+    }
+
+    /// Records what other code calls.
+    pub fn extend(&mut self, other: &Calls) {
+        self.0.extend(other.0.iter().cloned());
+    }
+
+    /// The names, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(String::as_str)
+    }
+}
 
 /// The parts of a support text: blocks between blank lines, two where the language leaves two, each the
 /// definition of one name.
@@ -17,20 +43,24 @@ impl Support {
         Support { blocks }
     }
 
-    /// The blocks that a text refers to, and those that they refer to, in their order.
-    pub fn needed(&self, text: &str) -> Vec<&'static str> {
+    /// The blocks that are called, and those that they call, in their order.
+    pub fn needed(&self, calls: &Calls) -> Vec<&'static str> {
         let mut needed = vec![false; self.blocks.len()];
-        let mut open = vec![text];
-        while let Some(text) = open.pop() {
+        let mut open: Vec<&str> = calls.names().collect();
+        while let Some(called) = open.pop() {
             for (index, (name, block)) in self.blocks.iter().enumerate() {
-                if !needed[index] && called(text).any(|word| word == name) {
-                    needed[index] = true;
-                    open.push(block);
+                if name == called && !std::mem::replace(&mut needed[index], true) {
+                    open.extend(names_in(block));
                 }
             }
         }
         let blocks = self.blocks.iter().zip(needed);
         blocks.filter(|(_, needed)| *needed).map(|((_, block), _)| *block).collect()
+    }
+
+    /// Whether a block defines one of the names.
+    pub fn defines_any(&self, calls: &Calls) -> bool {
+        calls.names().any(|called| self.blocks.iter().any(|(name, _)| name == called))
     }
 }
 
@@ -47,15 +77,15 @@ fn defined(block: &str, comment: &[&str]) -> Option<String> {
     words(before).last().map(String::from)
 }
 
-/// The names in a text but for those of members: they are a user's.
-fn called(text: &str) -> impl Iterator<Item = &str> {
-    words(text).filter(|word| {
-        let before = &text[..word.as_ptr() as usize - text.as_ptr() as usize];
+/// The names in a block but for those of members.
+pub fn names_in(block: &str) -> impl Iterator<Item = &str> {
+    words(block).filter(|word| {
+        let before = &block[..word.as_ptr() as usize - block.as_ptr() as usize];
         !(before.ends_with('.') || before.ends_with("->") || before.ends_with('%'))
     })
 }
 
-/// The names in a text.
+/// The words of a text.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
@@ -69,11 +99,14 @@ mod tests {
         let text = "#include <math.h>\n\n/* One. */\nstatic double one(void)\n{\n    return 1;\n}\n\n\
                     static double two(void)\n{\n    return one() + one();\n}\n\nstatic int other[3] = {0};\n";
         let support = Support::new(text, &["/*", "#"]);
-        assert_eq!(support.needed("x = two();").len(), 2);
-        assert_eq!(support.needed("x = one();").len(), 1);
-        assert_eq!(support.needed("other[0]").len(), 1);
-        for other in ["x = twofold();", "p.one", "p->one", "p%one"] {
-            assert!(support.needed(other).is_empty(), "{other}");
-        }
+        let needed = |name: &str| {
+            let mut calls = Calls::default();
+            assert_eq!(calls.to(name), name);
+            assert_eq!(support.defines_any(&calls), !support.needed(&calls).is_empty(), "{name}");
+            support.needed(&calls).len()
+        };
+        assert_eq!(["two", "one", "other", "twofold", "return"].map(needed), [2, 1, 1, 0, 0]);
+        let read: Vec<&str> = names_in("x = p.one + p->two + p%other").collect();
+        assert_eq!(read, ["x", "p", "p", "p"]);
     }
 }

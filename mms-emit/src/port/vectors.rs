@@ -100,7 +100,7 @@ impl Sample {
             Symbol::Time => self.time,
             Symbol::Normal(axis) => self.normal[axis],
             Symbol::Gradient(row, column) => self.gradient[row * self.coordinates.len() + column],
-            Symbol::Parameter(_) | Symbol::Invariant(_) => {
+            Symbol::Parameter(_) | Symbol::Invariant(_) | Symbol::Local(_) => {
                 unreachable!("no function takes one at a point")
             }
         }

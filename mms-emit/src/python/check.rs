@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::dialect::Form;
+use super::dialect::Library;
 use super::module::comment;
 use crate::port::Port;
 use crate::port::number::hexadecimal;
@@ -12,21 +12,21 @@ use crate::port::once::Once;
 pub(crate) const CHECK: &str = include_str!("support/check.py");
 
 /// The text of `FIELD_check.py`.
-pub(super) fn text(port: &Port<'_>, form: Form) -> String {
+pub(super) fn text(port: &Port<'_>, library: Library) -> String {
     let name = &port.name;
     let mut text = comment(&port.check_header(&format!("{name}.py")), "");
     text += "\nimport math\nimport sys\n\n";
-    text += match form {
-        Form::Math => "",
-        Form::NumPy => "import numpy as np\n\n",
-        Form::SymPy => "import sympy as sp\n\n",
-        Form::Ufl => {
+    text += match library {
+        Library::Math => "",
+        Library::NumPy => "import numpy as np\n\n",
+        Library::SymPy => "import sympy as sp\n\n",
+        Library::Ufl => {
             "import functools\n\nimport ufl\nfrom ufl.corealg.traversal import unique_post_traversal\n\n"
         }
     };
     let _ = write!(text, "import {name} as field\n\n");
-    text += match form {
-        Form::NumPy => {
+    text += match library {
+        Library::NumPy => {
             "# What is computed in: double precision, or what the first argument says, such as float32.\n\
             KIND = np.dtype(sys.argv[1] if len(sys.argv) > 1 else \"float64\")\n\
             EPS, LEAST = float(np.finfo(KIND).eps), float(np.finfo(KIND).tiny)\n\n"
@@ -35,13 +35,13 @@ pub(super) fn text(port: &Port<'_>, form: Form) -> String {
     };
     text += CHECK;
     text += &tables(port);
-    text += match form {
-        Form::Math => "\n",
-        Form::NumPy => include_str!("support/numpy_check.py"),
-        Form::SymPy => include_str!("support/sympy_check.py"),
-        Form::Ufl => include_str!("support/ufl_check.py"),
+    text += match library {
+        Library::Math => "\n",
+        Library::NumPy => include_str!("support/numpy_check.py"),
+        Library::SymPy => include_str!("support/sympy_check.py"),
+        Library::Ufl => include_str!("support/ufl_check.py"),
     };
-    text + &functions(port, form) + &program(port, form)
+    text + &functions(port, library) + &program(port, library)
 }
 
 /// The test vectors, as names of Python: `SETS`, `POINTS` and `EXPECTED`.
@@ -72,20 +72,20 @@ pub(crate) fn tables(port: &Port<'_>) -> String {
     text + "]\n"
 }
 
-/// The accepted errors of what a form computes: what the formulas lose in one precision is up to a port
+/// The accepted errors of what a library computes: what the formulas lose in one precision is up to a port
 /// that has no other, and exact numbers lose nothing.
-fn accepted(port: &Port<'_>, form: Form) -> Vec<Option<u32>> {
+fn accepted(port: &Port<'_>, library: Library) -> Vec<Option<u32>> {
     let accepted = &port.subject.vectors().accepted;
-    match form {
-        Form::Math | Form::NumPy => accepted.iter().copied().map(Some).collect(),
-        Form::SymPy => vec![Some(1); accepted.len()],
-        Form::Ufl => port.accepted_once::<Once<f64>>(),
+    match library {
+        Library::Math | Library::NumPy => accepted.iter().copied().map(Some).collect(),
+        Library::SymPy => vec![Some(1); accepted.len()],
+        Library::Ufl => port.accepted_once::<Once<f64>>(),
     }
 }
 
 /// The list of functions.
-fn functions(port: &Port<'_>, form: Form) -> String {
-    let accepted = accepted(port, form);
+fn functions(port: &Port<'_>, library: Library) -> String {
+    let accepted = accepted(port, library);
     let mut text =
         "# Name, what it is of, what it takes of a point, and the accepted error.\nFUNCTIONS = [\n"
             .to_string();
@@ -117,7 +117,7 @@ fn functions(port: &Port<'_>, form: Form) -> String {
 }
 
 /// The program itself.
-fn program(port: &Port<'_>, form: Form) -> String {
+fn program(port: &Port<'_>, library: Library) -> String {
     let mut text = "\ndefaults = field.Parameters()\n".to_string();
     for (parameter, value) in port.parameters.values().zip(&port.subject.vectors().defaults) {
         let value = hexadecimal(*value);
@@ -127,23 +127,23 @@ fn program(port: &Port<'_>, form: Form) -> String {
         );
     }
     let values = "flat(rows(values))";
-    let [parameters, instant, call] = match form {
-        Form::Math => [
+    let [parameters, instant, call] = match library {
+        Library::Math => [
             values,
             "[one.at_time(point[0]) for point in points]",
             "getattr(owner, name)(*(point[k] for k in columns))",
         ],
-        Form::NumPy => [
+        Library::NumPy => [
             values,
             "[one.at_time(point[0]) for point in points]",
             "at_arrays(getattr(owner, name), [point[k] for k in columns])",
         ],
-        Form::SymPy => [
+        Library::SymPy => [
             "exact(flat(rows(values)))",
             "[one.at_time(*exact(point[:1])) for point in points]",
             "numbers(getattr(owner, name)(*exact(point[k] for k in columns)))",
         ],
-        Form::Ufl => [
+        Library::Ufl => [
             values,
             "[one.at_time(leaf) for leaf in LEAVES[:1]] * len(points)",
             "evaluated(expression(owner, name, *columns), point)",

@@ -2,12 +2,13 @@
 
 use crate::port::body::{Dialect, Owner, in_c_library};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
-/// What computes at points.
+/// The library that computes at points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum Library {
     /// `math`: one point at a time.
     Math,
     /// NumPy: arrays that broadcast.
@@ -18,10 +19,10 @@ pub enum Form {
     Ufl,
 }
 
-impl Form {
+impl Library {
     /// Whether it makes expressions: there is nothing to be gained by computing some of them before.
     pub fn is_of_expressions(self) -> bool {
-        matches!(self, Form::SymPy | Form::Ufl)
+        matches!(self, Library::SymPy | Library::Ufl)
     }
 }
 
@@ -51,24 +52,26 @@ fn exact(number: &Rational) -> String {
     }
 }
 
-impl Dialect for Form {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
-        if *self == Form::SymPy {
+impl Dialect for Library {
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String {
+        if *self == Library::SymPy {
             return exact(number);
         }
         match (wide, parts(number)) {
-            (true, (high, 0.0)) => format!("_Wide({})", decimal(high)),
-            (true, (high, low)) => format!("_Wide({}, {})", decimal(high), decimal(low)),
+            (true, (high, 0.0)) => format!("{}({})", calls.to("_Wide"), decimal(high)),
+            (true, (high, low)) => {
+                format!("{}({}, {})", calls.to("_Wide"), decimal(high), decimal(low))
+            }
             (false, (value, _)) if value < 0.0 => format!("({})", decimal(value)),
             (false, _) => decimal(nearest(number)),
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
         match self {
-            Form::SymPy => "PI".into(),
-            _ if wide => "_PI".into(),
-            _ => "math.pi".into(),
+            Library::SymPy => "PI".into(),
+            _ if wide => calls.to("_PI").into(),
+            _ => calls.to("math.pi").into(),
         }
     }
 
@@ -76,11 +79,11 @@ impl Dialect for Form {
         !self.is_of_expressions()
     }
 
-    fn widened(&self, value: &str) -> String {
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
         match self {
-            Form::SymPy => format!("sp.sympify({value})"),
-            Form::Ufl => value.into(),
-            Form::Math | Form::NumPy => format!("_Wide(float({value}))"),
+            Library::SymPy => format!("sp.sympify({value})"),
+            Library::Ufl => value.into(),
+            Library::Math | Library::NumPy => format!("{}(float({value}))", calls.to("_Wide")),
         }
     }
 
@@ -100,23 +103,26 @@ impl Dialect for Form {
         let Some(name) = in_c_library(function) else { return format!("_{}", function.name()) };
         match (self, function) {
             // Only Python 3.11 has it.
-            (Form::Math, Function::Cbrt) => "_cbrt".into(),
-            (Form::Ufl, Function::Ln) => "ufl.ln".into(),
-            (Form::Ufl, _) => format!("ufl.{name}"),
-            (Form::SymPy, _) => format!("sp.{name}"),
-            (Form::Math, _) => format!("math.{name}"),
-            (Form::NumPy, Function::Powf) => "np.power".into(),
-            (Form::NumPy, Function::Asin | Function::Acos | Function::Atan | Function::Atan2) => {
+            (Library::Math, Function::Cbrt) => "_cbrt".into(),
+            (Library::Ufl, Function::Ln) => "ufl.ln".into(),
+            (Library::Ufl, _) => format!("ufl.{name}"),
+            (Library::SymPy, _) => format!("sp.{name}"),
+            (Library::Math, _) => format!("math.{name}"),
+            (Library::NumPy, Function::Powf) => "np.power".into(),
+            (
+                Library::NumPy,
+                Function::Asin | Function::Acos | Function::Atan | Function::Atan2,
+            ) => {
                 format!("np.{}", name.replacen('a', "arc", 1))
             }
-            (Form::NumPy, _) => format!("np.{name}"),
+            (Library::NumPy, _) => format!("np.{name}"),
         }
     }
 
     fn call(&self, function: Function, arguments: &[String]) -> String {
         match (self, function) {
-            (Form::SymPy, _) => in_sympy(function, arguments),
-            (Form::Ufl, Function::Powf) => arguments.join("**"),
+            (Library::SymPy, _) => in_sympy(function, arguments),
+            (Library::Ufl, Function::Powf) => arguments.join("**"),
             _ => format!("{}({})", self.function(function), arguments.join(", ")),
         }
     }

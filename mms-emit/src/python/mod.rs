@@ -4,7 +4,7 @@ pub(super) mod check;
 mod dialect;
 pub(super) mod module;
 
-use self::dialect::Form;
+pub(super) use self::dialect::Library;
 use crate::port::Port;
 use crate::port::names::Rules;
 use crate::target::{Bundle, Subject, Target};
@@ -16,7 +16,7 @@ pub const TARGET: Target = Target {
     name: "python",
     alias: None,
     doc: "Python: a module that needs the standard library alone, and a check program",
-    emit: |subject| bundle(subject, Form::Math),
+    emit: |subject| bundle(subject, Library::Math),
     words: RULES.words,
 };
 
@@ -59,21 +59,19 @@ const IN_UFL: &[Function] = &[
     Function::Powf,
 ];
 
-/// The module of a form, and the program that checks it.
-pub(super) fn bundle(subject: &Subject<'_>, form: Form) -> Bundle {
-    let port = match form {
-        Form::Math | Form::NumPy => Port::new(subject, &RULES),
-        Form::SymPy => Port::once(subject, &RULES, Function::ALL),
-        Form::Ufl => Port::once(subject, &RULES, IN_UFL),
+/// The module of a library, and the program that checks it.
+pub(super) fn bundle(subject: &Subject<'_>, library: Library) -> Bundle {
+    let port = match library {
+        Library::Math | Library::NumPy => Port::new(subject, &RULES),
+        Library::SymPy => Port::once(subject, &RULES, Function::ALL),
+        Library::Ufl => Port::once(subject, &RULES, IN_UFL),
     };
     let name = &port.name;
     Bundle {
         files: vec![
-            File { name: format!("{name}.py"), text: module::text(&port, form) },
-            File { name: format!("{name}_check.py"), text: check::text(&port, form) },
+            File { name: format!("{name}.py"), text: module::text(&port, library) },
+            File { name: format!("{name}_check.py"), text: check::text(&port, library) },
         ],
         verify: Some(format!("python3 -W error {name}_check.py")),
     }
 }
-
-pub(super) use self::dialect::Form as PythonForm;

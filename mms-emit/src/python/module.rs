@@ -2,14 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::dialect::Form;
+use super::dialect::Library;
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::Callable;
 use crate::port::faces::DOC;
-use crate::port::support::Support;
-use crate::text::{listed, wrapped};
-use mms_mechanics::Output;
+use crate::port::support::{Calls, Support, names_in};
+use crate::text::{indented, listed, wrapped};
 use mms_spec::quantity::Shape;
 
 const WIDE: &str = include_str!("support/wide.py");
@@ -17,55 +16,58 @@ const MATH: &str = include_str!("support/point.py");
 const NUMPY: &str = include_str!("support/numpy_point.py");
 
 /// The text of `FIELD.py`.
-pub(super) fn text(port: &Port<'_>, form: Form) -> String {
+pub(super) fn text(port: &Port<'_>, library: Library) -> String {
     let name = &port.name;
-    let classes = defaults(port, form) + &field(port, form) + &instant(port, form) + &prepare();
-    let needed = |text| Support::new(text, &["#"]).needed(&classes).join("\n\n\n");
-    let support = match form {
-        Form::Math => vec![needed(WIDE), needed(MATH)],
-        Form::NumPy => vec![needed(WIDE), needed(NUMPY)],
-        Form::SymPy | Form::Ufl => Vec::new(),
+    let bodies = port.bodies(&library);
+    let mut calls = bodies.calls();
+    let mut classes = defaults(port, library, &bodies.defaults);
+    classes += &field(port, library, &bodies, &mut calls);
+    classes += &(instant(port, library, &bodies, &mut calls) + &prepare());
+    let needed = |text| Support::new(text, &["#"]).needed(&calls);
+    let support = match library {
+        Library::Math => [needed(WIDE), needed(MATH)].concat(),
+        Library::NumPy => [needed(WIDE), needed(NUMPY)].concat(),
+        Library::SymPy | Library::Ufl => Vec::new(),
     };
+    let uses_math = calls.names().any(|name| name.starts_with("math."))
+        || support.iter().any(|block| names_in(block).any(|name| name == "math"));
     let mut header = port.header();
-    let usage = match form {
-        Form::Math => {
+    let usage = match library {
+        Library::Math => {
             "Functions take numbers, and return a float, a tuple, or a tuple of rows. Where a formula has no value they raise an error, as the module math does."
         }
-        Form::NumPy => {
+        Library::NumPy => {
             "Functions take numbers or arrays that broadcast, and return an array: the places of the component come first, those of the inputs last."
         }
-        Form::SymPy => {
+        Library::SymPy => {
             "Functions take symbols, expressions or numbers, and return an expression or a matrix. All numbers are exact."
         }
-        Form::Ufl => {
+        Library::Ufl => {
             "Functions take components of coordinates, and return an expression, a vector or a matrix of UFL; parameters and t are numbers or constants of UFL. Logarithms and exponentials near 1 are written out, without a difference that optimisers may take for 0."
         }
     };
     header.push(format!("{usage} {name}_check.py checks the result."));
     let mut text = comment(&header, "");
-    text += "\nimport math\nfrom dataclasses import dataclass\n";
-    text += match form {
-        Form::Math => "",
-        Form::NumPy => "\nimport numpy as np\n",
-        Form::SymPy => "\nimport sympy as sp\n",
-        Form::Ufl => "\nimport ufl\n",
+    text += if uses_math { "\nimport math\n" } else { "\n" };
+    text += "from dataclasses import dataclass\n";
+    text += match library {
+        Library::Math => "",
+        Library::NumPy => "\nimport numpy as np\n",
+        Library::SymPy => "\nimport sympy as sp\n",
+        Library::Ufl => "\nimport ufl\n",
     };
     let _ = write!(text, "\nDIMENSION = {}\n", port.dimension());
-    if form == Form::SymPy {
+    if library == Library::SymPy {
         text += "PI = sp.pi\n";
     }
     let claims = port.claims(|face, claim| format!("    \"{face}\": \"{claim}\","));
     if !claims.is_empty() {
         let _ = write!(text, "\n# {DOC}\nFACES = {{\n{claims}}}\n");
     }
-    for part in support.iter().filter(|part| !part.is_empty()) {
-        let _ = write!(text, "\n\n{part}\n");
+    for block in &support {
+        let _ = write!(text, "\n\n{block}\n");
     }
-    text += &classes;
-    match text.contains("math.") {
-        true => text,
-        false => text.replacen("import math\n", "", 1),
-    }
+    text + &classes
 }
 
 /// Paragraphs as lines of a comment.
@@ -77,14 +79,7 @@ pub(crate) fn comment(paragraphs: &[String], indent: &str) -> String {
     lines.collect()
 }
 
-fn indented(statements: &[String], by: usize) -> String {
-    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
-}
-
-fn defaults(port: &Port<'_>, form: Form) -> String {
-    let roots: Vec<_> =
-        (port.parameters.keys()).map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&form, &roots, Place::Parameters);
+fn defaults(port: &Port<'_>, library: Library, body: &Body) -> String {
     let mut text = String::new();
     // Names of their own only where there is something to compute.
     let values: Vec<String> = if body.statements.is_empty() {
@@ -94,16 +89,16 @@ fn defaults(port: &Port<'_>, form: Form) -> String {
         text += &indented(&body.statements, 4);
         text +=
             &format!("    return ({},)\n\n\n_DEFAULTS = _defaults()\n", body.results.join(", "));
-        (0..roots.len()).map(|index| format!("_DEFAULTS[{index}]")).collect()
+        (0..body.results.len()).map(|index| format!("_DEFAULTS[{index}]")).collect()
     };
     text += "\n\n@dataclass(frozen=True)\nclass Parameters:\n    \
              \"\"\"The parameters; their defaults are those of the field file, or set.\"\"\"\n";
     for ((index, name), value) in port.parameters.iter().zip(values) {
         text += "\n";
         text += &comment(&[port.parameter_doc(*index)], "    ");
-        let _ = writeln!(text, "    {name}: {} = {value}", parameter_type(form));
+        let _ = writeln!(text, "    {name}: {} = {value}", parameter_type(library));
     }
-    if form == Form::SymPy && !port.parameters.is_empty() {
+    if library == Library::SymPy && !port.parameters.is_empty() {
         let names: Vec<&str> = port.parameters.values().map(String::as_str).collect();
         let _ = write!(
             text,
@@ -116,17 +111,16 @@ fn defaults(port: &Port<'_>, form: Form) -> String {
     text
 }
 
-fn parameter_type(form: Form) -> &'static str {
-    match form {
-        Form::Math | Form::NumPy => "float",
-        Form::SymPy => "sp.Expr",
-        Form::Ufl => "object",
+fn parameter_type(library: Library) -> &'static str {
+    match library {
+        Library::Math | Library::NumPy => "float",
+        Library::SymPy => "sp.Expr",
+        Library::Ufl => "object",
     }
 }
 
-fn field(port: &Port<'_>, form: Form) -> String {
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&form, &roots, Place::Parameters);
+fn field(port: &Port<'_>, library: Library, bodies: &Bodies, calls: &mut Calls) -> String {
+    let body = &bodies.prepare;
     let mut text = "\n\nclass Field:\n    \
                     \"\"\"What only the parameters determine.\"\"\"\n\n    \
                     def __init__(self, parameters=Parameters()):\n        \
@@ -142,30 +136,24 @@ fn field(port: &Port<'_>, form: Form) -> String {
     }
     text += "\n    def at_time(self, t):\n        \
              \"\"\"The field at one time.\"\"\"\n        return Instant(self, t)\n";
-    for callable in port.callables.iter().filter(|callable| !callable.time) {
-        text += &method(port, form, callable);
-    }
-    text
+    text + &methods(port, library, bodies, false, calls)
 }
 
-fn instant(port: &Port<'_>, form: Form) -> String {
-    let body = port.body(&form, &port.kept_at_times, Place::Times);
+fn instant(port: &Port<'_>, library: Library, bodies: &Bodies, calls: &mut Calls) -> String {
+    let body = &bodies.at_time;
     let mut text = "\n\nclass Instant:\n    \
                     \"\"\"What the parameters and the time determine.\"\"\"\n\n    \
                     def __init__(self, field, t):\n        \
                     self.field = field\n        self.time = t\n"
         .to_string();
-    if form == Form::SymPy {
+    if library == Library::SymPy {
         text += "        t = sp.sympify(t)\n";
     }
     text += &indented(&body.statements, 8);
     for (value, result) in port.kept_at_times.iter().zip(&body.results) {
         let _ = writeln!(text, "        self._{} = {result}", local(*value, false));
     }
-    for callable in port.callables.iter().filter(|callable| callable.time) {
-        text += &method(port, form, callable);
-    }
-    text
+    text + &methods(port, library, bodies, true, calls)
 }
 
 fn prepare() -> String {
@@ -174,9 +162,24 @@ fn prepare() -> String {
         .into()
 }
 
-fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&form, port.values(callable.output), place);
+fn methods(
+    port: &Port<'_>,
+    library: Library,
+    bodies: &Bodies,
+    timed: bool,
+    calls: &mut Calls,
+) -> String {
+    let of_it = port.with_bodies(bodies).filter(|(callable, _)| callable.time == timed);
+    of_it.map(|(callable, body)| method(port, library, callable, body, calls)).collect()
+}
+
+fn method(
+    port: &Port<'_>,
+    library: Library,
+    callable: &Callable,
+    body: &Body,
+    calls: &mut Calls,
+) -> String {
     let inputs = callable.input_names();
     let arguments: Vec<String> =
         std::iter::once("self".to_string()).chain(inputs.iter().cloned()).collect();
@@ -187,7 +190,7 @@ fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
         callable.name,
         arguments.join(", ")
     );
-    if form == Form::SymPy {
+    if library == Library::SymPy {
         for input in &inputs {
             let _ = writeln!(text, "        {input} = sp.sympify({input})");
         }
@@ -196,11 +199,11 @@ fn method(port: &Port<'_>, form: Form, callable: &Callable) -> String {
     let own = |line: &String| line.replace("field._", "self._");
     text += &indented(&body.statements.iter().map(own).collect::<Vec<_>>(), 8);
     let results: Vec<String> = body.results.iter().map(own).collect();
-    text += &match form {
-        Form::NumPy if callable.is_of_points() => {
-            shaped(callable, &results, &inputs, port.dimension())
+    text += &match library {
+        Library::NumPy if callable.is_of_points() => {
+            shaped(callable, &results, &inputs, port.dimension(), calls)
         }
-        Form::SymPy | Form::Ufl => expression(form, callable, &results, port.dimension()),
+        Library::SymPy | Library::Ufl => expression(library, callable, &results, port.dimension()),
         _ => plain(callable, &results, port.dimension()),
     };
     text
@@ -234,15 +237,20 @@ fn plain(callable: &Callable, results: &[String], dimension: usize) -> String {
 }
 
 /// An expression, a vector or a matrix.
-fn expression(form: Form, callable: &Callable, results: &[String], dimension: usize) -> String {
+fn expression(
+    library: Library,
+    callable: &Callable,
+    results: &[String],
+    dimension: usize,
+) -> String {
     let components = listed(results, 80).join("\n            ");
-    match (callable.shape, form) {
-        (Some(Shape::Scalar), Form::SymPy) => format!("        return {}\n", results[0]),
+    match (callable.shape, library) {
+        (Some(Shape::Scalar), Library::SymPy) => format!("        return {}\n", results[0]),
         (Some(Shape::Scalar), _) => format!("        return ufl.as_ufl({})\n", results[0]),
-        (Some(Shape::Tensor), Form::SymPy) => format!(
+        (Some(Shape::Tensor), Library::SymPy) => format!(
             "        return sp.Matrix({dimension}, {dimension}, [\n            {components}\n        ])\n"
         ),
-        (_, Form::SymPy) => {
+        (_, Library::SymPy) => {
             format!("        return sp.Matrix([\n            {components}\n        ])\n")
         }
         (Some(Shape::Tensor), _) => {
@@ -256,9 +264,15 @@ fn expression(form: Form, callable: &Callable, results: &[String], dimension: us
 }
 
 /// An array: the components first, in their shape.
-fn shaped(callable: &Callable, results: &[String], inputs: &[String], dimension: usize) -> String {
+fn shaped(
+    callable: &Callable,
+    results: &[String],
+    inputs: &[String],
+    dimension: usize,
+    calls: &mut Calls,
+) -> String {
     let components = listed(results, 80).join("\n            ");
-    let array = format!("_shaped([{components}], {})", inputs.join(", "));
+    let array = format!("{}([{components}], {})", calls.to("_shaped"), inputs.join(", "));
     match callable.shape {
         Some(Shape::Scalar) => format!("        return {array}[0]\n"),
         Some(Shape::Tensor) => format!(

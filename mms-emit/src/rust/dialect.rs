@@ -2,6 +2,7 @@
 
 use crate::port::body::{Dialect, Owner};
 use crate::port::number::{decimal, nearest};
+use crate::port::support::Calls;
 use mms_program::interpret::parts;
 use mms_symbolic::expr::{Function, Rational};
 
@@ -9,20 +10,26 @@ use mms_symbolic::expr::{Function, Rational};
 pub struct Rust;
 
 impl Dialect for Rust {
-    fn literal(&self, number: &Rational, wide: bool) -> String {
+    fn literal(&self, number: &Rational, wide: bool, calls: &mut Calls) -> String {
         match (wide, parts(number)) {
-            (true, (high, 0.0)) => format!("wide_of({})", decimal(high)),
-            (true, (high, low)) => format!("wide_parts({}, {})", decimal(high), decimal(low)),
+            (true, (high, 0.0)) => format!("{}({})", calls.to("wide_of"), decimal(high)),
+            (true, (high, low)) => {
+                format!("{}({}, {})", calls.to("wide_parts"), decimal(high), decimal(low))
+            }
             (false, _) => format!("T::of({})", decimal(nearest(number))),
         }
     }
 
-    fn pi(&self, wide: bool) -> String {
-        if wide { "wide_pi()".into() } else { "T::of(core::f64::consts::PI)".into() }
+    fn pi(&self, wide: bool, calls: &mut Calls) -> String {
+        if wide {
+            format!("{}()", calls.to("wide_pi"))
+        } else {
+            "T::of(core::f64::consts::PI)".into()
+        }
     }
 
-    fn widened(&self, value: &str) -> String {
-        format!("wide_of(T::to_f64({value}))")
+    fn widened(&self, value: &str, calls: &mut Calls) -> String {
+        format!("{}(T::to_f64({value}))", calls.to("wide_of"))
     }
 
     fn narrowed(&self, value: &str) -> String {

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use super::comment;
 use super::dialect::Rust;
 use crate::port::Port;
-use crate::port::body::{Place, local};
+use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::Callable;
 use crate::port::faces::DOC;
 use crate::port::support::Support;
-use mms_mechanics::Output;
+use crate::text::indented;
 use mms_program::Value;
 use mms_spec::quantity::Shape;
 
@@ -21,8 +21,13 @@ const ALLOWED: &str = "#[allow(dead_code, non_snake_case, unused_variables, clip
 
 /// The text of `FIELD.rs`.
 pub(super) fn text(port: &Port<'_>) -> String {
-    let items = parameters(port) + &field(port) + &instant(port);
-    let wide = Support::new(WIDE, &["///", "//", "#"]).needed(&items).join("\n\n");
+    let bodies = port.bodies(&Rust);
+    let items =
+        parameters(port, &bodies.defaults) + &field(port, &bodies) + &instant(port, &bodies);
+    let mut calls = bodies.calls();
+    // The implementations of the operators, which begin with that word and have the type with them.
+    calls.to("core");
+    let wide = Support::new(WIDE, &["///", "//", "#"]).needed(&calls).join("\n\n");
     let wide = wide.replace("\n#[derive", &format!("\n{ALLOWED}#[derive"));
     let mut header = port.header();
     header.push(format!(
@@ -68,7 +73,7 @@ fn members(values: &[Value], wide: bool) -> String {
     values.iter().map(|value| format!("    {}: {kind},\n", local(*value, wide))).collect()
 }
 
-fn parameters(port: &Port<'_>) -> String {
+fn parameters(port: &Port<'_>, body: &Body) -> String {
     let mut members = String::new();
     for (index, name) in &port.parameters {
         members += &documented(&port.parameter_doc(*index), "    ");
@@ -76,9 +81,6 @@ fn parameters(port: &Port<'_>) -> String {
     }
     let doc = "The parameters; their defaults are those of the field file, or set.";
     let mut text = structure(doc, "Parameters", &members);
-    let roots: Vec<_> =
-        port.parameters.keys().map(|index| port.values(Output::Parameter(*index))[0]).collect();
-    let body = port.body(&Rust, &roots, Place::Parameters);
     let _ = write!(
         text,
         "{ALLOWED}impl<T: Real> Default for Parameters<T> {{\n    fn default() -> Self {{\n{}        \
@@ -91,11 +93,10 @@ fn parameters(port: &Port<'_>) -> String {
     text + "            marker: core::marker::PhantomData,\n        }\n    }\n}\n\n"
 }
 
-fn field(port: &Port<'_>) -> String {
+fn field(port: &Port<'_>, bodies: &Bodies) -> String {
     let held = members(&port.kept, false) + &members(&port.kept_wide, true);
     let mut text = structure("What only the parameters determine.", "Field", &held);
-    let roots: Vec<_> = port.kept.iter().chain(&port.kept_wide).copied().collect();
-    let body = port.body(&Rust, &roots, Place::Parameters);
+    let body = &bodies.prepare;
     let _ = write!(
         text,
         "/// Computes once what only the parameters determine.\n{ALLOWED}\
@@ -109,12 +110,11 @@ fn field(port: &Port<'_>) -> String {
         let _ = writeln!(text, "        {},", local(*value, true));
     }
     text += "        marker: core::marker::PhantomData,\n    }\n}\n\n";
-    let _ = write!(text, "{ALLOWED}impl<T: Real> Field<T> {{\n{}", at_time(port));
-    text + &methods(port, false) + "}\n\n"
+    let _ = write!(text, "{ALLOWED}impl<T: Real> Field<T> {{\n{}", at_time(port, &bodies.at_time));
+    text + &methods(port, bodies, false) + "}\n\n"
 }
 
-fn at_time(port: &Port<'_>) -> String {
-    let body = port.body(&Rust, &port.kept_at_times, Place::Times);
+fn at_time(port: &Port<'_>, body: &Body) -> String {
     let mut text = format!(
         "    /// Computes once what the parameters and the time determine.\n    \
          pub fn at_time(&self, t: T) -> Instant<T> {{\n{}        Instant {{\n",
@@ -126,21 +126,22 @@ fn at_time(port: &Port<'_>) -> String {
     text + "            marker: core::marker::PhantomData,\n        }\n    }\n"
 }
 
-fn instant(port: &Port<'_>) -> String {
+fn instant(port: &Port<'_>, bodies: &Bodies) -> String {
     let held = members(&port.kept_at_times, false);
     let doc = "What the parameters and the time determine.";
     let mut text = structure(doc, "Instant", &held);
     let _ = writeln!(text, "{ALLOWED}impl<T: Real> Instant<T> {{");
-    let methods = methods(port, true);
+    let methods = methods(port, bodies, true);
     text += methods.trim_start_matches('\n');
     text + "}\n"
 }
 
-fn methods(port: &Port<'_>, timed: bool) -> String {
+fn methods(port: &Port<'_>, bodies: &Bodies, timed: bool) -> String {
     let mut text = String::new();
-    for callable in port.callables.iter().filter(|callable| callable.time == timed) {
+    for (callable, body) in port.with_bodies(bodies).filter(|(callable, _)| callable.time == timed)
+    {
         text += "\n";
-        text += &method(port, callable);
+        text += &method(port, callable, body);
         if callable.is_of_points() {
             text += "\n";
             text += &batch(port, callable);
@@ -168,10 +169,8 @@ fn kind(shape: Option<Shape>, count: usize, dimension: usize) -> String {
 }
 
 /// A function of one point, or of none.
-fn method(port: &Port<'_>, callable: &Callable) -> String {
+fn method(port: &Port<'_>, callable: &Callable, body: &Body) -> String {
     let dimension = port.dimension();
-    let place = Place::Points { timed: callable.time };
-    let body = port.body(&Rust, port.values(callable.output), place);
     let mut arguments = vec!["&self".to_string()];
     let mut left = callable.input_names().into_iter();
     for (name, count) in callable.arrays() {
@@ -240,8 +239,4 @@ fn batch(port: &Port<'_>, callable: &Callable) -> String {
             callable.name,
             call.join(", ")
         )
-}
-
-fn indented(statements: &[String], by: usize) -> String {
-    statements.iter().map(|statement| format!("{:by$}{statement}\n", "")).collect()
 }

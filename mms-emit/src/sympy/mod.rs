@@ -1,6 +1,6 @@
 //! Python: a module of SymPy expressions. Its printer is that of `python`.
 
-use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;
 
 /// Python with SymPy.
@@ -8,6 +8,6 @@ pub const TARGET: Target = Target {
     name: "sympy",
     alias: None,
     doc: "Python: SymPy expressions with exact numbers, and a check program",
-    emit: |subject| bundle(subject, PythonForm::SymPy),
+    emit: |subject| bundle(subject, Library::SymPy),
     words: PYTHON.words,
 };

@@ -1,6 +1,6 @@
 //! Python: a module of UFL expressions. Its printer is that of `python`.
 
-use crate::python::{PythonForm, TARGET as PYTHON, bundle};
+use crate::python::{Library, TARGET as PYTHON, bundle};
 use crate::target::Target;
 
 /// Python with UFL.
@@ -8,6 +8,6 @@ pub const TARGET: Target = Target {
     name: "ufl",
     alias: None,
     doc: "Python: UFL expressions for finite elements, and a check program",
-    emit: |subject| bundle(subject, PythonForm::Ufl),
+    emit: |subject| bundle(subject, Library::Ufl),
     words: PYTHON.words,
 };

@@ -73,6 +73,34 @@ fn words_of_any_language_are_names() {
     }
 }
 
+/// What a field needs of a language's support text is known from what it calls, not from how its text reads.
+#[test]
+fn a_parameter_called_like_a_support_function_brings_none_of_it() {
+    const CALLED: &str = "wide_of ln_1p_rest sin_pi wide settled parameters_ math";
+    let parameters: Vec<String> = (CALLED.split(' ').enumerate())
+        .map(|(index, name)| format!("{name} = {{ value = {} }}\n", index + 1))
+        .collect();
+    let text = format!(
+        "[field]\ntitle = \"math.pi, wide_of(1)\"\ndimension = 1\n[parameters]\n{}\
+         [displacement]\nu = [\"X^2/100\"]\n[material]\nmodel = \"neo_hookean\"\n\
+         lambda = 1\nmu = 1\ndensity = 1\n[domain]\nshape = \"box\"\nlower = [0]\nupper = [1]\n\
+         time = [0, 1]\n",
+        parameters.concat()
+    );
+    let field = compiled("called", &text);
+    let subject = Subject::new(&field);
+    let emitted = |name: &str| {
+        let target = TARGETS.iter().find(|it| it.name == name).expect("a target");
+        (target.emit)(&subject).files.remove(0).text
+    };
+    for (target, definition) in [("cpp", "struct wide"), ("fortran", "type :: wide")] {
+        let text = emitted(target);
+        assert!(text.contains("wide_of"), "{target}: the parameter\n{text}");
+        assert!(!text.contains(definition), "{target}\n{text}");
+    }
+    assert!(!emitted("ufl").contains("import math\n"), "the title is no use of the module");
+}
+
 fn plain() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/programs/plain.toml");
     fs::read_to_string(path).expect("a field file")

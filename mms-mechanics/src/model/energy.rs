@@ -11,7 +11,7 @@ use mms_spec::suggest::advice;
 use mms_spec::syntax;
 use mms_spec::{FieldSpec, MaterialSpec};
 use mms_symbolic::expr::print::Names;
-use mms_symbolic::expr::{Expr, Rational};
+use mms_symbolic::expr::{Expr, HALF, Rational};
 
 /// What Poisson's ratio must be.
 pub const POISSON: &str = "Poisson's ratio must lie between -1 and 1/2";
@@ -209,8 +209,7 @@ impl Reader<'_> {
         let index = field.material.arguments.iter().position(|(name, _)| name.value == "nu")?;
         let (_, formula) = &field.material.arguments[index];
         let number = arguments[index].and_then(|value| self.graph.as_number(value));
-        let half = Rational::from_parts(1.into(), 2u8.into());
-        if let Some(number) = number.filter(|it| **it <= Rational::NEG_ONE || **it >= half) {
+        if let Some(number) = number.filter(|it| **it <= Rational::NEG_ONE || **it >= HALF) {
             let label = format!("this is {number}");
             self.diagnostics
                 .push(Diagnostic::error(formula.span, POISSON).label(label).help(INCOMPRESSIBLE));

@@ -57,7 +57,8 @@ impl Scope {
             }
             Node::Call(Function::Exp | Function::Cosh | Function::Powf, _) => Sign::Positive,
             Node::Call(Function::Sqrt | Function::Acos, _) => Sign::NotNegative,
-            Node::Call(..) => Sign::Unknown,
+            Node::Call(..) | Node::Offset(_) => Sign::Unknown,
+            Node::Small(_, angle) => signs[angle],
         }
     }
 }

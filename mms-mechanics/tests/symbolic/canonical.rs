@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use mms_mechanics::simplify::ways;
+use mms_mechanics::candidates::candidates;
 use mms_program::schedule::cost;
 use mms_symbolic::expr::print::Names;
 use mms_symbolic::expr::{Function, Graph, Rational};
@@ -84,8 +84,9 @@ fn a_full_graph_is_told_and_never_answers() {
         let root = read(&mut graph, "sin(X)*cos(X + 1)*exp(X*t)*sin(2*X)").ok()?;
         let slope = differentiate(&mut graph, &[root], X);
         let relations = Relations::find(&mut graph, &slope);
-        let ways = ways(&mut graph, slope, &relations);
-        let chosen = ways.into_iter().min_by_key(|way| cost(&graph, way))?[0];
+        let candidates = candidates(&mut graph, &BTreeMap::from([((), slope)]), &relations);
+        let ways = candidates.iter().map(|candidate| &candidate.components[&()]);
+        let chosen = ways.min_by_key(|way| cost(&graph, way))?[0];
         let at = place(0.846, -0.4, 0.43);
         let value = values(&graph, &[chosen], &at).remove(0);
         if graph.is_exhausted() {

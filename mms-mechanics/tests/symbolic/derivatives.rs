@@ -96,7 +96,7 @@ fn every_function(graph: &mut Graph) -> Vec<Expr> {
         }
     }
     // It is an atom of coordinates alone.
-    let offset = graph.call(Function::Offset, &[x, third]);
+    let offset = graph.offset(x, third);
     roots.extend([graph.power(offset, 3), graph.call(Function::Sin, &[offset])]);
     for (numerator, denominator) in [(1, 2), (-3, 2), (5, 3), (-1, 7)] {
         let exponent = Rational::from_parts(numerator.into(), u8::into(denominator));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use mms_mechanics::Output;
-use mms_mechanics::simplify::ways;
+use mms_mechanics::candidates::candidates;
 use mms_program::Stage;
 use mms_program::schedule::{cost, schedule_plainly};
 use mms_symbolic::expr::print::Names;
@@ -74,7 +74,8 @@ proptest! {
         if let Some(thorough) = relations.thorough() {
             written.push(reduce(&mut graph, &[root], &thorough));
         }
-        written.extend(ways(&mut graph, vec![root], &relations));
+        let candidates = candidates(&mut graph, &BTreeMap::from([((), vec![root])]), &relations);
+        written.extend(candidates.into_iter().map(|mut it| it.components.remove(&()).expect("all keys")));
         for after in written {
             same_value(&graph, root, after[0])?;
         }

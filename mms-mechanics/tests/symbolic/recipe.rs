@@ -184,10 +184,6 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::Ln1pRest => a.ln_1p_rest(),
                 Function::Sin => a.sin(),
                 Function::Cos => a.cos(),
-                Function::SinNearZero => a.sin_near_zero(),
-                Function::CosNearZero => a.cos_near_zero(),
-                Function::SinWithinOne => a.sin_within_one(),
-                Function::CosWithinOne => a.cos_within_one(),
                 Function::SinPi => a.sin_pi(),
                 Function::CosPi => a.cos_pi(),
                 Function::WithinTurns => a.within_turns(),
@@ -199,14 +195,13 @@ pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(
                 Function::Asin => a.asin(),
                 Function::Acos => a.acos(),
                 Function::Atan => a.atan(),
-                Function::Atan2 | Function::Powf | Function::Offset => unreachable!("a pair"),
+                Function::Atan2 | Function::Powf => unreachable!("a pair"),
             }
         }
         Recipe::Pair(function, a, b) => {
             let (a, b) = (evaluate(a, at, see), evaluate(b, at, see));
             match function {
                 Function::Atan2 => a.atan2(b),
-                Function::Offset => a - b,
                 _ => a.powf(b),
             }
         }

@@ -27,9 +27,9 @@ pub use plan::Plan;
 
 use crate::interpret::apply;
 use mms_symbolic::expr::Symbol;
-use plan::{Place, Scalar, Source};
+use plan::{Operand, Scalar, Source};
 
-/// With which instructions, and how products are rounded that are added to something.
+/// How blocks are computed: with which instructions, and whether a product that is added is rounded first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Way {
     instructions: Instructions,
@@ -302,8 +302,10 @@ impl<'a, T: Blockwise> Outputs<'a, T> {
         let (columns, scalars, count) = (self.columns, self.scalars, self.count);
         self.plan.components[self.plan.outputs[output].clone()].iter().map(move |place| match place
         {
-            Place::Column(column) => Component::Each(&columns[*column as usize].numbers()[..count]),
-            Place::Scalar(scalar) => Component::Same(scalars[*scalar as usize]),
+            Operand::Column(column) => {
+                Component::Each(&columns[*column as usize].numbers()[..count])
+            }
+            Operand::Scalar(scalar) => Component::Same(scalars[*scalar as usize]),
         })
     }
 }

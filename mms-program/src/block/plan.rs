@@ -17,7 +17,7 @@ use crate::fusion::{Fused, Fusion};
 use crate::loops::{Columns, Cut, WORTH_IN_CACHE, is_worth_two};
 use crate::program::{Instr, Key, Op, Program, Value};
 use mms_symbolic::expr::Stage;
-use mms_symbolic::expr::{Function, Rational, Symbol};
+use mms_symbolic::expr::{Function, Rational, Small, Symbol};
 
 /// What a step does with the columns and scalars at its places a, b and c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -62,8 +62,8 @@ pub(super) enum Kind {
     ScaleSubtract,
     /// a b + c, b and c scalars.
     ScaleAddScalar,
-    /// A function of a.
-    Unary(Function),
+    /// A function of a, and what is proved of a.
+    Unary(Function, Option<Small>),
     /// A function of a and b.
     Binary(Function),
 }
@@ -73,7 +73,7 @@ impl Kind {
     fn columns(self) -> &'static [bool] {
         match self {
             Kind::Fill => &[false],
-            Kind::Negate | Kind::Root | Kind::Unary(_) => &[true],
+            Kind::Negate | Kind::Root | Kind::Unary(..) => &[true],
             Kind::Add | Kind::Subtract | Kind::Multiply | Kind::Divide | Kind::Binary(_) => {
                 &[true, true]
             }
@@ -94,7 +94,7 @@ impl Kind {
     /// Whether it is a function made of many operations: it is compiled apart, since its coefficients would take the
     /// registers of all others.
     fn is_function(self) -> bool {
-        matches!(self, Kind::Unary(_) | Kind::Binary(_))
+        matches!(self, Kind::Unary(..) | Kind::Binary(_))
     }
 }
 
@@ -134,7 +134,7 @@ pub(super) struct Scalar {
 
 /// Where a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Place {
+pub(super) enum Operand {
     Column(u32),
     Scalar(u32),
 }
@@ -156,7 +156,7 @@ pub struct Plan {
     pub(super) parts: Vec<Range<usize>>,
     pub(super) registers: usize,
     /// The components of all outputs.
-    pub(super) components: Vec<Place>,
+    pub(super) components: Vec<Operand>,
     /// Which of them are those of each output.
     pub(super) outputs: Vec<Range<usize>>,
 }
@@ -206,7 +206,7 @@ struct Lowering<'a, K> {
     known: HashMap<(Kind, [u32; 3]), u32>,
     columns: u32,
     /// Where the values at points are that have been found for an output.
-    found: Vec<Option<Place>>,
+    found: Vec<Option<Operand>>,
 }
 
 impl<'a, K: Key> Lowering<'a, K> {
@@ -238,7 +238,7 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 
     /// Lowers an output, and says where its components are.
-    fn output(&mut self, output: K, in_two_loops: bool) -> Vec<Place> {
+    fn output(&mut self, output: K, in_two_loops: bool) -> Vec<Operand> {
         let program = self.program;
         let roots = program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
         self.found.fill(None);
@@ -285,62 +285,64 @@ impl<'a, K: Key> Lowering<'a, K> {
         let (kind, operands) = match &self.program.instr(value).op {
             Op::Constant(_) | Op::Pi | Op::Input(_) => return,
             Op::Add(a, b) => self.sum(*a, *b),
-            Op::Subtract(a, b) | Op::Binary(Function::Offset, a, b) => self.difference(*a, *b),
+            Op::Subtract(a, b) => self.difference(*a, *b),
             Op::Multiply(a, b) => self.product(*a, *b),
             Op::Divide(a, b) => self.quotient(*a, *b),
             Op::Negate(a) => (Kind::Negate, [self.column(*a), 0, 0]),
-            Op::Unary(Function::Sqrt, a) => (Kind::Root, [self.column(*a), 0, 0]),
-            Op::Unary(function, a) => (Kind::Unary(*function), [self.column(*a), 0, 0]),
+            Op::Unary(Function::Sqrt, _, a) => (Kind::Root, [self.column(*a), 0, 0]),
+            Op::Unary(function, small, a) => {
+                (Kind::Unary(*function, *small), [self.column(*a), 0, 0])
+            }
             Op::Binary(function, a, b) => {
                 (Kind::Binary(*function), [self.column(*a), self.column(*b), 0])
             }
         };
-        self.found[value.index()] = Some(Place::Column(self.step(kind, operands)));
+        self.found[value.index()] = Some(Operand::Column(self.step(kind, operands)));
     }
 
     fn sum(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Place::Column(a), Place::Column(b)) => (Kind::Add, [a, b, 0]),
-            (Place::Column(a), Place::Scalar(b)) => (Kind::AddScalar, [a, b, 0]),
-            (Place::Scalar(a), _) => (Kind::AddScalar, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (Kind::Add, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (Kind::AddScalar, [a, b, 0]),
+            (Operand::Scalar(a), _) => (Kind::AddScalar, [self.column(b), a, 0]),
         }
     }
 
     fn difference(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Place::Column(a), Place::Column(b)) => (Kind::Subtract, [a, b, 0]),
-            (Place::Column(a), Place::Scalar(b)) => (Kind::AddScalar, [a, self.negative(b), 0]),
-            (Place::Scalar(a), _) => (Kind::SubtractFrom, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (Kind::Subtract, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (Kind::AddScalar, [a, self.negative(b), 0]),
+            (Operand::Scalar(a), _) => (Kind::SubtractFrom, [self.column(b), a, 0]),
         }
     }
 
     fn product(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Place::Column(a), Place::Column(b)) => (Kind::Multiply, [a, b, 0]),
-            (Place::Column(a), Place::Scalar(b)) => (Kind::Scale, [a, b, 0]),
-            (Place::Scalar(a), _) => (Kind::Scale, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (Kind::Multiply, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (Kind::Scale, [a, b, 0]),
+            (Operand::Scalar(a), _) => (Kind::Scale, [self.column(b), a, 0]),
         }
     }
 
     fn quotient(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Place::Column(a), Place::Column(b)) => (Kind::Divide, [a, b, 0]),
-            (Place::Column(a), Place::Scalar(b)) => (Kind::DivideBy, [a, b, 0]),
-            (Place::Scalar(a), _) => (Kind::DivideInto, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (Kind::Divide, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (Kind::DivideBy, [a, b, 0]),
+            (Operand::Scalar(a), _) => (Kind::DivideInto, [self.column(b), a, 0]),
         }
     }
 
     /// A product and a sum in one. Signs of scalars are turned before, which changes no bit.
-    fn fused(&mut self, fused: &Fused) -> Place {
+    fn fused(&mut self, fused: &Fused) -> Operand {
         let Fused { factors: [a, b], term, minus_product, minus_term } = *fused;
         let places = [a, b].map(|factor| self.place(factor));
         let (a, scalar) = match places {
-            [Place::Column(a), b] => (a, b),
-            [b, Place::Column(a)] => (a, b),
-            [Place::Scalar(_), b] => (self.column(a), b),
+            [Operand::Column(a), b] => (a, b),
+            [b, Operand::Column(a)] => (a, b),
+            [Operand::Scalar(_), b] => (self.column(a), b),
         };
         let (kind, operands) = match (scalar, self.place(term)) {
-            (Place::Column(b), Place::Column(c)) => {
+            (Operand::Column(b), Operand::Column(c)) => {
                 let kind = match (minus_product, minus_term) {
                     (true, _) => Kind::SubtractProduct,
                     (_, true) => Kind::MultiplySubtract,
@@ -348,20 +350,20 @@ impl<'a, K: Key> Lowering<'a, K> {
                 };
                 (kind, [a, b, c])
             }
-            (Place::Column(b), Place::Scalar(c)) => match minus_product {
+            (Operand::Column(b), Operand::Scalar(c)) => match minus_product {
                 true => (Kind::SubtractProductFrom, [a, b, c]),
                 false => (Kind::MultiplyAddScalar, [a, b, self.turned(c, minus_term)]),
             },
-            (Place::Scalar(b), Place::Column(c)) => match minus_term {
+            (Operand::Scalar(b), Operand::Column(c)) => match minus_term {
                 true => (Kind::ScaleSubtract, [a, b, c]),
                 false => (Kind::ScaleAdd, [a, self.turned(b, minus_product), c]),
             },
-            (Place::Scalar(b), Place::Scalar(c)) => {
+            (Operand::Scalar(b), Operand::Scalar(c)) => {
                 let operands = [a, self.turned(b, minus_product), self.turned(c, minus_term)];
                 (Kind::ScaleAddScalar, operands)
             }
         };
-        Place::Column(self.step(kind, operands))
+        Operand::Column(self.step(kind, operands))
     }
 
     /// The column of a step; that of one which is there, if it is the same.
@@ -381,7 +383,7 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 
     /// Where a value is: a number, what a point supplies, or what has been found.
-    fn place(&mut self, value: Value) -> Place {
+    fn place(&mut self, value: Value) -> Operand {
         let Instr { op, stage } = self.program.instr(value);
         match op {
             Op::Constant(number) => self.scalar(Source::Constant(number.clone())),
@@ -390,7 +392,7 @@ impl<'a, K: Key> Lowering<'a, K> {
                 let index = self.renamed[value.index()].expect("what is read is needed");
                 self.scalar(Source::Once(index))
             }
-            Op::Input(symbol) => Place::Column(self.input(*symbol)),
+            Op::Input(symbol) => Operand::Column(self.input(*symbol)),
             _ => self.found[value.index()].expect("operands come first"),
         }
     }
@@ -398,8 +400,8 @@ impl<'a, K: Key> Lowering<'a, K> {
     /// The column of a value; a number is written to one.
     fn column(&mut self, value: Value) -> u32 {
         match self.place(value) {
-            Place::Column(column) => column,
-            Place::Scalar(scalar) => self.step(Kind::Fill, [scalar, 0, 0]),
+            Operand::Column(column) => column,
+            Operand::Scalar(scalar) => self.step(Kind::Fill, [scalar, 0, 0]),
         }
     }
 
@@ -412,8 +414,8 @@ impl<'a, K: Key> Lowering<'a, K> {
         column
     }
 
-    fn scalar(&mut self, source: Source) -> Place {
-        Place::Scalar(self.scalar_place(Scalar { source, negated: false }))
+    fn scalar(&mut self, source: Source) -> Operand {
+        Operand::Scalar(self.scalar_place(Scalar { source, negated: false }))
     }
 
     fn negative(&mut self, scalar: u32) -> u32 {
@@ -433,15 +435,15 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 
     /// Gives columns their registers. Those of the inputs are kept, since a block may have to be computed again.
-    fn finish(mut self, mut components: Vec<Place>, outputs: Vec<Range<usize>>) -> Plan {
+    fn finish(mut self, mut components: Vec<Operand>, outputs: Vec<Range<usize>>) -> Plan {
         const KEPT: usize = usize::MAX;
         let mut last = vec![0; self.columns as usize];
         for (index, step) in self.steps.iter().enumerate() {
             step.columns().for_each(|column| last[column as usize] = index);
         }
         let columns = components.iter().filter_map(|place| match place {
-            Place::Column(column) => Some(*column),
-            Place::Scalar(_) => None,
+            Operand::Column(column) => Some(*column),
+            Operand::Scalar(_) => None,
         });
         let inputs = self.inputs.iter().map(|(_, column)| *column);
         columns.chain(inputs).for_each(|column| last[column as usize] = KEPT);
@@ -469,7 +471,7 @@ impl<'a, K: Key> Lowering<'a, K> {
             }
         }
         for place in &mut components {
-            if let Place::Column(column) = place {
+            if let Operand::Column(column) = place {
                 *column = registers[*column as usize];
             }
         }

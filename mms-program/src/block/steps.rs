@@ -13,9 +13,9 @@ use mms_math::machine::Machine;
 
 use super::Way;
 use super::column::Column;
-use super::plan::{Kind, Place, Plan, Step};
+use super::plan::{Kind, Operand, Plan, Step};
 use crate::interpret;
-use mms_symbolic::expr::Function;
+use mms_symbolic::expr::{Function, Small};
 
 /// The numbers that steps read and write.
 struct Registers<'a, T, const C: usize, const K: usize> {
@@ -137,7 +137,7 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
                 let [b, c]: [S; 2] = [self.scalar(b), self.scalar(c)];
                 self.one(step, |a: S| a.mul_add(b, c));
             }
-            Kind::Unary(_) | Kind::Binary(_) => unreachable!("functions are parts of their own"),
+            Kind::Unary(..) | Kind::Binary(_) => unreachable!("functions are parts of their own"),
         }
     }
 }
@@ -231,17 +231,33 @@ trait OfTwo {
     fn at<S: Scalar>(&self, a: S, b: S) -> S;
 }
 
-macro_rules! functions {
-    ($($one:ident $one_method:ident)*; $($two:ident $two_method:ident)*; not: $($not:ident)*) => {
+macro_rules! methods {
+    ($($name:ident $method:ident)*) => {
         $(
-            struct $one;
-            impl OfOne for $one {
+            struct $name;
+            impl OfOne for $name {
                 #[inline(always)]
                 fn at<S: Scalar>(&self, x: S) -> S {
-                    x.$one_method()
+                    x.$method()
                 }
             }
         )*
+    };
+}
+
+methods! {
+    SinNearZero sin_near_zero
+    CosNearZero cos_near_zero
+    SinWithinOne sin_within_one
+    CosWithinOne cos_within_one
+}
+
+macro_rules! functions {
+    (
+        one { $($one:ident $one_method:ident $one_at_zero:tt $one_doc:literal,)* }
+        two { $($two:ident $two_method:ident $two_at_zero:tt $two_doc:literal,)* }
+    ) => {
+        methods! { $($one $one_method)* }
         $(
             struct $two;
             impl OfTwo for $two {
@@ -253,16 +269,26 @@ macro_rules! functions {
         )*
 
         fn unary<T: Float, const C: usize>(
-            function: Function,
+            (function, small): (Function, Option<Small>),
             way: Way,
             result: &mut [[T; C]],
             argument: &[[T; C]],
         ) {
-            match function {
-                $(Function::$one => way.run(Unary { function: $one, result, argument }),)*
-                $(Function::$two)|* $(| Function::$not)* => {
-                    unreachable!("no function of one argument, or no step of this kind")
+            match (function, small) {
+                (Function::Sin, Some(Small::NearZero)) => {
+                    way.run(Unary { function: SinNearZero, result, argument });
                 }
+                (Function::Cos, Some(Small::NearZero)) => {
+                    way.run(Unary { function: CosNearZero, result, argument });
+                }
+                (Function::Sin, Some(Small::WithinOne)) => {
+                    way.run(Unary { function: SinWithinOne, result, argument });
+                }
+                (Function::Cos, Some(Small::WithinOne)) => {
+                    way.run(Unary { function: CosWithinOne, result, argument });
+                }
+                $((Function::$one, _) => way.run(Unary { function: $one, result, argument }),)*
+                $((Function::$two, _))|* => unreachable!("a function of two arguments"),
             }
         }
 
@@ -274,40 +300,13 @@ macro_rules! functions {
         ) {
             match function {
                 $(Function::$two => way.run(Binary { function: $two, result, arguments }),)*
-                $(Function::$one)|* $(| Function::$not)* => {
-                    unreachable!("no function of two arguments, or no step of this kind")
-                }
+                _ => unreachable!("a function of one argument"),
             }
         }
     };
 }
 
-functions! {
-    Cbrt cbrt
-    Exp exp
-    ExpM1 exp_m1
-    Ln ln
-    Ln1p ln_1p
-    Ln1pRest ln_1p_rest
-    Sin sin
-    Cos cos
-    SinNearZero sin_near_zero
-    CosNearZero cos_near_zero
-    SinWithinOne sin_within_one
-    CosWithinOne cos_within_one
-    SinPi sin_pi
-    CosPi cos_pi
-    Tan tan
-    Sinh sinh
-    Cosh cosh
-    Tanh tanh
-    Asin asin
-    Acos acos
-    Atan atan;
-    Atan2 atan2
-    Powf powf;
-    not: Sqrt Offset WithinTurns WithinTurnsPi
-}
+mms_symbolic::for_functions!(functions);
 
 /// Runs a plan with the quick functions, over the first pieces of a block.
 pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
@@ -322,9 +321,9 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
         let steps = &plan.steps[part.clone()];
         let Step { kind, result, operands: [a, b, _] } = steps[0];
         match kind {
-            Kind::Unary(function) => {
+            Kind::Unary(function, small) => {
                 let (result, [argument]) = registers.of(result, [a]);
-                unary(function, way, result, argument);
+                unary((function, small), way, result, argument);
             }
             Kind::Binary(function) => {
                 let (result, arguments) = registers.of(result, [a, b]);
@@ -345,7 +344,9 @@ pub(super) fn carefully<T: Stand<T>, const C: usize, const K: usize>(
     let mut registers = Registers { scalars, columns, pieces };
     for step in &plan.steps {
         match step.kind {
-            Kind::Unary(function) => registers.one(step, |x: T| interpret::unary(function, x)),
+            Kind::Unary(function, small) => {
+                registers.one(step, |x: T| interpret::unary(function, small, x));
+            }
             Kind::Binary(function) => {
                 registers.two(step, [0, 1], |a: T, b: T| interpret::binary(function, a, b));
             }
@@ -370,8 +371,8 @@ pub(super) fn are_numbers<T: Float, const C: usize, const K: usize>(
     };
     for component in &plan.components {
         match component {
-            Place::Scalar(scalar) => add(&[scalars[*scalar as usize]; C]),
-            Place::Column(column) => {
+            Operand::Scalar(scalar) => add(&[scalars[*scalar as usize]; C]),
+            Operand::Column(column) => {
                 let numbers = &columns[*column as usize].0;
                 numbers[..pieces.min(K)].iter().for_each(&mut add);
                 if pieces < K {

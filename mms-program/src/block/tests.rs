@@ -11,7 +11,7 @@ use super::{Blockwise, Plan, Prepared, Room, Rooms, Way};
 use crate::interpret::{Interpreter, Point};
 use crate::program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
-use mms_symbolic::expr::{Function, Rational, Symbol};
+use mms_symbolic::expr::{Function, Rational, Small, Symbol};
 
 /// Outputs that compiled code computes in two loops, or in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,9 +58,9 @@ fn program(recipe: &[(u8, u16, u16)]) -> Program {
             24 => Op::Negate(a),
             _ => {
                 let functions = at_points();
-                let function = functions[usize::from(*what) * 7 % functions.len()];
+                let (function, small) = functions[usize::from(*what) * 7 % functions.len()];
                 match function.arity() {
-                    1 => Op::Unary(function, a),
+                    1 => Op::Unary(function, small, a),
                     _ => Op::Binary(function, a, b),
                 }
             }
@@ -269,9 +269,13 @@ proptest! {
     }
 }
 
-/// The functions that programs have at points.
-fn at_points() -> Vec<Function> {
-    Function::ALL.iter().copied().filter(|function| !function.takes_turns_off()).collect()
+/// The functions that programs have at points, each with what may be proved of its argument.
+fn at_points() -> Vec<(Function, Option<Small>)> {
+    let all = Function::ALL.iter().copied().filter(|function| !function.takes_turns_off());
+    let small = [Function::Sin, Function::Cos].into_iter().flat_map(|function| {
+        [Small::NearZero, Small::WithinOne].map(|small| (function, Some(small)))
+    });
+    all.map(|function| (function, None)).chain(small).collect()
 }
 
 /// A program in which each function is called, sums have products, and results are read later.
@@ -303,11 +307,11 @@ fn every_number_of_points_has_the_bits_of_one_point() {
 
 #[test]
 fn every_function_of_wild_numbers_has_the_bits_of_one_point() {
-    for function in at_points() {
+    for (function, small) in at_points() {
         let x = Op::Input(Symbol::Coordinate(0));
         let y = Op::Input(Symbol::Coordinate(1));
         let call = match function.arity() {
-            1 => Op::Unary(function, Value(0)),
+            1 => Op::Unary(function, small, Value(0)),
             _ => Op::Binary(function, Value(0), Value(1)),
         };
         let outputs = BTreeMap::from([(quantity(), vec![Value(2)])]);
@@ -328,10 +332,10 @@ fn whole_turns_are_taken_off_as_at_one_point() {
             Op::Constant(Rational::from(10_000_000_000_000_i64)),
             Op::Input(Symbol::Time),
             Op::Multiply(Value(0), Value(1)),
-            Op::Unary(within, Value(2)),
+            Op::Unary(within, None, Value(2)),
             Op::Input(Symbol::Coordinate(0)),
             Op::Subtract(Value(4), Value(3)),
-            Op::Unary(wave, Value(5)),
+            Op::Unary(wave, None, Value(5)),
         ];
         let outputs = BTreeMap::from([(quantity(), vec![Value(6)])]);
         let program = in_stage_order(ops, outputs);
@@ -399,7 +403,7 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
     };
     let product = push(Op::Multiply(p, q));
     let angle = push(Op::Add(product, place(Op::Input(Symbol::Time))));
-    let sine = push(Op::Unary(Function::Sin, angle));
+    let sine = push(Op::Unary(Function::Sin, None, angle));
     let wave = push(Op::Multiply(sine, x));
     let results =
         vec![push(Op::Add(wave, angle)), push(Op::Multiply(y, place(Op::Input(Symbol::Time))))];
@@ -483,7 +487,7 @@ fn registers_are_used_again() {
     // A long chain of sums has two at a time.
     let ops: Vec<Op> = [Op::Input(Symbol::Coordinate(0))]
         .into_iter()
-        .chain((0..100).map(|k| Op::Unary(Function::Sin, Value(k))))
+        .chain((0..100).map(|k| Op::Unary(Function::Sin, None, Value(k))))
         .collect();
     let outputs = BTreeMap::from([(Output::Expected(0), vec![Value(100)])]);
     let plan = plan_of(&in_stage_order(ops, outputs), &[Output::Expected(0)]);

@@ -13,7 +13,8 @@ use rustc_hash::FxBuildHasher;
 
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{
-    ByExpr, Expr, Function, Graph, Node, Rational, Symbol, is_negative, is_unit, magnitude,
+    ByExpr, Expr, Function, Graph, HALF, Node, Rational, Small, Symbol, is_negative, is_unit,
+    magnitude,
 };
 
 /// Longer sums and products are parted, so that the work on pairs of their operands grows with
@@ -39,7 +40,7 @@ impl Item {
 
 /// An operation on any number of operands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Form {
+pub(super) enum Operation {
     /// An exact number.
     Constant(Rational),
     /// pi.
@@ -50,18 +51,20 @@ pub(super) enum Form {
     Sum(Vec<(Item, Rational)>),
     /// Factors with their exponents, in order.
     Product(Vec<(Item, i32)>),
-    /// An elementary function.
-    Call(Function, Vec<Item>),
+    /// An elementary function, and what is proved of its argument.
+    Call(Function, Option<Small>, Vec<Item>),
 }
 
-impl Form {
+impl Operation {
     /// The operands.
     pub(super) fn operands(&self) -> impl DoubleEndedIterator<Item = Item> {
         let (terms, factors, arguments) = match self {
-            Form::Constant(_) | Form::Pi | Form::Input(_) => (&[][..], &[][..], &[][..]),
-            Form::Sum(terms) => (&terms[..], &[][..], &[][..]),
-            Form::Product(factors) => (&[][..], &factors[..], &[][..]),
-            Form::Call(_, arguments) => (&[][..], &[][..], &arguments[..]),
+            Operation::Constant(_) | Operation::Pi | Operation::Input(_) => {
+                (&[][..], &[][..], &[][..])
+            }
+            Operation::Sum(terms) => (&terms[..], &[][..], &[][..]),
+            Operation::Product(factors) => (&[][..], &factors[..], &[][..]),
+            Operation::Call(_, _, arguments) => (&[][..], &[][..], &arguments[..]),
         };
         let summed = terms.iter().map(|(item, _)| *item);
         summed.chain(factors.iter().map(|(item, _)| *item)).chain(arguments.iter().copied())
@@ -70,10 +73,10 @@ impl Form {
     /// How many operands there are.
     pub(super) fn size(&self) -> usize {
         match self {
-            Form::Constant(_) | Form::Pi | Form::Input(_) => 0,
-            Form::Sum(terms) => terms.len(),
-            Form::Product(factors) => factors.len(),
-            Form::Call(_, arguments) => arguments.len(),
+            Operation::Constant(_) | Operation::Pi | Operation::Input(_) => 0,
+            Operation::Sum(terms) => terms.len(),
+            Operation::Product(factors) => factors.len(),
+            Operation::Call(_, _, arguments) => arguments.len(),
         }
     }
 }
@@ -99,7 +102,7 @@ pub(super) enum Scaling {
 /// N-ary operations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flat {
-    pub(super) forms: Vec<Form>,
+    pub(super) forms: Vec<Operation>,
     pub(super) stages: Vec<Stage>,
     /// Whether another grouping makes other operations.
     pub(super) is_grouped: bool,
@@ -118,7 +121,7 @@ impl Flat {
         let mut maker = Maker::new(grouping, scaling);
         let mut items = ByExpr::of(roots);
         for expr in reached.iter().copied() {
-            let item = maker.flatten(graph.node(expr), &items);
+            let item = maker.flatten(graph, expr, &items);
             items.set(expr, item);
         }
         (maker.flat, roots.iter().map(|root| items[*root]).collect())
@@ -127,12 +130,12 @@ impl Flat {
     /// So many times ln(-1), which has no value in any arithmetic.
     pub(super) fn void(count: usize) -> (Self, Vec<Item>) {
         let mut flat = Flat::default();
-        let number = flat.push(Form::Constant(Rational::NEG_ONE));
-        let void = flat.push(Form::Call(Function::Ln, vec![number]));
+        let number = flat.push(Operation::Constant(Rational::NEG_ONE));
+        let void = flat.push(Operation::Call(Function::Ln, None, vec![number]));
         (flat, vec![void; count])
     }
 
-    pub(super) fn form(&self, item: Item) -> &Form {
+    pub(super) fn form(&self, item: Item) -> &Operation {
         &self.forms[item.index()]
     }
 
@@ -141,9 +144,9 @@ impl Flat {
     }
 
     /// A new item, which no other form is compared with.
-    pub(super) fn push(&mut self, form: Form) -> Item {
+    pub(super) fn push(&mut self, form: Operation) -> Item {
         let own = match form {
-            Form::Input(symbol) => Stage::of(symbol),
+            Operation::Input(symbol) => Stage::of(symbol),
             _ => Stage::Parameter,
         };
         let stage = form.operands().fold(own, |stage, item| stage.join(self.stage(item)));
@@ -166,7 +169,7 @@ struct Maker {
 /// Operands of the stages, each with a number.
 type Groups<N> = [Vec<(Item, N)>; Stage::ALL.len()];
 
-fn hash(form: &Form) -> u64 {
+fn hash(form: &Operation) -> u64 {
     FxBuildHasher.hash_one(form)
 }
 
@@ -176,7 +179,7 @@ impl Maker {
     }
 
     /// The one item of a form.
-    fn intern(&mut self, form: Form) -> Item {
+    fn intern(&mut self, form: Operation) -> Item {
         let forms = &self.flat.forms;
         let own = hash(&form);
         if let Some(item) = self.index.find(own, |item| forms[item.index()] == form) {
@@ -189,14 +192,14 @@ impl Maker {
     }
 
     fn constant(&mut self, number: impl Into<Rational>) -> Item {
-        self.intern(Form::Constant(number.into()))
+        self.intern(Operation::Constant(number.into()))
     }
 
-    fn flatten(&mut self, node: &Node, items: &ByExpr<Item>) -> Item {
-        match node {
+    fn flatten(&mut self, graph: &Graph, expr: Expr, items: &ByExpr<Item>) -> Item {
+        match graph.node(expr) {
             Node::Number(number) => self.constant(number.clone()),
-            Node::Pi => self.intern(Form::Pi),
-            Node::Symbol(symbol) => self.intern(Form::Input(*symbol)),
+            Node::Pi => self.intern(Operation::Pi),
+            Node::Symbol(symbol) => self.intern(Operation::Input(*symbol)),
             Node::Sum(constant, terms) => {
                 let mut flat = Vec::new();
                 if !constant.is_zero() {
@@ -214,12 +217,12 @@ impl Maker {
                 }
                 self.product(flat)
             }
-            Node::Call(Function::Offset, arguments) => {
+            Node::Offset(operands) => {
                 // The number 1 stands for a constant, which is its coefficient.
                 let (one, minus_one) = (Rational::ONE, Rational::NEG_ONE);
-                let [from, place] = [0, 1].map(|index| items[arguments[index]]);
+                let [from, place] = operands.map(|operand| items[operand]);
                 let place = match self.flat.form(place) {
-                    Form::Constant(number) => {
+                    Operation::Constant(number) => {
                         let number = -number.clone();
                         (self.constant(1), number)
                     }
@@ -227,9 +230,15 @@ impl Maker {
                 };
                 self.collected_sum(vec![(from, one), place])
             }
+            // What is proved of an angle is said where its sine or cosine is taken.
+            Node::Small(_, angle) => items[*angle],
             Node::Call(function, arguments) => {
+                let small = match graph.node(arguments[0]) {
+                    Node::Small(small, _) => Some(*small),
+                    _ => None,
+                };
                 let arguments = arguments.iter().map(|argument| items[*argument]).collect();
-                self.intern(Form::Call(*function, arguments))
+                self.intern(Operation::Call(*function, small, arguments))
             }
         }
     }
@@ -249,7 +258,7 @@ impl Maker {
     /// A product or a sum times a number, where that takes no operation that depends on X. `sums` is how many
     /// sums within each other the number may go into.
     fn times(&mut self, item: Item, number: &Rational, sums: usize) -> Option<Item> {
-        let Form::Product(factors) = self.flat.form(item) else {
+        let Operation::Product(factors) = self.flat.form(item) else {
             return self.sum_times(item, number, sums);
         };
         let late = self.flat.stage(item).min(Stage::Point);
@@ -265,7 +274,7 @@ impl Maker {
                     .find_map(|(place, base)| Some((place, self.sum_times(base, number, sums)?)))?
             }
         };
-        let Form::Product(mut factors) = self.flat.form(item).clone() else { return None };
+        let Operation::Product(mut factors) = self.flat.form(item).clone() else { return None };
         factors[place].0 = scaled;
         Some(self.product(factors))
     }
@@ -275,7 +284,7 @@ impl Maker {
         if sums == 0 || self.flat.stage(item) < Stage::Point {
             return None;
         }
-        let Form::Sum(terms) = self.flat.form(item) else { return None };
+        let Operation::Sum(terms) = self.flat.form(item) else { return None };
         if self.scaling == Scaling::Factors {
             self.flat.is_scalable = true;
             return None;
@@ -309,11 +318,10 @@ impl Maker {
         let whole = magnitude.numerator() / IBig::from(magnitude.denominator().clone());
         let fraction = &magnitude - Rational::from(whole.clone());
         let count = i32::try_from(whole).ok().filter(|count| *count <= MAX_EXPONENT);
-        let half = Rational::from_parts(1.into(), 2u8.into());
         match count {
-            Some(count) if fraction.is_zero() || fraction == half => {
-                if fraction == half {
-                    let root = self.intern(Form::Call(Function::Sqrt, vec![base]));
+            Some(count) if fraction.is_zero() || fraction == HALF => {
+                if fraction == HALF {
+                    let root = self.intern(Operation::Call(Function::Sqrt, None, vec![base]));
                     factors.push((root, sign));
                 }
                 if count > 0 {
@@ -322,7 +330,8 @@ impl Maker {
             }
             _ => {
                 let exponent = self.constant(magnitude);
-                let power = self.intern(Form::Call(Function::Powf, vec![base, exponent]));
+                let power =
+                    self.intern(Operation::Call(Function::Powf, None, vec![base, exponent]));
                 factors.push((power, sign));
             }
         }
@@ -404,15 +413,16 @@ impl Maker {
         let mut terms = collected(terms, Rational::is_zero);
         while terms.len() > MAX_OPERANDS {
             let parts = terms.chunks(MAX_OPERANDS);
-            terms =
-                parts.map(|part| (self.intern(Form::Sum(part.to_vec())), Rational::ONE)).collect();
+            terms = parts
+                .map(|part| (self.intern(Operation::Sum(part.to_vec())), Rational::ONE))
+                .collect();
             // A part may have been there before.
             terms.sort();
         }
         match terms.as_slice() {
             [] => self.constant(0),
             [(item, one)] if one.is_one() => *item,
-            _ => self.intern(Form::Sum(terms)),
+            _ => self.intern(Operation::Sum(terms)),
         }
     }
 
@@ -421,13 +431,14 @@ impl Maker {
         let mut factors = collected(factors, |exponent| *exponent == 0);
         while factors.len() > MAX_OPERANDS {
             let parts = factors.chunks(MAX_OPERANDS);
-            factors = parts.map(|part| (self.intern(Form::Product(part.to_vec())), 1)).collect();
+            factors =
+                parts.map(|part| (self.intern(Operation::Product(part.to_vec())), 1)).collect();
             factors.sort();
         }
         match factors.as_slice() {
             [] => self.constant(1),
             [(item, 1)] => *item,
-            _ => self.intern(Form::Product(factors)),
+            _ => self.intern(Operation::Product(factors)),
         }
     }
 }

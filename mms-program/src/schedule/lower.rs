@@ -10,7 +10,7 @@ use std::hash::BuildHasher as _;
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
-use super::flat::{Flat, Form, Item};
+use super::flat::{Flat, Item, Operation};
 use crate::program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Rational, is_negative, is_unit, magnitude};
@@ -98,21 +98,21 @@ impl Builder {
         roots.iter().map(|root| values[*root]).collect()
     }
 
-    fn form(&mut self, form: &Form, values: &Lowered) -> Value {
+    fn form(&mut self, form: &Operation, values: &Lowered) -> Value {
         match form {
-            Form::Constant(number) => self.constant(number.clone()),
-            Form::Pi => self.push(Op::Pi),
-            Form::Input(symbol) => self.push(Op::Input(*symbol)),
-            Form::Sum(terms) => {
+            Operation::Constant(number) => self.constant(number.clone()),
+            Operation::Pi => self.push(Op::Pi),
+            Operation::Input(symbol) => self.push(Op::Input(*symbol)),
+            Operation::Sum(terms) => {
                 let terms: Vec<_> =
                     terms.iter().map(|(item, factor)| (values[*item], factor)).collect();
                 self.sum(&terms)
             }
-            Form::Product(factors) => {
+            Operation::Product(factors) => {
                 self.product(factors.iter().map(|(item, exponent)| (values[*item], *exponent)))
             }
-            Form::Call(function, arguments) => match arguments[..] {
-                [a] => self.push(Op::Unary(*function, values[a])),
+            Operation::Call(function, small, arguments) => match arguments[..] {
+                [a] => self.push(Op::Unary(*function, *small, values[a])),
                 [a, b] => self.push(Op::Binary(*function, values[a], values[b])),
                 _ => unreachable!("functions take one or two arguments"),
             },

@@ -12,7 +12,7 @@ use std::collections::hash_map::Entry;
 
 use rustc_hash::FxHashMap;
 
-use super::flat::{Flat, Form, Item, collected};
+use super::flat::{Flat, Item, Operation, collected};
 use mms_symbolic::expr::{Rational, is_unit, reachable};
 use mms_symbolic::work::Work;
 
@@ -28,13 +28,13 @@ enum Pair {
 }
 
 impl Pair {
-    fn form(&self) -> Form {
+    fn form(&self) -> Operation {
         match self.clone() {
-            Pair::Sum(a, b, ratio) => Form::Sum(vec![(a, Rational::ONE), (b, ratio)]),
-            Pair::Product(a, b) if a == b => Form::Product(vec![(a, 2)]),
-            Pair::Product(a, b) => Form::Product(vec![(a, 1), (b, 1)]),
-            Pair::Quotient(a, b) if a < b => Form::Product(vec![(a, 1), (b, -1)]),
-            Pair::Quotient(a, b) => Form::Product(vec![(b, -1), (a, 1)]),
+            Pair::Sum(a, b, ratio) => Operation::Sum(vec![(a, Rational::ONE), (b, ratio)]),
+            Pair::Product(a, b) if a == b => Operation::Product(vec![(a, 2)]),
+            Pair::Product(a, b) => Operation::Product(vec![(a, 1), (b, 1)]),
+            Pair::Quotient(a, b) if a < b => Operation::Product(vec![(a, 1), (b, -1)]),
+            Pair::Quotient(a, b) => Operation::Product(vec![(b, -1), (a, 1)]),
         }
     }
 
@@ -44,17 +44,17 @@ impl Pair {
     }
 
     /// A form that contains the pair, with `whole` in its place.
-    fn replace(&self, form: &Form, whole: Item) -> Form {
+    fn replace(&self, form: &Operation, whole: Item) -> Operation {
         match (self, form) {
-            (Pair::Sum(a, b, _), Form::Sum(terms)) => {
+            (Pair::Sum(a, b, _), Operation::Sum(terms)) => {
                 let mut rest = terms.clone();
                 let first = rest.iter_mut().find(|(item, _)| item == a);
                 let coefficient = first.map(|(_, own)| std::mem::take(own)).unwrap_or_default();
                 rest.retain(|(item, _)| item != a && item != b);
                 rest.push((whole, coefficient));
-                Form::Sum(collected(rest, Rational::is_zero))
+                Operation::Sum(collected(rest, Rational::is_zero))
             }
-            (Pair::Product(a, b) | Pair::Quotient(a, b), Form::Product(factors)) => {
+            (Pair::Product(a, b) | Pair::Quotient(a, b), Operation::Product(factors)) => {
                 let power = |item: &Item| {
                     let found = factors.iter().find(|(base, _)| base == item);
                     found.map_or(0, |(_, exponent)| *exponent)
@@ -68,7 +68,7 @@ impl Pair {
                 rest.push((*a, -sign * count));
                 rest.push((*b, -sign * opposite * count));
                 rest.push((whole, sign * count));
-                Form::Product(collected(rest, |exponent| *exponent == 0))
+                Operation::Product(collected(rest, |exponent| *exponent == 0))
             }
             _ => form.clone(),
         }
@@ -113,11 +113,11 @@ fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
     let mut uses = vec![0_u64; flat.forms.len()];
     for item in counted {
         match flat.form(*item) {
-            Form::Sum(terms) => terms.iter().for_each(|(item, _)| uses[item.index()] += 1),
-            Form::Product(factors) => factors.iter().for_each(|(item, exponent)| {
+            Operation::Sum(terms) => terms.iter().for_each(|(item, _)| uses[item.index()] += 1),
+            Operation::Product(factors) => factors.iter().for_each(|(item, exponent)| {
                 uses[item.index()] += u64::from(exponent.unsigned_abs());
             }),
-            Form::Constant(_) | Form::Pi | Form::Input(_) | Form::Call(..) => {}
+            Operation::Constant(_) | Operation::Pi | Operation::Input(_) | Operation::Call(..) => {}
         }
     }
     uses.into_iter().map(|count| count > 1).collect()
@@ -209,7 +209,7 @@ impl Table {
     }
 
     /// What it takes to count the pairs of an operation.
-    fn steps(&self, form: &Form) -> u64 {
+    fn steps(&self, form: &Operation) -> u64 {
         let operands = form.operands().filter(|item| self.is_common(*item)).count() as u64;
         STEPS_OF_PAIR * (1 + operands * operands / 2)
     }
@@ -241,11 +241,11 @@ impl Table {
     }
 
     /// The pairs of an operation with a concerned operand, and how often each occurs in it.
-    fn pairs(&self, form: &Form, concerned: impl Fn(Item) -> bool) -> Vec<(Pair, u64)> {
+    fn pairs(&self, form: &Operation, concerned: impl Fn(Item) -> bool) -> Vec<(Pair, u64)> {
         let is_common = |item: Item| self.is_common(item);
         let mut pairs = Vec::new();
         match form {
-            Form::Sum(terms) => {
+            Operation::Sum(terms) => {
                 let terms: Vec<_> = terms.iter().filter(|(item, _)| is_common(*item)).collect();
                 for (index, (a, first)) in terms.iter().enumerate() {
                     for (b, second) in &terms[index + 1..] {
@@ -255,7 +255,7 @@ impl Table {
                     }
                 }
             }
-            Form::Product(factors) => {
+            Operation::Product(factors) => {
                 let factors: Vec<_> = factors.iter().filter(|(item, _)| is_common(*item)).collect();
                 for (index, (a, first)) in factors.iter().enumerate() {
                     let squares = u64::from(first.unsigned_abs() / 2);
@@ -269,7 +269,7 @@ impl Table {
                     }
                 }
             }
-            Form::Constant(_) | Form::Pi | Form::Input(_) | Form::Call(..) => {}
+            Operation::Constant(_) | Operation::Pi | Operation::Input(_) | Operation::Call(..) => {}
         }
         pairs
     }
@@ -296,7 +296,7 @@ fn factor_pair((a, first): (Item, i32), (b, second): (Item, i32)) -> (Pair, u64)
 
 #[cfg(test)]
 mod tests {
-    use super::super::flat::{Flat, Form, Grouping, Scaling};
+    use super::super::flat::{Flat, Grouping, Operation, Scaling};
     use super::{Scope, share};
     use mms_symbolic::expr::{Graph, Symbol};
 
@@ -311,8 +311,8 @@ mod tests {
         let all = (&reached[..], &[product][..]);
         let (mut flat, roots) = Flat::new(&graph, all, Grouping::Joint, Scaling::Factors);
         let whole = flat.form(roots[0]).clone();
-        let Form::Product(factors) = &whole else { panic!("{whole:?}") };
-        flat.push(Form::Product(factors[1..].to_vec()));
+        let Operation::Product(factors) = &whole else { panic!("{whole:?}") };
+        flat.push(Operation::Product(factors[1..].to_vec()));
         share(&mut flat, &roots, Scope::Needed, graph.work());
         assert_eq!(*flat.form(roots[0]), whole);
         share(&mut flat, &roots, Scope::Made, graph.work());

@@ -15,6 +15,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
 use mms_spec::{Formula, RigidSpec, Rotation};
 
+use mms_symbolic::expr::print::AXES;
 use python::{Renamed, python};
 
 /// At how many points the values are compared.
@@ -79,7 +80,7 @@ fn field(compiled: &Compiled) -> String {
     let parameters = field.parameters.iter().map(|parameter| parameter.name.value.as_str());
     let lets = field.lets.iter().map(|definition| definition.name.value.as_str());
     let names = Renamed::new(parameters.chain(lets));
-    let axes = ["X", "Y", "Z"][..field.dimension].join(", ");
+    let axes = AXES[..field.dimension].join(", ");
     let mut lines = vec![format!("def field({axes}, t):")];
     lines.push(
         "    \"\"\"The field file: u, rho0, the parameters of the material, the fibres.\"\"\""

@@ -175,33 +175,11 @@ impl Text {
 /// The name of a function where it is set as a word; roots and powers are not.
 pub(crate) fn word(function: Function) -> &'static str {
     match function {
-        Function::Sqrt => "sqrt",
-        Function::Cbrt => "cbrt",
-        Function::Exp => "exp",
-        Function::ExpM1 => "exp_m1",
-        Function::Ln => "ln",
-        Function::Ln1p => "ln_1p",
-        Function::Ln1pRest => "ln_1p_rest",
-        Function::Sin => "sin",
-        Function::Cos => "cos",
-        Function::SinNearZero => "sin_near_zero",
-        Function::CosNearZero => "cos_near_zero",
-        Function::SinWithinOne => "sin_within_one",
-        Function::CosWithinOne => "cos_within_one",
-        Function::SinPi => "sin_pi",
-        Function::CosPi => "cos_pi",
-        Function::WithinTurns => "within_turns",
-        Function::WithinTurnsPi => "within_turns_pi",
-        Function::Tan => "tan",
-        Function::Sinh => "sinh",
-        Function::Cosh => "cosh",
-        Function::Tanh => "tanh",
         Function::Asin => "arcsin",
         Function::Acos => "arccos",
         Function::Atan => "arctan",
-        Function::Atan2 => "atan2",
         Function::Powf => "pow",
-        Function::Offset => "offset",
+        other => other.name(),
     }
 }
 

@@ -20,29 +20,39 @@ use dashu_ratio::RBig as Rational;
 /// The logarithm of a size: its exponents of 10 and of 60.
 const SIZES: usize = 2;
 
-/// The position of the equation for t, which no symbol stands for.
-const SECONDS: usize = usize::MAX;
+/// What an equation follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Origin {
+    /// The symbol of that position.
+    Symbol(usize),
+    /// That t is in seconds, where no symbol says it.
+    Seconds,
+}
 
 /// An equation between logarithms of sizes: exponents of the base dimensions, then what they must
 /// amount to.
 struct Equation {
     dimensions: [Rational; BASE.len()],
     sizes: [Rational; SIZES],
-    /// The symbols that it follows from, by their position, with the multiple of each.
-    origin: BTreeMap<usize, Rational>,
+    /// What it follows from, with the multiple of each.
+    origin: BTreeMap<Origin, Rational>,
 }
 
 impl Equation {
     fn of(symbol: &Symbol, position: usize) -> Self {
         let sizes = [symbol.size.tens, symbol.size.sixties].map(Rational::from);
         let dimensions = symbol.dimension.exponents().clone();
-        Equation { dimensions, sizes, origin: BTreeMap::from([(position, Rational::ONE)]) }
+        Equation {
+            dimensions,
+            sizes,
+            origin: BTreeMap::from([(Origin::Symbol(position), Rational::ONE)]),
+        }
     }
 
     /// The unit of t is the second.
     fn seconds() -> Self {
         let dimensions = Dimension::time().exponents().clone();
-        let origin = BTreeMap::from([(SECONDS, Rational::ONE)]);
+        let origin = BTreeMap::from([(Origin::Seconds, Rational::ONE)]);
         Equation { dimensions, sizes: [Rational::ZERO; SIZES], origin }
     }
 
@@ -84,9 +94,12 @@ pub fn consistent<'a>(units: impl IntoIterator<Item = &'a Unit>) -> Option<Diagn
         if equation.pivot().is_some() {
             equations.push(equation);
         } else if equation.sizes.iter().any(|size| !size.is_zero()) {
-            let positions = equation.origin.keys().filter(|position| **position != SECONDS);
-            let involved: Vec<_> = positions.map(|position| symbols[*position]).collect();
-            return mixture(&involved, equation.origin.contains_key(&SECONDS));
+            let symbol = |origin: &Origin| match origin {
+                Origin::Symbol(position) => Some(symbols[*position]),
+                Origin::Seconds => None,
+            };
+            let involved: Vec<_> = equation.origin.keys().filter_map(symbol).collect();
+            return mixture(&involved, equation.origin.contains_key(&Origin::Seconds));
         }
     }
     None

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use dashu_int::ops::{BitTest as _, Gcd as _};
 use dashu_int::{IBig, UBig};
 
-use super::{Expr, Function, Graph, Node, Rational, Symbol, is_negative, magnitude};
+use super::{Expr, Function, Graph, HALF, Node, Rational, Small, Symbol, is_negative, magnitude};
 
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
@@ -140,24 +140,31 @@ impl Graph {
     /// An elementary function, folded where its value is known exactly.
     pub fn call(&mut self, function: Function, arguments: &[Expr]) -> Expr {
         let [argument, ..] = *arguments else { unreachable!("every function has an argument") };
-        // Of anything but a coordinate it is a difference like others.
-        if function == Function::Offset
-            && (!matches!(self.node(argument), Node::Symbol(Symbol::Coordinate(_)))
-                || self.is_zero(arguments[1]))
-        {
-            return self.sub(argument, arguments[1]);
-        }
         if let Some(folded) = self.fold_call(function, argument) {
             return folded;
         }
         self.intern(Node::Call(function, arguments.to_vec()))
     }
 
+    /// A coordinate less a place; of anything but a coordinate it is a difference like others.
+    pub fn offset(&mut self, coordinate: Expr, place: Expr) -> Expr {
+        let is_coordinate = matches!(self.node(coordinate), Node::Symbol(Symbol::Coordinate(_)));
+        match is_coordinate && !self.is_zero(place) {
+            true => self.intern(Node::Offset([coordinate, place])),
+            false => self.sub(coordinate, place),
+        }
+    }
+
+    /// An angle with what is proved of it.
+    pub fn small(&mut self, small: Small, angle: Expr) -> Expr {
+        self.intern(Node::Small(small, angle))
+    }
+
     fn fold_call(&mut self, function: Function, argument: Expr) -> Option<Expr> {
         if function == Function::Sqrt {
-            return Some(self.power(argument, Rational::from_parts(1.into(), 2u8.into())));
+            return Some(self.power(argument, HALF));
         }
-        if let Some(at_zero) = value_at_zero(function)
+        if let Some(at_zero) = function.at_zero()
             && self.is_zero(argument)
         {
             return Some(self.number(at_zero));
@@ -400,39 +407,6 @@ pub fn steps_of_length(number: &Rational) -> u64 {
 
 fn is_long(number: &Rational) -> bool {
     number.numerator().bit_len().max(number.denominator().bit_len()) > MAX_BITS
-}
-
-/// The functions whose value at 0 is a rational number.
-fn value_at_zero(function: Function) -> Option<i32> {
-    match function {
-        Function::Cbrt
-        | Function::ExpM1
-        | Function::Ln1p
-        | Function::Ln1pRest
-        | Function::SinPi
-        | Function::WithinTurns
-        | Function::WithinTurnsPi
-        | Function::Sin
-        | Function::SinNearZero
-        | Function::SinWithinOne
-        | Function::Tan
-        | Function::Sinh
-        | Function::Tanh
-        | Function::Asin
-        | Function::Atan => Some(0),
-        Function::Exp
-        | Function::Cos
-        | Function::CosNearZero
-        | Function::CosWithinOne
-        | Function::CosPi
-        | Function::Cosh => Some(1),
-        Function::Sqrt
-        | Function::Ln
-        | Function::Acos
-        | Function::Atan2
-        | Function::Powf
-        | Function::Offset => None,
-    }
 }
 
 /// The greatest common divisor of two rationals: both are integer multiples of it.

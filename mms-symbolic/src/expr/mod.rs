@@ -12,6 +12,8 @@
 //! | `Sum` | a constant plus terms with non-zero coefficients, in order of handles; no term is a number or a sum |
 //! | `Product` | bases with non-zero exact exponents, in order of handles; nested products are opened, numbers folded where the power is rational |
 //! | `Call` | an elementary function |
+//! | `Offset` | a coordinate less a place, in a step of its own: as exact as the coordinate is |
+//! | `Small` | an angle with what is proved of its magnitude; equal to the angle, and only there to be scheduled |
 //!
 //! Sums and products have any number of operands, so that equal expressions written in different order are one
 //! node. Subtraction is a coefficient, division an exponent, a square root the exponent 1/2. As a factor beside
@@ -29,7 +31,7 @@ use std::hash::BuildHasher;
 pub use build::steps_of_length;
 use dashu_int::Sign;
 pub use dashu_ratio::RBig as Rational;
-pub use function::Function;
+pub use function::{Function, Small};
 use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 pub use stage::Stage;
@@ -60,8 +62,10 @@ pub enum Symbol {
     Normal(usize),
     /// The component H_iJ of a displacement gradient that the caller supplies.
     Gradient(usize, usize),
-    /// A strain invariant less its value at F = I; only inside a material's density.
+    /// A strain invariant less its value at F = I; only inside a material's density, and where a stress is bounded.
     Invariant(usize),
+    /// What whoever works with a graph has a name for; no field has it, and no program.
+    Local(usize),
 }
 
 /// An operation and its operands.
@@ -81,7 +85,14 @@ pub enum Node {
     Product(Vec<(Expr, Rational)>),
     /// An elementary function.
     Call(Function, Vec<Expr>),
+    /// A coordinate less the place that a field is about.
+    Offset([Expr; 2]),
+    /// An angle that is proved to be small.
+    Small(Small, Expr),
 }
+
+/// 1/2.
+pub const HALF: Rational = Rational::from_parts_const(Sign::Positive, 1, 2);
 
 /// |number|.
 pub fn magnitude(number: &Rational) -> Rational {
@@ -106,6 +117,8 @@ impl Node {
             Node::Sum(_, terms) => (terms, &[]),
             Node::Product(factors) => (factors, &[]),
             Node::Call(_, arguments) => (&[], arguments),
+            Node::Offset(operands) => (&[], operands),
+            Node::Small(_, angle) => (&[], std::slice::from_ref(angle)),
         };
         weighted.iter().map(|(child, _)| *child).chain(plain.iter().copied())
     }
@@ -122,6 +135,8 @@ impl Node {
             Node::Call(_, arguments) => {
                 arguments.iter_mut().for_each(|child| *child = replace(*child));
             }
+            Node::Offset(operands) => *operands = operands.map(replace),
+            Node::Small(_, angle) => *angle = replace(*angle),
         }
     }
 }
@@ -130,7 +145,7 @@ impl Node {
 /// thousands.
 pub const DEFAULT_MAX_NODES: usize = 200_000;
 
-/// What it takes to make a node or to find it, and so much more for each operand.
+/// The steps of work that it takes to make a node or to find it, and more for each operand.
 pub const STEPS_OF_NODE: u64 = 20;
 const STEPS_OF_OPERAND: u64 = 10;
 
@@ -194,7 +209,7 @@ impl Graph {
         graph
     }
 
-    /// Whether the bound was passed: then nothing in the graph means anything.
+    /// Whether the graph has outgrown its bound; then none of its expressions has a meaning.
     pub fn is_exhausted(&self) -> bool {
         self.exhausted
     }
@@ -209,12 +224,12 @@ impl Graph {
         self.limit = limit;
     }
 
-    /// What may still be done with the graph: nothing can be made in it when that is over.
+    /// The budget of work that is left; when it is over, no node can be made.
     pub fn work(&self) -> &Work {
         &self.work
     }
 
-    /// With a budget that somebody may end.
+    /// Gives the graph a budget of work that ends when somebody asks for it.
     pub fn stopped_by(mut self, stop: &Stop) -> Self {
         self.work = Work::new(stop.clone());
         self
@@ -225,7 +240,7 @@ impl Graph {
         self.size
     }
 
-    /// What filled the graph, and what to do about it: help for a message.
+    /// Help for a message about a full graph: what filled it, and what a user can do.
     pub fn exhaustion(&self) -> Vec<String> {
         if self.work.is_over() {
             return vec![
@@ -254,7 +269,7 @@ impl Graph {
         self.limit += self.size + DEFAULT_MAX_NODES;
     }
 
-    /// What `make` returns, or `None`, and the graph as it was, where it reaches the bound.
+    /// Runs `make`. Where that reaches the bound, the graph is as it was before, and the result is `None`.
     pub fn attempt<R>(&mut self, make: impl FnOnce(&mut Self) -> R) -> Option<R> {
         let before = self.mark();
         if self.work.is_over() && !before.exhausted {
@@ -268,7 +283,7 @@ impl Graph {
         None
     }
 
-    /// What `work` finds, and the graph as it was where it reaches the bound: what was found then has to say so.
+    /// Runs `work`. Where that reaches the bound, the graph is as it was before, and the result itself has to say so.
     pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let before = self.mark();
         let found = work(self);
@@ -278,7 +293,7 @@ impl Graph {
         found
     }
 
-    /// What `work` finds out with a few more nodes, none of which stays.
+    /// Runs `work` with room for more nodes, and removes them all afterwards.
     pub fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let (before, limit) = (self.mark(), self.limit);
         self.make_room();
@@ -445,7 +460,7 @@ where
     reached
 }
 
-/// Something for each of some expressions.
+/// A table of values for some expressions.
 #[derive(Clone, Debug)]
 pub struct ByExpr<T> {
     /// One more than the place of what there is; 0 for nothing.
@@ -454,19 +469,19 @@ pub struct ByExpr<T> {
 }
 
 impl<T> ByExpr<T> {
-    /// Room for what `roots` are made of.
+    /// An empty table for everything that `roots` are made of.
     pub fn of(roots: &[Expr]) -> Self {
         let size = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
         ByExpr { places: vec![0; size], values: Vec::new() }
     }
 
-    /// Puts something there, once.
+    /// Enters the value of an expression, once.
     pub fn set(&mut self, expr: Expr, value: T) {
         self.values.push(value);
         self.places[expr.index()] = self.values.len() as u32;
     }
 
-    /// What is there, if there is something.
+    /// The value of an expression, if one was entered.
     pub fn get(&self, expr: Expr) -> Option<&T> {
         let place = *self.places.get(expr.index())?;
         self.values.get((place as usize).wrapping_sub(1))

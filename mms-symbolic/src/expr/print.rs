@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Expr, Function, Graph, Node, Rational, Symbol, magnitude};
+use super::{Expr, Function, Graph, HALF, Node, Rational, Symbol, magnitude};
 
 /// How tightly a printed text binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,6 +16,9 @@ enum Binding {
 /// Bases with their exponents.
 type Powers<B> = Vec<(B, Rational)>;
 
+/// The names of the reference coordinates.
+pub const AXES: [&str; 3] = ["X", "Y", "Z"];
+
 /// The names under which a reader knows leaves and sub-expressions.
 #[derive(Clone, Debug, Default)]
 pub struct Names {
@@ -28,7 +31,6 @@ pub struct Names {
 impl Names {
     /// The name of a leaf.
     pub fn symbol(&self, symbol: Symbol) -> String {
-        const AXES: [&str; 3] = ["X", "Y", "Z"];
         match symbol {
             Symbol::Parameter(index) => match self.parameters.get(index) {
                 Some(name) => name.clone(),
@@ -39,6 +41,7 @@ impl Names {
             Symbol::Normal(axis) => format!("N{}", axis + 1),
             Symbol::Gradient(row, column) => format!("H{}{}", row + 1, column + 1),
             Symbol::Invariant(index) => format!("i{}", index + 1),
+            Symbol::Local(index) => format!("local_{index}"),
         }
     }
 }
@@ -81,7 +84,7 @@ impl Graph {
                 let base = |base: &Expr, exponent: &Rational| {
                     if exponent.is_one() {
                         at_least(base, Binding::Power)
-                    } else if *exponent == Rational::from_parts(1.into(), 2u8.into()) {
+                    } else if *exponent == HALF {
                         format!("sqrt({})", printed[base].0)
                     } else {
                         format!("{}^{}", at_least(base, Binding::Atom), print_exponent(exponent))
@@ -95,11 +98,11 @@ impl Graph {
                     (at_least(base, Binding::Atom), at_least(exponent, Binding::Atom));
                 (format!("{base}^{exponent}"), Binding::Power)
             }
-            Node::Call(Function::Offset, arguments) => {
-                let [from, place] =
-                    [0, 1].map(|index| at_least(&arguments[index], Binding::Product));
+            Node::Offset(operands) => {
+                let [from, place] = operands.map(|operand| at_least(&operand, Binding::Product));
                 (format!("{from} - {place}"), Binding::Sum)
             }
+            Node::Small(_, angle) => printed[angle].clone(),
             Node::Call(function, arguments) => print_call(*function, arguments, printed),
         }
     }

@@ -35,7 +35,7 @@ impl Stage {
     /// The stage of a leaf.
     pub fn of(symbol: Symbol) -> Stage {
         match symbol {
-            Symbol::Parameter(_) => Stage::Parameter,
+            Symbol::Parameter(_) | Symbol::Local(_) => Stage::Parameter,
             Symbol::Time => Stage::Time,
             Symbol::Coordinate(_) => Stage::Point,
             Symbol::Normal(_) | Symbol::Gradient(..) | Symbol::Invariant(_) => Stage::PointTime,

@@ -20,13 +20,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Function, Graph, Node, Rational, Symbol};
+use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol};
 
 /// The longest sum for a root; the greatest exponent.
 const MAX_ROOT: u32 = 12;
 const MAX_POWER: u32 = 64;
 
-/// An expression as the sum of three, the second of which is multiplied by the symbol.
+/// An expression to second order in the symbol: its limit, its slope times the symbol, and the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     /// f0, its value where the symbol is 0.
@@ -37,7 +37,7 @@ pub struct Parts {
     pub rest: Expr,
 }
 
-/// The parts of `roots`; none of one for which there is no rule.
+/// Splits each root; `None` for one that has an operation without a rule.
 pub fn curvature(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
     let symbol = graph.symbol(symbol);
     let mut split = Split { symbol, known: BTreeMap::new() };
@@ -86,7 +86,9 @@ impl Split {
             return Some(Term { limit: expr, slope: zero, first: zero, second: zero, whole: expr });
         }
         match node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => None,
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Offset(_) | Node::Small(..) => {
+                None
+            }
             Node::Sum(constant, terms) => {
                 let mut parts = [const { Vec::new() }; 4];
                 parts[0].push((graph.number(1), constant));
@@ -266,7 +268,7 @@ fn logarithm(graph: &mut Graph, of: Term, expr: Expr) -> Option<Term> {
 
 /// A function that is 1 at 0, and as much more as the square of another at half of the argument.
 fn at_crest(graph: &mut Graph, [half, own]: [Function; 2], factor: i32, of: Term) -> Term {
-    let middle = graph.scale(of.first, Rational::from_parts(1.into(), 2u8.into()));
+    let middle = graph.scale(of.first, HALF);
     let root = graph.call(half, &[middle]);
     let square = graph.power(root, 2);
     let second = graph.scale(square, factor);

@@ -19,13 +19,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Function, Graph, Node, Rational, Stage, Symbol};
+use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage, Symbol};
 
 /// The longest sum for a root; the greatest exponent.
 const MAX_ROOT: u32 = 12;
 const MAX_POWER: u32 = 64;
 
-/// An expression as the sum of two.
+/// An expression as the sum of its limit, where the symbol is 0, and of the rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parts {
     /// Its value where the symbol is 0.
@@ -34,7 +34,7 @@ pub struct Parts {
     pub rest: Expr,
 }
 
-/// The parts of `roots`; none of one that has no value where `symbol` is 0.
+/// Splits each root; `None` for one that has no value where `symbol` is 0.
 pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
     let mut split = Split { symbol, known: BTreeMap::new() };
     for expr in graph.reachable(roots) {
@@ -108,6 +108,13 @@ impl Split {
                 }
                 Some(product(graph, expr, &terms))
             }
+            Node::Offset(operands) => {
+                let [coordinate, place] = operands.map(|operand| self.known[&operand]);
+                let limit = graph.offset(coordinate?.limit, place?.limit);
+                Some(Term { limit, rest: graph.sub(expr, limit), whole: expr })
+            }
+            // It is made where all differences have been taken.
+            Node::Small(..) => None,
             Node::Call(function, arguments) => {
                 let arguments: Option<Vec<Term>> =
                     arguments.iter().map(|argument| self.known[argument]).collect();
@@ -221,11 +228,10 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
         let rest = graph.call(function, &wholes);
         return Some(Term { limit, rest, whole: rest });
     }
-    let half = Rational::from_parts(1.into(), 2u8.into());
     // F((f + f0)/2) G((f - f0)/2).
     let halves = |graph: &mut Graph, [of_sum, of_rest]: [Function; 2], factor: i32| {
         let sum = graph.add(of, at);
-        let [sum, rest] = [sum, rest].map(|it| graph.scale(it, half.clone()));
+        let [sum, rest] = [sum, rest].map(|it| graph.scale(it, HALF));
         let [sum, rest] = [(of_sum, sum), (of_rest, rest)].map(|(f, x)| graph.call(f, &[x]));
         let product = graph.mul(sum, rest);
         graph.scale(product, factor)
@@ -284,19 +290,9 @@ fn call(graph: &mut Graph, whole: Expr, function: Function, arguments: &[Term]) 
             let factor = graph.call(Function::ExpM1, &[exponent]);
             graph.mul(limit, factor)
         }
-        // Two angles may be a turn apart; the others stand in no field.
-        Function::Atan2
-        | Function::Offset
-        | Function::Sqrt
-        | Function::SinPi
-        | Function::CosPi
-        | Function::WithinTurns
-        | Function::WithinTurnsPi
-        | Function::SinNearZero
-        | Function::CosNearZero
-        | Function::SinWithinOne
-        | Function::CosWithinOne
-        | Function::Ln1pRest => graph.sub(whole, limit),
+        // Two angles of a point may be a turn apart. The others stand in no field; of one that is new it is right,
+        // with the digits that the difference leaves.
+        _ => graph.sub(whole, limit),
     };
     Some(Term { limit, rest, whole })
 }
@@ -312,11 +308,10 @@ fn arc(graph: &mut Graph, Term { limit: at, rest, whole: of }: Term) -> Expr {
     if graph.is_zero(at) {
         return graph.call(Function::Asin, &[rest]);
     }
-    let half = Rational::from_parts(1.into(), 2u8.into());
     let [cosine, cosine_at] = [of, at].map(|sine| {
         let square = graph.power(sine, 2);
         let square = one_plus(graph, square, -1);
-        graph.power(square, half.clone())
+        graph.power(square, HALF)
     });
     let [sum, cosines] = [(of, at), (cosine, cosine_at)].map(|(a, b)| graph.add(a, b));
     let product = graph.mul(at, sum);

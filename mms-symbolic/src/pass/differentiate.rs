@@ -106,6 +106,15 @@ impl Slopes {
                     }
                 }
             }
+            Node::Offset(operands) => {
+                for (operand, sign) in operands.iter().zip([1, -1]) {
+                    if self.moves(*operand) {
+                        let slope = self.chain(graph, *operand, kernel);
+                        terms.push((graph.scale(slope, sign), Rational::ONE));
+                    }
+                }
+            }
+            Node::Small(_, angle) => terms.push((self.chain(graph, *angle, kernel), Rational::ONE)),
             // d f(a, ..) = sum (df/da) da.
             Node::Call(function, arguments) => {
                 for (index, argument) in arguments.iter().enumerate() {
@@ -155,16 +164,6 @@ fn partial(
             let sine = graph.call(Function::SinPi, &[x]);
             times_pi(graph, sine, -1)
         }
-        Function::SinNearZero => graph.call(Function::CosNearZero, &[x]),
-        Function::CosNearZero => {
-            let sin = graph.call(Function::SinNearZero, &[x]);
-            graph.scale(sin, -1)
-        }
-        Function::SinWithinOne => graph.call(Function::CosWithinOne, &[x]),
-        Function::CosWithinOne => {
-            let sin = graph.call(Function::SinWithinOne, &[x]);
-            graph.scale(sin, -1)
-        }
         Function::Sin => graph.call(Function::Cos, &[x]),
         Function::Cos => {
             let sin = graph.call(Function::Sin, &[x]);
@@ -194,7 +193,6 @@ fn partial(
             let quotient = graph.div(numerator, radius);
             graph.scale(quotient, sign)
         }
-        Function::Offset => graph.number(if index == 0 { 1 } else { -1 }),
         Function::Powf => {
             // b^e: by b it is e b^e / b, by e it is b^e ln b.
             let (base, exponent) = (arguments[0], arguments[1]);

@@ -64,7 +64,9 @@ impl Reducer<'_> {
                 let product = self.product(graph, &factors);
                 product.unwrap_or_else(|| self.closed(graph, Node::Product(factors)))
             }
-            call @ Node::Call(..) => self.closed(graph, call),
+            other @ (Node::Call(..) | Node::Offset(_) | Node::Small(..)) => {
+                self.closed(graph, other)
+            }
         }
     }
 

@@ -9,10 +9,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::polynomial::{Monomial, Polynomial};
-use crate::expr::{Expr, Function, Graph, Node, Rational, Stage};
+use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage};
 
 fn half_of(graph: &mut Graph, angle: Expr) -> Expr {
-    graph.scale(angle, Rational::from_parts(1.into(), 2u8.into()))
+    graph.scale(angle, HALF)
 }
 
 /// The relations of a set of expressions.
@@ -217,8 +217,7 @@ impl Relations {
         let (Some((index, base)), true) = (leading, squares.iter().all(Option::is_some)) else {
             return;
         };
-        let half = Rational::from_parts(1.into(), 2u8.into());
-        let root = graph.power(radicand, half);
+        let root = graph.power(radicand, HALF);
         let mut others = Polynomial::constant(constant);
         for (other, (_, coefficient)) in terms.iter().enumerate() {
             if let Some(square) = squares[other].filter(|_| other != index) {

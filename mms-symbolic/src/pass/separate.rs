@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::Operands;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};
 
-/// `roots` with every sum that needs both X and t in such parts.
+/// `roots` with every sum that needs both X and t in parts, of what X determines and of what t does.
 pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let readers = graph.readers(roots, |expr| graph.stage(expr) == Stage::PointTime);
     let mut parts = Parts { readers, ..Parts::default() };

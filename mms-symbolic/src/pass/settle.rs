@@ -18,7 +18,7 @@ use super::nest::{flat_view, integral_power, nested};
 use super::polynomial::Polynomial;
 use super::relations::lateness;
 use super::substitute::rebuild;
-use crate::expr::{Expr, Function, Graph, Node, Rational};
+use crate::expr::{Expr, Function, Graph, HALF, Node, Rational};
 
 /// How deep sums in sums are opened.
 const DEPTH: usize = 6;
@@ -26,7 +26,7 @@ const DEPTH: usize = 6;
 /// How often a sum is settled, each time by other atoms.
 const ROUNDS: usize = 6;
 
-/// `roots` with every sum below them settled.
+/// `roots` with every sum below them rewritten where it cancels.
 pub fn settle(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);
@@ -46,8 +46,8 @@ fn settled(graph: &mut Graph, expr: Expr) -> Expr {
     if changed { nested(graph, view, &lateness) } else { expr }
 }
 
-/// An atom, and whether it divides.
-type Place = (Expr, bool);
+/// An atom as a factor, and whether it divides.
+type Factor = (Expr, bool);
 
 /// What an atom stands for.
 #[derive(Clone)]
@@ -60,7 +60,7 @@ enum Parts {
 
 /// What atoms are made of, as far as that was asked.
 #[derive(Default)]
-struct Splits(BTreeMap<Place, Option<Parts>>);
+struct Splits(BTreeMap<Factor, Option<Parts>>);
 
 impl Splits {
     /// The polynomial with the fewest atoms split that make terms of it cancel.
@@ -92,7 +92,7 @@ impl Splits {
 
     /// The atoms that can be split, in the polynomial and in what its sums are made of; sums of
     /// which no function is a part only where `plain` is set.
-    fn reachable(&mut self, graph: &mut Graph, view: &Polynomial, plain: bool) -> BTreeSet<Place> {
+    fn reachable(&mut self, graph: &mut Graph, view: &Polynomial, plain: bool) -> BTreeSet<Factor> {
         let mut found = BTreeSet::new();
         let mut open = vec![(view.clone(), 0)];
         while let Some((polynomial, depth)) = open.pop() {
@@ -116,7 +116,7 @@ impl Splits {
         found
     }
 
-    fn of(&mut self, graph: &mut Graph, place: Place) -> Option<Parts> {
+    fn of(&mut self, graph: &mut Graph, place: Factor) -> Option<Parts> {
         if let Some(known) = self.0.get(&place) {
             return known.clone();
         }
@@ -137,10 +137,10 @@ impl Splits {
         &mut self,
         graph: &mut Graph,
         view: &Polynomial,
-        chosen: &BTreeSet<Place>,
+        chosen: &BTreeSet<Factor>,
     ) -> Option<(Polynomial, bool)> {
         let mut cancelled = false;
-        let (mut opened, mut sums) = (BTreeMap::<Place, Polynomial>::new(), Vec::new());
+        let (mut opened, mut sums) = (BTreeMap::<Factor, Polynomial>::new(), Vec::new());
         for place in chosen {
             match self.of(graph, *place)? {
                 Parts::Limit(parts) => drop(opened.insert(*place, parts)),
@@ -162,7 +162,7 @@ impl Splits {
 /// The polynomial with atoms replaced, and whether terms cancelled.
 fn put_in(
     view: &Polynomial,
-    parts: &BTreeMap<Place, Polynomial>,
+    parts: &BTreeMap<Factor, Polynomial>,
     cancelled: &mut bool,
 ) -> Option<Polynomial> {
     let mut total = Polynomial::default();
@@ -243,7 +243,7 @@ fn limit(graph: &mut Graph, atom: Expr) -> Option<Split> {
             let number = graph.number(at.clone());
             let value = graph.power(number, power.clone());
             let value = graph.as_number(value)?.clone();
-            if *power == Rational::from_parts(1.into(), 2u8.into()) {
+            if *power == HALF {
                 let number = graph.number(value.clone());
                 let sum = graph.add(number, atom);
                 return Some((value, one, graph.div(rest, sum)));
@@ -275,7 +275,7 @@ fn shifted(graph: &mut Graph, sum: Expr) -> Option<(Rational, Expr)> {
 }
 
 fn half_square(graph: &mut Graph, function: Function, angle: Expr) -> Expr {
-    let half = graph.scale(angle, Rational::from_parts(1.into(), 2u8.into()));
+    let half = graph.scale(angle, HALF);
     let value = graph.call(function, &[half]);
     graph.power(value, 2)
 }
@@ -296,7 +296,7 @@ fn has_function(graph: &Graph, sum: Expr) -> bool {
             continue;
         }
         match graph.node(expr) {
-            Node::Call(..) => return true,
+            Node::Call(..) | Node::Offset(_) | Node::Small(..) => return true,
             Node::Product(factors) if factors.iter().any(|(_, power)| !power.is_int()) => {
                 return true;
             }

@@ -76,6 +76,8 @@ impl Graph {
             }
             Node::Product(factors) => self.product(factors),
             Node::Call(function, arguments) => self.call(function, &arguments),
+            Node::Offset([coordinate, place]) => self.offset(coordinate, place),
+            Node::Small(small, angle) => self.small(small, angle),
         }
     }
 }

@@ -27,7 +27,12 @@ pub fn whole_turns(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
 
 /// The angle of a sine or a cosine with whole turns off a part of it, if there is such a part beside one that needs X.
 fn reduced(graph: &mut Graph, function: Function, angle: Expr) -> Option<Expr> {
-    let within = match function.of_any_argument() {
+    // What is proved of the angle is so without its turns too.
+    if let Node::Small(small, angle) = *graph.node(angle) {
+        let reduced = reduced(graph, function, angle)?;
+        return Some(graph.small(small, reduced));
+    }
+    let within = match function {
         Function::Sin | Function::Cos => Function::WithinTurns,
         Function::SinPi | Function::CosPi => Function::WithinTurnsPi,
         _ => return None,
@@ -83,7 +88,7 @@ fn parts(graph: &mut Graph, angle: Expr, nested: usize) -> Option<[Expr; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expr::Symbol;
+    use crate::expr::{Small, Symbol};
 
     #[test]
     fn turns_are_taken_off_what_is_known_before_x_is() {
@@ -101,14 +106,17 @@ mod tests {
         let early = graph.mul(k, ct);
         for (function, within) in [
             (Function::Sin, Function::WithinTurns),
-            (Function::CosNearZero, Function::WithinTurns),
+            (Function::Cos, Function::WithinTurns),
             (Function::SinPi, Function::WithinTurnsPi),
         ] {
-            let root = graph.call(function, &[angle]);
             let reduced = graph.call(within, &[early]);
             let reduced = graph.sum([(late, one.clone()), (reduced, minus_one.clone())]);
-            let expected = graph.call(function, &[reduced]);
-            assert_eq!(whole_turns(&mut graph, &[root]), [expected]);
+            let small = [angle, reduced].map(|angle| graph.small(Small::NearZero, angle));
+            for [angle, reduced] in [[angle, reduced], small] {
+                let root = graph.call(function, &[angle]);
+                let expected = graph.call(function, &[reduced]);
+                assert_eq!(whole_turns(&mut graph, &[root]), [expected]);
+            }
         }
     }
 

@@ -18,7 +18,7 @@ pub type Compile<'a> = &'a dyn Fn(&Options) -> Result<Compiled, Failure>;
 type Key = (Variation, Option<usize>, Form);
 
 /// A field, and each of its variants once.
-pub(super) struct Subject<'a> {
+pub(super) struct Variants<'a> {
     compile: Compile<'a>,
     options: Options,
     /// In the stable form, without a rigid motion on top.
@@ -26,7 +26,7 @@ pub(super) struct Subject<'a> {
     variants: RefCell<BTreeMap<Key, Arc<Compiled>>>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> Variants<'a> {
     /// The field with these options, of which the quantities and the form do not matter.
     pub fn new(
         compile: Compile<'a>,
@@ -41,7 +41,7 @@ impl<'a> Subject<'a> {
         still.selection.twin = Twin::Nothing;
         still.form = Form::Stable;
         let plain = compile(&still)?;
-        Ok(Subject { compile, options, plain, variants: RefCell::default() })
+        Ok(Variants { compile, options, plain, variants: RefCell::default() })
     }
 
     /// The field in the stable form, without a rigid motion that was put on top.
@@ -49,7 +49,7 @@ impl<'a> Subject<'a> {
         &self.plain
     }
 
-    /// A variant of that.
+    /// A variant of the plain field.
     pub fn variant(&self, variation: &Variation) -> Result<Compiled, String> {
         let mut options = self.options.clone();
         options.selection.twin = Twin::Nothing;

@@ -1,0 +1,181 @@
+//! Candidates: what was derived, as each rewriting writes it, and the choice among them.
+//!
+//! | candidate | is made by |
+//! |---|---|
+//! | `Derived` | nothing: as it was derived |
+//! | `Nested` | `nest`: multivariate Horner form, what is known early innermost |
+//! | `Absorbed` | `factor`, then `absorb`: common factors out, and early ones into sums |
+//! | `Factored` | `factor`: common factors out |
+//! | `Reduced` | `reduce`: the normal form by the identities of the motion |
+//! | `ReducedThoroughly` | the same with every identity of its circular functions, where there are more |
+//! | `ReducedAtPoints` | the same by the identities of what the components themselves are made of, at points |
+//!
+//! [`choose`] costs each by its schedule, keeps those that keep their digits at a small amplitude if there are such, and
+//! takes the cheapest whose bound of the rounding error is small ([`Rounding::first`]).
+
+use std::collections::BTreeMap;
+
+use crate::amplitude::Amplitude;
+use crate::rounding::Rounding;
+use mms_program::schedule::{Cost, cost};
+use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::pass::absorb::absorb;
+use mms_symbolic::pass::factor::factor;
+use mms_symbolic::pass::nest::nest;
+use mms_symbolic::pass::reduce::reduce;
+use mms_symbolic::pass::relations::{Relations, lateness};
+
+/// How many times the operations of the cheapest candidate at a point another one may take for its digits.
+const DEAREST: usize = 2;
+
+/// The components of whatever has a key.
+pub(super) type Components<K> = BTreeMap<K, Vec<Expr>>;
+
+/// What made a candidate; see the table of the module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the table of the module has them")]
+pub enum Rewriting {
+    Derived,
+    Nested,
+    Absorbed,
+    Factored,
+    Reduced,
+    ReducedThoroughly,
+    ReducedAtPoints,
+}
+
+/// All components that were derived, as one rewriting writes them.
+#[derive(Clone, Debug)]
+pub struct Candidate<K> {
+    /// What made it.
+    pub rewriting: Rewriting,
+    /// The components of each key.
+    pub components: BTreeMap<K, Vec<Expr>>,
+}
+
+impl<K: Ord + Copy> Candidate<K> {
+    /// What a pass makes of all components together, since what they have in common is then rewritten once; `None` where it
+    /// outgrows the graph.
+    fn by(
+        graph: &mut Graph,
+        rewriting: Rewriting,
+        derived: &Components<K>,
+        pass: impl FnOnce(&mut Graph, &[Expr]) -> Vec<Expr>,
+    ) -> Option<Self> {
+        let mut all = graph.attempt(|graph| pass(graph, &flat(derived)))?.into_iter();
+        let own = |of: &Vec<Expr>, all: &mut std::vec::IntoIter<Expr>| all.take(of.len()).collect();
+        let components = derived.iter().map(|(key, of)| (*key, own(of, &mut all))).collect();
+        Some(Candidate { rewriting, components })
+    }
+}
+
+fn flat<K>(components: &Components<K>) -> Vec<Expr> {
+    components.values().flatten().copied().collect()
+}
+
+/// The candidates in which no sum is multiplied out.
+pub(super) fn unexpanded<K: Ord + Copy>(
+    graph: &mut Graph,
+    derived: &Components<K>,
+) -> Vec<Candidate<K>> {
+    let mut all = vec![Candidate { rewriting: Rewriting::Derived, components: derived.clone() }];
+    all.extend(Candidate::by(graph, Rewriting::Nested, derived, |graph, components| {
+        nest(graph, components, &lateness)
+    }));
+    all.extend(Candidate::by(graph, Rewriting::Absorbed, derived, |graph, components| {
+        let factored = factor(graph, components);
+        absorb(graph, &factored)
+    }));
+    all.extend(Candidate::by(graph, Rewriting::Factored, derived, factor));
+    all
+}
+
+/// The normal form by some identities, if there are any.
+pub(super) fn reduced<K: Ord + Copy>(
+    graph: &mut Graph,
+    rewriting: Rewriting,
+    derived: &Components<K>,
+    relations: &Relations,
+) -> Option<Candidate<K>> {
+    if relations.is_empty() {
+        return None;
+    }
+    Candidate::by(graph, rewriting, derived, |graph, components| {
+        reduce(graph, components, relations)
+    })
+}
+
+/// Every candidate, where the motion has these identities.
+pub fn candidates<K: Ord + Copy>(
+    graph: &mut Graph,
+    derived: &BTreeMap<K, Vec<Expr>>,
+    relations: &Relations,
+) -> Vec<Candidate<K>> {
+    let mut all = unexpanded(graph, derived);
+    let own = Relations::find(graph, &flat(derived)).at_points(graph);
+    let thorough = relations.thorough();
+    all.extend(reduced(graph, Rewriting::Reduced, derived, relations));
+    all.extend(thorough.and_then(|it| reduced(graph, Rewriting::ReducedThoroughly, derived, &it)));
+    all.extend(reduced(graph, Rewriting::ReducedAtPoints, derived, &own));
+    all
+}
+
+/// How accurate a candidate shall be.
+#[derive(Clone, Copy)]
+pub(super) struct Accuracy<'a> {
+    /// The parameter with which the motion vanishes, if digits shall be kept where it is small.
+    pub amplitude: Option<&'a Amplitude>,
+    /// Where bounds of the rounding error are compared; nowhere, if only the cost counts.
+    pub rounding: &'a Rounding,
+}
+
+impl Accuracy<'_> {
+    /// Whether components keep their digits at small amplitudes.
+    pub fn is_kept(self, graph: &Graph, components: &[Expr]) -> bool {
+        self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
+    }
+
+    /// Whether `after` is about as accurate as `before`, of the same values.
+    pub fn allows(self, graph: &Graph, before: &[Expr], after: &[Expr]) -> bool {
+        self.is_kept(graph, after) && self.rounding.allows(graph, before, after)
+    }
+}
+
+/// Of each key the candidate that is chosen; where the budget is spent, what was derived.
+pub(super) fn choose_all<K: Ord + Copy>(
+    graph: &Graph,
+    derived: &Components<K>,
+    candidates: &[Candidate<K>],
+    accuracy: Accuracy<'_>,
+) -> Components<K> {
+    let chosen = |(key, own): (&K, &Vec<Expr>)| {
+        let ways = candidates.iter().filter_map(|it| it.components.get(key));
+        let chosen = match graph.work().is_over() {
+            true => None,
+            false => choose(graph, ways.map(Vec::as_slice).collect(), accuracy),
+        };
+        (*key, chosen.map_or_else(|| own.clone(), <[Expr]>::to_vec))
+    };
+    derived.iter().map(chosen).collect()
+}
+
+/// The cheapest of several ways to write the same that is accurate; of equals, the first.
+fn choose<'a>(
+    graph: &Graph,
+    mut ways: Vec<&'a [Expr]>,
+    accuracy: Accuracy<'_>,
+) -> Option<&'a [Expr]> {
+    let mut costs = BTreeMap::<&[Expr], Cost>::new();
+    for way in &ways {
+        costs.entry(way).or_insert_with(|| cost(graph, way));
+    }
+    ways.sort_by_key(|way| costs[way]);
+    ways.dedup();
+    let is_kept = |way: &&[Expr]| accuracy.is_kept(graph, way);
+    if ways.iter().any(&is_kept) {
+        ways.retain(is_kept);
+    }
+    let least = costs[ways.first()?].per_point;
+    ways.retain(|way| costs[way].per_point <= DEAREST * least);
+    accuracy.rounding.first(graph, &ways)
+}
