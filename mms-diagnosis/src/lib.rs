@@ -19,7 +19,7 @@
 //! Where an error is no more than a method's, the same runs tell which mistakes it [excludes](excluded).
 //!
 //! A hypothesis is named only if three things hold: it leaves little of the error; its effect need not be scaled, or its size is one
-//! that it may have; and what it leaves is small where the method's own error is.
+//! that it may have; and, where that size was fitted, the error is beyond that of methods ([`answer::Limits`]).
 //!
 //! The formula for a size that is no factor of the effect (a time, a density) is met by repeating: the response is found again at
 //! the size that the last one asked for.

@@ -67,13 +67,15 @@ where
         if sizes.is_empty() { vec![self.error.floor] } else { sizes }
     }
 
-    /// Whether an error may be that of a right method, though none of ours has such a one: on two meshes it falls, or is about
-    /// that of the middle one of ours.
+    /// Whether an error may be that of a right method, though none of ours has such a one: on two meshes it falls as that of one
+    /// of second order, or falls and is not much larger than those of ours, or is about that of the middle one.
     fn is_ordinary(&self, error: f64, ordinary: &[f64]) -> bool {
         let times = UNEXPLAINED[usize::from(self.levels.are_two())];
         let most = |of: usize| error <= times * ordinary[of].max(self.error.floor);
-        let falls = self.levels.order().is_none_or(|order| order >= FALLS);
-        most(ordinary.len() - 1) && (falls || most(ordinary.len() / 2))
+        let order = self.levels.order();
+        let falls = order.is_none_or(|order| order >= FALLS);
+        order.is_some_and(|order| order >= VANISHES)
+            || most(ordinary.len() - 1) && (falls || most(ordinary.len() / 2))
     }
 
     /// The error that a hypothesis of this size makes by a method, less that of a right solver.
@@ -179,8 +181,9 @@ const LIMITS: [Limits; 2] = [
 /// An error that no hypothesis explains is not held against a solver, where it is no larger than so many times that of right
 /// methods of ours: on one mesh and on two.
 const UNEXPLAINED: [f64; 2] = [4.0, 3.0];
-/// Errors that fall with this order from mesh to mesh are those of a method.
+/// Errors that fall with these orders from mesh to mesh are those of a method, or hold next to nothing else.
 const FALLS: f64 = 0.7;
+const VANISHES: f64 = 1.5;
 
 /// Diagnoses ordinary results of meshes, from coarse to fine; `like` is a method that they may be of.
 ///
