@@ -10,7 +10,7 @@
 //! | `ReducedThoroughly` | the same with every identity of its circular functions, where there are more |
 //! | `ReducedAtPoints` | the same by the identities of what the components themselves are made of, at points |
 //!
-//! [`choose`] costs each by its schedule, keeps those that keep their digits at a small amplitude if there are such, and
+//! `choose` costs each by its schedule, keeps those that keep their digits at a small amplitude if there are such, and
 //! takes the cheapest whose bound of the rounding error is small ([`Rounding::first`]).
 
 use std::collections::BTreeMap;
