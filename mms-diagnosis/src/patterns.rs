@@ -1,5 +1,7 @@
 //! Mistakes that are seen in the numbers themselves, before any comparison with a solver.
 
+use mms_runtime::Vector;
+
 use crate::answer::{Diagnosis, Finding, Ranked, Rung};
 use crate::evidence::Snapshot;
 use crate::exact::{Exact, vectors};
@@ -34,7 +36,12 @@ pub fn diagnose<const D: usize>(
         return None;
     }
     if computed.iter().all(|it| *it == 0.0) {
-        return Some(named(ZERO, [off, 0.0], scale));
+        let mut found = named(ZERO, [off, 0.0], scale);
+        if starts_at_rest(exact, &points) {
+            found.ranked[0].equivalent_here.push("force_missing".into());
+            found.ranked[0].needs.push("accelerations at an exact state".into());
+        }
+        return Some(found);
     }
     // Of each component, the sorted values are those of the exact solution, whatever their order.
     let sorted = |values: &[f64]| -> Vec<f64> {
@@ -52,6 +59,13 @@ pub fn diagnose<const D: usize>(
     let is_permuted =
         apart < PERMUTED * off && distance(&ordered, &of_right) < 2.0 * PERMUTED * off;
     is_permuted.then(|| named(PERMUTATION, [off, apart], scale))
+}
+
+/// Whether a body that nothing drives stays where it is.
+fn starts_at_rest<const D: usize>(exact: &Exact<'_, D>, points: &[Vector<f64, D>]) -> bool {
+    let start = exact.domain.time[0];
+    let motion = [exact.displacement(start, points), exact.velocity(start, points)];
+    motion.iter().flatten().all(|it| it.norm() == 0.0)
 }
 
 /// A pattern that leaves so much of what results are off, each over the size of the exact solution.
