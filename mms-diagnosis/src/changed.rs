@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use mms_runtime::{Body, Domain, Face, ManufacturedField, Material, Matrix, Vector};
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, Motion};
+use crate::hypothesis::{Change, Given, Hypothesis, MotionPart};
 
 /// Terms that are left out on purpose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +60,7 @@ impl<'a, const D: usize> Changed<'a, D> {
     }
 
     /// Changes a quantity of the motion, as it is at the start or on walls.
-    fn moved(&self, time: f64, reference: &[Vector<f64, D>], motion: Motion<'_, D>) {
+    fn moved(&self, time: f64, reference: &[Vector<f64, D>], motion: MotionPart<'_, D>) {
         let Some((hypothesis, size)) = self.mistake else { return };
         let is_start = time == self.exact.domain.time[0];
         match hypothesis.change {
@@ -117,16 +117,17 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
 
     fn displacement(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
         self.exact.field.displacement(time, x, out);
-        self.moved(time, x, Motion::Displacement(out));
+        self.moved(time, x, MotionPart::Displacement(out));
     }
 
     fn velocity(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
         self.exact.field.velocity(time, x, out);
-        self.moved(time, x, Motion::Velocity(out));
+        self.moved(time, x, MotionPart::Velocity(out));
     }
 
     fn acceleration(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
         self.exact.field.acceleration(time, x, out);
+        self.moved(time, x, MotionPart::Acceleration(out));
     }
 
     fn body_force(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Vector<f64, D>]) {
@@ -142,7 +143,7 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
 
     fn displacement_gradient(&self, time: f64, x: &[Vector<f64, D>], out: &mut [Matrix<f64, D>]) {
         self.exact.field.displacement_gradient(time, x, out);
-        self.moved(time, x, Motion::Gradient(out));
+        self.moved(time, x, MotionPart::Gradient(out));
     }
 
     fn surface_stress(

@@ -14,7 +14,7 @@ use crate::table::{self, ARITHMETIC, Measure, Table, to_round_off};
 
 /// What a closed form is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Subject {
+pub enum ClosedForm {
     /// b.
     BodyForce,
     /// A stress.
@@ -31,7 +31,7 @@ const POINTS: [f64; 3] = [16.0, 5.0, 3.0];
 const STEP: f64 = 1e-3;
 
 /// A closed form at points and at some times.
-struct Form<'a, const D: usize> {
+struct Sampled<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     points: Vec<Vector<f64, D>>,
     times: [f64; 3],
@@ -44,7 +44,7 @@ struct Form<'a, const D: usize> {
 /// The mistake that gives a closed form; `None` where none does.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
-    subject: Subject,
+    of: ClosedForm,
     values: &Values<'_>,
     hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Ranked> {
@@ -55,16 +55,16 @@ pub fn diagnose<const D: usize>(
     let [start, end] = exact.domain.time;
     let times = TIMES.map(|part| start + part * (end - start));
     let values = times.iter().flat_map(|time| values(*time, &flat)).collect();
-    let form = Form { exact, points, times, values, step: STEP * (upper - lower).max() };
-    let found = match subject {
-        Subject::Stress(measure) => table::diagnose(exact, &form.table(measure), hypotheses)?,
-        Subject::BodyForce => form.force(hypotheses)?,
+    let sampled = Sampled { exact, points, times, values, step: STEP * (upper - lower).max() };
+    let found = match of {
+        ClosedForm::Stress(measure) => table::diagnose(exact, &sampled.table(measure), hypotheses)?,
+        ClosedForm::BodyForce => sampled.force(hypotheses)?,
     };
     let is_named = found.finding == Finding::Named;
     found.ranked.into_iter().next().filter(|_| is_named)
 }
 
-impl<const D: usize> Form<'_, D> {
+impl<const D: usize> Sampled<'_, D> {
     /// As what a law gave.
     fn table(&self, measure: Measure) -> Table<D> {
         let gradients = self.times.iter().flat_map(|time| self.exact.gradient(*time, &self.points));
@@ -102,22 +102,16 @@ impl<const D: usize> Form<'_, D> {
         Some(to_round_off(self.exact, &hypotheses, all, floor, &wrong))
     }
 
-    fn given<'b>(
-        &'b self,
-        size: &'b [f64],
-        time: f64,
-        reference: &'b [Vector<f64, D>],
-        gradient: &'b [Matrix<f64, D>],
-    ) -> Given<'b, D> {
-        Given { exact: self.exact, size, time, reference, gradient }
-    }
-
     /// b, with a mistake in it.
     fn forces(&self, mistake: Option<(OfForce<D>, &[f64])>) -> Vec<f64> {
         let at = |time: &f64| {
             let mut b = self.exact.body_force(*time, &self.points);
             if let Some((change, size)) = mistake {
-                change(&self.given(size, *time, &self.points, &[]), &mut b);
+                let reference = &self.points;
+                change(
+                    &Given { exact: self.exact, size, time: *time, reference, gradient: &[] },
+                    &mut b,
+                );
             }
             numbers(&b)
         };
@@ -150,7 +144,8 @@ impl<const D: usize> Form<'_, D> {
             for it in beside.iter().filter(|it| it.time == time) {
                 let mut tau = it.stress.clone();
                 if let Some((change, size)) = mistake {
-                    change(&self.given(size, time, &it.points, &it.gradient), &mut tau);
+                    let (reference, gradient) = (&it.points, &it.gradient);
+                    change(&Given { exact: self.exact, size, time, reference, gradient }, &mut tau);
                 }
                 for (((b, tau), h), density) in
                     b.iter_mut().zip(&tau).zip(&it.gradient).zip(&density)

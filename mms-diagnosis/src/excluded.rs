@@ -93,7 +93,9 @@ where
 {
     let mesh = places(exact, study)?;
     let snapshots: Vec<&Snapshot> = mesh.snapshots.iter().collect();
-    let frame = Frame::new(exact, &snapshots, Smooth::new(&exact.domain.body, 1, [0; 3])?);
+    // Errors are looked at point by point: no smooth functions are fitted to them.
+    let none = Smooth::new(&exact.domain.body, 1, [0; 3])?;
+    let frame = Frame::new(exact, &snapshots, none);
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }

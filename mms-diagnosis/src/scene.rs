@@ -7,7 +7,7 @@ use mms_runtime::{ManufacturedField, Matrix, Method};
 
 use crate::answer::{Diagnosis, Ranked, Rung};
 use crate::changed::Without;
-use crate::closed_form::{self, Subject, Values};
+use crate::closed_form::{self, ClosedForm, Values};
 use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use crate::exact::{Exact, vectors};
 use crate::excluded::{Excluded, Study, excluded};
@@ -118,11 +118,11 @@ pub fn excludes(scene: &Scene<f64>, study: &Study) -> Result<Vec<Excluded>, Obst
 }
 
 /// The mistake that gives a closed form from paper; `None` where none does.
-pub fn closed_form(scene: &Scene<f64>, subject: Subject, values: &Values<'_>) -> Option<Ranked> {
+pub fn closed_form(scene: &Scene<f64>, of: ClosedForm, values: &Values<'_>) -> Option<Ranked> {
     match scene {
-        Scene::Line(field) => closed_form_of(field.as_ref(), subject, values),
-        Scene::Plane(field) => closed_form_of(field.as_ref(), subject, values),
-        Scene::Space(field) => closed_form_of(field.as_ref(), subject, values),
+        Scene::Line(field) => closed_form_of(field.as_ref(), of, values),
+        Scene::Plane(field) => closed_form_of(field.as_ref(), of, values),
+        Scene::Space(field) => closed_form_of(field.as_ref(), of, values),
     }
 }
 
@@ -147,11 +147,11 @@ fn exact<const D: usize>(
 
 fn closed_form_of<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
-    subject: Subject,
+    of: ClosedForm,
     values: &Values<'_>,
 ) -> Option<Ranked> {
     let exact = exact(field, 1.0, None);
-    closed_form::diagnose(&exact, subject, values, all(&exact))
+    closed_form::diagnose(&exact, of, values, all(&exact))
 }
 
 fn excludes_of<const D: usize>(

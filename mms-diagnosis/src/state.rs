@@ -14,7 +14,7 @@ pub use crate::answer::Computed;
 use crate::answer::{Diagnosis, Finding, Limits, Rung, ranked, unseen};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, Motion, away, faces};
+use crate::hypothesis::{Change, Given, Hypothesis, MotionPart, away, faces};
 use crate::pair;
 use crate::rank::{Error, explain};
 use crate::smooth::{Smooth, less, size};
@@ -303,7 +303,7 @@ pub fn diagnose<const D: usize>(
                 gradient: &[],
             };
             let right = v.clone();
-            change(&given, Motion::Velocity(&mut v));
+            change(&given, MotionPart::Velocity(&mut v));
             let change = v.iter().zip(right).map(|(v, right)| (v - right) / step).collect();
             return weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect();
         }

@@ -10,7 +10,7 @@ use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
 use super::work::Outcome;
 use crate::provenance::Provenance;
-use crate::report::{Judgements, Union, duration, plain, pretty, to_the_right, write_files};
+use crate::report::{Judgements, Together, duration, plain, pretty, to_the_right, write_files};
 
 /// A campaign that was carried out, or what was asked for of it.
 pub struct Report<'a> {
@@ -60,8 +60,8 @@ impl Report<'_> {
     }
 
     /// What the studies that pass exclude together.
-    fn excluded(&self) -> Option<Union> {
-        Union::new(self.studies.iter().filter_map(|it| {
+    fn excluded(&self) -> Option<Together> {
+        Together::new(self.studies.iter().filter_map(|it| {
             let exclusions = it.judgements.as_ref()?.exclusions.as_ref()?;
             Some((it.planned.study.name.as_str(), exclusions))
         }))

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict, words};
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
+use crate::report::excluded::size;
 
 /// What `mms judge` writes.
 #[derive(Deserialize)]
@@ -114,8 +115,7 @@ fn exclusions(all: &[Excluded]) -> Markup {
     let rows = all.iter().map(|it| {
         let word = match (it.excluded, it.right, it.from) {
             (false, ..) => "no".to_owned(),
-            (true, Some(1.0), Some(from)) => format!("from {:.2} % on", 100.0 * from),
-            (true, _, Some(from)) => format!("from {from:.2e} on"),
+            (true, Some(right), Some(from)) => format!("from {} on", size(right, from)),
             (true, ..) => "yes".to_owned(),
         };
         vec![

@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 use crate::judge::results::Exclusions;
 
 /// What several results exclude together.
-pub struct Union {
+pub struct Together {
     /// The name of each mistake, and which results exclude it.
     all: Vec<(String, Option<String>)>,
 }
 
-impl Union {
+impl Together {
     /// Of some results, each with a name; nothing, where of none is known what they exclude.
-    pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Union> {
+    pub fn new<'a>(of: impl Iterator<Item = (&'a str, &'a Exclusions)>) -> Option<Together> {
         let mut all: Vec<(String, Option<String>)> = Vec::new();
         for (source, exclusions) in of {
             for it in exclusions.all.iter().flatten() {
@@ -27,7 +27,7 @@ impl Union {
                 }
             }
         }
-        (!all.is_empty()).then_some(Union { all })
+        (!all.is_empty()).then_some(Together { all })
     }
 
     /// What a person reads.
@@ -68,8 +68,8 @@ const LINES: [Says; 4] = [
     }),
 ];
 
-/// The size of a mistake that is shown: of a factor as a part of it.
-fn size(right: f64, least: f64) -> String {
+/// The size from which a mistake is shown: of a factor as a part of it.
+pub fn size(right: f64, least: f64) -> String {
     if right == 1.0 { format!("{:.2} %", 100.0 * least) } else { format!("{least:.2e}") }
 }
 

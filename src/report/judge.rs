@@ -84,13 +84,14 @@ impl Judgements {
         time_step: Option<f64>,
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
-        let report = Self::of(exact.title(), measurement.measured.clone(), provenance)?;
+        let more = more(&exact.input().name, files, &measurement);
+        let Measurement { measured, times, notes, .. } = measurement;
+        let report = Self::of(exact.title(), measured, provenance)?;
         let exclusions = match report.verdict().is_good() {
-            true => exclusions(exact, &measurement, time_step)?,
+            true => exclusions(exact, &report.measured, times, time_step)?,
             false => None,
         };
-        let more = more(&exact.input().name, files, &measurement);
-        Ok(Self { notes: measurement.notes, exclusions, more, ..report })
+        Ok(Self { notes, exclusions, more, ..report })
     }
 
     /// The quantity that decides, its position and the verdict.

@@ -3,7 +3,7 @@
 pub mod accuracy;
 mod comparison;
 mod diagnosis;
-mod excluded;
+pub(crate) mod excluded;
 pub(crate) mod extremes;
 pub(crate) mod file;
 pub(crate) mod front;
@@ -19,7 +19,7 @@ pub(crate) mod tradeoff;
 
 pub use comparison::Comparison;
 pub use diagnosis::{Diagnosed, Hypotheses};
-pub use excluded::Union;
+pub use excluded::Together;
 pub(crate) use judge::Judgements;
 pub use phase::Phases;
 pub(crate) use results::{differences, with_baseline};

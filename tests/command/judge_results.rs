@@ -1,8 +1,6 @@
 //! `mms judge FIELD FILE..`: results of the project's own solver, of a mesh of finite elements, and of files that are
 //! wrong.
 
-use std::fs;
-
 use serde_json::Value;
 
 use super::mms::{Folder, Run};
@@ -128,15 +126,17 @@ fn floors_of_files_are_found() {
 /// Numbers of single precision that were written with the digits of double precision may lie beside the body.
 #[test]
 fn single_precision_is_seen_behind_its_digits() {
-    let folder = Folder::with_bar("bar.toml");
-    let text = fs::read_to_string(folder.path("bar.toml")).expect("the bar");
-    folder.write("short.toml", &text.replace("length = { value = 1", "length = { value = 0.8"));
+    let folder = Folder::new();
     let rows: String = (0..=4)
         .map(|at| f64::from(0.2_f32 * at as f32))
         .fold(String::new(), |all, x| all + &format!("0,{x},0\n"));
     assert!(f64::from(0.8_f32) > 0.8 && rows.contains("0.800000011920929"), "{rows}");
     folder.write("a.csv", &format!("time,X,u\n{rows}"));
-    folder.mms("judge short.toml a.csv --h 1").exits(1).prints("X: X as given");
+    let judge = "judge bar_1d a.csv --h 1 --set length=0.8";
+    folder.mms(judge).exits(1).prints("X: X as given");
+    // One digit more, and it is a number of double precision beside the body.
+    folder.write("a.csv", &format!("time,X,u\n{rows}0,0.8000000119209291,0\n"));
+    folder.mms(judge).exits(2);
 }
 
 /// Times whose digits let neighbours be the same are told apart by which is nearer.

@@ -23,6 +23,7 @@ mod new;
 mod overview;
 mod reading;
 mod report;
+mod report_page;
 mod requested;
 mod rigid;
 mod run;

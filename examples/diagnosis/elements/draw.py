@@ -80,13 +80,8 @@ class Case:
 
     def solved(self, mistake, size):
         """u on each mesh; None where a run stops."""
-        runs = (solve(self.field, self.faces, mesh, self.end, self.courant, mistake, size) for mesh in self.meshes)
-        all_of_them = []
-        for u in runs:
-            if u is None:
-                return None
-            all_of_them.append(u)
-        return all_of_them
+        runs = [solve(self.field, self.faces, mesh, self.end, self.courant, mistake, size) for mesh in self.meshes]
+        return None if any(u is None for u in runs) else runs
 
     def error(self, u):
         mesh = self.meshes[-1]

@@ -6,9 +6,6 @@ use mms_runtime::tensor::jacobian;
 use super::{Change, Given, Hypothesis, Known};
 use crate::exact::Exact;
 
-/// By how many steps b may be late: more is another mistake.
-const STEPS: f64 = 8.0;
-
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let window = exact.domain.time[1] - exact.domain.time[0];
     let force = |name, says, change| Hypothesis::fixed(name, says, Change::Force(change));
@@ -21,7 +18,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         }),
     );
     delay.below = Some("force_early");
-    let delay = delay.within([-STEPS * exact.time_step, STEPS * exact.time_step]).of_mesh();
+    let delay = delay.of_steps(exact);
     vec![
         Hypothesis::factor(
             "force_factor",

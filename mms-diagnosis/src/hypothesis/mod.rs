@@ -33,12 +33,14 @@ pub struct Given<'a, const D: usize> {
     pub gradient: &'a [Matrix<f64, D>],
 }
 
-/// A quantity of a motion, at the start or of walls.
-pub enum Motion<'a, const D: usize> {
+/// A part of a motion, at the start or of walls.
+pub enum MotionPart<'a, const D: usize> {
     /// u.
     Displacement(&'a mut [Vector<f64, D>]),
     /// v.
     Velocity(&'a mut [Vector<f64, D>]),
+    /// a, of walls alone.
+    Acceleration(&'a mut [Vector<f64, D>]),
     /// H.
     Gradient(&'a mut [Matrix<f64, D>]),
 }
@@ -50,7 +52,7 @@ pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
 /// Changes a motion, from what is right.
-pub type OfMotion<const D: usize> = fn(&Given<'_, D>, Motion<'_, D>);
+pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
 /// What a hypothesis changes. The functions are given what is right.
 pub enum Change<const D: usize> {
@@ -123,6 +125,9 @@ impl Kind {
         }
     }
 }
+
+/// By how many steps what belongs to another time may be off.
+const STEPS: f64 = 8.0;
 
 /// What size a hypothesis may have.
 #[derive(Clone, Debug, PartialEq)]
@@ -216,6 +221,12 @@ impl<const D: usize> Hypothesis<D> {
     /// The same, with a size that is a part of a time step or of a cell: smaller on a finer mesh.
     fn of_mesh(self) -> Self {
         Hypothesis { is_of_mesh: true, ..self }
+    }
+
+    /// The same, with a size that is a time: more than some steps is another mistake.
+    fn of_steps(self, exact: &Exact<'_, D>) -> Self {
+        let most = STEPS * exact.time_step;
+        self.within([-most, most]).of_mesh()
     }
 
     fn choice(self) -> Self {

@@ -5,12 +5,11 @@ use mms_runtime::Vector;
 use super::{Change, Given, Hypothesis, Known, law};
 use crate::exact::{Exact, Quantity};
 
-/// By how many steps and cells results may be off: more is another mistake.
-const STEPS: f64 = 8.0;
+/// By how many cells results may be off: more is another mistake.
 const CELLS: f64 = 2.0;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
-    let (time, length) = (STEPS * exact.time_step, CELLS * exact.cell_size);
+    let length = CELLS * exact.cell_size;
     let mut all = vec![
         Hypothesis::amount(
             "output_time",
@@ -20,8 +19,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 at.exact.values(quantity, at.time + at.size[0], at.reference)
             }),
         )
-        .within([-time, time])
-        .of_mesh(),
+        .of_steps(exact),
         Hypothesis::amount(
             "points_offset",
             "results belong to points beside X; the size is by how much",

@@ -2,7 +2,7 @@
 
 use mms_runtime::{Matrix, Vector};
 
-use super::{Change, Hypothesis, Motion};
+use super::{Change, Hypothesis, MotionPart};
 use crate::exact::Exact;
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
@@ -11,7 +11,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         "the initial velocity is that of a later time; the size is by how much",
         vec![exact.time_step / 2.0],
         Change::Start(|at, initial| {
-            if let Motion::Velocity(v) = initial {
+            if let MotionPart::Velocity(v) = initial {
                 v.copy_from_slice(&at.exact.velocity(at.time + at.size[0], at.reference));
             }
         }),
@@ -23,7 +23,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "start_at_rest",
             "the initial velocity is 0",
             Change::Start(|_, initial| {
-                if let Motion::Velocity(v) = initial {
+                if let MotionPart::Velocity(v) = initial {
                     v.fill(Vector::zeros());
                 }
             }),
@@ -32,7 +32,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "start_undeformed",
             "F is I at the start",
             Change::Start(|_, initial| {
-                if let Motion::Gradient(h) = initial {
+                if let MotionPart::Gradient(h) = initial {
                     h.fill(Matrix::zeros());
                 }
             }),
@@ -43,9 +43,9 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 "start_undeformed",
                 "u is 0 and F is I at the start",
                 Change::Start(|_, initial| match initial {
-                    Motion::Displacement(u) => u.fill(Vector::zeros()),
-                    Motion::Gradient(h) => h.fill(Matrix::zeros()),
-                    Motion::Velocity(_) => {}
+                    MotionPart::Displacement(u) => u.fill(Vector::zeros()),
+                    MotionPart::Gradient(h) => h.fill(Matrix::zeros()),
+                    MotionPart::Velocity(_) | MotionPart::Acceleration(_) => {}
                 }),
             )
         },

@@ -2,15 +2,12 @@
 
 use mms_runtime::{Condition, Vector};
 
-use super::{Change, Given, Hypothesis, Motion};
+use super::{Change, Given, Hypothesis, MotionPart, faces};
 use crate::exact::Exact;
 
-/// By how many steps walls may be late: more is another mistake.
-const STEPS: f64 = 8.0;
-
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
-    let is_prescribed = |(_, it): &(_, Condition)| *it == Condition::Prescribed;
-    if !exact.domain.faces.iter().any(is_prescribed) {
+    let is_prescribed = |face| exact.domain.condition(face) == Condition::Prescribed;
+    if !faces(&exact.domain.body).into_iter().any(is_prescribed) {
         return Vec::new();
     }
     let fixed = |name, says, change| Hypothesis::fixed(name, says, Change::Wall(change));
@@ -21,11 +18,13 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         Change::Wall(|at, motion| follow(at, motion, at.time - at.size[0])),
     );
     vec![
-        late.within([-STEPS * exact.time_step, STEPS * exact.time_step]).of_mesh(),
+        late.of_steps(exact),
         fixed("wall_at_rest", "prescribed faces stay where they are at the start", |at, motion| {
             let start = at.exact.domain.time[0];
             match motion {
-                Motion::Velocity(v) if at.time > start => v.fill(Vector::zeros()),
+                MotionPart::Velocity(rate) | MotionPart::Acceleration(rate) if at.time > start => {
+                    rate.fill(Vector::zeros());
+                }
                 motion => follow(at, motion, start),
             }
         }),
@@ -41,26 +40,31 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
 }
 
 /// The motion of another time; the start is as it is.
-fn follow<const D: usize>(at: &Given<'_, D>, motion: Motion<'_, D>, time: f64) {
+fn follow<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>, time: f64) {
     if at.time <= at.exact.domain.time[0] {
         return;
     }
     match motion {
-        Motion::Displacement(u) => u.copy_from_slice(&at.exact.displacement(time, at.reference)),
-        Motion::Velocity(v) => v.copy_from_slice(&at.exact.velocity(time, at.reference)),
-        Motion::Gradient(_) => {}
+        MotionPart::Displacement(u) => {
+            u.copy_from_slice(&at.exact.displacement(time, at.reference))
+        }
+        MotionPart::Velocity(v) => v.copy_from_slice(&at.exact.velocity(time, at.reference)),
+        MotionPart::Acceleration(a) => {
+            a.copy_from_slice(&at.exact.acceleration(time, at.reference));
+        }
+        MotionPart::Gradient(_) => {}
     }
 }
 
 /// The motion less that of the velocity at the start.
-fn from_rest<const D: usize>(at: &Given<'_, D>, motion: Motion<'_, D>) {
+fn from_rest<const D: usize>(at: &Given<'_, D>, motion: MotionPart<'_, D>) {
     let start = at.exact.domain.time[0];
     let first = at.exact.velocity(start, at.reference);
     match motion {
-        Motion::Displacement(u) => {
+        MotionPart::Displacement(u) => {
             u.iter_mut().zip(first).for_each(|(u, v)| *u -= v * (at.time - start));
         }
-        Motion::Velocity(v) => v.iter_mut().zip(first).for_each(|(v, first)| *v -= first),
-        Motion::Gradient(_) => {}
+        MotionPart::Velocity(v) => v.iter_mut().zip(first).for_each(|(v, first)| *v -= first),
+        MotionPart::Acceleration(_) | MotionPart::Gradient(_) => {}
     }
 }

@@ -87,14 +87,10 @@ impl Dialect for C {
         wide: bool,
         calls: &mut Calls,
     ) -> String {
-        let name = match operation {
-            _ if !wide => return format!("{a} {} {b}", operation.sign()),
-            Arithmetic::Add => "wide_add",
-            Arithmetic::Subtract => "wide_sub",
-            Arithmetic::Multiply => "wide_mul",
-            Arithmetic::Divide => "wide_div",
-        };
-        format!("{}({a}, {b})", calls.to(name))
+        match wide {
+            true => format!("{}({a}, {b})", calls.to(operation.wide_name())),
+            false => format!("{a} {} {b}", operation.sign()),
+        }
     }
 
     fn negated(&self, a: &str, wide: bool, calls: &mut Calls) -> String {

@@ -51,13 +51,14 @@ impl Dialect for Octave {
         wide: bool,
         calls: &mut Calls,
     ) -> String {
-        let (wide_name, sign) = match operation {
-            Arithmetic::Add => ("wide_add", "+"),
-            Arithmetic::Subtract => ("wide_sub", "-"),
-            Arithmetic::Multiply => ("wide_mul", ".*"),
-            Arithmetic::Divide => ("wide_div", "./"),
-        };
-        if wide { format!("{}({a}, {b})", calls.to(wide_name)) } else { format!("{a} {sign} {b}") }
+        match (wide, operation) {
+            (true, _) => format!("{}({a}, {b})", calls.to(operation.wide_name())),
+            (false, Arithmetic::Add | Arithmetic::Subtract) => {
+                format!("{a} {} {b}", operation.sign())
+            }
+            // Element by element.
+            (false, _) => format!("{a} .{} {b}", operation.sign()),
+        }
     }
 
     fn statement(&self, name: &str, value: &str, _wide: bool) -> String {

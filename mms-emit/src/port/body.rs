@@ -30,6 +30,16 @@ impl Arithmetic {
             Arithmetic::Divide => "/",
         }
     }
+
+    /// The function of the support text that does it with twice the digits, where there are no operators for such.
+    pub fn wide_name(self) -> &'static str {
+        match self {
+            Arithmetic::Add => "wide_add",
+            Arithmetic::Subtract => "wide_sub",
+            Arithmetic::Multiply => "wide_mul",
+            Arithmetic::Divide => "wide_div",
+        }
+    }
 }
 
 /// An argument that keeps what was computed before.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mms_codegen::Compiled;
 use mms_codegen::certify::closed_form::{Comparison, Finding};
 use mms_diagnosis::answer::Ranked;
-use mms_diagnosis::closed_form::Subject;
+use mms_diagnosis::closed_form::ClosedForm;
 use mms_diagnosis::scene::closed_form;
 use mms_diagnosis::table::Measure;
 use mms_mechanics::Output;
@@ -15,12 +15,12 @@ use mms_spec::quantity::Quantity;
 use serde_json::{Value, json};
 
 /// What is looked at of a quantity.
-fn subject(quantity: Quantity) -> Option<Subject> {
+fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
     match quantity {
-        Quantity::BodyForce => Some(Subject::BodyForce),
-        Quantity::FirstPiolaKirchhoff => Some(Subject::Stress(Measure::FirstPiola)),
-        Quantity::CauchyStress => Some(Subject::Stress(Measure::Cauchy)),
-        Quantity::SecondPiolaKirchhoff => Some(Subject::Stress(Measure::SecondPiola)),
+        Quantity::BodyForce => Some(ClosedForm::BodyForce),
+        Quantity::FirstPiolaKirchhoff => Some(ClosedForm::Stress(Measure::FirstPiola)),
+        Quantity::CauchyStress => Some(ClosedForm::Stress(Measure::Cauchy)),
+        Quantity::SecondPiolaKirchhoff => Some(ClosedForm::Stress(Measure::SecondPiola)),
         _ => None,
     }
 }
@@ -28,14 +28,14 @@ fn subject(quantity: Quantity) -> Option<Subject> {
 /// What each closed form of a field acts as, where that has a name.
 pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
     let named = |(check, it): (usize, &Comparison)| match it.finding {
-        Finding::Differs(_) => subject(it.quantity).and_then(|it| of(compiled, check, it)),
+        Finding::Differs(_) => closed_form_of(it.quantity).and_then(|it| of(compiled, check, it)),
         _ => None,
     };
     comparisons.iter().enumerate().map(named).collect()
 }
 
 /// The mistake that gives the closed form of a check.
-fn of(compiled: &Arc<Compiled>, check: usize, subject: Subject) -> Option<Ranked> {
+fn of(compiled: &Arc<Compiled>, check: usize, of: ClosedForm) -> Option<Ranked> {
     let (program, defaults) = (compiled.checks(), BTreeMap::new());
     let (dimension, parameters) = (compiled.field.dimension, compiled.parameters(&defaults));
     let outputs = [Output::Expected(check)];
@@ -49,7 +49,7 @@ fn of(compiled: &Arc<Compiled>, check: usize, subject: Subject) -> Option<Ranked
         };
         points.chunks_exact(dimension).flat_map(at).collect()
     };
-    closed_form(&mms_interpreted::scene(compiled.clone(), &defaults), subject, &values)
+    closed_form(&mms_interpreted::scene(compiled.clone(), &defaults), of, &values)
 }
 
 /// Mistakes that give the same formula.

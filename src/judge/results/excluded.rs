@@ -4,7 +4,7 @@ use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::excluded::{Excluded, Study};
 use mms_diagnosis::scene::excludes;
 
-use super::{Measured, Measurement};
+use super::Measured;
 use crate::session::exact::Exact;
 
 /// Which mistakes results exclude, or why that is not known.
@@ -22,16 +22,16 @@ const QUANTITIES: [(&str, Quantity); 3] = [
     ("deformation_gradient", Quantity::DisplacementGradient),
 ];
 
-/// What results with these errors exclude, whose finest has this time step; nothing without errors of the motion.
+/// What results with these errors at some times exclude, whose finest has this time step; nothing without errors of the motion.
 ///
 /// # Errors
 /// The field cannot be run.
 pub fn exclusions(
     exact: &Exact,
-    measurement: &Measurement,
+    measured: &Measured,
+    times: Vec<f64>,
     time_step: Option<f64>,
 ) -> anyhow::Result<Option<Exclusions>> {
-    let measured = &measurement.measured;
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);
     let errors: Vec<_> =
@@ -44,7 +44,7 @@ pub fn exclusions(
     let study = Study {
         cell_size: finest,
         time_step,
-        times: measurement.times.clone(),
+        times,
         errors: errors.into_iter().map(|(_, quantity, error)| (quantity, error)).collect(),
     };
     let all = excludes(&exact.scene()?, &study).map_err(|obstacle| obstacle.to_string());
