@@ -1,33 +1,41 @@
 //! What a target language is, what it takes, and what it makes.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::port::Port;
 use crate::port::callable::Callable;
 use crate::port::names::Rules;
 use crate::port::vectors::Vectors;
+use mms_codegen::certify::certificate::reach_at;
 use mms_codegen::compile::Compiled;
 use mms_codegen::rust::File;
 
 /// Names as they are in the file.
 const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
 
-/// A field that is emitted, in one language or more: its test vectors are computed once.
+/// A field that is emitted, in one language or more: its test vectors and its extent are computed once.
 #[derive(Clone, Debug)]
 pub struct Subject<'a> {
     pub(crate) compiled: &'a Compiled,
     vectors: OnceLock<Vectors>,
+    reach: OnceLock<Vec<[f64; 2]>>,
 }
 
 impl<'a> Subject<'a> {
     /// What a field was compiled for.
     pub fn new(compiled: &'a Compiled) -> Self {
-        Subject { compiled, vectors: OnceLock::new() }
+        Subject { compiled, vectors: OnceLock::new(), reach: OnceLock::new() }
     }
 
     /// The test vectors, which are the same in every language.
     pub fn vectors(&self) -> &Vectors {
         self.vectors.get_or_init(|| Port::new(self, &ANY).compute_vectors())
+    }
+
+    /// Bounds of x by axis over body and time window, at the defaults of parameters; infinite where none is found.
+    pub fn reach(&self) -> &[[f64; 2]] {
+        self.reach.get_or_init(|| reach_at(self.compiled, &BTreeMap::new()))
     }
 
     /// Whether a check program has something to compare: a point where all functions have a value, if there are

@@ -216,9 +216,18 @@ pub fn wave_speed(
 
 /// Bounds of x by axis over body, window and ranges; infinite where none is found.
 pub fn reach(compiled: &Compiled) -> Vec<[f64; 2]> {
+    reach_in(compiled, |graph| Chart::new(graph, &compiled.field, &compiled.model, None))
+}
+
+/// The same where parameters have their defaults, but for those that are `set`, by position.
+pub fn reach_at(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Vec<[f64; 2]> {
+    reach_in(compiled, |graph| chart_of(graph, compiled, set))
+}
+
+fn reach_in(compiled: &Compiled, chart: impl Fn(&mut Graph) -> Chart) -> Vec<[f64; 2]> {
     let mut graph = room(compiled);
     graph.work().allow(REACH);
-    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let chart = chart(&mut graph);
     reach::bound(&mut graph, &chart, compiled)
 }
 

@@ -4,7 +4,8 @@ use super::{broken, comment, documented};
 use crate::port::Port;
 use crate::port::body::local;
 use crate::port::callable::Callable;
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion;
 
 /// The text of `FIELD.h`.
 pub(super) fn text(port: &Port<'_>) -> String {
@@ -26,7 +27,14 @@ pub(super) fn text(port: &Port<'_>) -> String {
         format!("#define {upper}_FACE_{} \"{claim}\"", face.to_ascii_uppercase())
     });
     if !claims.is_empty() {
-        text += &format!("/** {DOC} */\n{claims}\n");
+        text += &format!("/** {} */\n{claims}\n", faces::DOC);
+    }
+    let motion = port.motion(|end, numbers| {
+        format!("#define {upper}_{} {{{}}}", end.to_ascii_uppercase(), numbers.join(", "))
+    });
+    if !motion.is_empty() {
+        let doc = format!("{} Initialisers of arrays of a number for each axis.", motion::DOC);
+        text += &format!("{}{motion}\n", documented(&[doc], ""));
     }
     text += &types(port);
     text += &functions(port);

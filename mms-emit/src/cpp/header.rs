@@ -7,7 +7,8 @@ use crate::c::{broken, comment};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, Dialect as _, local};
 use crate::port::callable::{Callable, input};
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion;
 use crate::port::support::Support;
 use crate::text::{indented, wrapped};
 use mms_program::Value;
@@ -72,7 +73,13 @@ fn types(port: &Port<'_>) -> String {
     let claims =
         port.claims(|face, claim| format!("constexpr const char *face_{face} = \"{claim}\";"));
     if !claims.is_empty() {
-        let _ = write!(text, "/// {DOC}\n{claims}\n");
+        let _ = write!(text, "/// {}\n{claims}\n", faces::DOC);
+    }
+    let motion = port.motion(|end, numbers| {
+        format!("constexpr double {end}[dimension] = {{{}}};", numbers.join(", "))
+    });
+    if !motion.is_empty() {
+        let _ = write!(text, "{}{motion}\n", documented(motion::DOC, ""));
     }
     text += "/// The parameters.\ntemplate <class T> struct Parameters {\n";
     for (index, parameter) in &port.parameters {

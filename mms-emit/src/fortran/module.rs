@@ -7,7 +7,8 @@ use super::{comment, continued, declared, documented};
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::{Callable, input};
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion;
 use crate::port::support::Support;
 use mms_program::Value;
 
@@ -54,7 +55,14 @@ pub(super) fn text(port: &Port<'_>) -> String {
         format!("  character(len=*), parameter, public :: face_{face} = \"{claim}\"")
     });
     if !claims.is_empty() {
-        let _ = write!(text, "\n  !> {DOC}\n{claims}");
+        let _ = write!(text, "\n  !> {}\n{claims}", faces::DOC);
+    }
+    let motion = port.motion(|end, numbers| {
+        let numbers: Vec<_> = numbers.iter().map(|number| format!("{number}_wp")).collect();
+        format!("  real(wp), parameter, public :: {end}(dimension) = [{}]", numbers.join(", "))
+    });
+    if !motion.is_empty() {
+        let _ = write!(text, "\n{}{motion}", documented(motion::DOC, "  "));
     }
     if is_wide {
         // Private ones that nothing uses would be warned of.

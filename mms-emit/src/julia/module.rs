@@ -6,7 +6,8 @@ use super::dialect::Julia;
 use crate::port::Port;
 use crate::port::body::{Body, local};
 use crate::port::callable::Callable;
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion::{self, tuple};
 use crate::port::number::decimal;
 use crate::text::{indented, listed, wrapped};
 use mms_program::Value;
@@ -29,8 +30,12 @@ pub(super) fn text(port: &Port<'_>) -> String {
     );
     let claims = port.claims(|face, claim| format!("    {face} = \"{claim}\","));
     if !claims.is_empty() {
-        let _ = write!(text, "\"{DOC}\"\nconst faces = (\n{claims})\n\n");
+        let _ = write!(text, "\"{}\"\nconst faces = (\n{claims})\n\n", faces::DOC);
     }
+    text += &port.motion(|end, numbers| {
+        let doc = documented(&[motion::DOC.into()], 96);
+        format!("{doc}const {end} = {}\n", tuple(numbers))
+    });
     text += &parameters(port);
     text += &structure("What only the parameters determine.", "Field", &port.kept, &port.kept_wide);
     text += &structure(

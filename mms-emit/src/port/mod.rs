@@ -5,6 +5,7 @@
 //! | `callable` | the functions of a field, one list for all |
 //! | `body` | the one printer of instructions, over what a `Dialect` says of a language |
 //! | `faces` | what is claimed on each face, as data |
+//! | `motion` | how far the motion goes, as data |
 //! | `names` | a user's names under the rules of a language: words, case, length |
 //! | `number` | literals, in decimal and hexadecimal |
 //! | `support` | functions that a language lacks: of its support text, those that are called |
@@ -25,6 +26,7 @@ pub mod check;
 pub mod docs;
 pub mod faces;
 pub mod lower;
+pub mod motion;
 pub mod names;
 pub mod number;
 pub mod once;

@@ -6,7 +6,8 @@ use super::dialect::Library;
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::Callable;
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion::{self, tuple};
 use crate::port::support::{Calls, Support, names_in};
 use crate::text::{indented, listed, wrapped};
 use mms_spec::quantity::Shape;
@@ -62,7 +63,12 @@ pub(super) fn text(port: &Port<'_>, library: Library) -> String {
     }
     let claims = port.claims(|face, claim| format!("    \"{face}\": \"{claim}\","));
     if !claims.is_empty() {
-        let _ = write!(text, "\n# {DOC}\nFACES = {{\n{claims}}}\n");
+        let _ = write!(text, "\n# {}\nFACES = {{\n{claims}}}\n", faces::DOC);
+    }
+    let motion =
+        port.motion(|end, numbers| format!("{} = {}", end.to_ascii_uppercase(), tuple(numbers)));
+    if !motion.is_empty() {
+        let _ = write!(text, "\n{}{motion}", comment(&[motion::DOC.into()], ""));
     }
     for block in &support {
         let _ = write!(text, "\n\n{block}\n");

@@ -7,7 +7,8 @@ use super::dialect::Rust;
 use crate::port::Port;
 use crate::port::body::{Bodies, Body, local};
 use crate::port::callable::Callable;
-use crate::port::faces::DOC;
+use crate::port::faces;
+use crate::port::motion;
 use crate::port::support::Support;
 use crate::text::indented;
 use mms_program::Value;
@@ -45,9 +46,18 @@ pub(super) fn text(port: &Port<'_>) -> String {
     if !claims.is_empty() {
         let _ = write!(
             text,
-            "/// {DOC}\n#[allow(dead_code)]\npub const FACES: &[(&str, &str)] = &[\n{claims}];\n\n"
+            "/// {}\n#[allow(dead_code)]\npub const FACES: &[(&str, &str)] = &[\n{claims}];\n\n",
+            faces::DOC
         );
     }
+    text += &port.motion(|end, numbers| {
+        format!(
+            "{}#[allow(dead_code)]\npub const {}: [f64; DIMENSION] = [{}];\n",
+            documented(motion::DOC, ""),
+            end.to_ascii_uppercase(),
+            numbers.join(", ")
+        )
+    });
     if !wide.is_empty() {
         let _ = write!(text, "{wide}\n\n");
     }

@@ -11,7 +11,7 @@ use mms_emit::{Subject, Target};
 use super::build::{all_are_required, can_prove, in_pairs, ports, prove, quick};
 
 /// The fields of the gallery, compiled.
-fn gallery() -> Vec<Compiled> {
+pub fn gallery() -> Vec<Compiled> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
     let files = fs::read_dir(folder).expect("the gallery");
     let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();

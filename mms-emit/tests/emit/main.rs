@@ -7,6 +7,7 @@ mod faces;
 mod fuzz;
 mod gallery;
 mod literals;
+mod motion;
 mod names;
 mod page;
 mod strict;

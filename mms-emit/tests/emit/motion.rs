@@ -1,0 +1,93 @@
+//! How far the motion goes, as modules tell it.
+
+use std::collections::BTreeMap;
+
+use mms_codegen::Compiled;
+use mms_emit::{Subject, Target};
+use mms_mechanics::Output;
+use mms_mechanics::sample::domain;
+use mms_program::interpret::{Interpreter, Point};
+use mms_spec::quantity::Quantity;
+
+use super::gallery::{field, gallery};
+
+/// How many samples the body has along each edge, in one to three dimensions, and how many times are looked at.
+const ALONG: [usize; 3] = [65, 25, 7];
+const TIMES: usize = 33;
+
+/// By what part of the distance between both ends they may be wider than the samples at each: bounds stop within a hundredth,
+/// or after a hundred boxes, which for rings and columns that turn is much sooner.
+const SLACK: f64 = 0.25;
+
+/// The least and the greatest x by axis of samples, by the scheduled program, which is none of what bounds are made of.
+fn sampled(compiled: &Compiled) -> Vec<[f64; 2]> {
+    let output = Output::Quantity(Quantity::Position);
+    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let (body, [first, last]) = domain(&compiled.program, &parameters);
+    let mut interpreter = Interpreter::new(&compiled.program, &parameters);
+    let plan = interpreter.plan(&[output]);
+    let dimension = body.dimension();
+    let along = ALONG[dimension - 1];
+    let fraction = |index: usize, count: usize| index as f64 / (count - 1) as f64;
+    let mut found = vec![[f64::INFINITY, f64::NEG_INFINITY]; dimension];
+    for time in 0..TIMES {
+        interpreter.set_time(&(first + (last - first) * fraction(time, TIMES)));
+        for index in 0..along.pow(dimension as u32) {
+            let place = (0..dimension).map(|axis| index / along.pow(axis as u32) % along);
+            let fractions: Vec<_> = place.map(|place| fraction(place, along)).collect();
+            interpreter.set_point(&plan, Point::at(&body.point(&fractions)));
+            for (ends, x) in found.iter_mut().zip(interpreter.output(output)) {
+                *ends = [ends[0].min(x), ends[1].max(x)];
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
+    for compiled in gallery() {
+        let name = compiled.field.name.raw();
+        let subject = Subject::new(&compiled);
+        let told = subject.reach();
+        for (axis, (told, found)) in told.iter().zip(sampled(&compiled)).enumerate() {
+            let width = found[1] - found[0];
+            // The samples are rounded.
+            let rounding = 1e-14 * (found[0].abs() + found[1].abs());
+            let beyond = [found[0] - told[0], told[1] - found[1]];
+            println!("{name} {axis}: {told:?} {found:?}");
+            for beyond in beyond {
+                assert!(beyond >= -rounding, "{name}, axis {axis}: {told:?} misses {found:?}");
+                assert!(beyond <= SLACK * width, "{name}, axis {axis}: {told:?} around {found:?}");
+            }
+        }
+    }
+}
+
+/// The bounds stand in the module as data, so that nobody types them again.
+#[test]
+fn modules_tell_how_far_the_motion_goes() {
+    let compiled = field("sheared_block_2d");
+    let subject = Subject::new(&compiled);
+    let [x, y] = [0, 1].map(|axis| subject.reach()[axis].map(|end| format!("{:?}", end + 0.0)));
+    let [[left, right], [bottom, top]] = [x, y];
+    for (language, line) in [
+        ("c", format!("#define SHEARED_BLOCK_2D_MOTION_LOWER {{{left}, {bottom}}}\n")),
+        ("cpp", format!("constexpr double motion_upper[dimension] = {{{right}, {top}}};\n")),
+        ("python", format!("MOTION_LOWER = ({left}, {bottom})\nMOTION_UPPER = ({right}, {top})\n")),
+        ("numpy", format!("MOTION_UPPER = ({right}, {top})\n")),
+        (
+            "fortran",
+            format!(
+                "  real(wp), parameter, public :: motion_lower(dimension) = [{left}_wp, {bottom}_wp]\n"
+            ),
+        ),
+        ("julia", format!("const motion_upper = ({right}, {top})\n")),
+        ("rust", format!("pub const MOTION_LOWER: [f64; DIMENSION] = [{left}, {bottom}];\n")),
+    ] {
+        let target = Target::find(language).expect("a target");
+        let bundle = (target.emit)(&subject);
+        let text = &bundle.files[0].text;
+        assert!(text.contains(&line), "{language} has no `{line}`");
+    }
+}
