@@ -79,7 +79,7 @@ fn types(port: &Port<'_>) -> String {
         format!("constexpr double {end}[dimension] = {{{}}};", numbers.join(", "))
     });
     if !motion.is_empty() {
-        let _ = write!(text, "{}{motion}\n", documented(motion::DOC, ""));
+        let _ = writeln!(text, "{}{motion}", documented(motion::DOC, ""));
     }
     text += "/// The parameters.\ntemplate <class T> struct Parameters {\n";
     for (index, parameter) in &port.parameters {
