@@ -57,28 +57,29 @@ fn meanings(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<Me
     recognise(snapshot, reading.map, &|_| true).map_err(placed)
 }
 
-fn values(
+fn values<'a>(
     meanings: &[Meaning],
     role: Role,
-    snapshot: &Snapshot,
+    snapshot: &'a Snapshot,
     dimension: usize,
-) -> anyhow::Result<Option<Values>> {
+) -> anyhow::Result<Option<Values<'a>>> {
     let meaning = meanings.iter().find(|it| it.role == role);
     let values = meaning.map(|it| it.values(snapshot, dimension)).transpose().map_err(placed)?;
     Ok(values.filter(|it| !it.is_of_cells))
 }
 
 /// H, from H or F.
-fn gradient(
+fn gradient<'a>(
     meanings: &[Meaning],
-    snapshot: &Snapshot,
+    snapshot: &'a Snapshot,
     dimension: usize,
-) -> anyhow::Result<Option<Values>> {
+) -> anyhow::Result<Option<Values<'a>>> {
     if let Some(h) = values(meanings, Role::DisplacementGradient, snapshot, dimension)? {
         return Ok(Some(h));
     }
     let mut f = values(meanings, Role::DeformationGradient, snapshot, dimension)?;
-    for point in f.iter_mut().flat_map(|it| it.numbers.chunks_mut(dimension * dimension)) {
+    let numbers = f.as_mut().map_or(&mut [][..], |it| it.numbers.to_mut());
+    for point in numbers.chunks_mut(dimension * dimension) {
         (0..dimension).for_each(|axis| point[axis * (dimension + 1)] -= 1.0);
     }
     Ok(f)
@@ -116,11 +117,11 @@ fn law(snapshot: &Snapshot, reading: &Reading<'_>, exact: &Exact) -> anyhow::Res
     );
     let reference = values(&meanings, Role::Reference, snapshot, dimension)?;
     Ok(Evidence::Law(LawOf {
-        reference: reference.map_or(Vec::new(), |it| it.numbers),
-        gradient: h.numbers,
+        reference: reference.map_or(Vec::new(), |it| it.numbers.into_owned()),
+        gradient: h.numbers.into_owned(),
         measure,
         rounding: stress.rounding,
-        stress: stress.numbers,
+        stress: stress.numbers.into_owned(),
     }))
 }
 
@@ -138,11 +139,11 @@ fn state(
     for (role, computed) in kinds {
         let Some(mut found) = values(&meanings, role, snapshot, dimension)? else { continue };
         if computed == Computed::Residual {
-            found.numbers.iter_mut().for_each(|it| *it *= reading.residual_sign);
+            found.numbers.to_mut().iter_mut().for_each(|it| *it *= reading.residual_sign);
         }
         let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
             .map_err(placed)?;
-        let reference = motion.reference.numbers;
+        let reference = motion.reference.numbers.into_owned();
         let time = time(snapshot, reading, 0)?;
         let u = motion.displacement.map(|it| it.numbers);
         let right = exact.values(mms_spec::quantity::Quantity::Displacement, time, &reference)?;
@@ -152,7 +153,7 @@ fn state(
         }
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         let volumes = match values(&meanings, Role::Volume, snapshot, 1)? {
-            Some(volumes) => Some(volumes.numbers),
+            Some(volumes) => Some(volumes.numbers.into_owned()),
             None if mesh.sizes().is_some() => {
                 Some(mesh.volumes().map_err(|it| placed(it.of(&snapshot.path)))?)
             }
@@ -163,7 +164,7 @@ fn state(
             computed,
             time,
             reference,
-            values: found.numbers,
+            values: found.numbers.into_owned(),
             volumes,
             without: Without::default(),
             step: None,
@@ -205,14 +206,14 @@ fn level(
         let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
         let outside = |point: &[f64]| exact.body.distance(point);
         let motion = resolve(snapshot, &meanings, dimension, &outside).map_err(placed)?;
-        let reference = motion.reference.numbers;
+        let reference = motion.reference.numbers.into_owned();
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         level.cell_size = size(given, &mesh, exact);
-        let u = motion.displacement.map(|it| (Quantity::Displacement, it.numbers));
+        let u = motion.displacement.map(|it| (Quantity::Displacement, it.numbers.into_owned()));
         let v = values(&meanings, Role::Velocity, snapshot, dimension)?
-            .map(|it| (Quantity::Velocity, it.numbers));
+            .map(|it| (Quantity::Velocity, it.numbers.into_owned()));
         let h = gradient(&meanings, snapshot, dimension)?
-            .map(|it| (Quantity::DisplacementGradient, it.numbers));
+            .map(|it| (Quantity::DisplacementGradient, it.numbers.into_owned()));
         let values: Vec<_> = [u, v, h].into_iter().flatten().collect();
         ensure!(
             !values.is_empty(),

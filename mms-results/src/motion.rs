@@ -8,11 +8,11 @@ const START: u32 = 20;
 
 /// The points of a snapshot, as the exact solution knows them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct Motion<'a> {
     /// X.
-    pub reference: Values,
+    pub reference: Values<'a>,
     /// u, if two of the three are known.
-    pub displacement: Option<Values>,
+    pub displacement: Option<Values<'a>>,
     /// How X was found.
     pub how: String,
 }
@@ -25,12 +25,12 @@ pub type Outside<'a> = &'a dyn Fn(&[f64]) -> f64;
 /// # Errors
 /// Too little for X; points with which both readings lie in the body; a point outside the body by more than its
 /// rounding; two points in one place, if there are no cells.
-pub fn resolve(
-    snapshot: &Snapshot,
+pub fn resolve<'a>(
+    snapshot: &'a Snapshot,
     meanings: &[Meaning],
     dimension: usize,
     outside: Outside<'_>,
-) -> Result<Motion, Mistake> {
+) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
     let values =
         |role: Role| of(role).map(|meaning| meaning.values(snapshot, dimension)).transpose();
@@ -47,14 +47,14 @@ pub fn resolve(
 }
 
 /// What is known of the points.
-struct Known {
-    reference: Option<Values>,
-    position: Option<Values>,
-    place: Option<Values>,
-    displacement: Option<Values>,
+struct Known<'a> {
+    reference: Option<Values<'a>>,
+    position: Option<Values<'a>>,
+    place: Option<Values<'a>>,
+    displacement: Option<Values<'a>>,
 }
 
-impl Known {
+impl<'a> Known<'a> {
     fn hold_rows(&self) -> Result<(), Mistake> {
         let all = [&self.reference, &self.position, &self.place, &self.displacement];
         if all.into_iter().flatten().any(|it| it.is_of_cells) {
@@ -77,7 +77,7 @@ impl Known {
         }
     }
 
-    fn motion(self, outside: Outside<'_>) -> Result<Motion, Mistake> {
+    fn motion(self, outside: Outside<'_>) -> Result<Motion<'a>, Mistake> {
         let Known { reference, position, place, displacement } = self;
         match (reference, position, place, displacement) {
             (Some(x), _, _, Some(u)) => Ok(motion(x, Some(u), "X as given")),
@@ -103,25 +103,25 @@ impl Known {
     }
 }
 
-fn motion(reference: Values, displacement: Option<Values>, how: &str) -> Motion {
+fn motion<'a>(reference: Values<'a>, displacement: Option<Values<'a>>, how: &str) -> Motion<'a> {
     Motion { reference, displacement, how: how.into() }
 }
 
 /// One position less another, with the roundings of both.
-pub(crate) fn difference(a: &Values, b: &Values) -> Values {
-    let numbers = a.numbers.iter().zip(&b.numbers).map(|(a, b)| a - b).collect();
+pub(crate) fn difference<'a>(a: &Values<'a>, b: &Values<'_>) -> Values<'a> {
+    let numbers = a.numbers.iter().zip(b.numbers.iter()).map(|(a, b)| a - b).collect();
     let stored = Stored::coarser(a.stored, b.stored);
     Values { numbers, rounding: a.rounding + b.rounding, stored, ..*a }
 }
 
 /// Whether points are elsewhere than X, by more than rounding.
-fn is_moved(place: &Values, reference: &Values) -> bool {
+fn is_moved(place: &Values<'_>, reference: &Values<'_>) -> bool {
     let most = place.rounding + reference.rounding;
-    place.numbers.iter().zip(&reference.numbers).any(|(a, b)| (a - b).abs() > 2.0 * most)
+    place.numbers.iter().zip(reference.numbers.iter()).any(|(a, b)| (a - b).abs() > 2.0 * most)
 }
 
 /// The first point that is outside the body by more than its rounding, and how far.
-fn stray(reference: &Values, outside: Outside<'_>) -> Option<(usize, f64)> {
+fn stray(reference: &Values<'_>, outside: Outside<'_>) -> Option<(usize, f64)> {
     let points = reference.numbers.chunks(reference.components).enumerate();
     // Each coordinate may be off by its rounding, and the exact bound by some of its own.
     let most = 4.0 * reference.rounding;
@@ -129,7 +129,11 @@ fn stray(reference: &Values, outside: Outside<'_>) -> Option<(usize, f64)> {
 }
 
 /// Points that may be X or x, with u.
-fn tried(place: Values, u: Values, outside: Outside<'_>) -> Result<Motion, Mistake> {
+fn tried<'a>(
+    place: Values<'a>,
+    u: Values<'a>,
+    outside: Outside<'_>,
+) -> Result<Motion<'a>, Mistake> {
     let back = difference(&place, &u);
     match (stray(&place, outside), stray(&back, outside)) {
         (None, Some(_)) => {
@@ -154,7 +158,11 @@ fn tried(place: Values, u: Values, outside: Outside<'_>) -> Result<Motion, Mista
     }
 }
 
-fn hold_inside(snapshot: &Snapshot, motion: &Motion, outside: Outside<'_>) -> Result<(), Mistake> {
+fn hold_inside(
+    snapshot: &Snapshot,
+    motion: &Motion<'_>,
+    outside: Outside<'_>,
+) -> Result<(), Mistake> {
     let reference = &motion.reference;
     let Some((at, distance)) = stray(reference, outside) else { return Ok(()) };
     let point = &reference.numbers[at * reference.components..][..reference.components];
@@ -164,7 +172,7 @@ fn hold_inside(snapshot: &Snapshot, motion: &Motion, outside: Outside<'_>) -> Re
 
 /// Points among which all are that are in one place, and of ten million a few thousand others: those whose digest another
 /// has too. Digests of half a word are sorted in a small part of the time of points.
-fn suspects(reference: &Values) -> Vec<usize> {
+fn suspects(reference: &Values<'_>) -> Vec<usize> {
     let digests = || reference.numbers.chunks_exact(reference.components).map(digest);
     let mut sorted: Vec<u32> = digests().collect();
     sorted.sort_unstable();
@@ -203,7 +211,7 @@ fn digest(point: &[f64]) -> u32 {
 ///
 /// # Errors
 /// The second of them, and the first.
-pub fn hold_distinct(snapshot: &Snapshot, reference: &Values) -> Result<(), Mistake> {
+pub fn hold_distinct(snapshot: &Snapshot, reference: &Values<'_>) -> Result<(), Mistake> {
     let point = |at: usize| &reference.numbers[at * reference.components..][..reference.components];
     let mut order = suspects(reference);
     let compare = |&a: &usize, &b: &usize| {

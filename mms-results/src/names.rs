@@ -1,5 +1,7 @@
 //! What the names of arrays mean: names that codes use, and those that a user maps.
 
+use std::borrow::Cow;
+
 use crate::role::plain;
 use crate::{Array, Mistake, Snapshot, Stored};
 
@@ -108,9 +110,9 @@ impl std::str::FromStr for Mapping {
 
 /// Numbers of a quantity: so many for each point or cell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Values {
-    /// All numbers, those of a point or cell together.
-    pub numbers: Vec<f64>,
+pub struct Values<'a> {
+    /// All numbers, those of a point or cell together: of an array that has no others they are not copied.
+    pub numbers: Cow<'a, [f64]>,
     /// Numbers of a point or cell.
     pub components: usize,
     /// How far one may be from what was computed, for how it was stored.
@@ -119,6 +121,13 @@ pub struct Values {
     pub stored: Stored,
     /// Whether they are of cells.
     pub is_of_cells: bool,
+}
+
+impl Values<'_> {
+    /// The same, which outlive the snapshot.
+    pub fn into_owned(self) -> Values<'static> {
+        Values { numbers: Cow::Owned(self.numbers.into_owned()), ..self }
+    }
 }
 
 /// Says what arrays of a snapshot mean; those with names that are not known are left out.
@@ -340,7 +349,11 @@ impl Meaning {
     ///
     /// # Errors
     /// Too few numbers, or too many; one that is not finite, by its place.
-    pub fn values(&self, snapshot: &Snapshot, dimension: usize) -> Result<Values, Mistake> {
+    pub fn values<'a>(
+        &self,
+        snapshot: &'a Snapshot,
+        dimension: usize,
+    ) -> Result<Values<'a>, Mistake> {
         let columns = self.wanted(dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
         let of = |column: &Column| array(snapshot, column.place);
         let rows = of(&columns[0]).rows();
@@ -462,7 +475,7 @@ impl Meaning {
 }
 
 /// The numbers of some columns, those of a row together.
-fn gathered(snapshot: &Snapshot, columns: &[Column], rows: usize) -> Vec<f64> {
+fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Column], rows: usize) -> Cow<'a, [f64]> {
     let first = array(snapshot, columns[0].place);
     let is_next = |(at, column): (usize, &Column)| {
         column.place == columns[0].place && column.component == columns[0].component + at
@@ -470,13 +483,13 @@ fn gathered(snapshot: &Snapshot, columns: &[Column], rows: usize) -> Vec<f64> {
     // Most often they stand side by side, with no others or with a third coordinate behind them.
     if columns.iter().enumerate().all(is_next) {
         if columns.len() == first.components {
-            return first.values.clone();
+            return Cow::Borrowed(&first.values);
         }
         let (start, count) = (columns[0].component, columns.len());
         let mut numbers = Vec::with_capacity(rows * count);
         let each = first.values.chunks_exact(first.components);
         each.for_each(|row| numbers.extend_from_slice(&row[start..start + count]));
-        return numbers;
+        return numbers.into();
     }
     let mut numbers = vec![0.0; rows * columns.len()];
     for (at, column) in columns.iter().enumerate() {
@@ -485,7 +498,7 @@ fn gathered(snapshot: &Snapshot, columns: &[Column], rows: usize) -> Vec<f64> {
         let to = numbers.chunks_exact_mut(columns.len());
         to.zip(own).for_each(|(to, number)| to[at] = number);
     }
-    numbers
+    numbers.into()
 }
 
 fn array(snapshot: &Snapshot, place: Place) -> &Array {

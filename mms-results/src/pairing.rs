@@ -135,7 +135,7 @@ pub fn cells(one: &Snapshot, other: &Snapshot, points: &Pairs) -> Result<Pairs, 
 }
 
 /// About how far points are from each other.
-fn spacing(values: &Values) -> f64 {
+fn spacing(values: &Values<'_>) -> f64 {
     let mut extent: f64 = 0.0;
     for axis in 0..values.components {
         let along = || values.numbers.iter().skip(axis).step_by(values.components).copied();
@@ -145,7 +145,7 @@ fn spacing(values: &Values) -> f64 {
     extent / count.powf(1.0 / values.components as f64)
 }
 
-fn largest(values: &Values) -> f64 {
+fn largest(values: &Values<'_>) -> f64 {
     values.numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
@@ -184,27 +184,27 @@ fn are_distinct(array: &Array) -> bool {
 }
 
 /// Where points are, in each way in which that can be read: X first.
-struct Places {
-    readings: Vec<Values>,
+struct Places<'a> {
+    readings: Vec<Values<'a>>,
     is_reference: bool,
 }
 
-fn places(snapshot: &Snapshot, map: &[Mapping]) -> Result<Option<Places>, Mistake> {
+fn places<'a>(snapshot: &'a Snapshot, map: &[Mapping]) -> Result<Option<Places<'a>>, Mistake> {
     let is_place =
         |role| matches!(role, Role::Reference | Role::Position | Role::Place | Role::Displacement);
     let map: Vec<Mapping> = map.iter().filter(|it| is_place(it.role)).cloned().collect();
     let meanings = recognise(snapshot, &map, &is_place)?;
-    let values = |role: Role| -> Result<Option<Values>, Mistake> {
+    let values = |role: Role| -> Result<Option<Values<'a>>, Mistake> {
         let meaning = meanings.iter().find(|it| it.role == role);
         let found = meaning.map(|it| it.values(snapshot, it.dimension())).transpose()?;
-        let is_of_all = |it: &Values| it.numbers.len() == it.components * snapshot.rows();
+        let is_of_all = |it: &Values<'_>| it.numbers.len() == it.components * snapshot.rows();
         Ok(found.filter(|it| !it.is_of_cells && is_of_all(it)))
     };
     if let Some(reference) = values(Role::Reference)? {
         return Ok(Some(Places { readings: vec![reference], is_reference: true }));
     }
     let u = values(Role::Displacement)?;
-    let back = |x: &Values| {
+    let back = |x: &Values<'a>| {
         let u = u.as_ref().filter(|u| u.numbers.len() == x.numbers.len())?;
         Some(difference(x, u))
     };

@@ -37,7 +37,7 @@ fn outside(point: &[f64]) -> f64 {
     point.iter().map(|x| f64::max(-x, x - 1.0).max(0.0)).fold(0.0, f64::max)
 }
 
-fn motion(snapshot: &Snapshot, map: &[&str]) -> Result<Motion, Mistake> {
+fn motion<'a>(snapshot: &'a Snapshot, map: &[&str]) -> Result<Motion<'a>, Mistake> {
     let map: Vec<Mapping> = map.iter().map(|it| it.parse().unwrap()).collect();
     let found = recognise(snapshot, &map, &|_| true)?;
     resolve(snapshot, &found, 2, &outside)
@@ -57,7 +57,7 @@ fn near(name: &str, computed: &[f64], exact: impl Fn(usize) -> f64, tolerance: f
 
 /// X and u of every file are those that were written, to the precision that the file says it has.
 #[track_caller]
-fn holds_the_mesh(name: &str, snapshot: &Snapshot, motion: &Motion) {
+fn holds_the_mesh(name: &str, snapshot: &Snapshot, motion: &Motion<'_>) {
     assert_eq!(motion.reference.numbers.len(), 18, "{name}");
     let x = |at: usize| reference(at / 2)[at % 2];
     near(name, &motion.reference.numbers, x, 0.0);
@@ -110,10 +110,8 @@ fn every_numpy_file_has_the_mesh_that_was_written() {
 
 #[test]
 fn precision_is_that_of_the_file() {
-    let stored = |name: &str| {
-        let motion = motion(&one(name), &["X=points"]);
-        motion.unwrap().displacement.unwrap().stored
-    };
+    let stored =
+        |name: &str| motion(&one(name), &["X=points"]).unwrap().displacement.unwrap().stored;
     assert_eq!(stored("vtk_single.vtu"), Stored::Single);
     assert_eq!(stored("vtk_appended_zlib_big.vtu"), Stored::Double);
     let stored = |name: &str| motion(&one(name), &[]).unwrap().displacement.unwrap().stored;
@@ -180,7 +178,8 @@ fn table(text: &str) -> Snapshot {
 fn read_as(header: &str, numbers: &str, map: &[&str]) -> Result<(Vec<f64>, Vec<f64>), String> {
     let snapshot = table(&format!("{header}\n{numbers}\n"));
     let motion = motion(&snapshot, map).map_err(|mistake| mistake.what)?;
-    Ok((motion.reference.numbers, motion.displacement.map_or(Vec::new(), |it| it.numbers)))
+    let u = motion.displacement.map_or(Vec::new(), |it| it.numbers.into_owned());
+    Ok((motion.reference.numbers.into_owned(), u))
 }
 
 #[test]
@@ -248,7 +247,7 @@ fn tensors_are_read_by_their_entries() {
     let found = recognise(&snapshot, &[], &|_| true).unwrap();
     let values = |role: Role| {
         let meaning = found.iter().find(|it| it.role == role).unwrap();
-        meaning.values(&snapshot, 2).unwrap().numbers
+        meaning.values(&snapshot, 2).unwrap().numbers.into_owned()
     };
     assert_eq!(values(Role::DeformationGradient), [1.0, 2.0, 3.0, 4.0]);
     assert_eq!(values(Role::CauchyStress), [5.0, 7.0, 7.0, 6.0]);

@@ -139,7 +139,7 @@ proptest! {
 #[test]
 fn two_points_in_one_place_are_found_among_many() {
     let values = |numbers: Vec<f64>| Values {
-        numbers,
+        numbers: numbers.into(),
         components: 2,
         rounding: 0.0,
         stored: Stored::Double,

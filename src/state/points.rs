@@ -37,7 +37,7 @@ pub struct Points {
 #[derive(Debug)]
 pub struct Places {
     snapshot: Snapshot,
-    present: Values,
+    present: Values<'static>,
     volume: Option<Vec<f64>>,
 }
 
@@ -102,13 +102,12 @@ impl Points {
         let mut snapshot = one(path)?;
         let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
         let motion = resolve(&snapshot, &meanings, dimension, outside).map_err(placed)?;
-        Ok(Points {
-            volume: volume(&snapshot, map)?,
-            cells: std::mem::take(&mut snapshot.cells),
-            reference: motion.reference.numbers,
-            rounding: motion.reference.rounding,
-            how: format!("`{}`: {}", shown(path), motion.how),
-        })
+        let how = format!("`{}`: {}", shown(path), motion.how);
+        let rounding = motion.reference.rounding;
+        let reference = motion.reference.numbers.into_owned();
+        let volume = volume(&snapshot, map)?;
+        let cells = std::mem::take(&mut snapshot.cells);
+        Ok(Points { reference, rounding, volume, cells, how })
     }
 
     /// The points on each face that has such, by position.
@@ -136,6 +135,7 @@ impl Places {
             "`{}`: positions are of points, and these are of cells",
             shown(path)
         );
+        let present = present.into_owned();
         Ok(Places { present, volume: volume(&snapshot, map)?, snapshot })
     }
 
@@ -214,7 +214,7 @@ fn volume(snapshot: &Snapshot, map: &[Mapping]) -> anyhow::Result<Option<Vec<f64
                 recognise(snapshot, map, &|role| role == Role::Volume).map_err(placed)?;
             let meaning = meanings.iter().find(|it| it.role == Role::Volume);
             let values = meaning.map(|it| it.values(snapshot, 1)).transpose().map_err(placed)?;
-            values.filter(|it| !it.is_of_cells).map(|it| it.numbers)
+            values.filter(|it| !it.is_of_cells).map(|it| it.numbers.into_owned())
         }
     };
     let is_odd = |value: &f64| !(value.is_finite() && *value > 0.0);

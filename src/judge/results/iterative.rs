@@ -99,7 +99,7 @@ fn differences(
     Ok(found)
 }
 
-fn paired(a: &Values, b: &Values, pairs: &Pairs) -> impl Iterator<Item = f64> {
+fn paired(a: &Values<'_>, b: &Values<'_>, pairs: &Pairs) -> impl Iterator<Item = f64> {
     let size = a.components;
     pairs.iter().flat_map(move |[i, j]| {
         lengths(&a.numbers[i * size..][..size], &b.numbers[j * size..][..size], size)

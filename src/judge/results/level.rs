@@ -132,7 +132,11 @@ fn quantity(role: Role) -> Option<Quantity> {
 }
 
 /// The numbers of a meaning, in the dimension of the field; of tensors in space where that was asked for.
-fn values(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> anyhow::Result<Values> {
+fn values<'a>(
+    meaning: &Meaning,
+    snapshot: &'a Snapshot,
+    exact: &Exact,
+) -> anyhow::Result<Values<'a>> {
     let rows = match meaning.role.form() {
         Form::Tensor | Form::Symmetric => exact.rows(),
         Form::Scalar | Form::Vector => exact.dimension,
@@ -210,11 +214,11 @@ impl Reading<'_> {
     ///
     /// # Errors
     /// What is wrong with it, and where.
-    pub fn all(
+    pub fn all<'b>(
         &self,
-        snapshot: &Snapshot,
+        snapshot: &'b Snapshot,
         exact: &Exact,
-    ) -> anyhow::Result<Vec<(Quantity, Values)>> {
+    ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
         let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
         let outside = |point: &[f64]| exact.body.distance(point);
         let motion = resolve(snapshot, &meanings, exact.dimension, &outside).map_err(placed)?;
@@ -264,6 +268,6 @@ impl Reading<'_> {
                 weights.numbers[at]
             );
         }
-        Ok(Some(weights.numbers))
+        Ok(Some(weights.numbers.into_owned()))
     }
 }

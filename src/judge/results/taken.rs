@@ -20,7 +20,7 @@ pub struct Taken<'a> {
     /// Whether that has cells of its dimension.
     pub is_mesh: bool,
     /// X and u.
-    pub motion: &'a Motion,
+    pub motion: &'a Motion<'a>,
     /// The time.
     pub time: f64,
     /// How far it may be from that of the solver.
@@ -43,13 +43,13 @@ impl Taken<'_> {
     pub fn errors(
         &mut self,
         quantity: Quantity,
-        values: &Values,
+        values: &Values<'_>,
         weights: Option<&[f64]>,
     ) -> anyhow::Result<Errors> {
         let components = self.exact.components(quantity);
         let middles;
         let of_cells;
-        let (values, places): (&Values, &[f64]) = if values.is_of_cells {
+        let (values, places): (&Values<'_>, &[f64]) = if values.is_of_cells {
             middles = self.mesh.middles();
             of_cells = self.of_full_cells(values);
             (&of_cells, &middles)
@@ -86,7 +86,7 @@ impl Taken<'_> {
     pub fn over_points(
         &self,
         quantity: Quantity,
-        values: &Values,
+        values: &Values<'_>,
         exact: &[f64],
         (sampling, weights, floor): (Sampling, Option<&[f64]>, f64),
     ) -> anyhow::Result<Errors> {
@@ -100,7 +100,7 @@ impl Taken<'_> {
     }
 
     /// The values of the cells that have the dimension of the mesh.
-    fn of_full_cells(&self, values: &Values) -> Values {
+    fn of_full_cells<'b>(&self, values: &Values<'b>) -> Values<'b> {
         let rows = self.mesh.full().filter_map(|(cell, ..)| {
             values.numbers.get(cell * values.components..)?.get(..values.components)
         });
@@ -110,7 +110,7 @@ impl Taken<'_> {
     fn over_cells(
         &mut self,
         quantity: Quantity,
-        values: &Values,
+        values: &Values<'_>,
         floor: f64,
         at_points: &[f64],
     ) -> anyhow::Result<Errors> {
@@ -145,7 +145,7 @@ impl Taken<'_> {
     fn result(
         &self,
         quantity: Quantity,
-        values: &Values,
+        values: &Values<'_>,
         exact: &[f64],
         sampling: Sampling,
         norms: Vec<(&'static str, Measure)>,
@@ -180,7 +180,7 @@ impl Taken<'_> {
     pub fn floor(
         &mut self,
         quantity: Quantity,
-        values: &Values,
+        values: &Values<'_>,
         (places, exact): (&[f64], &[f64]),
         solution: Solution<'_>,
     ) -> anyhow::Result<f64> {
@@ -219,7 +219,10 @@ const LOOKED_AT: usize = 1 << 16;
 /// The power of ten by which values are larger than the exact ones, if they are that, and else alike.
 fn unit(computed: &[f64], exact: &[f64]) -> Option<i32> {
     let step = computed.len() / LOOKED_AT + 1;
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).step_by(step).map(|(a, b)| a * b).sum::<f64>();
+    let dot = |a: &[f64], b: &[f64]| {
+        // Steps of each, for those of pairs go one by one.
+        a.iter().step_by(step).zip(b.iter().step_by(step)).map(|(a, b)| a * b).sum::<f64>()
+    };
     let (own, square) = (dot(computed, computed), dot(exact, exact));
     let alike = dot(computed, exact) / (own * square).sqrt();
     let power = (own / square).sqrt().log10();

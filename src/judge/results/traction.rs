@@ -25,7 +25,7 @@ struct Loaded {
 
 impl Loaded {
     /// Adds rows of values, each with its normal.
-    fn add(&mut self, places: &[f64], values: &Values, rows: &[usize], normals: &[f64]) {
+    fn add(&mut self, places: &[f64], values: &Values<'_>, rows: &[usize], normals: &[f64]) {
         let size = values.components;
         for &row in rows {
             self.places.extend(&places[row * size..][..size]);
@@ -64,7 +64,7 @@ impl Taken<'_> {
         let Some(stored) = stored else { return Ok(None) };
         let components = self.mesh.dimension;
         let values =
-            Values { numbers: tractions, components, rounding, stored, is_of_cells: false };
+            Values { numbers: tractions.into(), components, rounding, stored, is_of_cells: false };
         let solution = |exact: &mut crate::session::exact::Exact, time: f64, places: &[f64]| {
             exact.tractions_by(&normals, time, places)
         };
@@ -76,7 +76,7 @@ impl Taken<'_> {
         found.map(Some)
     }
 
-    fn of_points(&self, meaning: &Meaning) -> anyhow::Result<Values> {
+    fn of_points(&self, meaning: &Meaning) -> anyhow::Result<Values<'_>> {
         let values = meaning.values(self.snapshot, self.mesh.dimension).map_err(placed)?;
         let (rows, points) = (values.numbers.len(), self.mesh.points.len());
         ensure!(
@@ -88,7 +88,7 @@ impl Taken<'_> {
         Ok(values)
     }
 
-    fn of_face(&self, name: &str, values: &Values, loaded: &mut Loaded) -> anyhow::Result<()> {
+    fn of_face(&self, name: &str, values: &Values<'_>, loaded: &mut Loaded) -> anyhow::Result<()> {
         let faces = self.exact.faces(self.mesh.points, self.motion.reference.rounding);
         let found = faces.into_iter().find(|(face, _)| face.name() == name);
         let (face, rows) = found.ok_or_else(|| {
@@ -98,7 +98,7 @@ impl Taken<'_> {
         Ok(())
     }
 
-    fn add_face(&self, face: Face, rows: &[usize], values: &Values, loaded: &mut Loaded) {
+    fn add_face(&self, face: Face, rows: &[usize], values: &Values<'_>, loaded: &mut Loaded) {
         let (points, size) = (self.mesh.points, self.mesh.dimension);
         let places: Vec<f64> =
             rows.iter().flat_map(|row| &points[row * size..][..size]).copied().collect();
@@ -108,8 +108,8 @@ impl Taken<'_> {
     /// Where a normal is not 0.
     fn of_normals(
         &self,
-        values: &Values,
-        normals: &Values,
+        values: &Values<'_>,
+        normals: &Values<'_>,
         loaded: &mut Loaded,
     ) -> anyhow::Result<()> {
         let mut rows = Vec::new();
@@ -134,7 +134,7 @@ impl Taken<'_> {
     }
 
     /// At points of one face alone: those of two have two tractions.
-    fn of_faces(&self, values: &Values, loaded: &mut Loaded) -> anyhow::Result<()> {
+    fn of_faces(&self, values: &Values<'_>, loaded: &mut Loaded) -> anyhow::Result<()> {
         let faces = self.exact.faces(self.mesh.points, self.motion.reference.rounding);
         let mut count = vec![0; self.mesh.points.len() / self.mesh.dimension];
         faces.iter().flat_map(|(_, rows)| rows).for_each(|&row| count[row] += 1);
