@@ -85,6 +85,8 @@ pub enum Computed {
     Acceleration,
     /// r = rho0 a - Div P - rho0 b per reference volume.
     Residual,
+    /// The same at nodes, as forces: integrated with the shape function of each, tractions among them.
+    NodalResidual,
 }
 
 /// A step of the ladder: each vouches for what the next one takes for granted.
@@ -107,6 +109,7 @@ impl Rung {
             Rung::Law => "the law alone",
             Rung::State(Computed::Acceleration) => "accelerations at an exact state",
             Rung::State(Computed::Residual) => "residuals at an exact state",
+            Rung::State(Computed::NodalResidual) => "residuals at nodes at an exact state",
             Rung::Step => "one step from an exact state",
             Rung::Results => "results",
         }

@@ -3,7 +3,7 @@
 //! A [hypothesis] is a change of what a solver is given or computes: of b, of tau, of tractions on a face, of rho0, of the initial
 //! state, of a condition, or of what is written. The error that it makes is found in one of three ways:
 //!
-//! * of a law alone, by its stresses ([`table`]), or of formulas from paper ([`closed_form`]);
+//! * of a law alone, by its stresses ([`table`]) or its [tangent](mod@tangent), or of formulas from paper ([`closed_form`]);
 //! * of accelerations or residuals at an exact state, by the weak form of the balance ([`state`]); velocities after one
 //!   [step] are mean accelerations;
 //! * of ordinary results, by running the solver of `mms-runtime` with the [changed] field, or for mistakes of output by the
@@ -46,3 +46,4 @@ pub mod smooth;
 pub mod state;
 pub mod step;
 pub mod table;
+pub mod tangent;

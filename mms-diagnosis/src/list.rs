@@ -1,7 +1,7 @@
 //! The list of hypotheses, for people.
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, Kind, Size, all};
+use crate::hypothesis::{Change, Hypothesis, Kind, Size, all, of_tangent, voigt_orders};
 use crate::patterns;
 
 /// What a hypothesis is.
@@ -23,7 +23,8 @@ pub struct Listed {
 
 /// All hypotheses about a field, each followed by the names of its sizes.
 pub fn listed<const D: usize>(exact: &Exact<'_, D>) -> Vec<Listed> {
-    let mut found: Vec<Listed> = all(exact).iter().flat_map(|it| names(exact, it)).collect();
+    let all = [all(exact), of_tangent(), voigt_orders()];
+    let mut found: Vec<Listed> = all.iter().flatten().flat_map(|it| names(exact, it)).collect();
     found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
         title: (*title).into(),
         says: (*says).into(),
@@ -67,6 +68,7 @@ fn shown_by<const D: usize>(change: &Change<D>) -> &'static str {
         Change::Stress(_) => "law, exact state, step, results",
         Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
         Change::Start(_) => "step, results",
+        Change::Tangent(_) | Change::Order(_) => "law",
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => "results",
     }
 }

@@ -3,7 +3,7 @@
 use mms_runtime::body::bounding_box;
 use mms_runtime::scene::Scene;
 use mms_runtime::study::Solve;
-use mms_runtime::{ManufacturedField, Matrix, Method};
+use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 
 use crate::answer::{Diagnosis, Ranked, Rung};
 use crate::changed::Without;
@@ -17,7 +17,7 @@ use crate::run::Obstacle;
 use crate::smooth::Smooth;
 use crate::state::{self, Response};
 use crate::table::{self, Measure, Table};
-use crate::{ordinary, patterns, step};
+use crate::{ordinary, patterns, step, tangent};
 
 /// What there is to look at.
 pub enum Evidence {
@@ -32,6 +32,8 @@ pub enum Evidence {
     },
     /// Stresses beside H: numbers of points, tensors by rows.
     Law(LawOf),
+    /// Tangents beside H.
+    Tangent(TangentOf),
 }
 
 impl Evidence {
@@ -55,6 +57,7 @@ impl Evidence {
                 format!("{}, at t = {}", Rung::State(response.computed).says(), response.time)
             }
             Evidence::Law(_) => "F and stress, without a solver".into(),
+            Evidence::Tangent(_) => "F and the tangent, without a solver".into(),
         }
     }
 }
@@ -69,6 +72,18 @@ pub struct LawOf {
     pub measure: Measure,
     /// The stresses.
     pub stress: Vec<f64>,
+    /// How far a number may be off, for how it was stored.
+    pub rounding: f64,
+}
+
+/// The tangents of a law.
+pub struct TangentOf {
+    /// X; none where it is not given.
+    pub reference: Vec<f64>,
+    /// H.
+    pub gradient: Vec<f64>,
+    /// The tangents row by row, of the components 11, 22, 12 or 11, 22, 33, 12, 13, 23.
+    pub tangent: Vec<f64>,
     /// How far a number may be off, for how it was stored.
     pub rounding: f64,
 }
@@ -176,7 +191,7 @@ where
     let cell_size = match evidence {
         Evidence::Results(meshes) => meshes.last().map_or(1.0, |mesh| mesh.cell_size),
         Evidence::State { cell_size, .. } => *cell_size,
-        Evidence::Law(_) => 1.0,
+        Evidence::Law(_) | Evidence::Tangent(_) => 1.0,
     };
     let exact = exact(field, cell_size, solver.time_step);
     let hypotheses = all(&exact);
@@ -192,6 +207,7 @@ where
             Ok(state::diagnose(&exact, &response, &hypotheses)?)
         }
         Evidence::Law(law) => of_law(&exact, law, hypotheses),
+        Evidence::Tangent(law) => of_tangent(&exact, law, hypotheses),
     }
 }
 
@@ -222,23 +238,43 @@ where
     ordinary::diagnose(exact, &frame, meshes, hypotheses, like)
 }
 
+/// X of so many points of a law: the middle of the body where none are given.
+fn places<const D: usize>(
+    exact: &Exact<'_, D>,
+    reference: &[f64],
+    count: usize,
+) -> Result<Vec<Vector<f64, D>>, Obstacle> {
+    if !reference.is_empty() {
+        return Ok(vectors(reference));
+    }
+    let [lower, upper] = bounding_box(&exact.domain.body)?;
+    Ok(vec![(lower + upper) / 2.0; count])
+}
+
+fn tensors<const D: usize>(numbers: &[f64]) -> Vec<Matrix<f64, D>> {
+    numbers.chunks_exact(D * D).map(Matrix::from_row_slice).collect()
+}
+
 fn of_law<const D: usize>(
     exact: &Exact<'_, D>,
     law: &LawOf,
     hypotheses: Vec<Hypothesis<D>>,
 ) -> Result<Diagnosis, Obstacle> {
-    let tensors = |numbers: &[f64]| {
-        let each = numbers.chunks_exact(D * D);
-        each.map(Matrix::<f64, D>::from_row_slice).collect::<Vec<_>>()
-    };
-    let gradient = tensors(&law.gradient);
-    let reference = if law.reference.is_empty() {
-        let [lower, upper] = bounding_box(&exact.domain.body)?;
-        vec![(lower + upper) / 2.0; gradient.len()]
-    } else {
-        vectors(&law.reference)
-    };
-    let stress = tensors(&law.stress);
+    let (gradient, stress) = (tensors(&law.gradient), tensors(&law.stress));
+    let reference = places(exact, &law.reference, gradient.len())?;
     let table = Table { reference, gradient, measure: law.measure, stress, rounding: law.rounding };
     table::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
+}
+
+fn of_tangent<const D: usize>(
+    exact: &Exact<'_, D>,
+    law: &TangentOf,
+    hypotheses: Vec<Hypothesis<D>>,
+) -> Result<Diagnosis, Obstacle> {
+    let gradient = tensors(&law.gradient);
+    let reference = places(exact, &law.reference, gradient.len())?;
+    let count = law.tangent.len() / gradient.len().max(1);
+    let tangent = law.tangent.chunks_exact(count.max(1)).map(<[f64]>::to_vec).collect();
+    let table = tangent::Table { reference, gradient, tangent, rounding: law.rounding };
+    tangent::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
 }

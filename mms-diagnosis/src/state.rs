@@ -30,7 +30,7 @@ pub struct Response {
     pub reference: Vec<f64>,
     /// The values, likewise.
     pub values: Vec<f64>,
-    /// The volume of each point; none where all have the same.
+    /// The volume of each point; none where all have the same, and of what is integrated already.
     pub volumes: Option<Vec<f64>>,
     /// What was left out.
     pub without: Without,
@@ -189,7 +189,9 @@ impl<'a, const D: usize> Weak<'a, D> {
         let all = inertia.iter().zip(stress).zip(force).zip(traction);
         all.map(|(((inertia, stress), force), traction)| match response.computed {
             Computed::Acceleration => (stress + traction) / density + force,
-            Computed::Residual => density * (inertia - force) - stress - traction,
+            Computed::Residual | Computed::NodalResidual => {
+                density * (inertia - force) - stress - traction
+            }
         })
         .collect()
     }
@@ -208,14 +210,18 @@ impl<'a, const D: usize> Weak<'a, D> {
     fn error(&self, response: &Response, right: &[f64], times: &dyn Fn(usize) -> f64) -> Vec<f64> {
         let points: Vec<Vector<f64, D>> = crate::exact::vectors(&response.reference);
         let total: f64 = self.volumes.iter().sum();
-        let even = vec![total / points.len().max(1) as f64; points.len()];
+        let each = match response.computed {
+            Computed::Acceleration | Computed::Residual => total / points.len().max(1) as f64,
+            Computed::NodalResidual => 1.0,
+        };
+        let even = vec![each; points.len()];
         let volumes = response.volumes.as_ref().unwrap_or(&even);
         // The smooth part of what is right is taken away at the points, so that the user's sums need not be exact for it.
         let smooth = |x: &[Vector<f64, D>]| self.smooth_part(response, x);
         let (own, at_points) = (smooth(&self.points), smooth(&points));
         let per_volume = match response.computed {
             Computed::Acceleration => self.exact.density(&points),
-            Computed::Residual => vec![1.0; points.len()],
+            Computed::Residual | Computed::NodalResidual => vec![1.0; points.len()],
         };
         let mut sums = vec![0.0; self.count()];
         let values: Vec<Vector<f64, D>> = crate::exact::vectors(&response.values);
@@ -240,6 +246,8 @@ impl<'a, const D: usize> Weak<'a, D> {
             match response.computed {
                 Computed::Acceleration => applied,
                 Computed::Residual => a * *density - applied,
+                // What belongs to a node of it is not known here.
+                Computed::NodalResidual => Vector::zeros(),
             }
         })
         .collect()
@@ -274,6 +282,7 @@ pub fn diagnose<const D: usize>(
         Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density => true,
         Change::Start(_) => response.step.is_some(),
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => false,
+        Change::Tangent(_) | Change::Order(_) => false,
     };
     let right_sums = weak.sums(&Changed::right(exact, response.without));
     let right = weak.computed(response, &right_sums, 1.0);

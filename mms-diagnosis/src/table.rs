@@ -5,7 +5,7 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis};
+use crate::hypothesis::{Change, Given, Hypothesis, voigt_orders};
 use crate::rank::{Error, explain};
 use crate::smooth::size;
 
@@ -59,7 +59,7 @@ const EXPLAINED: f64 = 1.0 - 1e-6;
 const NEARER: f64 = 1.3;
 
 /// Mistakes in the measure: what stands for P is written down, whatever the stress is said to be.
-fn is_of_measure(name: &str) -> bool {
+pub(crate) fn is_of_measure(name: &str) -> bool {
     [
         "stress_first_piola",
         "stress_transposed",
@@ -82,6 +82,10 @@ pub fn diagnose<const D: usize>(
     }
     hypotheses
         .retain(|it| matches!(it.change, Change::Stress(_)) && it.name != "moduli_at_present");
+    // P is not symmetric, and has nine components.
+    if table.measure != Measure::FirstPiola {
+        hypotheses.extend(voigt_orders());
+    }
     let deformation: Vec<_> = table.gradient.iter().map(|h| h + Matrix::identity()).collect();
     let flat = |stress: &[Matrix<f64, D>], measure: Measure| -> Vec<f64> {
         let pairs = deformation.iter().zip(stress);
@@ -112,13 +116,22 @@ pub fn diagnose<const D: usize>(
         }
         let measure =
             if is_of_measure(hypothesis.name) { Measure::FirstPiola } else { table.measure };
-        flat(&wrong, measure)
-            .iter()
-            .zip(&right)
-            .map(|(wrong, right)| (wrong - right) / scale)
-            .collect::<Vec<f64>>()
+        let mut wrong = flat(&wrong, measure);
+        if let Change::Order(order) = hypothesis.change {
+            wrong.chunks_mut(D * D).for_each(|it| reorder(it, order));
+        }
+        wrong.iter().zip(&right).map(|(wrong, right)| (wrong - right) / scale).collect::<Vec<f64>>()
     };
     Some(to_round_off(exact, &hypotheses, all, floor, &wrong))
+}
+
+/// Puts the shear components 12, 13, 23 of a symmetric tensor in space into another order.
+fn reorder(tensor: &mut [f64], order: [usize; 3]) {
+    const PLACES: [[usize; 2]; 3] = [[1, 3], [2, 6], [5, 7]];
+    let shears = PLACES.map(|[above, _]| tensor[above]);
+    for (places, from) in PLACES.iter().zip(order) {
+        places.iter().for_each(|place| tensor[*place] = shears[from]);
+    }
 }
 
 /// Diagnoses numbers that mistakes make to round-off, from how far they are off; up to `floor` that is nothing. `wrong` says

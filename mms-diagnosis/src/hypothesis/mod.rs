@@ -10,14 +10,17 @@ mod law;
 mod output;
 mod start;
 mod stress;
+mod tangent;
 mod wall;
 
 use mms_runtime::{Condition, Face, Matrix, Vector};
 
 use crate::exact::{Exact, Quantity};
+use crate::tangent::Slopes;
 
 pub use face::{away, faces};
 pub use output::earlier_velocity;
+pub use tangent::{of_tangent, voigt_orders};
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
 pub struct Given<'a, const D: usize> {
@@ -54,6 +57,9 @@ pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 /// Changes a motion, from what is right.
 pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
+/// What a stress becomes as F changes by L F, with this size and symmetric L; from how tau changes there, and at F = I.
+pub type OfTangent<const D: usize> = fn([&Slopes<D>; 2], &[f64], &Matrix<f64, D>) -> Matrix<f64, D>;
+
 /// What a hypothesis changes. The functions are given what is right.
 pub enum Change<const D: usize> {
     /// b.
@@ -72,6 +78,10 @@ pub enum Change<const D: usize> {
     Condition(Condition),
     /// Nothing that is computed: what is written of a quantity.
     Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
+    /// The tangent of the law, that no explicit solver has.
+    Tangent(OfTangent<D>),
+    /// Nothing that is computed: the shear components 12, 13, 23 of what a law gives are these of the right ones.
+    Order([usize; 3]),
 }
 
 impl<const D: usize> Change<D> {
@@ -85,7 +95,8 @@ impl<const D: usize> Change<D> {
             Change::Start(_) => "start",
             Change::Wall(_) => "prescribed motion",
             Change::Condition(_) => "boundary condition",
-            Change::Output(_) => "output",
+            Change::Output(_) | Change::Order(_) => "output",
+            Change::Tangent(_) => "tangent",
         }
     }
 }
@@ -271,7 +282,7 @@ impl<const D: usize> Hypothesis<D> {
     }
 }
 
-/// All hypotheses about a field.
+/// All hypotheses about a field that a solver shows; of a law alone there are [`of_tangent`] and [`voigt_orders`] besides.
 pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let families = [
         force::all(exact),

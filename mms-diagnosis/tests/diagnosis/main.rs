@@ -1,6 +1,8 @@
 //! Mistakes that are typed by hand, in results of a solver, in accelerations at an exact state, and in a law.
 
 mod field;
+mod nodal;
+mod tangent;
 
 use field::{DENSITY, LAMBDA, MU, Square};
 use mms_diagnosis::answer::{Diagnosis, Finding, Rung};

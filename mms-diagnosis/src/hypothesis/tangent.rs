@@ -1,0 +1,79 @@
+//! Mistakes in the tangent of a law: rates, volumes, strains.
+
+use super::{Change, Hypothesis, Known, OfTangent, inverse};
+use crate::tangent::right;
+
+/// What may be wrong with a tangent alone.
+pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
+    let tangent =
+        |name, says, change: OfTangent<D>| Hypothesis::fixed(name, says, Change::Tangent(change));
+    let mut all = vec![
+        tangent("tangent_volume", "without 1/J: of tau in place of sigma", |[at, _], _, rate| {
+            at.rate(rate)
+        }),
+        tangent(
+            "tangent_truesdell",
+            "of Truesdell's rate in place of Jaumann's: its terms of the stress are missing",
+            |[at, _], _, rate| {
+                let stress = rate * at.tau + at.tau * rate;
+                (at.rate(rate) - stress) / at.jacobian()
+            },
+        ),
+        tangent(
+            "tangent_cauchy",
+            "of the rate of sigma in place of that of tau over J: without sigma tr D",
+            |[at, _], _, rate| (at.rate(rate) - at.tau * rate.trace()) / at.jacobian(),
+        ),
+        tangent("tangent_material", "dS/dE, that was not pushed forward", |[at, _], _, strain| {
+            let back = inverse(&at.f);
+            let rate = back.transpose() * strain * back;
+            back * (at.rate(&rate) - rate * at.tau - at.tau * rate) * back.transpose()
+        }),
+        tangent("tangent_small_strain", "that of small strains, at any F", |[_, rest], _, rate| {
+            right(rest, rate)
+        }),
+        tangent("tangent_sign", "with the other sign", |[at, _], _, rate| -right(at, rate)),
+    ];
+    // With one component there is no shear.
+    if D > 1 {
+        all.push(Hypothesis::factor(
+            "tangent_shear_factor",
+            "the columns of shear times a factor",
+            2.0,
+            Change::Tangent(|[at, _], size, rate| {
+                let factor = if rate.trace() == 0.0 { size[0] } else { 1.0 };
+                right(at, rate) * factor
+            }),
+            |_| {
+                vec![
+                    Known::new(
+                        2.0,
+                        "tangent_shear_twice",
+                        "with components of the strain tensor in place of engineering shears",
+                    ),
+                    Known::new(0.5, "tangent_shear_half", "engineering shears halved twice"),
+                ]
+            },
+        ));
+    }
+    all
+}
+
+/// Orders of the shear components 12, 13, 23 that others have.
+pub fn voigt_orders<const D: usize>() -> Vec<Hypothesis<D>> {
+    let says = "the shear components stand in another order than 12, 13, 23";
+    let order = |which, order| Hypothesis {
+        which: Some(which),
+        ..Hypothesis::fixed("voigt_order", says, Change::Order(order))
+    };
+    if D < 3 {
+        return Vec::new();
+    }
+    vec![
+        order("23, 13, 12", [2, 1, 0]),
+        order("12, 23, 13", [0, 2, 1]),
+        order("13, 12, 23", [1, 0, 2]),
+        order("13, 23, 12", [1, 2, 0]),
+        order("23, 12, 13", [2, 0, 1]),
+    ]
+}

@@ -1,0 +1,181 @@
+//! Diagnosis of a law alone by its tangent, beside the F at which it was computed.
+//!
+//! The tangent is that of Abaqus' DDSDDE: of the Jaumann rate of tau with the rate of deformation D, over J, by engineering shears.
+//! Without spin the Jaumann rate is the rate of tau itself as F changes by D F, so that differences of tau give it for any law.
+
+use mms_runtime::tensor::determinant;
+use mms_runtime::{Matrix, Vector};
+
+use crate::answer::Diagnosis;
+use crate::exact::Exact;
+use crate::hypothesis::{Change, Given, Hypothesis, of_tangent, voigt_orders};
+use crate::smooth::size;
+use crate::table::{is_of_measure, to_round_off};
+
+/// What a law gave.
+#[derive(Clone, Debug)]
+pub struct Table<const D: usize> {
+    /// X; it matters where moduli depend on it.
+    pub reference: Vec<Vector<f64, D>>,
+    /// H.
+    pub gradient: Vec<Matrix<f64, D>>,
+    /// The tangents row by row, of the components 11, 22, 12 or 11, 22, 33, 12, 13, 23.
+    pub tangent: Vec<Vec<f64>>,
+    /// How far each number may be from what was computed, for how it was stored.
+    pub rounding: f64,
+}
+
+/// How tau changes with F in a point.
+#[derive(Clone, Debug)]
+pub struct Slopes<const D: usize> {
+    /// F.
+    pub f: Matrix<f64, D>,
+    /// tau.
+    pub tau: Matrix<f64, D>,
+    along: Vec<Matrix<f64, D>>,
+}
+
+impl<const D: usize> Slopes<D> {
+    /// The rate of tau as F changes by L F.
+    pub fn rate(&self, l: &Matrix<f64, D>) -> Matrix<f64, D> {
+        let entries = l.iter().zip(&self.along);
+        entries.fold(Matrix::zeros(), |sum, (l, along)| sum + along * *l)
+    }
+
+    /// J.
+    pub fn jacobian(&self) -> f64 {
+        determinant(&self.f)
+    }
+}
+
+/// The step of differences, over F, that is halved.
+const STEP: f64 = 0.04;
+/// How often it is, each time with two orders more.
+const HALVINGS: usize = 4;
+/// What differences of a law lose of its digits, and a law of its own, over the largest number.
+const ARITHMETIC: f64 = 1e-10;
+
+/// The components of Abaqus' vectors, in their order.
+fn components(dimension: usize) -> &'static [[usize; 2]] {
+    match dimension {
+        1 => &[[0, 0]],
+        2 => &[[0, 0], [1, 1], [0, 1]],
+        _ => &[[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]],
+    }
+}
+
+/// How tau changes in each point, with what a function makes of the stresses.
+fn slopes<const D: usize>(
+    gradient: &[Matrix<f64, D>],
+    stress: &dyn Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,
+) -> Vec<Slopes<D>> {
+    let f: Vec<_> = gradient.iter().map(|h| h + Matrix::identity()).collect();
+    let along = |entry: usize| {
+        let at = |step: f64| {
+            let mut changed = Matrix::identity();
+            changed[entry] += step;
+            stress(&f.iter().map(|f| changed * f - Matrix::identity()).collect::<Vec<_>>())
+        };
+        let central = |level: usize| -> Vec<Matrix<f64, D>> {
+            let step = STEP / 2f64.powi(level as i32);
+            let pairs = at(step).into_iter().zip(at(-step));
+            pairs.map(|(above, below)| (above - below) / (2.0 * step)).collect()
+        };
+        let mut levels: Vec<_> = (0..HALVINGS).map(central).collect();
+        for order in 1..HALVINGS {
+            let gain = 4f64.powi(order as i32) - 1.0;
+            for level in (order..HALVINGS).rev() {
+                let coarser = levels[level - 1].clone();
+                let pairs = levels[level].iter_mut().zip(coarser);
+                pairs.for_each(|(fine, coarse)| *fine += (*fine - coarse) / gain);
+            }
+        }
+        levels.pop().unwrap_or_default()
+    };
+    let along: Vec<_> = (0..D * D).map(along).collect();
+    let each = f.into_iter().zip(stress(gradient)).enumerate();
+    each.map(|(at, (f, tau))| Slopes { f, tau, along: along.iter().map(|it| it[at]).collect() })
+        .collect()
+}
+
+/// The exact tangent, row by row: over J, the rate of tau.
+pub fn right<const D: usize>(at: &Slopes<D>, rate: &Matrix<f64, D>) -> Matrix<f64, D> {
+    at.rate(rate) / at.jacobian()
+}
+
+/// A tangent, row by row, of what stresses become at unit rates of deformation.
+fn rows<const D: usize>(of: impl Fn(&Matrix<f64, D>) -> Matrix<f64, D>) -> Vec<f64> {
+    let places = components(D);
+    let columns: Vec<Matrix<f64, D>> = places
+        .iter()
+        .map(|&[k, l]| {
+            let mut rate = Matrix::zeros();
+            rate[(k, l)] += 0.5;
+            rate[(l, k)] += 0.5;
+            of(&rate)
+        })
+        .collect();
+    let entries = |[i, j]: &[usize; 2]| columns.iter().map(|it| it[(*i, *j)]).collect::<Vec<_>>();
+    places.iter().flat_map(entries).collect()
+}
+
+/// A tangent whose shear components stand in another order.
+fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
+    let at = |k: usize| if k < 3 { k } else { 3 + order[k - 3] };
+    (0..36).map(|k| tangent[6 * at(k / 6) + at(k % 6)]).collect()
+}
+
+/// Diagnoses a law by its tangent. `None` where the exact one is not finite.
+pub fn diagnose<const D: usize>(
+    exact: &Exact<'_, D>,
+    table: &Table<D>,
+    mut hypotheses: Vec<Hypothesis<D>>,
+) -> Option<Diagnosis> {
+    let is_of_law = |it: &Hypothesis<D>| {
+        let is_of_stress =
+            ["moduli_at_present", "strain_left", "shear_factor", "stress_volume_twice"];
+        matches!(it.change, Change::Stress(_))
+            && !is_of_measure(it.name)
+            && !is_of_stress.contains(&it.name)
+    };
+    hypotheses.retain(is_of_law);
+    let of_law: Vec<Hypothesis<D>> =
+        [of_tangent(), voigt_orders(), hypotheses].into_iter().flatten().collect();
+    let of_stress = |gradient: &[Matrix<f64, D>]| exact.stress(&table.reference, gradient);
+    let all = slopes(&table.gradient, &of_stress);
+    let at_rest = slopes(&vec![Matrix::zeros(); all.len()], &of_stress);
+    let right: Vec<Vec<f64>> = all.iter().map(|at| rows(|rate| right(at, rate))).collect();
+    let flat = right.concat();
+    if flat.iter().any(|it| !it.is_finite()) {
+        return None;
+    }
+    let scale = size(&flat).max(f64::MIN_POSITIVE);
+    let off = |wrong: &[Vec<f64>]| -> Vec<f64> {
+        let pairs = wrong.iter().flatten().zip(&flat);
+        pairs.map(|(wrong, right)| (wrong - right) / scale).collect()
+    };
+    let largest = flat.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    let count = (flat.len() as f64).sqrt();
+    let floor = (table.rounding + ARITHMETIC * largest) * count / scale;
+    let wrong = |hypothesis: &Hypothesis<D>, size: &[f64]| {
+        off(&match &hypothesis.change {
+            Change::Tangent(change) => {
+                let pairs = all.iter().zip(&at_rest);
+                pairs.map(|(at, rest)| rows(|rate| change([at, rest], size, rate))).collect()
+            }
+            Change::Order(order) => right.iter().map(|it| reordered(it, *order)).collect(),
+            Change::Stress(change) => {
+                let changed = |gradient: &[Matrix<f64, D>]| {
+                    let mut tau = of_stress(gradient);
+                    let (time, reference) = (exact.domain.time[0], &table.reference[..]);
+                    change(&Given { exact, size, time, reference, gradient }, &mut tau);
+                    tau
+                };
+                let all = slopes(&table.gradient, &changed);
+                all.iter().map(|at| rows(|rate| self::right(at, rate))).collect::<Vec<_>>()
+            }
+            _ => right.clone(),
+        })
+    };
+    Some(to_round_off(exact, &of_law, off(&table.tangent), floor, &wrong))
+}

@@ -1,0 +1,115 @@
+//! Residuals at the nodes of linear triangles on an irregular mesh, assembled here by hand, with mistakes.
+
+use mms_diagnosis::answer::Diagnosis;
+use mms_diagnosis::changed::Without;
+use mms_diagnosis::hypothesis::all;
+use mms_diagnosis::state::{self, Computed, Response};
+
+use super::field::{self, DENSITY, LAMBDA, MU};
+use super::{LOADED, Point, Tensor, exact, name};
+
+const TIME: f64 = 0.013;
+/// Cells along a side.
+const CELLS: usize = 24;
+
+/// A code: P of H, b of X, and the traction on the right side of P there.
+struct Code {
+    stress: fn(&Tensor) -> Tensor,
+    force: fn(&Point) -> Point,
+    traction: f64,
+}
+
+const RIGHT: Code = Code {
+    stress: |h| field::first(h, [LAMBDA, MU]),
+    force: |x| field::body_force(TIME, x),
+    traction: 1.0,
+};
+
+/// Nodes row by row, those inside moved by up to a fifth of a cell.
+fn nodes() -> Vec<Point> {
+    let node = |k: usize| {
+        let (i, j) = (k % (CELLS + 1), k / (CELLS + 1));
+        let is_inner = |at: usize| at > 0 && at < CELLS;
+        let by = if is_inner(i) && is_inner(j) { 0.2 } else { 0.0 };
+        let (a, b) = ((12.9 * k as f64).sin() * by, (78.2 * k as f64).cos() * by);
+        Point::new(i as f64 + a, j as f64 + b) / CELLS as f64
+    };
+    (0..(CELLS + 1) * (CELLS + 1)).map(node).collect()
+}
+
+/// r of each node: int rho0 (a - b) N + P grad N over the body, less int T N over the right side.
+fn assembled(code: &Code) -> Vec<Point> {
+    let nodes = nodes();
+    let u: Vec<Point> = nodes.iter().map(|x| field::displacement(TIME, x)).collect();
+    let mut r = vec![Point::zeros(); nodes.len()];
+    for quad in (0..CELLS * CELLS).map(|k| k / CELLS * (CELLS + 1) + k % CELLS) {
+        let [a, b, c, d] = [quad, quad + 1, quad + CELLS + 2, quad + CELLS + 1];
+        for triangle in [[a, b, c], [a, c, d]] {
+            let [x, y, z] = triangle.map(|k| nodes[k]);
+            let edges = Tensor::from_columns(&[y - x, z - x]);
+            let (area, inverse) = (edges.determinant() / 2.0, edges.try_inverse().unwrap());
+            let moved = triangle.map(|k| u[k]);
+            let stretched = Tensor::from_columns(&[moved[1] - moved[0], moved[2] - moved[0]]);
+            let stress = (code.stress)(&(stretched * inverse));
+            let slopes = [
+                -inverse.transpose() * Point::new(1.0, 1.0),
+                inverse.row(0).transpose(),
+                inverse.row(1).transpose(),
+            ];
+            for (at, slope) in triangle.iter().zip(slopes) {
+                r[*at] += stress * slope * area;
+            }
+            // The middles of edges; there two shape functions are a half.
+            for [i, j] in [[0, 1], [1, 2], [2, 0]] {
+                let middle = (nodes[triangle[i]] + nodes[triangle[j]]) / 2.0;
+                let q = field::acceleration(TIME, &middle) - (code.force)(&middle);
+                for at in [i, j] {
+                    r[triangle[at]] += q * (DENSITY * area / 6.0);
+                }
+            }
+        }
+    }
+    for k in 0..CELLS {
+        let [a, b] = [k, k + 1].map(|row| row * (CELLS + 1) + CELLS);
+        let middle = (nodes[a] + nodes[b]) / 2.0;
+        let p = field::first(&field::gradient(TIME, &middle), [LAMBDA, MU]);
+        let force = p.column(0) * (code.traction * (nodes[b] - nodes[a]).norm() / 2.0);
+        (r[a], r[b]) = (r[a] - force, r[b] - force);
+    }
+    r
+}
+
+fn diagnosed(code: &Code) -> Diagnosis {
+    let exact = exact(&LOADED, CELLS as f64);
+    let numbers =
+        |points: Vec<Point>| points.iter().flat_map(|x| x.as_slice().to_vec()).collect::<Vec<_>>();
+    let response = Response {
+        computed: Computed::NodalResidual,
+        time: TIME,
+        reference: numbers(nodes()),
+        values: numbers(assembled(code)),
+        volumes: None,
+        without: Without::default(),
+        step: None,
+    };
+    state::diagnose(&exact, &response, &all(&exact)).unwrap()
+}
+
+#[test]
+fn nodal_residuals_name_a_term() {
+    assert_eq!(name(&diagnosed(&RIGHT)), "nothing");
+    let twice = Code { force: |x| field::body_force(TIME, x) * 2.0, ..RIGHT };
+    assert_eq!(name(&diagnosed(&twice)), "force_twice");
+    let sign = Code {
+        force: |x| field::acceleration(TIME, x) * 2.0 - field::body_force(TIME, x),
+        ..RIGHT
+    };
+    assert_eq!(name(&diagnosed(&sign)), "force_sign");
+    let transposed = Code { stress: |h| field::first(h, [LAMBDA, MU]).transpose(), ..RIGHT };
+    assert_eq!(name(&diagnosed(&transposed)), "stress_transposed");
+    let swapped = Code { stress: |h| field::first(h, [MU, LAMBDA]), ..RIGHT };
+    assert_eq!(name(&diagnosed(&swapped)), "moduli_swapped");
+    let reversed = diagnosed(&Code { traction: -1.0, ..RIGHT });
+    assert_eq!(name(&reversed), "traction_sign");
+    assert_eq!(reversed.ranked[0].title(), "traction_sign on x_max");
+}
