@@ -4,7 +4,7 @@ use anyhow::{Context as _, bail, ensure};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
 use mms_diagnosis::exact::Quantity;
-use mms_diagnosis::scene::{Evidence, LawOf};
+use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::Snapshot;
@@ -23,10 +23,21 @@ pub struct Reading<'a> {
     pub times: &'a [f64],
     /// h of the FILEs, in their order.
     pub sizes: &'a [f64],
-    /// Whether a law alone is looked at.
-    pub is_law: bool,
+    /// What of a law alone is looked at; none of results.
+    pub law: Option<Alone>,
     /// The sign of residuals: r = sign (rho0 a - Div P - rho0 b).
     pub residual_sign: f64,
+    /// Whether residuals are integrated with the shape functions of nodes.
+    pub is_nodal: bool,
+}
+
+/// What a law may be asked for without a solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Alone {
+    /// P, S, sigma or tau.
+    Stress,
+    /// DDSDDE.
+    Tangent,
 }
 
 /// Reads files: from coarse to fine.
@@ -38,13 +49,15 @@ pub fn read(
     reading: &Reading<'_>,
     exact: &mut Exact,
 ) -> anyhow::Result<Evidence> {
-    if reading.is_law {
+    if let Some(alone) = reading.law {
         let snapshot = all.iter().flat_map(|it| &it.snapshots).next();
-        return law(snapshot.context("expected a table of F and stress")?, reading, exact);
+        let snapshot = snapshot.context("expected a table of F and what a law gives there")?;
+        return law(snapshot, alone, reading, exact);
     }
     if let Some(state) = state(&all, reading, exact)? {
         return Ok(state);
     }
+    ensure!(!reading.is_nodal, "no residuals at nodes: name their columns with `--map r=..`");
     let mut levels = Vec::new();
     for (at, results) in all.iter().enumerate() {
         levels.push(level(results, reading, reading.sizes.get(at).copied(), exact)?);
@@ -93,11 +106,34 @@ const MEASURES: [(Role, Measure); 4] = [
     (Role::CauchyStress, Measure::Cauchy),
 ];
 
-fn law(snapshot: &Snapshot, reading: &Reading<'_>, exact: &Exact) -> anyhow::Result<Evidence> {
+fn law(
+    snapshot: &Snapshot,
+    alone: Alone,
+    reading: &Reading<'_>,
+    exact: &Exact,
+) -> anyhow::Result<Evidence> {
     let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
     let h = gradient(&meanings, snapshot, dimension)?;
     let h =
         h.with_context(|| format!("{}: no F: name its columns with `--map F=..`", snapshot.path))?;
+    let reference = values(&meanings, Role::Reference, snapshot, dimension)?;
+    let reference = reference.map_or(Vec::new(), |it| it.numbers.into_owned());
+    let rows = h.numbers.len() / (dimension * dimension);
+    if alone == Alone::Tangent {
+        let found = tangent(&meanings, snapshot, dimension)?;
+        let columns = components(dimension).pow(2);
+        ensure!(
+            found.numbers.len() == rows * columns,
+            "{}: F and the tangent of different rows",
+            snapshot.path
+        );
+        return Ok(Evidence::Tangent(TangentOf {
+            reference,
+            gradient: h.numbers.into_owned(),
+            rounding: found.rounding,
+            tangent: found.numbers.into_owned(),
+        }));
+    }
     let mut found = Vec::new();
     for (role, measure) in MEASURES {
         found.extend(values(&meanings, role, snapshot, dimension)?.map(|it| (measure, it)));
@@ -115,14 +151,39 @@ fn law(snapshot: &Snapshot, reading: &Reading<'_>, exact: &Exact) -> anyhow::Res
         "{}: F and stress of different rows",
         snapshot.path
     );
-    let reference = values(&meanings, Role::Reference, snapshot, dimension)?;
     Ok(Evidence::Law(LawOf {
-        reference: reference.map_or(Vec::new(), |it| it.numbers.into_owned()),
+        reference,
         gradient: h.numbers.into_owned(),
         measure,
         rounding: stress.rounding,
         stress: stress.numbers.into_owned(),
     }))
+}
+
+/// How many components a vector of Voigt has that a field of that dimension fixes.
+fn components(dimension: usize) -> usize {
+    dimension * (dimension + 1) / 2
+}
+
+/// The tangent of those components: in a plane without 33, whose stress no plane field has.
+fn tangent<'a>(
+    meanings: &[Meaning],
+    snapshot: &'a Snapshot,
+    dimension: usize,
+) -> anyhow::Result<Values<'a>> {
+    let columns = meanings.iter().find(|it| it.role == Role::Tangent).map(Meaning::count);
+    let size = components(dimension);
+    let has_33 = dimension == 2 && columns == Some((size + 1).pow(2));
+    let found = values(meanings, Role::Tangent, snapshot, size + usize::from(has_33))?;
+    let mut found = found.with_context(|| {
+        format!("{}: no tangent: name its columns row by row with `--map DDSDDE=..`", snapshot.path)
+    })?;
+    if has_33 {
+        let is_in_plane = |at: usize| at / 4 != 2 && at % 4 != 2;
+        let mut at = 0..;
+        found.numbers.to_mut().retain(|_| at.next().is_some_and(|at: usize| is_in_plane(at % 16)));
+    }
+    Ok(found)
 }
 
 /// Residuals; or accelerations, of points whose motion is the exact one or is not there: else they are among results.
@@ -134,11 +195,12 @@ fn state(
     let Some(results) = all.last() else { return Ok(None) };
     let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
     let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
-    let kinds =
-        [(Role::Residual, Computed::Residual), (Role::Acceleration, Computed::Acceleration)];
-    for (role, computed) in kinds {
+    let residual = if reading.is_nodal { Computed::NodalResidual } else { Computed::Residual };
+    let kinds = [(Role::Residual, residual), (Role::Acceleration, Computed::Acceleration)];
+    let asked = if reading.is_nodal { &kinds[..1] } else { &kinds[..] };
+    for &(role, computed) in asked {
         let Some(mut found) = values(&meanings, role, snapshot, dimension)? else { continue };
-        if computed == Computed::Residual {
+        if role == Role::Residual {
             found.numbers.to_mut().iter_mut().for_each(|it| *it *= reading.residual_sign);
         }
         let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
@@ -153,6 +215,7 @@ fn state(
         }
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         let volumes = match values(&meanings, Role::Volume, snapshot, 1)? {
+            _ if computed == Computed::NodalResidual => None,
             Some(volumes) => Some(volumes.numbers.into_owned()),
             None if mesh.sizes().is_some() => {
                 Some(mesh.volumes().map_err(|it| placed(it.of(&snapshot.path)))?)

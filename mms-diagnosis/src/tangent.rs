@@ -67,7 +67,7 @@ fn components(dimension: usize) -> &'static [[usize; 2]] {
 /// How tau changes in each point, with what a function makes of the stresses.
 fn slopes<const D: usize>(
     gradient: &[Matrix<f64, D>],
-    stress: &dyn Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,
+    stress: impl Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,
 ) -> Vec<Slopes<D>> {
     let f: Vec<_> = gradient.iter().map(|h| h + Matrix::identity()).collect();
     let along = |entry: usize| {
@@ -142,8 +142,8 @@ pub fn diagnose<const D: usize>(
     let of_law: Vec<Hypothesis<D>> =
         [of_tangent(), voigt_orders(), hypotheses].into_iter().flatten().collect();
     let of_stress = |gradient: &[Matrix<f64, D>]| exact.stress(&table.reference, gradient);
-    let all = slopes(&table.gradient, &of_stress);
-    let at_rest = slopes(&vec![Matrix::zeros(); all.len()], &of_stress);
+    let all = slopes(&table.gradient, of_stress);
+    let at_rest = slopes(&vec![Matrix::zeros(); all.len()], of_stress);
     let right: Vec<Vec<f64>> = all.iter().map(|at| rows(|rate| right(at, rate))).collect();
     let flat = right.concat();
     if flat.iter().any(|it| !it.is_finite()) {
@@ -171,7 +171,7 @@ pub fn diagnose<const D: usize>(
                     change(&Given { exact, size, time, reference, gradient }, &mut tau);
                     tau
                 };
-                let all = slopes(&table.gradient, &changed);
+                let all = slopes(&table.gradient, changed);
                 all.iter().map(|at| rows(|rate| self::right(at, rate))).collect::<Vec<_>>()
             }
             _ => right.clone(),

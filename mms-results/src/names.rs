@@ -340,6 +340,11 @@ fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
 }
 
 impl Meaning {
+    /// How many columns it has.
+    pub fn count(&self) -> usize {
+        self.columns.len()
+    }
+
     /// How many dimensions a vector of as many columns has.
     pub fn dimension(&self) -> usize {
         self.columns.len().clamp(1, 3)
@@ -427,7 +432,8 @@ impl Meaning {
         let from = self.least_number();
         let named = |part: &Part| *part == Part::Entry(row + from, column + from);
         let by_name = self.columns.iter().find(|(part, _)| named(part));
-        let size = (1..=3).find(|size| size * size == self.columns.len());
+        let largest = if self.role == Role::Tangent { 6 } else { 3 };
+        let size = (1..=largest).find(|size| size * size == self.columns.len());
         by_name
             .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
     }

@@ -74,6 +74,7 @@ roles! {
     BodyForce "body_force" "b" Vector ["b"] "Body force b per mass.",
     SecondPiolaKirchhoff "second_piola_kirchhoff" "S" Symmetric ["S" "pk2" "piola2" "secondpiola" "secondpiolakirchhoffstress"]
         "Second Piola-Kirchhoff stress S.",
+    Tangent "tangent" "DDSDDE" Tensor ["ddsdde"] "Tangent of the law: of the Jaumann rate of tau over J, with Voigt's components.",
     Pressure "pressure" "p" Scalar ["p"] "Pressure.",
     VonMises "von_mises" "von_mises" Scalar ["mises" "vonmisesstress"] "Von Mises stress.",
     Traction "traction" "traction" Vector ["tractions" "surfacetraction" "boundarytraction"]

@@ -12,7 +12,7 @@ use mms_diagnosis::scene::{self, Solver};
 use mms_results::names::Mapping;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Reading, read};
+use crate::diagnose::{Alone, Reading, read};
 use crate::judge::results::Results;
 use crate::report::{Diagnosed, Hypotheses};
 use crate::session::exact::Exact;
@@ -23,7 +23,7 @@ use crate::session::method::{MethodOptions, finite, positive};
 ///
 /// Results of a FIELD are one FILE for each mesh, as for `mms judge`. What is in them decides what is looked at:
 ///
-/// F and a stress, with --quantity stress: the law alone, to round-off, without a solver. Accelerations `a` or residuals `r` at
+/// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off, without a solver. Accelerations `a` or residuals `r` at
 /// an exact state, paired with smooth functions. u, v, F at some times: hypotheses are run by this project's own solver on
 /// a grid of about that size, and their errors are compared with yours.
 ///
@@ -44,8 +44,9 @@ pub struct Diagnose {
     /// Without a FIELD, about a square with loads.
     #[arg(long, conflicts_with = "files")]
     list: bool,
-    /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau.
-    #[arg(long, value_name = "stress")]
+    /// What is looked at: `stress` is the law alone, in a table of F and P, S, sigma or tau; `tangent` likewise, in one of F and
+    /// DDSDDE.
+    #[arg(long, value_name = "stress|tangent")]
     quantity: Option<Quantity>,
     /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
@@ -65,6 +66,10 @@ pub struct Diagnose {
     /// The sign of residuals: `+` is r = rho0 a - Div P - rho0 b, per reference volume.
     #[arg(long, value_name = "+|-", default_value = "+", allow_hyphen_values = true, value_parser = sign)]
     residual_sign: f64,
+    /// What residuals are: `density` is per reference volume, `nodal` is integrated with the shape function of each node, forces that
+    /// hold the tractions too.
+    #[arg(long, value_name = "density|nodal", default_value = "density")]
+    residual: Residual,
     /// Compare with a method of this project's own solver, as in `shape=linear,integrator=usl`: any options of `mms study`
     /// that say how to solve. Without it, with some.
     #[arg(long, value_name = "OPTION=VALUE,..")]
@@ -89,6 +94,14 @@ pub struct Diagnose {
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Quantity {
     Stress,
+    Tangent,
+}
+
+/// What residuals are.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Residual {
+    Density,
+    Nodal,
 }
 
 /// A term of the balance of momentum.
@@ -150,8 +163,12 @@ impl Diagnose {
             map: &self.map,
             times: &self.time,
             sizes: &self.h,
-            is_law: self.quantity == Some(Quantity::Stress),
+            law: self.quantity.map(|it| match it {
+                Quantity::Stress => Alone::Stress,
+                Quantity::Tangent => Alone::Tangent,
+            }),
             residual_sign: self.residual_sign,
+            is_nodal: self.residual == Residual::Nodal,
         };
         let evidence = read(all, &reading, &mut exact)?;
         say(format_args!("looking at {}", evidence.says()));

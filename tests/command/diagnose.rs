@@ -67,6 +67,53 @@ fn a_law_alone_is_named() {
 }
 
 #[test]
+fn a_tangent_alone_is_named() {
+    let folder = Folder::new();
+    let points = grid(&folder, 4, 0.005);
+    let (young, poisson) = (1e6, 0.3);
+    let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+    let mu = young / (2.0 * (1.0 + poisson));
+    // 11, 22, 33, 12 of neo-Hookean material in plane strain; what nobody looks at is nonsense.
+    let with = |of_stress: f64| {
+        let names: Vec<_> = (0..16).map(|k| format!("DDSDDE{}{}", k / 4 + 1, k % 4 + 1)).collect();
+        table(&format!("F11,F12,F21,F22,{}", names.join(",")), &points, |point| {
+            let f = numbers(point, "deformation_gradient");
+            let j = f[0] * f[3] - f[1] * f[2];
+            let g = (mu - lambda * j.ln()) / j;
+            let sigma = |a: usize, b: usize| {
+                let left = f[a] * f[b] + f[a + 1] * f[b + 1];
+                let unit = if a == b { 1.0 } else { 0.0 };
+                of_stress * (mu * (left - unit) + unit * lambda * j.ln()) / j
+            };
+            let (x, y, xy) = (sigma(0, 0), sigma(2, 2), sigma(0, 2));
+            let l = lambda / j;
+            let rows = [
+                [l + 2.0 * (g + x), l, 7.0, xy],
+                [l, l + 2.0 * (g + y), 7.0, xy],
+                [7.0; 4],
+                [xy, xy, 7.0, g + (x + y) / 2.0],
+            ];
+            [f, rows.concat()].concat()
+        })
+    };
+    let options = "--quantity tangent";
+    diagnose(&folder, &with(1.0), options).exits(0).prints("nothing");
+    diagnose(&folder, &with(0.0), options).exits(1).prints("named: tangent_truesdell (mistake)");
+    let few = "F11,F12,F21,F22,DDSDDE11\n1,0,0,1,2\n";
+    diagnose(&folder, few, options).exits(2).complains("has 1 component(s)");
+    diagnose(&folder, "F11,F12,F21,F22\n1,0,0,1\n", options).exits(2).complains("no tangent");
+}
+
+#[test]
+fn six_columns_of_a_stress_need_names() {
+    let folder = Folder::new();
+    folder.write("law.csv", "F11,F12,F21,F22,s0,s1,s2,s3,s4,s5\n1,0,0,1,0,0,0,0,0,0\n");
+    let run = folder
+        .mms("diagnose travelling_wave_2d law.csv --quantity stress --map sigma=s0,s1,s2,s3,s4,s5");
+    run.exits(2).complains("is it in the order of Voigt?");
+}
+
+#[test]
 fn accelerations_at_an_exact_state_name_a_term() {
     let folder = Folder::new();
     let points = grid(&folder, 16, 0.005);
@@ -96,6 +143,16 @@ fn accelerations_at_an_exact_state_name_a_term() {
     let named = diagnose(&folder, &residual, "").exits(1);
     named.prints("residuals at an exact state").prints("named: force_twice");
     diagnose(&folder, &residual, "--residual-sign -").exits(1).prints("named: force_missing");
+    // The same as forces: each point stands for one of 16 x 16 parts of the square.
+    let forces = table("X,Y,time,r_x,r_y", &points, |point| {
+        let b = numbers(point, "body_force");
+        let part = -1000.0 / 256.0;
+        [numbers(point, "at"), vec![0.005, part * b[0], part * b[1]]].concat()
+    });
+    let nodal = diagnose(&folder, &forces, "--residual nodal").exits(1);
+    nodal.prints("residuals at nodes at an exact state").prints("named: force_twice");
+    let accelerations = forces.replace("r_x,r_y", "a_x,a_y");
+    diagnose(&folder, &accelerations, "--residual nodal").exits(2).complains("no residuals");
 }
 
 #[test]
