@@ -6,7 +6,7 @@
 //!
 //! w = 1/(2 l) int hat(x) dx,  grad w = 1/(2 l) int hat'(x) dx,  x from x_p - l to x_p + l.
 
-use mms_math::machine::Machine;
+use mms_math::machine::{Machine, Plain};
 use nalgebra::ComplexField;
 
 use crate::column::BUNCH;
@@ -19,7 +19,7 @@ use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
 use crate::spline;
 use crate::stencil::{Known, MOST, Tensor};
-use crate::tensor::{determinant, is_finite};
+use crate::tensor::determinant;
 
 /// Nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Wider ones, of
 /// less than two cells, reach [`MOST`].
@@ -63,11 +63,12 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
             in_cells[a] = machine.times(in_cells[a], machine.splat(lattice.per_length[a]));
         }
         if !machine.all_between(&in_cells, &[[T::default_epsilon(), T::ratio(1, 2)]; D]) {
-            let half_width = vectors(machine, half_width);
-            if FOLLOWS && !half_width.iter().all(is_finite) {
+            let [position, half_width] =
+                [vectors(machine, *position), vectors(machine, half_width)];
+            if FOLLOWS && !half_width.0.as_flattened().iter().all(|l| l.is_finite()) {
                 return Err(Cause::FlatDomain);
             }
-            return place_wide(machine, stencil, lattice, position, &half_width);
+            return place_wide(stencil, lattice, &position, &half_width);
         }
         // Without the last node, weights do not sum to 1.
         let short = on(Defect::ShortSupport);
@@ -85,7 +86,11 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
         // What is not a number is on no grid.
         let last = T::of(NEAREST as f64);
         let on_grid = std::array::from_fn(|a| [T::zero(), lattice.nodes[a] - last]);
-        if machine.all_between(&first, &on_grid) { Ok(()) } else { Err(lost(machine, position)) }
+        if machine.all_between(&first, &on_grid) {
+            Ok(())
+        } else {
+            Err(lost(&vectors(machine, *position)))
+        }
     }
 
     fn point<T: Real, const D: usize>(
@@ -98,17 +103,18 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
 
 /// Half widths of up to a cell.
 #[cold]
-fn place_wide<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
+fn place_wide<T: Real, const D: usize>(
     stencil: &mut Tensor<T, D>,
     lattice: &Lattice<T, D>,
-    position: &[M::Eight; D],
-    half_width: &[Vector<T, D>; BUNCH],
+    position: &Vectors<T, D>,
+    half_width: &Vectors<T, D>,
 ) -> Result<(), Cause> {
+    // What is not inlined into a loop knows no better machine.
+    let machine = T::PlainMachine::from(Plain);
     stencil.begin::<MOST>(lattice, Known::Regular);
     let mut fits = true;
     for a in 0..D {
-        let cells = machine.numbers(lattice.cells_along(machine, a, position[a]));
+        let cells = machine.numbers(lattice.cells_along(machine, a, machine.eight(&position.0[a])));
         let h = lattice.cell_size[a];
         // A particle with fewer nodes may be near the last one.
         let last = lattice.nodes[a] - T::one();
@@ -116,7 +122,7 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
         let mut first = [T::zero(); BUNCH];
         let [mut weights, mut slopes] = [[[T::zero(); BUNCH]; MOST]; 2];
         for p in 0..BUNCH {
-            let l = half_width[p][a];
+            let l = half_width.0[a][p];
             if !(l > T::zero() && l < h) {
                 let (half_width, cell_size) = (l.to_f64(), h.to_f64());
                 return Err(Cause::HalfWidth { half_width, cell_size });
@@ -132,7 +138,7 @@ fn place_wide<T: Real, M: Machine<T>, const D: usize>(
         let all = [weights, slopes].map(|all| all.map(|along| machine.eight(&along)));
         stencil.set(machine, lattice, a, machine.eight(&first), all);
     }
-    if fits { Ok(()) } else { Err(lost(machine, position)) }
+    if fits { Ok(()) } else { Err(lost(position)) }
 }
 
 /// The half widths of the box that stands for a domain: its own if its edges run along the axes, else those

@@ -5,7 +5,7 @@ use mms_math::machine::Machine;
 use mms_math::structures::take_columns;
 
 use crate::column::BUNCH;
-use crate::column::{Bunch as _, Matrices, Vectors};
+use crate::column::{Matrices, Vectors};
 use crate::real::{Real, Vector};
 
 /// The components of the vectors of a bunch that stand one after the other.
@@ -62,14 +62,15 @@ pub fn set_components<T: Real, M: Machine<T>, const D: usize>(
     }
 }
 
-/// The vectors with these components.
+/// The vectors with these components, as numbers: for what is rare, and so in functions that are not inlined.
+#[inline(always)]
 pub fn vectors<T: Real, M: Machine<T>, const D: usize>(
     machine: M,
     components: [M::Eight; D],
-) -> [Vector<T, D>; BUNCH] {
+) -> Vectors<T, D> {
     let mut vectors = Vectors([[T::zero(); BUNCH]; D]);
     set_components(machine, &mut vectors, components);
-    std::array::from_fn(|k| vectors.get(k))
+    vectors
 }
 
 /// The matrices of a bunch, column by column.

@@ -10,7 +10,7 @@ use crate::column::BUNCH;
 use crate::column::{Bunch as _, Matrices, Vectors};
 use crate::defect::{Defect, on};
 use crate::failure::Cause;
-use crate::lanes::components;
+use crate::lanes::{components, vectors};
 use crate::lattice::Lattice;
 use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
@@ -71,9 +71,8 @@ where
         cell[a] = machine.floor(cells[a]);
     }
     if !machine.all_between(&cell, &lattice.inner) {
-        let numbers = |along: &[M::Eight; D]| along.map(|eight| machine.numbers(eight));
-        let (position, cells) = (numbers(position), numbers(&cells));
-        return place_near_ends::<T, D, P, N>(stencil, lattice, position, cells);
+        let [position, cells] = [vectors(machine, *position), vectors(machine, cells)];
+        return place_near_ends::<T, D, P, N>(stencil, lattice, &position, &cells);
     }
     stencil.begin::<N>(lattice, Known::Splines);
     for a in 0..D {
@@ -88,16 +87,16 @@ where
 fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
     stencil: &mut Tensor<T, D>,
     lattice: &Lattice<T, D>,
-    position: [[T; BUNCH]; D],
-    cells: [[T; BUNCH]; D],
+    position: &Vectors<T, D>,
+    cells: &Vectors<T, D>,
 ) -> Result<(), Cause> {
     // What is not inlined into a loop knows no better machine.
     let machine = T::PlainMachine::from(Plain);
-    let [position, cells] = [position, cells].map(|along| along.map(|eight| machine.eight(&eight)));
+    let cells: [_; D] = components(machine, cells);
     let slack = T::of(SLACK);
     let near = lattice.ends.map(|[first, last]| [first - slack, last + slack]);
     if !machine.all_between(&cells, &near) {
-        return Err(lost(machine, &position));
+        return Err(lost(position));
     }
     let is_regular = P == 1 || on(Defect::SplineEnds);
     stencil.begin::<N>(lattice, if is_regular { Known::Splines } else { Known::Nothing });

@@ -46,6 +46,11 @@ fn a_bar_needs_the_solver_of_a_bar() {
         let kernels = named(&["8dispatch4avx2"]);
         assert_eq!(kernels.len(), passes + sums, "{kernels:?}");
     }
+    // What is not inlined under the dispatch is compiled without the processor's instructions, and calls each of them.
+    for numbers in ["_pd", "_ps"] {
+        let called = named(&["core_arch", "_mm", numbers]);
+        assert!(called.is_empty(), "{called:?}");
+    }
     for other in ["set_near_ends", "cpdi", "Musl", "Usf"] {
         let mut found = named(&["mms_runtime", other]);
         // Functions that are alike are one, which has the name of any of them.

@@ -20,7 +20,7 @@ use mms_math::machine::{Machine, Plain};
 use crate::column::{Bunch, Matrices, Vectors};
 use crate::extension::extension_list;
 use crate::failure::Cause;
-use crate::lanes::{components, vectors};
+use crate::lanes::components;
 use crate::lattice::Lattice;
 use crate::real::{Matrix, Real, Vector};
 use crate::stencil::{Stencil, Tensor};
@@ -111,9 +111,6 @@ pub trait Shape: 'static {
 
 /// What becomes of a bunch at these positions that is off the grid; of its first particle.
 #[cold]
-pub(crate) fn lost<T: Real, M: Machine<T>, const D: usize>(
-    machine: M,
-    position: &[M::Eight; D],
-) -> Cause {
-    Cause::lost(&vectors(machine, *position)[0])
+pub(crate) fn lost<T: Real, const D: usize>(position: &Vectors<T, D>) -> Cause {
+    Cause::lost(&position.get(0))
 }

@@ -202,14 +202,14 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
 #[cold]
 fn blamed<T: Real, const D: usize, S: Shape>(
     lattice: &Lattice<T, D>,
-    positions: &[Vector<T, D>; BUNCH],
+    positions: &Vectors<T, D>,
     domains: &S::Domain<T, D>,
     displacement_gradients: &Matrices<T, D>,
     cause: Cause,
 ) -> (usize, Cause) {
     for p in 0..BUNCH {
         let h = &displacement_gradients.get(p);
-        if let Err(cause) = S::stencil(lattice, &positions[p], &domains.get(p), h) {
+        if let Err(cause) = S::stencil(lattice, &positions.get(p), &domains.get(p), h) {
             return (p, cause);
         }
     }
