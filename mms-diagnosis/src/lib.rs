@@ -42,6 +42,7 @@ pub mod rank;
 pub mod run;
 pub mod sample;
 pub mod scene;
+pub mod slopes;
 pub mod smooth;
 pub mod state;
 pub mod step;

@@ -3,12 +3,12 @@
 //! The tangent is that of Abaqus' DDSDDE: of the Jaumann rate of tau with the rate of deformation D, over J, by engineering shears.
 //! Without spin the Jaumann rate is the rate of tau itself as F changes by D F, so that differences of tau give it for any law.
 
-use mms_runtime::tensor::determinant;
 use mms_runtime::{Matrix, Vector};
 
 use crate::answer::Diagnosis;
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis, of_tangent, voigt_orders};
+use crate::slopes::{right, slopes};
 use crate::smooth::size;
 use crate::table::{is_of_measure, to_round_off};
 
@@ -25,33 +25,6 @@ pub struct Table<const D: usize> {
     pub rounding: f64,
 }
 
-/// How tau changes with F in a point.
-#[derive(Clone, Debug)]
-pub struct Slopes<const D: usize> {
-    /// F.
-    pub f: Matrix<f64, D>,
-    /// tau.
-    pub tau: Matrix<f64, D>,
-    along: Vec<Matrix<f64, D>>,
-}
-
-impl<const D: usize> Slopes<D> {
-    /// The rate of tau as F changes by L F.
-    pub fn rate(&self, l: &Matrix<f64, D>) -> Matrix<f64, D> {
-        let entries = l.iter().zip(&self.along);
-        entries.fold(Matrix::zeros(), |sum, (l, along)| sum + along * *l)
-    }
-
-    /// J.
-    pub fn jacobian(&self) -> f64 {
-        determinant(&self.f)
-    }
-}
-
-/// The step of differences, over F, that is halved.
-const STEP: f64 = 0.04;
-/// How often it is, each time with two orders more.
-const HALVINGS: usize = 4;
 /// What differences of a law lose of its digits, and a law of its own, over the largest number.
 const ARITHMETIC: f64 = 1e-10;
 
@@ -62,45 +35,6 @@ fn components(dimension: usize) -> &'static [[usize; 2]] {
         2 => &[[0, 0], [1, 1], [0, 1]],
         _ => &[[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]],
     }
-}
-
-/// How tau changes in each point, with what a function makes of the stresses.
-fn slopes<const D: usize>(
-    gradient: &[Matrix<f64, D>],
-    stress: impl Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,
-) -> Vec<Slopes<D>> {
-    let f: Vec<_> = gradient.iter().map(|h| h + Matrix::identity()).collect();
-    let along = |entry: usize| {
-        let at = |step: f64| {
-            let mut changed = Matrix::identity();
-            changed[entry] += step;
-            stress(&f.iter().map(|f| changed * f - Matrix::identity()).collect::<Vec<_>>())
-        };
-        let central = |level: usize| -> Vec<Matrix<f64, D>> {
-            let step = STEP / 2f64.powi(level as i32);
-            let pairs = at(step).into_iter().zip(at(-step));
-            pairs.map(|(above, below)| (above - below) / (2.0 * step)).collect()
-        };
-        let mut levels: Vec<_> = (0..HALVINGS).map(central).collect();
-        for order in 1..HALVINGS {
-            let gain = 4f64.powi(order as i32) - 1.0;
-            for level in (order..HALVINGS).rev() {
-                let coarser = levels[level - 1].clone();
-                let pairs = levels[level].iter_mut().zip(coarser);
-                pairs.for_each(|(fine, coarse)| *fine += (*fine - coarse) / gain);
-            }
-        }
-        levels.pop().unwrap_or_default()
-    };
-    let along: Vec<_> = (0..D * D).map(along).collect();
-    let each = f.into_iter().zip(stress(gradient)).enumerate();
-    each.map(|(at, (f, tau))| Slopes { f, tau, along: along.iter().map(|it| it[at]).collect() })
-        .collect()
-}
-
-/// The exact tangent, row by row: over J, the rate of tau.
-pub fn right<const D: usize>(at: &Slopes<D>, rate: &Matrix<f64, D>) -> Matrix<f64, D> {
-    at.rate(rate) / at.jacobian()
 }
 
 /// A tangent, row by row, of what stresses become at unit rates of deformation.

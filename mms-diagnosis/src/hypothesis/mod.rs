@@ -16,7 +16,7 @@ mod wall;
 use mms_runtime::{Condition, Face, Matrix, Vector};
 
 use crate::exact::{Exact, Quantity};
-use crate::tangent::Slopes;
+use crate::slopes::Slopes;
 
 pub use face::{away, faces};
 pub use output::earlier_velocity;

@@ -1,7 +1,7 @@
 //! Mistakes in the tangent of a law: rates, volumes, strains.
 
 use super::{Change, Hypothesis, Known, OfTangent, inverse};
-use crate::tangent::right;
+use crate::slopes::right;
 
 /// What may be wrong with a tangent alone.
 pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
