@@ -120,10 +120,15 @@ fn law(
     let reference = reference.map_or(Vec::new(), |it| it.numbers.into_owned());
     let rows = h.numbers.len() / (dimension * dimension);
     if alone == Alone::Tangent {
-        let found = tangent(&meanings, snapshot, dimension)?;
-        let columns = components(dimension).pow(2);
+        let found = values(&meanings, Role::Tangent, snapshot, dimension)?;
+        let found = found.with_context(|| {
+            format!(
+                "{}: no tangent: name its columns row by row with `--map DDSDDE=..`",
+                snapshot.path
+            )
+        })?;
         ensure!(
-            found.numbers.len() == rows * columns,
+            found.numbers.len() == rows * found.components,
             "{}: F and the tangent of different rows",
             snapshot.path
         );
@@ -158,32 +163,6 @@ fn law(
         rounding: stress.rounding,
         stress: stress.numbers.into_owned(),
     }))
-}
-
-/// How many components a vector of Voigt has that a field of that dimension fixes.
-fn components(dimension: usize) -> usize {
-    dimension * (dimension + 1) / 2
-}
-
-/// The tangent of those components: in a plane without 33, whose stress no plane field has.
-fn tangent<'a>(
-    meanings: &[Meaning],
-    snapshot: &'a Snapshot,
-    dimension: usize,
-) -> anyhow::Result<Values<'a>> {
-    let columns = meanings.iter().find(|it| it.role == Role::Tangent).map(Meaning::count);
-    let size = components(dimension);
-    let has_33 = dimension == 2 && columns == Some((size + 1).pow(2));
-    let found = values(meanings, Role::Tangent, snapshot, size + usize::from(has_33))?;
-    let mut found = found.with_context(|| {
-        format!("{}: no tangent: name its columns row by row with `--map DDSDDE=..`", snapshot.path)
-    })?;
-    if has_33 {
-        let is_in_plane = |at: usize| at / 4 != 2 && at % 4 != 2;
-        let mut at = 0..;
-        found.numbers.to_mut().retain(|_| at.next().is_some_and(|at: usize| is_in_plane(at % 16)));
-    }
-    Ok(found)
 }
 
 /// Residuals; or accelerations, of points whose motion is the exact one or is not there: else they are among results.

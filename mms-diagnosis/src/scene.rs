@@ -273,8 +273,7 @@ fn of_tangent<const D: usize>(
 ) -> Result<Diagnosis, Obstacle> {
     let gradient = tensors(&law.gradient);
     let reference = places(exact, &law.reference, gradient.len())?;
-    let count = law.tangent.len() / gradient.len().max(1);
-    let tangent = law.tangent.chunks_exact(count.max(1)).map(<[f64]>::to_vec).collect();
-    let table = tangent::Table { reference, gradient, tangent, rounding: law.rounding };
+    let (tangent, rounding) = (law.tangent.clone(), law.rounding);
+    let table = tangent::Table { reference, gradient, tangent, rounding };
     tangent::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
 }

@@ -24,14 +24,20 @@ impl<const D: usize> Slopes<D> {
     pub fn jacobian(&self) -> f64 {
         determinant(&self.f)
     }
+
+    /// What the tangent of Abaqus makes of a symmetric rate of deformation: the Jaumann rate of tau over J. Without spin
+    /// that rate is the one of tau itself, for every law that a rotation of the body only turns.
+    pub fn tangent(&self, rate: &Matrix<f64, D>) -> Matrix<f64, D> {
+        self.rate(rate) / self.jacobian()
+    }
 }
 
-/// The step of differences, over F, that is halved.
+/// The largest step of the central differences, as a part of F; the others are halves of the one before.
 const STEP: f64 = 0.04;
-/// How often it is, each time with two orders more.
-const HALVINGS: usize = 4;
+/// How many steps there are: each takes two orders more of the error away (Richardson).
+const STEPS: usize = 4;
 
-/// How tau changes in each point, with what a function makes of the stresses.
+/// How tau changes with F in each point, from a function that gives tau of all points at their H.
 pub fn slopes<const D: usize>(
     gradient: &[Matrix<f64, D>],
     stress: impl Fn(&[Matrix<f64, D>]) -> Vec<Matrix<f64, D>>,
@@ -48,10 +54,10 @@ pub fn slopes<const D: usize>(
             let pairs = at(step).into_iter().zip(at(-step));
             pairs.map(|(above, below)| (above - below) / (2.0 * step)).collect()
         };
-        let mut levels: Vec<_> = (0..HALVINGS).map(central).collect();
-        for order in 1..HALVINGS {
+        let mut levels: Vec<_> = (0..STEPS).map(central).collect();
+        for order in 1..STEPS {
             let gain = 4f64.powi(order as i32) - 1.0;
-            for level in (order..HALVINGS).rev() {
+            for level in (order..STEPS).rev() {
                 let coarser = levels[level - 1].clone();
                 let pairs = levels[level].iter_mut().zip(coarser);
                 pairs.for_each(|(fine, coarse)| *fine += (*fine - coarse) / gain);
@@ -63,9 +69,4 @@ pub fn slopes<const D: usize>(
     let each = f.into_iter().zip(stress(gradient)).enumerate();
     each.map(|(at, (f, tau))| Slopes { f, tau, along: along.iter().map(|it| it[at]).collect() })
         .collect()
-}
-
-/// The exact tangent, row by row: over J, the rate of tau.
-pub fn right<const D: usize>(at: &Slopes<D>, rate: &Matrix<f64, D>) -> Matrix<f64, D> {
-    at.rate(rate) / at.jacobian()
 }

@@ -293,7 +293,7 @@ fn split(name: &str) -> Option<(&str, Part)> {
 
 /// Whether this may be the name of a matrix.
 fn has_entries(name: &str) -> bool {
-    let is_matrix = |role: &Role| matches!(role.form(), Form::Tensor | Form::Symmetric);
+    let is_matrix = |role: &Role| !matches!(role.form(), Form::Scalar | Form::Vector);
     Role::ALL.iter().any(|role| is_matrix(role) && role.is_called(name))
         || UNCLEAR.iter().any(|(word, _)| *word == plain(name))
 }
@@ -340,11 +340,6 @@ fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
 }
 
 impl Meaning {
-    /// How many columns it has.
-    pub fn count(&self) -> usize {
-        self.columns.len()
-    }
-
     /// How many dimensions a vector of as many columns has.
     pub fn dimension(&self) -> usize {
         self.columns.len().clamp(1, 3)
@@ -388,7 +383,7 @@ impl Meaning {
 
     /// The columns that a field of that dimension has.
     fn wanted(&self, dimension: usize) -> Result<Vec<Column>, Mistake> {
-        let pairs = || (0..dimension).flat_map(|i| (0..dimension).map(move |j| (i, j)));
+        let pairs = || pairs_of((0..dimension).collect());
         let found = match self.role.form() {
             Form::Scalar => vec![self.columns.first().filter(|_| self.columns.len() == 1)],
             Form::Vector => (0..dimension).map(|axis| self.nth(axis)).collect(),
@@ -396,9 +391,20 @@ impl Meaning {
             Form::Symmetric => {
                 pairs().map(|(i, j)| self.entry(i, j).or_else(|| self.entry(j, i))).collect()
             }
+            Form::Voigt => {
+                pairs_of(self.in_dimension(dimension)).map(|(i, j)| self.entry(i, j)).collect()
+            }
         };
         let found: Option<Vec<Column>> = found.into_iter().map(|it| it.map(|it| it.1)).collect();
         found.ok_or_else(|| self.misfit(dimension))
+    }
+
+    /// The rows of a matrix over Voigt's components that a field of that dimension has: in a plane all but 33.
+    fn in_dimension(&self, dimension: usize) -> Vec<usize> {
+        match (dimension, self.columns.len()) {
+            (2, 16) => vec![0, 1, 3],
+            _ => (0..dimension * (dimension + 1) / 2).collect(),
+        }
     }
 
     /// Whether the numbers of axes, rows and columns in names are counted from 1 on.
@@ -432,7 +438,7 @@ impl Meaning {
         let from = self.least_number();
         let named = |part: &Part| *part == Part::Entry(row + from, column + from);
         let by_name = self.columns.iter().find(|(part, _)| named(part));
-        let largest = if self.role == Role::Tangent { 6 } else { 3 };
+        let largest = if self.role.form() == Form::Voigt { 6 } else { 3 };
         let size = (1..=largest).find(|size| size * size == self.columns.len());
         by_name
             .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
@@ -444,6 +450,7 @@ impl Meaning {
             Form::Scalar => 1,
             Form::Vector => dimension,
             Form::Tensor | Form::Symmetric => dimension * dimension,
+            Form::Voigt => (dimension * (dimension + 1) / 2).pow(2),
         };
         let advice = match (self.role.form(), found) {
             (Form::Tensor | Form::Symmetric, 3 | 4 | 6) => format!(
@@ -478,6 +485,12 @@ impl Meaning {
         }
         Ok(())
     }
+}
+
+/// Rows and columns of a square matrix, row by row.
+fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {
+    let columns = rows.clone();
+    rows.into_iter().flat_map(move |i| columns.clone().into_iter().map(move |j| (i, j)))
 }
 
 /// The numbers of some columns, those of a row together.

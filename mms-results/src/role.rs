@@ -1,6 +1,6 @@
 //! What an array may be: quantities, with the names that codes have for them.
 
-/// How many numbers a quantity has in D dimensions: one, D, or D x D.
+/// How many numbers a quantity has in D dimensions: one, D, D x D, or (D (D + 1)/2)^2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// One.
@@ -11,6 +11,8 @@ pub enum Form {
     Tensor,
     /// A matrix that is its own transpose.
     Symmetric,
+    /// A square matrix over the components of a symmetric tensor: 11, 22, 12 or 11, 22, 33, 12, 13, 23.
+    Voigt,
 }
 
 macro_rules! roles {
@@ -74,7 +76,7 @@ roles! {
     BodyForce "body_force" "b" Vector ["b"] "Body force b per mass.",
     SecondPiolaKirchhoff "second_piola_kirchhoff" "S" Symmetric ["S" "pk2" "piola2" "secondpiola" "secondpiolakirchhoffstress"]
         "Second Piola-Kirchhoff stress S.",
-    Tangent "tangent" "DDSDDE" Tensor ["ddsdde"] "Tangent of the law: of the Jaumann rate of tau over J, with Voigt's components.",
+    Tangent "tangent" "DDSDDE" Voigt ["ddsdde"] "Tangent of the law: of the Jaumann rate of tau over J, by engineering shears.",
     Pressure "pressure" "p" Scalar ["p"] "Pressure.",
     VonMises "von_mises" "von_mises" Scalar ["mises" "vonmisesstress"] "Von Mises stress.",
     Traction "traction" "traction" Vector ["tractions" "surfacetraction" "boundarytraction"]

@@ -23,9 +23,9 @@ use crate::session::method::{MethodOptions, finite, positive};
 ///
 /// Results of a FIELD are one FILE for each mesh, as for `mms judge`. What is in them decides what is looked at:
 ///
-/// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off, without a solver. Accelerations `a` or residuals `r` at
-/// an exact state, paired with smooth functions. u, v, F at some times: hypotheses are run by this project's own solver on
-/// a grid of about that size, and their errors are compared with yours.
+/// F and a stress, with --quantity stress, or F and its tangent, with --quantity tangent: the law alone, to round-off,
+/// without a solver. Accelerations `a` or residuals `r` at an exact state, paired with smooth functions. u, v, F at some times:
+/// hypotheses are run by this project's own solver on a grid of about that size, and their errors are compared with yours.
 ///
 /// A hypothesis is named if it explains the error, with a size that it may have, and nothing else explains it as well. It says what the
 /// error acts as, not which line is wrong.

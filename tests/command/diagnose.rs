@@ -100,7 +100,9 @@ fn a_tangent_alone_is_named() {
     diagnose(&folder, &with(1.0), options).exits(0).prints("nothing");
     diagnose(&folder, &with(0.0), options).exits(1).prints("named: tangent_truesdell (mistake)");
     let few = "F11,F12,F21,F22,DDSDDE11\n1,0,0,1,2\n";
-    diagnose(&folder, few, options).exits(2).complains("has 1 component(s)");
+    diagnose(&folder, few, options)
+        .exits(2)
+        .complains("has 1 component(s), and of 2 dimension(s) 9 are expected");
     diagnose(&folder, "F11,F12,F21,F22\n1,0,0,1\n", options).exits(2).complains("no tangent");
 }
 

@@ -57,7 +57,7 @@ pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 /// Changes a motion, from what is right.
 pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
-/// What a stress becomes as F changes by L F, with this size and symmetric L; from how tau changes there, and at F = I.
+/// What a tangent of this size makes of a symmetric rate of deformation, from how tau changes with F there and at F = I.
 pub type OfTangent<const D: usize> = fn([&Slopes<D>; 2], &[f64], &Matrix<f64, D>) -> Matrix<f64, D>;
 
 /// What a hypothesis changes. The functions are given what is right.

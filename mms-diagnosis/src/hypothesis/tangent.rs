@@ -1,7 +1,6 @@
-//! Mistakes in the tangent of a law: rates, volumes, strains.
+//! Mistakes in the tangent of a law, and in the order of what it gives: rates, volumes, strains, Voigt's components.
 
 use super::{Change, Hypothesis, Known, OfTangent, inverse};
-use crate::slopes::right;
 
 /// What may be wrong with a tangent alone.
 pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
@@ -30,9 +29,9 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
             back * (at.rate(&rate) - rate * at.tau - at.tau * rate) * back.transpose()
         }),
         tangent("tangent_small_strain", "that of small strains, at any F", |[_, rest], _, rate| {
-            right(rest, rate)
+            rest.tangent(rate)
         }),
-        tangent("tangent_sign", "with the other sign", |[at, _], _, rate| -right(at, rate)),
+        tangent("tangent_sign", "with the other sign", |[at, _], _, rate| -at.tangent(rate)),
     ];
     // With one component there is no shear.
     if D > 1 {
@@ -42,7 +41,7 @@ pub fn of_tangent<const D: usize>() -> Vec<Hypothesis<D>> {
             2.0,
             Change::Tangent(|[at, _], size, rate| {
                 let factor = if rate.trace() == 0.0 { size[0] } else { 1.0 };
-                right(at, rate) * factor
+                at.tangent(rate) * factor
             }),
             |_| {
                 vec![

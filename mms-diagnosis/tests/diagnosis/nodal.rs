@@ -10,7 +10,7 @@ use super::{LOADED, Point, Tensor, exact, name};
 
 const TIME: f64 = 0.013;
 /// Cells along a side.
-const CELLS: usize = 24;
+const CELLS: usize = 12;
 
 /// A code: P of H, b of X, and the traction on the right side of P there.
 struct Code {

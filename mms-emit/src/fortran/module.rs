@@ -59,7 +59,9 @@ pub(super) fn text(port: &Port<'_>) -> String {
     }
     let motion = port.motion(|end, numbers| {
         let numbers: Vec<_> = numbers.iter().map(|number| format!("{number}_wp")).collect();
-        format!("  real(wp), parameter, public :: {end}(dimension) = [{}]", numbers.join(", "))
+        // On a line of their own, three numbers are less than the 132 columns that Fortran reads.
+        let numbers = numbers.join(", ");
+        format!("  real(wp), parameter, public :: {end}(dimension) = &\n      [{numbers}]")
     });
     if !motion.is_empty() {
         let _ = write!(text, "\n{}{motion}", documented(motion::DOC, "  "));

@@ -139,7 +139,7 @@ fn values<'a>(
 ) -> anyhow::Result<Values<'a>> {
     let rows = match meaning.role.form() {
         Form::Tensor | Form::Symmetric => exact.rows(),
-        Form::Scalar | Form::Vector => exact.dimension,
+        Form::Scalar | Form::Vector | Form::Voigt => exact.dimension,
     };
     meaning.values(snapshot, rows).map_err(placed)
 }
