@@ -3,12 +3,13 @@
 //! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
 //! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
 //! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
-//! [cells](cell); [`pairing`] finds the same points in two results. [`write`](mod@write) makes such files of a state that is
+//! [cells](cell), or against an exact solution that comes [block by block](comparison); [`pairing`] finds the same points in two results. [`write`](mod@write) makes such files of a state that is
 //! known.
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 
 pub mod cell;
+pub mod comparison;
 mod mistake;
 pub mod motion;
 pub mod names;

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::norm::largest_if_finite;
 use crate::role::plain;
 use crate::{Array, Mistake, Snapshot, Stored};
 
@@ -364,13 +365,12 @@ impl Meaning {
         }
         self.hold_flat(snapshot, dimension)?;
         let numbers = gathered(snapshot, &columns, rows);
-        if let Some(at) = numbers.iter().position(|it| !it.is_finite()) {
+        let largest = largest_if_finite(&numbers).map_err(|at| {
             let row = at / columns.len();
             let what = format!("{} is {}; expected a finite number", self.source, numbers[at]);
-            return Err(here(snapshot, row, what));
-        }
+            here(snapshot, row, what)
+        })?;
         let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
-        let largest = numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
         let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
         Ok(Values {
             components: columns.len(),

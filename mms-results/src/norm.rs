@@ -18,7 +18,7 @@ pub struct Norms {
 
 /// Sums of which norms are made.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+pub(crate) struct Sums {
     weight: f64,
     first: f64,
     second: f64,
@@ -27,7 +27,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, at: usize, weight: f64, error: f64) {
+    pub(crate) fn add(&mut self, at: usize, weight: f64, error: f64) {
         self.weight += weight;
         self.first += weight * error;
         self.second += weight * error * error;
@@ -39,6 +39,11 @@ impl Sums {
     fn norms(self) -> Norms {
         let Sums { weight, first, second, largest, at } = self;
         Norms { l1: first / weight, l2: (second / weight).sqrt(), linf: largest, at }
+    }
+
+    /// `None` without a weight above 0.
+    pub(crate) fn if_any(self) -> Option<Norms> {
+        (self.weight > 0.0 && self.weight.is_finite()).then(|| self.norms())
     }
 }
 
@@ -62,7 +67,7 @@ pub fn over_points(
     for (at, error) in errors.into_iter().enumerate() {
         sums.add(at, weights.map_or(1.0, |weights| weights[at]), error);
     }
-    (sums.weight > 0.0 && sums.weight.is_finite()).then(|| sums.norms())
+    sums.if_any()
 }
 
 /// The norms of the differences at points, as of [`over_points`].
@@ -78,6 +83,24 @@ pub fn of_differences(
 /// The largest absolute value; 0 where there is none.
 pub fn largest(of: &[f64]) -> f64 {
     of.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
+}
+
+/// The same of finite numbers, in one pass.
+///
+/// # Errors
+/// The first number that is not finite.
+pub fn largest_if_finite(of: &[f64]) -> Result<f64, usize> {
+    // So many together, without a branch for each.
+    const TOGETHER: usize = 1024;
+    let mut most = 0.0_f64;
+    for (block, numbers) in of.chunks(TOGETHER).enumerate() {
+        if !numbers.iter().fold(true, |all, it| all & it.is_finite()) {
+            let at = numbers.iter().position(|it| !it.is_finite());
+            return Err(block * TOGETHER + at.unwrap_or_default());
+        }
+        most = most.max(largest(numbers));
+    }
+    Ok(most)
 }
 
 /// What of the exact solution is asked for.

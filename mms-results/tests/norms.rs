@@ -2,6 +2,7 @@
 
 use mms_results::Cells;
 use mms_results::cell::{Local, Shape};
+use mms_results::comparison::Comparison;
 use mms_results::norm::{Asked, Exact, Mesh, largest, lengths, of_differences, over_points};
 
 #[test]
@@ -17,6 +18,37 @@ fn norms_over_points_are_their_definitions() {
     assert_eq!((weighted.l1, weighted.l2, weighted.linf), (1.25, 2.5, 5.0));
     assert_eq!(over_points([], None), None);
     assert_eq!(over_points(errors.iter().copied(), Some(&[0.0, 0.0])), None);
+}
+
+/// The exact numbers come in blocks of any size.
+#[test]
+fn a_comparison_is_that_of_all_points_at_once() {
+    let rows = 300_000;
+    let number = |at: usize, step: f64| (at as f64 * step).fract() - 0.5;
+    let exact: Vec<f64> = (0..2 * rows).map(|at| number(at, 1.618)).collect();
+    let computed: Vec<f64> = (0..2 * rows).map(|at| exact[at] + 1e-3 * number(at, 2.45)).collect();
+    let weights: Vec<f64> = (0..rows).map(|at| 1.0 + number(at, 0.77)).collect();
+    for weights in [None, Some(&weights[..])] {
+        let mut comparison = Comparison::new(&computed, 2, weights);
+        let mut rest = &exact[..];
+        let mut size = 2;
+        while !rest.is_empty() {
+            let (block, after) = rest.split_at(rest.len().min(size));
+            assert_eq!(comparison.add(block), Ok(()));
+            (rest, size) = (after, 3 * size);
+        }
+        assert_eq!(comparison.norms(), of_differences(&computed, &exact, 2, weights));
+        assert_eq!(comparison.largest(), largest(&exact));
+        assert_eq!(comparison.unit(), None);
+    }
+    let thousandths: Vec<f64> = computed.iter().map(|it| 1e3 * it).collect();
+    let mut comparison = Comparison::new(&thousandths, 2, None);
+    assert_eq!(comparison.add(&exact[..3000]), Ok(()));
+    assert_eq!(comparison.unit(), Some(3));
+    let wrong = [1.0, f64::NAN, f64::INFINITY, 1.0];
+    assert_eq!(comparison.add(&wrong), Err(1));
+    assert_eq!(comparison.norms(), of_differences(&thousandths[..3000], &exact[..3000], 2, None));
+    assert_eq!(Comparison::new(&[], 2, None).norms(), None);
 }
 
 /// One cell of that kind, at X = A xi with A below.

@@ -14,8 +14,9 @@ use mms_runtime::{Division, Method, Real, Run};
 
 use super::methods::Methods;
 use super::{Outcome, output_folder, print, print_json, say};
+use crate::judge::results::Exclusions;
 use crate::provenance::Provenance;
-use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method};
+use crate::report::{Comparison, Phases as InPhase, Refused, Study as Report, method, run};
 use crate::session::effort::announce;
 use crate::session::input::{Input, Motion};
 use crate::session::method::{MethodOptions, Precision, finite, hold_division, positive};
@@ -72,6 +73,10 @@ pub struct Study {
     /// within 1 %: a defect may leave the order and change the constant. Without it the order alone is judged.
     #[arg(long, value_name = "C", value_parser = positive)]
     expected_constant: Option<f64>,
+    /// Beside a pass, say which of the mistakes that `mms diagnose` knows its finest errors exclude, from which size on: by what
+    /// they add to a run of this project's own solver. It takes some seconds more.
+    #[arg(long, conflicts_with = "periods")]
+    excluded: bool,
     /// Set a parameter; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -87,6 +92,9 @@ pub struct Study {
 
 /// At the ends of so many equal parts of the time window, runs of a study in time are compared.
 const PARTS: usize = 16;
+
+/// At these parts of the time, what mistakes add is held to the largest error of a study.
+const LOOKED_AT: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// A method with half the time step, so many times.
 fn halved(method: &Method, times: u32) -> Method {
@@ -266,6 +274,10 @@ impl Study {
             }
             verdict => verdict,
         };
+        let exclusions = match self.excluded && verdict == Verdict::Pass {
+            true => self.exclusions(input, &method, &started)?,
+            false => None,
+        };
         Ok(Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
@@ -278,12 +290,34 @@ impl Study {
             expected_error_constant: self.expected_constant,
             fit,
             phases,
+            exclusions,
             differences,
             method,
             levels,
             expected,
             provenance,
         })
+    }
+
+    /// What the errors of the finest level exclude.
+    fn exclusions(
+        &self,
+        input: &Input,
+        method: &Method,
+        started: &[&Run],
+    ) -> anyhow::Result<Option<Exclusions>> {
+        let Some(finest) = started.last() else { return Ok(None) };
+        let set = input.settings(&self.set)?;
+        let (_, [first, last]) =
+            domain(&input.compiled.program, &input.compiled.parameters::<f64>(&set));
+        let last = method.setup.end_time.unwrap_or(last);
+        let times = LOOKED_AT.map(|part| first + part * (last - first)).to_vec();
+        let scene = input.scene_with(&set, |code| code.double)?;
+        let largest = finest.details.as_ref().map(|it| run::quantities(&it.largest));
+        let error =
+            |name: &str| Some(largest.iter().flatten().find(|(_, key, _)| *key == name)?.2.l2);
+        let level = &finest.level;
+        Ok(Exclusions::new(&scene, error, (level.cell_size, Some(level.time_step)), times))
     }
 
     /// The periods in which amplitude and phase are measured, in order.
@@ -316,6 +350,12 @@ impl Study {
             self.cells.iter().enumerate().find(|(at, n)| self.cells[..*at].contains(n))
         {
             bail!("`--cells`: {} is given twice", twice.1);
+        }
+        if self.excluded && self.refine == Refinement::Time {
+            bail!(
+                "`--excluded`: differences between runs exclude no mistake; take a study against the exact solution, without \
+                 `--refine time`"
+            );
         }
         if self.refine == Refinement::Time && self.cells.len() > 1 {
             bail!("`--cells`: a study in time has one grid");

@@ -3,10 +3,10 @@
 use maud::{Markup, html};
 use serde::Deserialize;
 
-use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict, words};
+use super::excluded::{Excluded, exclusions};
+use super::mark::{Column, count, is_good, number, numbers, order, small, table, verdict};
 use super::plot::{Curve, Line, Plot, short};
 use super::{Section, Verdicts};
-use crate::report::excluded::size;
 
 /// What `mms judge` writes.
 #[derive(Deserialize)]
@@ -27,17 +27,6 @@ pub struct Judgement {
     warnings: Vec<String>,
     #[serde(default)]
     excluded: Option<Vec<Excluded>>,
-}
-
-/// A mistake, and whether results exclude it.
-#[derive(Deserialize)]
-struct Excluded {
-    hypothesis: String,
-    says: String,
-    excluded: bool,
-    times: Option<f64>,
-    right: Option<f64>,
-    from: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -104,32 +93,6 @@ impl Section for Judgement {
                 (self.quantity(quantity, &format!("{id}-{}", at + 1)))
             }
             @if let Some(all) = &self.excluded { (exclusions(all)) }
-        }
-    }
-}
-
-/// The mistakes that results exclude, and those that they do not.
-fn exclusions(all: &[Excluded]) -> Markup {
-    let columns =
-        [words("mistake"), words("excluded"), numbers("adds, over the error"), words("what it is")];
-    let rows = all.iter().map(|it| {
-        let word = match (it.excluded, it.right, it.from) {
-            (false, ..) => "no".to_owned(),
-            (true, Some(right), Some(from)) => format!("from {} on", size(right, from)),
-            (true, ..) => "yes".to_owned(),
-        };
-        vec![
-            html! { (it.hypothesis) },
-            html! { (word) },
-            number(it.times, |it| format!("{it:.2}")),
-            html! { (it.says) },
-        ]
-    });
-    let open = all.iter().filter(|it| !it.excluded).count();
-    html! {
-        details {
-            summary { "Mistakes that this excludes: " (all.len() - open) " of " (all.len()) }
-            (table("Mistakes", &columns, rows))
         }
     }
 }

@@ -14,6 +14,7 @@ mod campaign;
 mod comparison;
 mod defects;
 mod diagnosis;
+mod excluded;
 mod extremes;
 mod field;
 mod folder;

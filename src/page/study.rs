@@ -7,6 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::comparison::Comparison;
+use super::excluded::{Excluded, exclusions};
 use super::mark::{Column, count, number, numbers, order, plain, seconds, small, table, words};
 use super::method::Method;
 use super::phase::Phases;
@@ -30,6 +31,8 @@ pub struct Study {
     expected_error_constant: Option<f64>,
     fit: Option<Fit>,
     phase: Option<Phases>,
+    #[serde(default)]
+    excluded: Option<Vec<Excluded>>,
     verdict: String,
 }
 
@@ -149,6 +152,7 @@ impl Section for Study {
             @if let Some(differences) = &self.differences { (steps(differences)) }
             @else { (self.others()) }
             @if let Some(phases) = &self.phase { (self.in_phase(phases)) }
+            @if let Some(all) = &self.excluded { (exclusions(all)) }
             (self.method.html())
         }
     }

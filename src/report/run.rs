@@ -29,7 +29,7 @@ pub struct Run {
 }
 
 /// What errors are of: symbol, key and value.
-pub(super) fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
+pub(crate) fn quantities(deviations: &Deviations) -> [(&'static str, &'static str, Errors); 4] {
     [
         ("u", "displacement", deviations.displacement),
         ("v", "velocity", deviations.velocity),

@@ -15,6 +15,7 @@ use super::judge::norms_judged;
 use super::run::quantities;
 use super::text::{duration, plain, pretty, to_the_right, write_files};
 use super::{Phases, method, picture};
+use crate::judge::results::Exclusions;
 use crate::provenance::Provenance;
 use crate::session::method::Arithmetic;
 
@@ -50,6 +51,8 @@ pub struct Study {
     pub fit: Option<Fit>,
     /// Amplitude and phase, where that was asked for.
     pub phases: Option<Phases>,
+    /// What a pass excludes, where that was asked for.
+    pub exclusions: Option<Exclusions>,
     /// Where it is from.
     pub provenance: Provenance,
 }
@@ -250,7 +253,7 @@ impl Study {
         self.provenance.sign(self.content())
     }
 
-    /// The document, but for where it is from.
+    /// The document, but for where it is from. What a pass excludes is there where it was asked for.
     pub(super) fn content(&self) -> Value {
         let quantities = self.quantities().into_iter().map(|(_, key, levels)| {
             let levels = levels.into_iter().map(|(errors, observed)| norms(errors, observed));
@@ -267,7 +270,7 @@ impl Study {
         };
         let differences =
             self.steps().map(|all| all.into_iter().map(difference).collect::<Vec<_>>());
-        json!({
+        let mut content = json!({
             "field": self.field,
             "method": method::document(&self.method, self.arithmetic),
             "refinement": self.refinement.name(),
@@ -292,7 +295,11 @@ impl Study {
             })),
             "phase": self.phases.as_ref().map(|it| it.document(&self.lengths(), self.refinement)),
             "verdict": self.verdict.to_string(),
-        })
+        });
+        if let Some(exclusions) = &self.exclusions {
+            content["excluded"] = exclusions.document();
+        }
+        content
     }
 
     /// The tables for a terminal, with the verdict.
@@ -312,6 +319,7 @@ impl Study {
             parts.push(self.quantities_table().to_string());
         }
         parts.extend(self.phase_table());
+        parts.extend(self.exclusions.as_ref().map(Exclusions::text));
         parts.join("\n\n")
     }
 

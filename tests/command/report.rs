@@ -11,7 +11,7 @@ use super::mms::Folder;
 /// A folder with a result of each kind.
 static RESULTS: LazyLock<Folder> = LazyLock::new(|| {
     let folder = Folder::new();
-    folder.mms("study bar_1d --cells 4,8,16 --output all/bar").exits(0);
+    folder.mms("study bar_1d --cells 4,8,16 --excluded --output all/bar").exits(0);
     let time =
         "--formulation total --shape linear --refine time --cells 64 --levels 4 --periods 1,2";
     folder.mms(&format!("study bar_1d {time} --output all/time")).exits(0);
@@ -185,6 +185,8 @@ fn the_numbers_of_a_study_are_those_of_its_document() {
         let table = tables.remove(&caption).expect("a table");
         assert_rows(&table, array(&study["quantities"][name]), &with_norms(&[""], &[]));
     }
+    let mistakes = tables.remove("Mistakes").expect("mistakes");
+    assert_rows(&mistakes, array(&study["excluded"]), &["hypothesis", "", "times", "says"]);
     assert!(tables.is_empty(), "{:?}", tables.keys());
 }
 

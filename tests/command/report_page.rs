@@ -99,7 +99,8 @@ fn states_show_every_particle() {
 
 #[test]
 fn a_page_says_where_each_result_is_from() {
-    for command in ["mms study bar_1d --cells 4,8,16 --output all/bar", "mms verify --row time/usl"]
+    for command in
+        ["mms study bar_1d --cells 4,8,16 --excluded --output all/bar", "mms verify --row time/usl"]
     {
         assert!(PAGE.contains(command), "{command}");
     }

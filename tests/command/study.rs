@@ -452,3 +452,23 @@ fn a_verdict_names_the_norm_and_the_levels_that_decide() {
     run.prints("fail: observed order 1.")
         .prints("(linf; 3 levels, 8 cells to 32 cells), expected 2");
 }
+
+/// The same mistakes as of results in files: the bar has lambda = 0, and b makes its motion.
+#[test]
+fn a_pass_says_on_request_what_it_excludes() {
+    let excluding = document("--cells 8,16,32 --excluded", 0);
+    let excluded = array(&excluding["excluded"]);
+    let mistake = |name: &str| excluded.iter().find(|it| it["hypothesis"] == name).expect("a name");
+    assert_eq!(mistake("lambda_factor")["excluded"], false);
+    assert_eq!(mistake("force_sign")["excluded"], true);
+    // No smaller a part of b than the error is of u, for resonance is far.
+    let part = mistake("force_factor")["from"].as_f64().expect("a size");
+    assert!((1e-4..1e-2).contains(&part), "{part}");
+    // What does not pass excludes nothing.
+    let failed = document("--cells 8,16,32 --excluded --expected-order 3", 1);
+    assert!(failed.get("excluded").is_none());
+    let folder = Folder::new();
+    folder.mms("study bar_1d --refine time --excluded").exits(2).complains("exclude no mistake");
+    let run = folder.mms("study bar_1d --cells 8,16,32 --excluded").exits(0);
+    run.prints("excluded from a size on: force_factor");
+}

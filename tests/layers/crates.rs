@@ -160,7 +160,13 @@ pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-results",
         knows: &[],
-        layers: &["cell mistake role snapshot", "names", "motion norm read write", "pairing"],
+        layers: &[
+            "cell mistake role snapshot",
+            "norm",
+            "comparison names",
+            "motion read write",
+            "pairing",
+        ],
     },
     Crate {
         name: "mms-campaign",

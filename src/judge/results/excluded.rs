@@ -1,8 +1,9 @@
-//! The errors by which results exclude mistakes.
+//! The errors by which results and studies exclude mistakes.
 
 use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::excluded::{Excluded, Study};
 use mms_diagnosis::scene::excludes;
+use mms_runtime::scene::Scene;
 
 use super::Measured;
 use crate::session::exact::Exact;
@@ -22,6 +23,27 @@ const QUANTITIES: [(&str, Quantity); 3] = [
     ("deformation_gradient", Quantity::DisplacementGradient),
 ];
 
+impl Exclusions {
+    /// What the finest errors of u, v or F at some times exclude, root mean squares by the name of the quantity; nothing without
+    /// one.
+    pub fn new(
+        scene: &Scene<f64>,
+        error: impl Fn(&str) -> Option<f64>,
+        (cell_size, time_step): (f64, Option<f64>),
+        times: Vec<f64>,
+    ) -> Option<Exclusions> {
+        let errors = QUANTITIES.iter().filter_map(|(name, it)| Some((*name, *it, error(name)?)));
+        let (names, errors): (Vec<_>, Vec<_>) =
+            errors.map(|(name, it, e)| (format!("{e:.1e} of {name}"), (it, e))).unzip();
+        if errors.is_empty() {
+            return None;
+        }
+        let study = Study { cell_size, time_step, times, errors };
+        let all = excludes(scene, &study).map_err(|obstacle| obstacle.to_string());
+        Some(Exclusions { of: names.join(", "), all })
+    }
+}
+
 /// What results with these errors at some times exclude, whose finest has this time step; nothing without errors of the motion.
 ///
 /// # Errors
@@ -34,21 +56,7 @@ pub fn exclusions(
 ) -> anyhow::Result<Option<Exclusions>> {
     let finest = measured.runs.iter().map(|run| run.cell_size).fold(f64::INFINITY, f64::min);
     let error = |name: &str| error(measured, name, finest);
-    let errors: Vec<_> =
-        QUANTITIES.iter().filter_map(|(name, it)| Some((*name, *it, error(name)?))).collect();
-    let Some(names) =
-        errors.iter().map(|(name, _, e)| format!("{e:.1e} of {name}")).reduce(|a, b| a + ", " + &b)
-    else {
-        return Ok(None);
-    };
-    let study = Study {
-        cell_size: finest,
-        time_step,
-        times,
-        errors: errors.into_iter().map(|(_, quantity, error)| (quantity, error)).collect(),
-    };
-    let all = excludes(&exact.scene()?, &study).map_err(|obstacle| obstacle.to_string());
-    Ok(Some(Exclusions { of: names, all }))
+    Ok(Exclusions::new(&exact.scene()?, error, (finest, time_step), times))
 }
 
 /// The root mean square error of a quantity on the finest mesh, or its floor; of replicates the largest.

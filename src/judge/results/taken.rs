@@ -1,9 +1,10 @@
 //! The errors of the quantities of one snapshot.
 
 use anyhow::{anyhow, bail};
+use mms_results::comparison::Comparison;
 use mms_results::motion::Motion;
 use mms_results::names::Values;
-use mms_results::norm::{Asked, Mesh, largest, lengths, of_differences};
+use mms_results::norm::{Asked, Mesh, largest, lengths};
 use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
@@ -29,8 +30,19 @@ pub struct Taken<'a> {
     pub exact: &'a mut Exact,
 }
 
-/// The exact solution at a time and at places X.
-pub type Solution<'a> = &'a dyn Fn(&mut Exact, f64, &[f64]) -> anyhow::Result<Vec<f64>>;
+/// The exact solution at a time and at places X, the first of which is that of this row.
+pub type Solution<'a> = &'a dyn Fn(&mut Exact, f64, usize, &[f64]) -> anyhow::Result<Vec<f64>>;
+
+/// Values against the exact ones.
+pub struct Compared<'a> {
+    /// All of them.
+    all: Comparison<'a>,
+    /// What rounding may make of an error.
+    floor: f64,
+}
+
+/// Points whose exact values are there at once: threads share them, and a cache holds them.
+const BLOCK: usize = 1 << 16;
 
 /// How many times the round-off of double precision a computation has at least.
 const ARITHMETIC: f64 = 16.0;
@@ -65,21 +77,22 @@ impl Taken<'_> {
                 quantity.name()
             );
         }
-        let solution: Solution<'_> = &|exact, time, places| exact.values(quantity, time, places);
-        let exact = solution(self.exact, self.time, places)?;
-        self.hold_finite(quantity, &exact)?;
-        let floor = self.floor(quantity, values, (places, &exact), solution)?;
         let sampling = match (values.is_of_cells, self.is_mesh, weights) {
             (true, ..) => Sampling::Middles,
             (false, _, Some(_)) => Sampling::Weighted,
-            (false, true, None) => return self.over_cells(quantity, values, floor, &exact),
+            (false, true, None) => Sampling::Cells,
             (false, false, None) => Sampling::Points,
         };
         let weights = weights.filter(|_| sampling == Sampling::Weighted);
         if let Some(weights) = weights.filter(|it| it.len() != rows) {
             bail!("{}: {} weights for {rows} points", self.snapshot.path, weights.len());
         }
-        self.over_points(quantity, values, &exact, (sampling, weights, floor))
+        let solution: Solution<'_> = &|exact, time, _, places| exact.values(quantity, time, places);
+        let compared = self.compared(quantity, (values, weights), places, solution)?;
+        match sampling {
+            Sampling::Cells => self.over_cells(quantity, values, &compared),
+            _ => self.over_points(quantity, values, sampling, &compared),
+        }
     }
 
     /// The norms over points, by their weights or all alike.
@@ -87,16 +100,16 @@ impl Taken<'_> {
         &self,
         quantity: Quantity,
         values: &Values<'_>,
-        exact: &[f64],
-        (sampling, weights, floor): (Sampling, Option<&[f64]>, f64),
+        sampling: Sampling,
+        compared: &Compared<'_>,
     ) -> anyhow::Result<Errors> {
-        let components = self.exact.components(quantity);
-        let found = of_differences(&values.numbers, exact, components, weights);
+        let found = compared.all.norms();
         let found =
             found.ok_or_else(|| anyhow!("{}: no points with a weight", self.snapshot.path))?;
         let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
+        let floor = compared.floor;
         let norms = norms.map(|(name, error)| (name, Measure { error, floor })).to_vec();
-        Ok(self.result(quantity, values, exact, sampling, norms))
+        Ok(result(quantity, values, sampling, norms, &compared.all))
     }
 
     /// The values of the cells that have the dimension of the mesh.
@@ -111,9 +124,9 @@ impl Taken<'_> {
         &mut self,
         quantity: Quantity,
         values: &Values<'_>,
-        floor: f64,
-        at_points: &[f64],
+        compared: &Compared<'_>,
     ) -> anyhow::Result<Errors> {
+        let floor = compared.floor;
         let (components, time, dimension) =
             (self.exact.components(quantity), self.time, self.mesh.dimension);
         let gradient =
@@ -139,93 +152,82 @@ impl Taken<'_> {
         let norms =
             norms.into_iter().map(|(name, error)| (name, Measure { error, floor: of_norm(name) }));
         let norms = norms.collect();
-        Ok(self.result(quantity, values, at_points, Sampling::Cells, norms))
+        Ok(result(quantity, values, Sampling::Cells, norms, &compared.all))
     }
 
-    fn result(
-        &self,
-        quantity: Quantity,
-        values: &Values<'_>,
-        exact: &[f64],
-        sampling: Sampling,
-        norms: Vec<(&'static str, Measure)>,
-    ) -> Errors {
-        Errors {
-            quantity,
-            sampling,
-            norms,
-            unit: unit(&values.numbers, exact),
-            largest: largest(exact),
-            iterative: None,
-            stored: values.stored,
-        }
-    }
-
-    /// Refuses exact values that are not finite.
-    pub fn hold_finite(&self, quantity: Quantity, exact: &[f64]) -> anyhow::Result<()> {
-        let components = self.exact.components(quantity);
-        match exact.iter().position(|it| !it.is_finite()) {
-            None => Ok(()),
-            Some(at) => bail!(
-                "{}: the exact {} is {} there, t = {}: not defined, or beyond the range of f64",
-                self.snapshot.place(at / components),
-                quantity.name(),
-                exact[at],
-                self.time
-            ),
-        }
-    }
-
-    /// What rounding may make of the error: that of the values, of X, and of the time, and that of double precision.
-    pub fn floor(
+    /// Compares values with the exact ones at places X, and finds what rounding may make of the difference: that of the values,
+    /// of X, and of the time, and that of double precision.
+    ///
+    /// # Errors
+    /// An exact value that is not finite.
+    pub fn compared<'b>(
         &mut self,
         quantity: Quantity,
-        values: &Values<'_>,
-        (places, exact): (&[f64], &[f64]),
+        (values, weights): (&'b Values<'_>, Option<&'b [f64]>),
+        places: &[f64],
         solution: Solution<'_>,
-    ) -> anyhow::Result<f64> {
-        let components = self.exact.components(quantity);
-        let largest = match quantity {
-            // Components of sigma cancel in them.
-            Quantity::Pressure | Quantity::VonMises => {
-                largest(&self.exact.values(Quantity::CauchyStress, self.time, places)?)
-            }
-            _ => largest(exact),
-        };
-        let arithmetic = ARITHMETIC * f64::EPSILON * largest;
-        let mut floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
+    ) -> anyhow::Result<Compared<'b>> {
+        let (components, dimension) = (self.exact.components(quantity), self.mesh.dimension);
+        let mut all = Comparison::new(&values.numbers, components, weights);
         let reference = &self.motion.reference;
         // u = x - X has the rounding of X already, and of it what the exact u makes besides.
-        if !matches!(reference.stored, Stored::Double | Stored::Whole) {
-            let moved: Vec<f64> = places.iter().map(|x| x + reference.rounding).collect();
-            let there = solution(self.exact, self.time, &moved)?;
-            floor += largest_change(&there, exact, components);
+        let moves = !matches!(reference.stored, Stored::Double | Stored::Whole);
+        let passes = self.rounding > ARITHMETIC * f64::EPSILON * self.time.abs();
+        // Components of sigma cancel in them.
+        let cancels = matches!(quantity, Quantity::Pressure | Quantity::VonMises);
+        let (mut of_places, mut of_time, mut cancelled) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for (block, places) in places.chunks(BLOCK * dimension).enumerate() {
+            let first = block * BLOCK;
+            let exact = solution(self.exact, self.time, first, places)?;
+            if let Err(at) = all.add(&exact) {
+                bail!(
+                    "{}: the exact {} is {} there, t = {}: not defined, or beyond the range of f64",
+                    self.snapshot.place(first + at / components),
+                    quantity.name(),
+                    exact[at],
+                    self.time
+                );
+            }
+            let change = |other: &[f64]| largest_change(other, &exact, components);
+            if moves {
+                let moved: Vec<f64> = places.iter().map(|x| x + reference.rounding).collect();
+                let there = solution(self.exact, self.time, first, &moved)?;
+                of_places = of_places.max(change(&there));
+            }
+            if passes {
+                let later = solution(self.exact, self.time + self.rounding, first, places)?;
+                of_time = of_time.max(change(&later));
+            }
+            if cancels {
+                let stress = self.exact.values(Quantity::CauchyStress, self.time, places)?;
+                cancelled = cancelled.max(largest(&stress));
+            }
         }
-        if self.rounding > ARITHMETIC * f64::EPSILON * self.time.abs() {
-            let later = solution(self.exact, self.time + self.rounding, places)?;
-            floor += largest_change(&later, exact, components);
-        }
-        Ok(floor)
+        let size = if cancels { cancelled } else { all.largest() };
+        let arithmetic = ARITHMETIC * f64::EPSILON * size;
+        let floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
+        Ok(Compared { all, floor: floor + of_places + of_time })
+    }
+}
+
+fn result(
+    quantity: Quantity,
+    values: &Values<'_>,
+    sampling: Sampling,
+    norms: Vec<(&'static str, Measure)>,
+    compared: &Comparison<'_>,
+) -> Errors {
+    Errors {
+        quantity,
+        sampling,
+        norms,
+        unit: compared.unit(),
+        largest: compared.largest(),
+        iterative: None,
+        stored: values.stored,
     }
 }
 
 fn largest_change(a: &[f64], b: &[f64], components: usize) -> f64 {
     lengths(a, b, components).filter(|it| it.is_finite()).fold(0.0, f64::max)
-}
-
-/// How many numbers are looked at to tell another unit.
-const LOOKED_AT: usize = 1 << 16;
-
-/// The power of ten by which values are larger than the exact ones, if they are that, and else alike.
-fn unit(computed: &[f64], exact: &[f64]) -> Option<i32> {
-    let step = computed.len() / LOOKED_AT + 1;
-    let dot = |a: &[f64], b: &[f64]| {
-        // Steps of each, for those of pairs go one by one.
-        a.iter().step_by(step).zip(b.iter().step_by(step)).map(|(a, b)| a * b).sum::<f64>()
-    };
-    let (own, square) = (dot(computed, computed), dot(exact, exact));
-    let alike = dot(computed, exact) / (own * square).sqrt();
-    let power = (own / square).sqrt().log10();
-    let is_one = alike > 0.99 && (power - power.round()).abs() < 0.02 && power.round() != 0.0;
-    is_one.then(|| power.round() as i32)
 }

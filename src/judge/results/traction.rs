@@ -8,7 +8,7 @@ use mms_spec::quantity::Quantity;
 
 use super::files::placed;
 use super::level::{Errors, Sampling};
-use super::taken::Taken;
+use super::taken::{Solution, Taken};
 
 /// How far the length of a normal may be from 1.
 const UNIT: f64 = 1e-3;
@@ -65,15 +65,11 @@ impl Taken<'_> {
         let components = self.mesh.dimension;
         let values =
             Values { numbers: tractions.into(), components, rounding, stored, is_of_cells: false };
-        let solution = |exact: &mut crate::session::exact::Exact, time: f64, places: &[f64]| {
-            exact.tractions_by(&normals, time, places)
+        let solution: Solution<'_> = &|exact, time, first, places| {
+            exact.tractions_by(&normals[first * components..], time, places)
         };
-        let exact = solution(self.exact, self.time, &places)?;
-        self.hold_finite(Quantity::Traction, &exact)?;
-        let floor = self.floor(Quantity::Traction, &values, (&places, &exact), &solution)?;
-        let found =
-            self.over_points(Quantity::Traction, &values, &exact, (Sampling::Faces, None, floor));
-        found.map(Some)
+        let compared = self.compared(Quantity::Traction, (&values, None), &places, solution)?;
+        self.over_points(Quantity::Traction, &values, Sampling::Faces, &compared).map(Some)
     }
 
     fn of_points(&self, meaning: &Meaning) -> anyhow::Result<Values<'_>> {
