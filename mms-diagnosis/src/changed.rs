@@ -76,7 +76,9 @@ impl<'a, const D: usize> Changed<'a, D> {
 impl<const D: usize> Material<f64, D> for Changed<'_, D> {
     fn density(&self, reference: &[Vector<f64, D>], density: &mut [f64]) {
         self.exact.field.density(reference, density);
-        if let Some((Hypothesis { change: Change::Density, .. }, [factor, ..])) = self.mistake {
+        if let Some((Hypothesis { change: Change::Density | Change::Mass, .. }, [factor, ..])) =
+            self.mistake
+        {
             density.iter_mut().for_each(|density| *density *= factor);
         }
     }
@@ -136,8 +138,15 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
             return out.fill(Vector::zeros());
         }
         self.exact.field.body_force(time, x, out);
-        if let Some((Hypothesis { change: Change::Force(change), .. }, size)) = self.mistake {
-            change(&self.given(size, time, x, &[]), out);
+        match self.mistake {
+            Some((Hypothesis { change: Change::Force(change), .. }, size)) => {
+                change(&self.given(size, time, x, &[]), out);
+            }
+            // b is per mass.
+            Some((Hypothesis { change: Change::Mass, .. }, [factor, ..])) => {
+                out.iter_mut().for_each(|b| *b /= *factor);
+            }
+            _ => {}
         }
     }
 

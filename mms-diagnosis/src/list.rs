@@ -67,6 +67,7 @@ fn shown_by<const D: usize>(change: &Change<D>) -> &'static str {
     match change {
         Change::Stress(_) => "law, exact state, step, results",
         Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
+        Change::Mass => "exact state, results",
         Change::Start(_) => "step, results",
         Change::Tangent(_) | Change::Order(_) => "law",
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => "results",

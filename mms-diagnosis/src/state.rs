@@ -279,7 +279,10 @@ pub fn diagnose<const D: usize>(
 ) -> Result<Diagnosis, Refusal> {
     let weak = Weak::new(exact, response.time, response.reference.len() / D)?;
     let is_shown = |change: &Change<D>| match change {
-        Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density => true,
+        Change::Force(_) | Change::Stress(_) | Change::Surface(_) => true,
+        Change::Density => true,
+        // After one step it is a start at another time.
+        Change::Mass => response.step.is_none(),
         Change::Start(_) => response.step.is_some(),
         Change::Condition(_) | Change::Output(_) | Change::Wall(_) => false,
         Change::Tangent(_) | Change::Order(_) => false,
@@ -317,7 +320,7 @@ pub fn diagnose<const D: usize>(
             return weak.paired(&weak.per_volume(change)).iter().map(|it| it / scale).collect();
         }
         let density = match (&hypothesis.change, at) {
-            (Change::Density, [factor, ..]) => *factor,
+            (Change::Density | Change::Mass, [factor, ..]) => *factor,
             _ => 1.0,
         };
         let sums = weak.sums(&Changed::with(exact, response.without, hypothesis, at));

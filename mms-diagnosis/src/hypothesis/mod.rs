@@ -70,6 +70,8 @@ pub enum Change<const D: usize> {
     Surface(OfStress<D>),
     /// rho0, by the size as a factor.
     Density,
+    /// The mass, by the size as a factor, and no force: neither that of the stress nor b.
+    Mass,
     /// The initial state.
     Start(OfMotion<D>),
     /// The motion that is prescribed on faces, and at the start that of the body.
@@ -91,7 +93,7 @@ impl<const D: usize> Change<D> {
             Change::Force(_) => "body force",
             Change::Stress(_) => "stress",
             Change::Surface(_) => "traction",
-            Change::Density => "mass",
+            Change::Density | Change::Mass => "mass",
             Change::Start(_) => "start",
             Change::Wall(_) => "prescribed motion",
             Change::Condition(_) => "boundary condition",
@@ -249,10 +251,12 @@ impl<const D: usize> Hypothesis<D> {
     }
 
     /// The size whose effect is that of this one, scaled: as if it grew with the distance from the right size, or of a
-    /// density with that of its inverse.
+    /// density or mass with that of its inverse.
     pub fn rescaled(&self, right: f64, size: f64, scale: f64) -> f64 {
         match self.change {
-            Change::Density => 1.0 / (1.0 / right + scale * (1.0 / size - 1.0 / right)),
+            Change::Density | Change::Mass => {
+                1.0 / (1.0 / right + scale * (1.0 / size - 1.0 / right))
+            }
             _ => right + scale * (size - right),
         }
     }

@@ -156,6 +156,9 @@ fn accelerations_at_an_exact_state_name_a_term() {
         "{names:?}"
     );
     assert_eq!(name(&of_accelerations(|x| a(x) - Point::new(0.0, 9.81 * 20.0))), "constant_force");
+    let half = of_accelerations(|x| a(x) / 0.5);
+    assert_eq!(name(&half), "mass_factor");
+    assert!((half.ranked[0].factor[0] / 0.5 - 1.0).abs() < 1e-2);
     let transposed = |x: &Point| {
         b(x) + field::divergence(time, x, |h| field::first(h, [LAMBDA, MU]).transpose()) / DENSITY
     };
