@@ -40,7 +40,7 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
                 let mut known =
                     vec![Known::new(0.0, "lambda_missing", "the term of lambda is missing")];
                 let Some([lambda, mu]) = exact.uniform_moduli() else { return known };
-                let young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
+                let [young, nu] = young_and_poisson([lambda, mu]);
                 let others = [
                     (lambda + 2.0 / 3.0 * mu, "lambda_bulk", "the bulk modulus K given as lambda"),
                     (
@@ -54,6 +54,16 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
                         "the modulus of compression waves given as lambda",
                     ),
                     (young, "lambda_young", "Young's modulus given as lambda"),
+                    (
+                        young * nu / (1.0 - 2.0 * nu),
+                        "lambda_conversion",
+                        "E nu/(1 - 2 nu), without 1 + nu, given as lambda",
+                    ),
+                    (
+                        young / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+                        "lambda_conversion",
+                        "E/((1 + nu) (1 - 2 nu)), without nu, given as lambda",
+                    ),
                 ];
                 known.extend(others.map(|(is, name, says)| Known::new(is / lambda, name, says)));
                 known
@@ -73,8 +83,10 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
                     Known::new(0.5, "mu_half", "half of mu"),
                 ];
                 if let Some([lambda, mu]) = exact.uniform_moduli() {
-                    let young = mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu);
+                    let [young, nu] = young_and_poisson([lambda, mu]);
                     known.push(Known::new(young / mu, "mu_young", "Young's modulus given as mu"));
+                    let says = "E/2, without 1 + nu, given as mu";
+                    known.push(Known::new(1.0 + nu, "mu_conversion", says));
                 }
                 known
             },
@@ -85,6 +97,11 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
             Change::Stress(|at, tau| with_moduli(at, tau, |[lambda, mu], _| [mu, lambda])),
         ),
     ]
+}
+
+/// E and nu.
+fn young_and_poisson([lambda, mu]: [f64; 2]) -> [f64; 2] {
+    [mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu), lambda / (2.0 * (lambda + mu))]
 }
 
 /// Published laws with the same moduli at rest that are not the field's own.

@@ -78,6 +78,13 @@ fn a_law_is_named_to_round_off() {
     assert_eq!(name(&of_law(|h| field::first(h, [MU, LAMBDA]))), "moduli_swapped");
     assert_eq!(name(&of_law(|h| field::first(h, [0.0, MU]))), "lambda_missing");
     assert_eq!(name(&of_law(|h| field::first(h, [LAMBDA + 2.0 / 3.0 * MU, MU]))), "lambda_bulk");
+    let nu = LAMBDA / (2.0 * (LAMBDA + MU));
+    let young = 2.0 * MU * (1.0 + nu);
+    let without = young * nu / (1.0 - 2.0 * nu);
+    assert_eq!(name(&of_law(|h| field::first(h, [without, MU]))), "lambda_conversion");
+    let without = young / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    assert_eq!(name(&of_law(|h| field::first(h, [without, MU]))), "lambda_conversion");
+    assert_eq!(name(&of_law(|h| field::first(h, [LAMBDA, young / 2.0]))), "mu_conversion");
     assert_eq!(name(&of_law(|h| right(h) * 1e-6)), "units");
     let logarithm = of_law(|h| field::first(h, [LAMBDA / ln, MU]));
     assert_eq!(name(&logarithm), "lambda_factor");
