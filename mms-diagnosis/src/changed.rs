@@ -171,7 +171,7 @@ impl<const D: usize> ManufacturedField<f64, D> for Changed<'_, D> {
             return;
         };
         let right = stress.to_vec();
-        change(&self.given(size, time, x, h), stress);
+        change(&self.given(size, time, x, h), face, stress);
         let pairs = stress.iter_mut().zip(right).zip(x);
         pairs
             .filter(|(_, x)| !is_on(&self.exact.domain.body, face, x))

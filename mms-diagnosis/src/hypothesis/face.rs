@@ -1,6 +1,6 @@
 //! Mistakes on faces.
 
-use mms_runtime::tensor::determinant;
+use mms_runtime::tensor::{cofactor, determinant};
 use mms_runtime::{Body, Condition, Face, Matrix, Vector};
 
 use super::{Change, Hypothesis, Known, inverse, of_first};
@@ -47,6 +47,25 @@ pub fn away<const D: usize>(body: &Body<f64, D>, face: Face, x: &Vector<f64, D>)
     }
 }
 
+/// N at X on a face, but for its sign.
+fn normal<const D: usize>(face: Face, x: &Vector<f64, D>) -> Vector<f64, D> {
+    match face {
+        Face::Min(axis) | Face::Max(axis) => Vector::from_fn(|i, _| f64::from(i == axis)),
+        Face::Inner | Face::Outer => x.normalize(),
+        Face::ThetaMin | Face::ThetaMax => {
+            Vector::from_fn(|i, _| if i == 0 { -x[1] } else { x[0] } / x.norm())
+        }
+    }
+}
+
+/// R of F = R U, by Newton's iteration.
+fn rotation<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
+    (0..ROUNDS).fold(*f, |r, _| (r + inverse(&r).transpose()) / 2.0)
+}
+
+/// Enough for stretches up to 10.
+const ROUNDS: usize = 10;
+
 fn held<const D: usize>(face: Face) -> Hypothesis<D> {
     let says = "the face follows the field, where it has a load or none";
     Hypothesis::fixed("held_face", says, Change::Condition(Condition::Prescribed)).on(face)
@@ -63,7 +82,7 @@ fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
         "traction_factor",
         "the traction times a factor",
         0.0,
-        Change::Surface(|at, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
+        Change::Surface(|at, _, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
         |_| {
             vec![
                 Known::new(0.0, "traction_missing", "the traction is missing"),
@@ -75,14 +94,26 @@ fn of_load<const D: usize>(face: Face) -> Vec<Hypothesis<D>> {
     let made = |name, says, change| Hypothesis::fixed(name, says, Change::Surface(change));
     let all = [
         factor,
-        made("traction_transposed", "P^T N in place of P N", |at, tau| {
+        made("traction_transposed", "P^T N in place of P N", |at, _, tau| {
             of_first(at, tau, |f, p: Matrix<f64, D>| p.transpose() * f.transpose());
         }),
-        made("traction_cauchy", "sigma N on the reference area in place of P N", |at, tau| {
+        made("traction_cauchy", "sigma N on the reference area in place of P N", |at, _, tau| {
             of_first(at, tau, |f, p| p * f.transpose() * f.transpose() / determinant(f));
         }),
-        made("traction_second_piola", "S N in place of P N", |at, tau| {
+        made("traction_second_piola", "S N in place of P N", |at, _, tau| {
             of_first(at, tau, |f, p| inverse(f) * p * f.transpose());
+        }),
+        made(
+            "traction_follower",
+            "R P N in place of P N: a load that turns with the face",
+            |at, _, tau| {
+                of_first(at, tau, |f, p| rotation(f) * p * f.transpose());
+            },
+        ),
+        made("traction_present_area", "P N on the present area", |at, face, tau| {
+            for ((tau, h), x) in tau.iter_mut().zip(at.gradient).zip(at.reference) {
+                *tau *= cofactor(h).map_or(f64::NAN, |it| (it * normal(face, x)).norm());
+            }
         }),
         held(face),
     ];

@@ -55,6 +55,9 @@ pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
 /// Changes a motion, from what is right.
+/// Changes stresses whose tractions act on a face, from what is right.
+pub type OfTraction<const D: usize> = fn(&Given<'_, D>, Face, &mut [Matrix<f64, D>]);
+
 pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
 /// What a tangent of this size makes of a symmetric rate of deformation, from how tau changes with F there and at F = I.
@@ -67,7 +70,7 @@ pub enum Change<const D: usize> {
     /// tau in the body.
     Stress(OfStress<D>),
     /// tau whose tractions act on the face.
-    Surface(OfStress<D>),
+    Surface(OfTraction<D>),
     /// rho0, by the size as a factor.
     Density,
     /// The mass, by the size as a factor, and no force: neither that of the stress nor b.

@@ -12,18 +12,23 @@ const TIME: f64 = 0.013;
 /// Cells along a side.
 const CELLS: usize = 12;
 
-/// A code: P of H, b of X, and the traction on the right side of P there.
+/// A code: P of H, b of X, and the traction on the right side, of H.
 struct Code {
     stress: fn(&Tensor) -> Tensor,
     force: fn(&Point) -> Point,
-    traction: f64,
+    traction: fn(&Tensor) -> Point,
 }
 
 const RIGHT: Code = Code {
     stress: |h| field::first(h, [LAMBDA, MU]),
     force: |x| field::body_force(TIME, x),
-    traction: 1.0,
+    traction,
 };
+
+/// P N on the right side.
+fn traction(h: &Tensor) -> Point {
+    field::first(h, [LAMBDA, MU]).column(0).into_owned()
+}
 
 /// Nodes row by row, those inside moved by up to a fifth of a cell.
 fn nodes() -> Vec<Point> {
@@ -72,8 +77,8 @@ fn assembled(code: &Code) -> Vec<Point> {
     for k in 0..CELLS {
         let [a, b] = [k, k + 1].map(|row| row * (CELLS + 1) + CELLS);
         let middle = (nodes[a] + nodes[b]) / 2.0;
-        let p = field::first(&field::gradient(TIME, &middle), [LAMBDA, MU]);
-        let force = p.column(0) * (code.traction * (nodes[b] - nodes[a]).norm() / 2.0);
+        let load = (code.traction)(&field::gradient(TIME, &middle));
+        let force = load * ((nodes[b] - nodes[a]).norm() / 2.0);
         (r[a], r[b]) = (r[a] - force, r[b] - force);
     }
     r
@@ -109,7 +114,15 @@ fn nodal_residuals_name_a_term() {
     assert_eq!(name(&diagnosed(&transposed)), "stress_transposed");
     let swapped = Code { stress: |h| field::first(h, [MU, LAMBDA]), ..RIGHT };
     assert_eq!(name(&diagnosed(&swapped)), "moduli_swapped");
-    let reversed = diagnosed(&Code { traction: -1.0, ..RIGHT });
-    assert_eq!(name(&reversed), "traction_sign");
-    assert_eq!(reversed.ranked[0].title(), "traction_sign on x_max");
+    let loaded = |traction| diagnosed(&Code { traction, ..RIGHT }).ranked.swap_remove(0).title();
+    assert_eq!(loaded(|h| -traction(h)), "traction_sign on x_max");
+    let turned = loaded(|h| {
+        let f = h + Tensor::identity();
+        let (sin, cos) = (f[(1, 0)] - f[(0, 1)]).atan2(f[(0, 0)] + f[(1, 1)]).sin_cos();
+        Tensor::new(cos, -sin, sin, cos) * traction(h)
+    });
+    assert_eq!(turned, "traction_follower on x_max");
+    // How long a part of the side has become.
+    let present = loaded(|h| traction(h) * h[(0, 1)].hypot(1.0 + h[(1, 1)]));
+    assert_eq!(present, "traction_present_area on x_max");
 }
