@@ -73,6 +73,8 @@ fn trials<const D: usize>() -> [Matrix<f64, D>; 4] {
 const SMALL: f64 = 1e-6;
 /// By how much a law may miss stresses of its own, for rounding.
 const SAME: f64 = 1e-9;
+/// The step of differences in time, over the time window.
+const STEP: f64 = 1e-5;
 /// The same of a law taken as linear.
 const LINEAR: f64 = 1e-4;
 
@@ -198,6 +200,13 @@ impl<'a, const D: usize> Exact<'a, D> {
         let mut values = vec![Matrix::zeros(); x.len()];
         self.field.displacement_gradient(time, x, &mut values);
         values
+    }
+
+    /// The rate of H, by central differences.
+    pub fn gradient_rate(&self, time: f64, x: &[Vector<f64, D>]) -> Vec<Matrix<f64, D>> {
+        let step = STEP * (self.domain.time[1] - self.domain.time[0]);
+        let [before, after] = [-step, step].map(|step| self.gradient(time + step, x));
+        after.iter().zip(before).map(|(after, before)| (after - before) / (2.0 * step)).collect()
     }
 
     /// rho0.

@@ -1,7 +1,7 @@
 //! The list of hypotheses, for people.
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, Kind, Size, all, of_tangent, voigt_orders};
+use crate::hypothesis::{Change, Hypothesis, Kind, OF_MOTION, Size, all, of_tangent, voigt_orders};
 use crate::patterns;
 
 /// What a hypothesis is.
@@ -42,7 +42,7 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
         says: it.says.into(),
         kind: it.kind,
         changes: it.change.name(),
-        shown_by: shown_by(&it.change),
+        shown_by: shown_by(it),
         size_of: None,
     };
     let named = |name: &str, says: String, size: f64| Listed {
@@ -63,8 +63,9 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
     std::iter::once(own).chain(all).collect()
 }
 
-fn shown_by<const D: usize>(change: &Change<D>) -> &'static str {
-    match change {
+fn shown_by<const D: usize>(it: &Hypothesis<D>) -> &'static str {
+    match it.change {
+        Change::Stress(_) if OF_MOTION.contains(&it.name) => "exact state, step, results",
         Change::Stress(_) => "law, exact state, step, results",
         Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
         Change::Mass => "exact state, results",

@@ -5,7 +5,7 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, voigt_orders};
+use crate::hypothesis::{Change, Given, Hypothesis, OF_MOTION, voigt_orders};
 use crate::rank::{Error, explain};
 use crate::smooth::size;
 
@@ -80,8 +80,7 @@ pub fn diagnose<const D: usize>(
     if table.measure != Measure::FirstPiola {
         hypotheses.push(Hypothesis::first_piola());
     }
-    hypotheses
-        .retain(|it| matches!(it.change, Change::Stress(_)) && it.name != "moduli_at_present");
+    hypotheses.retain(|it| matches!(it.change, Change::Stress(_)) && !OF_MOTION.contains(&it.name));
     // P is not symmetric, and has nine components.
     if table.measure != Measure::FirstPiola {
         hypotheses.extend(voigt_orders());

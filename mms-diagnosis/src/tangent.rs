@@ -7,7 +7,7 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::Diagnosis;
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, of_tangent, voigt_orders};
+use crate::hypothesis::{Change, Given, Hypothesis, OF_MOTION, of_tangent, voigt_orders};
 use crate::slopes::{Slopes, slopes};
 use crate::smooth::size;
 use crate::table::{is_of_measure, to_round_off};
@@ -60,10 +60,9 @@ fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
     (0..36).map(|k| tangent[6 * at(k / 6) + at(k % 6)]).collect()
 }
 
-/// Mistakes of a stress that are none of a tangent: moduli at x, for nothing moves; a factor J, which is `tangent_volume` there; and
-/// laws that are not objective, for they have no Jaumann rate.
-const OF_STRESS: [&str; 4] =
-    ["moduli_at_present", "strain_left", "shear_factor", "stress_volume_twice"];
+/// Mistakes of a stress that are none of a tangent: a factor J, which is `tangent_volume` there; and laws that are not objective,
+/// for they have no Jaumann rate.
+const OF_STRESS: [&str; 3] = ["strain_left", "shear_factor", "stress_volume_twice"];
 
 /// Diagnoses a law by its tangent. `None` where the exact one is not finite.
 pub fn diagnose<const D: usize>(
@@ -72,7 +71,8 @@ pub fn diagnose<const D: usize>(
     mut hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Diagnosis> {
     hypotheses.retain(|it| {
-        let is_of_stress = is_of_measure(it.name) || OF_STRESS.contains(&it.name);
+        let is_of_stress =
+            is_of_measure(it.name) || OF_STRESS.contains(&it.name) || OF_MOTION.contains(&it.name);
         matches!(it.change, Change::Stress(_)) && !is_of_stress
     });
     let hypotheses: Vec<Hypothesis<D>> =

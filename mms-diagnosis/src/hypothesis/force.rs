@@ -19,7 +19,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     );
     delay.below = Some("force_early");
     let delay = delay.of_steps(exact);
-    vec![
+    let mut all = vec![
         Hypothesis::factor(
             "force_factor",
             "b times a factor",
@@ -61,7 +61,71 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         )
         .within([0.0, f64::MAX])
         .choice(),
+        Hypothesis::amount(
+            "damping_local",
+            "Cundall's local damping, a part of |a| against the velocity, by components; the size is the part",
+            vec![0.3],
+            Change::Force(|at, b| {
+                let a = at.exact.acceleration(at.time, at.reference);
+                let v = at.exact.velocity(at.time, at.reference);
+                for ((b, a), v) in b.iter_mut().zip(a).zip(v) {
+                    // At rest it has no direction.
+                    let sign = |v: f64| v / v.abs().max(f64::MIN_POSITIVE);
+                    *b -= Vector::from_fn(|i, _| a[i].abs() * sign(v[i])) * at.size[0];
+                }
+            }),
+        )
+        .within([0.0, 1.0])
+        .choice(),
+    ];
+    if D > 1 {
+        all.extend(of_rotating_frame(exact));
+    }
+    all
+}
+
+/// What b has besides in a frame that rotates about axes through the origin.
+fn of_rotating_frame<const D: usize>(exact: &Exact<'_, D>) -> [Hypothesis<D>; 2] {
+    let window = exact.domain.time[1] - exact.domain.time[0];
+    let radius = exact.places().iter().map(|x| x.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let axes = if D == 2 { 1 } else { D };
+    [
+        Hypothesis::amount(
+            "coriolis",
+            "the Coriolis force -2 omega x v besides b; the size is omega, in space the vector",
+            vec![0.15 / window; axes],
+            Change::Force(|at, b| {
+                let v = at.exact.velocity(at.time, at.reference);
+                b.iter_mut().zip(v).for_each(|(b, v)| *b -= cross(at.size, &v) * 2.0);
+            }),
+        )
+        .choice(),
+        Hypothesis::amount(
+            "centrifugal",
+            "the centrifugal force omega^2 x besides b; the size is omega^2, in space that about each axis",
+            vec![scale(exact) / radius * 0.1; axes],
+            Change::Force(|at, b| {
+                let all: f64 = at.size.iter().sum();
+                let u = at.exact.displacement(at.time, at.reference);
+                for ((b, x), u) in b.iter_mut().zip(at.reference).zip(u) {
+                    let along = |i: usize| if D == 2 { 0.0 } else { at.size[i] };
+                    *b += Vector::from_fn(|i, _| (all - along(i)) * (x[i] + u[i]));
+                }
+            }),
+        )
+        .choice(),
     ]
+}
+
+/// omega x v; in a plane omega is normal to it.
+fn cross<const D: usize>(omega: &[f64], v: &Vector<f64, D>) -> Vector<f64, D> {
+    Vector::from_fn(|i, _| match omega {
+        [omega] => omega * if i == 0 { -v[1] } else { v[0] },
+        omega => {
+            let [j, k] = [(i + 1) % D, (i + 2) % D];
+            omega[j] * v[k] - omega[k] * v[j]
+        }
+    })
 }
 
 /// Replaces each b by what a function makes of b, a and J.

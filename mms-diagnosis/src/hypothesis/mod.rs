@@ -20,6 +20,7 @@ use crate::slopes::Slopes;
 
 pub use face::{away, faces};
 pub use output::earlier_velocity;
+pub use stress::OF_MOTION;
 pub use tangent::{of_tangent, voigt_orders};
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
@@ -54,10 +55,10 @@ pub type OfForce<const D: usize> = fn(&Given<'_, D>, &mut [Vector<f64, D>]);
 /// Changes stresses, from what is right.
 pub type OfStress<const D: usize> = fn(&Given<'_, D>, &mut [Matrix<f64, D>]);
 
-/// Changes a motion, from what is right.
 /// Changes stresses whose tractions act on a face, from what is right.
 pub type OfTraction<const D: usize> = fn(&Given<'_, D>, Face, &mut [Matrix<f64, D>]);
 
+/// Changes a motion, from what is right.
 pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 
 /// What a tangent of this size makes of a symmetric rate of deformation, from how tau changes with F there and at F = I.
@@ -293,7 +294,7 @@ impl<const D: usize> Hypothesis<D> {
 pub fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let families = [
         force::all(exact),
-        stress::all(),
+        stress::all(exact),
         law::all(exact),
         density::all(),
         face::all(exact),

@@ -3,9 +3,13 @@
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;
 
-use super::{Change, Hypothesis, Known, inverse, of_first};
+use super::{Change, Given, Hypothesis, Known, inverse, of_first};
+use crate::exact::Exact;
 
-pub(super) fn all<const D: usize>() -> Vec<Hypothesis<D>> {
+/// What depends on the motion besides F: nothing that a law alone shows.
+pub const OF_MOTION: [&str; 3] = ["moduli_at_present", "viscosity", "artificial_viscosity"];
+
+pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let stress = |name, says, change| Hypothesis::fixed(name, says, Change::Stress(change));
     vec![
         stress("stress_transposed", "P^T in place of P", |at, tau| {
@@ -74,5 +78,51 @@ pub(super) fn all<const D: usize>() -> Vec<Hypothesis<D>> {
             let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x + u).collect();
             tau.copy_from_slice(&at.exact.stress(&places, at.gradient));
         }),
+        Hypothesis::amount(
+            "viscosity",
+            "viscous stresses besides, as stiffness-proportional damping has: tau + 2 eta D; the size is eta",
+            vec![0.01 * wave_modulus(exact) * (exact.domain.time[1] - exact.domain.time[0])],
+            Change::Stress(|at, tau| {
+                let pairs = tau.iter_mut().zip(rates(at));
+                pairs.for_each(|(tau, rate)| *tau += rate * (2.0 * at.size[0]));
+            }),
+        )
+        .within([0.0, f64::MAX])
+        .choice(),
+        Hypothesis::<D>::amount(
+            "artificial_viscosity",
+            "a pressure c rho h c0 |div v| besides where div v < 0, of von Neumann and Richtmyer; the size is c",
+            vec![0.5],
+            Change::Stress(|at, tau| {
+                let density = at.exact.density(at.reference);
+                let mut speed = vec![0.0; tau.len()];
+                at.exact.field.wave_speed(at.reference, &mut speed);
+                let all = tau.iter_mut().zip(rates(at)).zip(density).zip(speed);
+                for (((tau, rate), density), speed) in all {
+                    // rho J = rho0.
+                    let compression = (-rate.trace()).max(0.0);
+                    let pressure = at.size[0] * density * at.exact.cell_size * speed * compression;
+                    *tau -= Matrix::identity() * pressure;
+                }
+            }),
+        )
+        .within([0.0, f64::MAX])
+        .of_mesh()
+        .choice(),
     ]
+}
+
+/// D, the symmetric rate of deformation.
+fn rates<const D: usize>(at: &Given<'_, D>) -> Vec<Matrix<f64, D>> {
+    let rates = at.exact.gradient_rate(at.time, at.reference);
+    let all = rates.iter().zip(at.gradient).map(|(rate, h)| {
+        let velocity_gradient = rate * inverse(&(h + Matrix::identity()));
+        (velocity_gradient + velocity_gradient.transpose()) / 2.0
+    });
+    all.collect()
+}
+
+/// The modulus of compression waves, rho0 c0^2.
+fn wave_modulus<const D: usize>(exact: &Exact<'_, D>) -> f64 {
+    exact.density(&exact.places()).into_iter().fold(0.0, f64::max) * exact.wave_speed().powi(2)
 }

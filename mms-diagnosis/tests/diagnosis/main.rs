@@ -4,7 +4,7 @@ mod field;
 mod nodal;
 mod tangent;
 
-use field::{DENSITY, LAMBDA, MU, Square};
+use field::{DENSITY, FREQUENCY, LAMBDA, MU, Square};
 use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::closed_form::{self, ClosedForm};
@@ -128,6 +128,18 @@ fn a_closed_form_of_b_is_named() {
     let transposed = |h: &Tensor| field::first(h, [LAMBDA, MU]).transpose();
     let wrong = |t: f64, x: &Point| a(t, x) - field::divergence(t, x, transposed) / DENSITY;
     assert_eq!(of_form(wrong), Some("stress_transposed"));
+    let v = field::velocity;
+    let local = |t: f64, x: &Point| a(t, x).abs().component_mul(&v(t, x).map(f64::signum)) * 0.1;
+    assert_eq!(of_form(|t, x| b(t, x) - local(t, x)), Some("damping_local"));
+    let coriolis = |t: f64, x: &Point| Point::new(v(t, x)[1], -v(t, x)[0]) * (2.0 * 3.0);
+    assert_eq!(of_form(|t, x| b(t, x) + coriolis(t, x)), Some("coriolis"));
+    let centrifugal = |t: f64, x: &Point| (x + field::displacement(t, x)) * 9.0;
+    assert_eq!(of_form(|t, x| b(t, x) + centrifugal(t, x)), Some("centrifugal"));
+    let with = |t: f64, x: &Point, stress: fn(f64, &Tensor) -> Tensor| {
+        b(t, x) - field::divergence(t, x, |h| stress(t, h)) / DENSITY
+    };
+    assert_eq!(of_form(|t, x| with(t, x, viscous)), Some("viscosity"));
+    assert_eq!(of_form(|t, x| with(t, x, shocked)), Some("artificial_viscosity"));
     // What nobody has thought of.
     assert_eq!(of_form(|t, x| b(t, x) + Point::new(x[0] * x[1], t)), None);
 }
@@ -173,9 +185,43 @@ fn accelerations_at_an_exact_state_name_a_term() {
     let swapped =
         |x: &Point| b(x) + field::divergence(time, x, |h| field::first(h, [MU, LAMBDA])) / DENSITY;
     assert_eq!(name(&of_accelerations(swapped)), "moduli_swapped");
+    let v = |x: &Point| field::velocity(time, x);
+    // All points of this field turn at once: at one state a part of |a| is one of v.
+    let local = |x: &Point| a(x) - a(x).abs().component_mul(&v(x).map(f64::signum)) * 0.2;
+    let local = of_accelerations(local);
+    let names = [&[name(&local).to_owned()], local.ranked[0].equivalent_here.as_slice()].concat();
+    for expected in ["damping", "damping_local"] {
+        assert!(names.iter().any(|it| it == expected), "{names:?}");
+    }
+    let viscous = |x: &Point| a(x) + field::divergence(time, x, |h| viscous(time, h)) / DENSITY;
+    let viscous = of_accelerations(viscous);
+    assert_eq!(name(&viscous), "viscosity");
+    assert!((viscous.ranked[0].factor[0] / ETA - 1.0).abs() < 0.01, "{viscous:?}");
     // Scatter from point to point is no mistake of a term.
     let noise = |x: &Point| a(x) + Point::new((1e4 * x[0] * x[1]).sin(), (9e3 * x[0]).cos()) * 5.0;
     assert_ne!(of_accelerations(noise).finding, Finding::Named);
+}
+
+const ETA: f64 = 1.5;
+
+/// grad v, of a field whose H all goes with cos(FREQUENCY t).
+fn velocity_gradient(time: f64, h: &Tensor) -> Tensor {
+    let rate = h * (-FREQUENCY * (FREQUENCY * time).tan());
+    rate * (h + Tensor::identity()).try_inverse().unwrap()
+}
+
+/// 2 eta D F^-T.
+fn viscous(time: f64, h: &Tensor) -> Tensor {
+    let rate = velocity_gradient(time, h);
+    (rate + rate.transpose()) * ETA * (h + Tensor::identity()).try_inverse().unwrap().transpose()
+}
+
+/// -q J F^-T with q = 3 rho h c0 |div v| where the body is compressed, of 12 cells.
+fn shocked(time: f64, h: &Tensor) -> Tensor {
+    let speed = ((LAMBDA + 2.0 * MU) / DENSITY).sqrt();
+    let change = velocity_gradient(time, h).trace().min(0.0);
+    let back = (h + Tensor::identity()).try_inverse().unwrap().transpose();
+    back * (3.0 * DENSITY / 12.0 * speed * change)
 }
 
 /// What is said of velocities after one step whose accelerations are these.

@@ -6,7 +6,7 @@ use mms_diagnosis::hypothesis::all;
 use mms_diagnosis::state::{self, Computed, Response};
 
 use super::field::{self, DENSITY, LAMBDA, MU};
-use super::{LOADED, Point, Tensor, exact, name};
+use super::{LOADED, Point, Tensor, exact, name, shocked};
 
 const TIME: f64 = 0.013;
 /// Cells along a side.
@@ -114,6 +114,10 @@ fn nodal_residuals_name_a_term() {
     assert_eq!(name(&diagnosed(&transposed)), "stress_transposed");
     let swapped = Code { stress: |h| field::first(h, [MU, LAMBDA]), ..RIGHT };
     assert_eq!(name(&diagnosed(&swapped)), "moduli_swapped");
+    let shocked = Code { stress: |h| field::first(h, [LAMBDA, MU]) + shocked(TIME, h), ..RIGHT };
+    let shocked = diagnosed(&shocked);
+    assert_eq!(name(&shocked), "artificial_viscosity");
+    assert!((shocked.ranked[0].factor[0] / 3.0 - 1.0).abs() < 0.1, "{:?}", shocked.ranked[0]);
     let loaded = |traction| diagnosed(&Code { traction, ..RIGHT }).ranked.swap_remove(0).title();
     assert_eq!(loaded(|h| -traction(h)), "traction_sign on x_max");
     let turned = loaded(|h| {
