@@ -4,7 +4,7 @@ use mms_runtime::Face;
 
 use crate::exact::Exact;
 use crate::hypothesis::{Hypothesis, Kind, Size, title};
-use crate::smooth::size;
+use crate::smooth::{less, size};
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +52,8 @@ pub struct Ranked {
     pub explained: f64,
     /// Whether it is of a size that it may have.
     pub is_plausible: bool,
+    /// Whether what it explains is what the first of the list explains.
+    pub acts_as_first: bool,
     /// Whether its size was found, and so may be what fits best.
     pub is_sized: bool,
     /// Whether that is a known one.
@@ -240,6 +242,13 @@ pub struct Explained {
     pub response: Vec<f64>,
 }
 
+impl Explained {
+    /// What it takes of the error.
+    fn explains(&self) -> Vec<f64> {
+        self.response.iter().map(|it| it * self.scale).collect()
+    }
+}
+
 /// Mistakes that are one formula for any field, inside a body and with b per mass; with the size that each has then.
 const SAME: [&[(&str, Option<f64>)]; 2] = [
     &[("force_sign", None), ("moduli_factor", Some(3.0)), ("density_factor", Some(1.0 / 3.0))],
@@ -259,6 +268,8 @@ const LEFT_BY_METHOD: f64 = 0.1;
 /// squared error that is not looked at.
 const AS_WELL: f64 = 1.3;
 const UNSEEN: f64 = 0.004;
+/// Two explanations are the same if they are no further apart than this part of what the first leaves.
+const SAME_PART: f64 = 0.6;
 /// What leaves no more than this part of an error is clear, whatever else does.
 const CLEAR: f64 = 0.06;
 /// A size is a known one within this of itself, or within what is sure of it, but for no more than this.
@@ -297,8 +308,8 @@ pub struct Limits {
 impl Limits {
     /// What is found where hypotheses explain so much of an error that is so many times that of methods.
     pub fn finding(&self, ranked: &[Ranked], excess: f64) -> Finding {
-        let others = ranked.iter().filter(|it| !it.is_plausible).map(|it| left(it.explained));
-        let nearest = others.fold(f64::INFINITY, f64::min);
+        let others = ranked.iter().filter(|it| !it.is_plausible && !it.acts_as_first);
+        let nearest = others.map(|it| left(it.explained)).fold(f64::INFINITY, f64::min);
         let names = |best: &Ranked| {
             let kind = usize::from(best.is_sized);
             let most = self.left[kind] + LEFT_BY_METHOD / excess.max(1.0);
@@ -356,6 +367,15 @@ pub fn ranked<const D: usize>(
         if here.is_empty() { Vec::new() } else { needs.iter().map(|it| (*it).into()).collect() };
     let rivals = as_well.iter().filter(|it| !is_same(it) && it.is_free() <= best.is_free());
     let rivals = rivals.count();
+    let explains =
+        |it: &Ranked| all.iter().find(|of| of.hypothesis == it.hypothesis).map(Explained::explains);
+    let explained = explains(best).unwrap_or_default();
+    let most = SAME_PART * left(best.explained) * size(&explained);
+    let acts_as_first = |it: &Ranked| {
+        explains(it).is_some_and(|other| size(&less(&explained, 1.0, &other)) <= most)
+    };
+    let same: Vec<bool> = ranked.iter().map(acts_as_first).collect();
+    ranked.iter_mut().zip(same).for_each(|(it, same)| it.acts_as_first = same);
     let first = &mut ranked[0];
     (first.equivalent_always, first.equivalent_here, first.needs) = (always, here, needs);
     first.rivals = rivals;
@@ -404,6 +424,7 @@ fn one<const D: usize>(
         margin: explained.margin,
         explained: explained.share,
         is_plausible: is_plausible(hypothesis, explained, apart),
+        acts_as_first: false,
         is_sized: hypothesis.size != Size::Fixed,
         is_known,
         equivalent_always: Vec::new(),

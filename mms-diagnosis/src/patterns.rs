@@ -84,6 +84,7 @@ fn named((name, says): Pattern, [off, left]: [f64; 2], scale: f64) -> Diagnosis 
             margin: 0.0,
             explained: 1.0 - (left / off).powi(2),
             is_plausible: true,
+            acts_as_first: false,
             is_sized: false,
             is_known: false,
             equivalent_always: Vec::new(),
