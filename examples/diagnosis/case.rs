@@ -185,8 +185,7 @@ fn family<const D: usize>(hypothesis: &Hypothesis<D>) -> &'static str {
         "stress_small_strain" | "material" => "law",
         "deformation_transposed" | "strain_left" => "kinematics",
         "moduli_factor" | "lambda_factor" | "mu_factor" | "moduli_swapped" | "shear_factor"
-        | "density_factor"
-        | "mass_factor" => "moduli",
+        | "density_factor" | "mass_factor" => "moduli",
         "force_late" | "output_time" | "start_half_step" => "time",
         "output_factor" | "increment_for_total" => "scale",
         "damping" | "damping_local" | "viscosity" | "artificial_viscosity" => "damping",

@@ -1,6 +1,6 @@
 //! Writes docs/diagnosis.md: how often `mms diagnose` names a mistake, and how often wrongly.
 //!
-//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; with 100 cases a quarter of an hour. The script in
+//! `cargo run --release --example diagnosis -- SEED CASES > docs/diagnosis.md`; a case in a plane takes some 20 s. The script in
 //! `elements` adds what becomes of a solver that shares nothing.
 //!
 //! Cases are drawn, not chosen: a field, a mistake with a size, a method, meshes, a layout of particles, a time. All that were

@@ -272,6 +272,8 @@ struct Mistaken {
     force: fn(f64, &Point) -> Point,
     /// By how much the motion of walls is late.
     delay: f64,
+    /// Tractions are times this.
+    load: f64,
 }
 
 impl Mistaken {
@@ -324,6 +326,7 @@ impl ManufacturedField<f64, 2> for Mistaken {
 
     fn surface_stress(&self, time: f64, x: &[Point], h: &[Tensor], stress: &mut [Tensor]) {
         LOADED.surface_stress(time, x, h, stress);
+        stress.iter_mut().for_each(|stress| *stress *= self.load);
     }
 }
 
@@ -369,7 +372,7 @@ fn of_solver(mistaken: &Mistaken) -> Diagnosis {
 
 #[test]
 fn a_mistake_in_a_solver_is_named() {
-    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 0.0 };
+    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 0.0, load: 1.0 };
     let found = of_solver(&right);
     assert_eq!(name(&found), "nothing");
     let swapped = Mistaken { moduli: [MU, LAMBDA], ..right };
@@ -383,12 +386,23 @@ fn a_mistake_in_a_solver_is_named() {
         ..right
     };
     assert_eq!(name(&of_solver(&sign)), "force_sign");
+    // With twice the mass, where forces are right, all of them are half as large.
+    let heavy = Mistaken {
+        moduli: [LAMBDA / 2.0, MU / 2.0],
+        force: |time, x| field::body_force(time, x) / 2.0,
+        load: 0.5,
+        ..right
+    };
+    // One mesh is too coarse to name it.
+    let best = &of_solver(&heavy).ranked[0];
+    assert_eq!(best.name, "mass_factor");
+    assert!((best.factor[0] / 2.0 - 1.0).abs() < 0.02 && best.is_plausible, "{best:?}");
 }
 
 /// Walls that start late make a front, which methods compute with errors of their own: too large to name it on one mesh.
 #[test]
 fn walls_that_are_late_explain_most() {
-    let late = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 4e-3 };
+    let late = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 4e-3, load: 1.0 };
     let best = &of_solver(&late).ranked[0];
     assert_eq!(best.name, "wall_late");
     assert!(best.explained > 0.95 && best.is_plausible, "{best:?}");
@@ -398,7 +412,7 @@ fn walls_that_are_late_explain_most() {
 #[test]
 fn what_a_small_error_excludes_would_make_a_larger_one() {
     let exact = exact(&LOADED, 12.0);
-    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 0.0 };
+    let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 0.0, load: 1.0 };
     let (own, error) = (solved(&right), 2e-4);
     let study = Study {
         cell_size: 1.0 / 12.0,
