@@ -274,9 +274,13 @@ impl Study {
             }
             verdict => verdict,
         };
-        let exclusions = match self.excluded && verdict == Verdict::Pass {
-            true => self.exclusions(input, &method, &started)?,
-            false => None,
+        let exclusions = match (self.excluded, verdict) {
+            (true, Verdict::Pass) => self.exclusions(input, &method, &started)?,
+            (true, _) => {
+                say("note: `--excluded`: only a pass excludes mistakes");
+                None
+            }
+            (false, _) => None,
         };
         Ok(Report {
             field: input.name.clone(),

@@ -468,6 +468,8 @@ fn a_pass_says_on_request_what_it_excludes() {
     let failed = document("--cells 8,16,32 --excluded --expected-order 3", 1);
     assert!(failed.get("excluded").is_none());
     let folder = Folder::new();
+    let fails = folder.mms("study bar_1d --cells 8,16,32 --excluded --expected-order 3").exits(1);
+    fails.complains("only a pass excludes mistakes");
     folder.mms("study bar_1d --refine time --excluded").exits(2).complains("exclude no mistake");
     let run = folder.mms("study bar_1d --cells 8,16,32 --excluded").exits(0);
     run.prints("excluded from a size on: force_factor");

@@ -58,7 +58,8 @@ fn normal<const D: usize>(face: Face, x: &Vector<f64, D>) -> Vector<f64, D> {
     }
 }
 
-/// R of F = R U, by Newton's iteration.
+/// R of F = R U, by Newton's iteration (Higham, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat.
+/// Comput. 7 (1986)).
 fn rotation<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
     (0..ROUNDS).fold(*f, |r, _| (r + inverse(&r).transpose()) / 2.0)
 }

@@ -9,17 +9,17 @@ use super::field::{self, DENSITY, LAMBDA, MU};
 use super::{LOADED, Point, Tensor, exact, name, shocked};
 
 const TIME: f64 = 0.013;
-/// Cells along a side.
-const CELLS: usize = 12;
 
-/// A code: P of H, b of X, and the traction on the right side, of H.
+/// A code: cells along a side, P of H, b of X, and the traction on the right side, of H.
 struct Code {
+    cells: usize,
     stress: fn(&Tensor) -> Tensor,
     force: fn(&Point) -> Point,
     traction: fn(&Tensor) -> Point,
 }
 
 const RIGHT: Code = Code {
+    cells: 12,
     stress: |h| field::first(h, [LAMBDA, MU]),
     force: |x| field::body_force(TIME, x),
     traction,
@@ -31,24 +31,24 @@ fn traction(h: &Tensor) -> Point {
 }
 
 /// Nodes row by row, those inside moved by up to a fifth of a cell.
-fn nodes() -> Vec<Point> {
+fn nodes(cells: usize) -> Vec<Point> {
     let node = |k: usize| {
-        let (i, j) = (k % (CELLS + 1), k / (CELLS + 1));
-        let is_inner = |at: usize| at > 0 && at < CELLS;
+        let (i, j) = (k % (cells + 1), k / (cells + 1));
+        let is_inner = |at: usize| at > 0 && at < cells;
         let by = if is_inner(i) && is_inner(j) { 0.2 } else { 0.0 };
         let (a, b) = ((12.9 * k as f64).sin() * by, (78.2 * k as f64).cos() * by);
-        Point::new(i as f64 + a, j as f64 + b) / CELLS as f64
+        Point::new(i as f64 + a, j as f64 + b) / cells as f64
     };
-    (0..(CELLS + 1) * (CELLS + 1)).map(node).collect()
+    (0..(cells + 1) * (cells + 1)).map(node).collect()
 }
 
 /// r of each node: int rho0 (a - b) N + P grad N over the body, less int T N over the right side.
 fn assembled(code: &Code) -> Vec<Point> {
-    let nodes = nodes();
+    let (cells, nodes) = (code.cells, nodes(code.cells));
     let u: Vec<Point> = nodes.iter().map(|x| field::displacement(TIME, x)).collect();
     let mut r = vec![Point::zeros(); nodes.len()];
-    for quad in (0..CELLS * CELLS).map(|k| k / CELLS * (CELLS + 1) + k % CELLS) {
-        let [a, b, c, d] = [quad, quad + 1, quad + CELLS + 2, quad + CELLS + 1];
+    for quad in (0..cells * cells).map(|k| k / cells * (cells + 1) + k % cells) {
+        let [a, b, c, d] = [quad, quad + 1, quad + cells + 2, quad + cells + 1];
         for triangle in [[a, b, c], [a, c, d]] {
             let [x, y, z] = triangle.map(|k| nodes[k]);
             let edges = Tensor::from_columns(&[y - x, z - x]);
@@ -74,8 +74,8 @@ fn assembled(code: &Code) -> Vec<Point> {
             }
         }
     }
-    for k in 0..CELLS {
-        let [a, b] = [k, k + 1].map(|row| row * (CELLS + 1) + CELLS);
+    for k in 0..cells {
+        let [a, b] = [k, k + 1].map(|row| row * (cells + 1) + cells);
         let middle = (nodes[a] + nodes[b]) / 2.0;
         let load = (code.traction)(&field::gradient(TIME, &middle));
         let force = load * ((nodes[b] - nodes[a]).norm() / 2.0);
@@ -85,13 +85,13 @@ fn assembled(code: &Code) -> Vec<Point> {
 }
 
 fn diagnosed(code: &Code) -> Diagnosis {
-    let exact = exact(&LOADED, CELLS as f64);
+    let exact = exact(&LOADED, code.cells as f64);
     let numbers =
         |points: Vec<Point>| points.iter().flat_map(|x| x.as_slice().to_vec()).collect::<Vec<_>>();
     let response = Response {
         computed: Computed::NodalResidual,
         time: TIME,
-        reference: numbers(nodes()),
+        reference: numbers(nodes(code.cells)),
         values: numbers(assembled(code)),
         volumes: None,
         without: Without::default(),
@@ -114,10 +114,12 @@ fn nodal_residuals_name_a_term() {
     assert_eq!(name(&diagnosed(&transposed)), "stress_transposed");
     let swapped = Code { stress: |h| field::first(h, [MU, LAMBDA]), ..RIGHT };
     assert_eq!(name(&diagnosed(&swapped)), "moduli_swapped");
-    let shocked = Code { stress: |h| field::first(h, [LAMBDA, MU]) + shocked(TIME, h), ..RIGHT };
+    // The kink where compression ends costs coarse elements more.
+    let shocked =
+        Code { cells: 24, stress: |h| field::first(h, [LAMBDA, MU]) + shocked(TIME, h), ..RIGHT };
     let shocked = diagnosed(&shocked);
     assert_eq!(name(&shocked), "artificial_viscosity");
-    assert!((shocked.ranked[0].factor[0] / 3.0 - 1.0).abs() < 0.1, "{:?}", shocked.ranked[0]);
+    assert!((shocked.ranked[0].factor[0] / 6.0 - 1.0).abs() < 0.05, "{:?}", shocked.ranked[0]);
     let loaded = |traction| diagnosed(&Code { traction, ..RIGHT }).ranked.swap_remove(0).title();
     assert_eq!(loaded(|h| -traction(h)), "traction_sign on x_max");
     let turned = loaded(|h| {

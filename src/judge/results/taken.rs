@@ -34,7 +34,7 @@ pub struct Taken<'a> {
 pub type Solution<'a> = &'a dyn Fn(&mut Exact, f64, usize, &[f64]) -> anyhow::Result<Vec<f64>>;
 
 /// Values against the exact ones.
-pub struct Compared<'a> {
+pub struct AgainstExact<'a> {
     /// All of them.
     all: Comparison<'a>,
     /// What rounding may make of an error.
@@ -101,7 +101,7 @@ impl Taken<'_> {
         quantity: Quantity,
         values: &Values<'_>,
         sampling: Sampling,
-        compared: &Compared<'_>,
+        compared: &AgainstExact<'_>,
     ) -> anyhow::Result<Errors> {
         let found = compared.all.norms();
         let found =
@@ -124,7 +124,7 @@ impl Taken<'_> {
         &mut self,
         quantity: Quantity,
         values: &Values<'_>,
-        compared: &Compared<'_>,
+        compared: &AgainstExact<'_>,
     ) -> anyhow::Result<Errors> {
         let floor = compared.floor;
         let (components, time, dimension) =
@@ -166,7 +166,7 @@ impl Taken<'_> {
         (values, weights): (&'b Values<'_>, Option<&'b [f64]>),
         places: &[f64],
         solution: Solution<'_>,
-    ) -> anyhow::Result<Compared<'b>> {
+    ) -> anyhow::Result<AgainstExact<'b>> {
         let (components, dimension) = (self.exact.components(quantity), self.mesh.dimension);
         let mut all = Comparison::new(&values.numbers, components, weights);
         let reference = &self.motion.reference;
@@ -206,7 +206,7 @@ impl Taken<'_> {
         let size = if cancels { cancelled } else { all.largest() };
         let arithmetic = ARITHMETIC * f64::EPSILON * size;
         let floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
-        Ok(Compared { all, floor: floor + of_places + of_time })
+        Ok(AgainstExact { all, floor: floor + of_places + of_time })
     }
 }
 
