@@ -18,6 +18,9 @@ pub trait Machine<T>: Copy {
     /// Eight numbers.
     type Eight: Copy;
 
+    /// Whether it computes one number after the other, so that code for eight together is only longer.
+    const ALONE: bool = false;
+
     /// One number of a loop that the compiler makes vector instructions of.
     type Lane: Stand<T>;
 

@@ -20,7 +20,11 @@
 //! always inlined under the dispatch, and what is not is compiled without the processor's instructions. Bunches
 //! begin at every eighth particle whatever the slabs and the threads are; a slab adds only its own particles of a
 //! bunch. The last bunch is full: the last particle stands in for those that there are not.
+//!
+//! On x86-64 without AVX2 nothing is gained by eight at a time: there `alone.rs` sums particle by particle, and little is
+//! compiled for processors that few still have.
 
+mod alone;
 mod gather;
 mod scatter;
 mod tensor;

@@ -30,7 +30,25 @@ pub fn determinant<T: Real, const D: usize>(f: &Matrix<T, D>) -> T {
 pub fn inverse_deformation_gradient<T: Real, const D: usize>(
     displacement_gradient: &Matrix<T, D>,
 ) -> Option<Matrix<T, D>> {
-    deformation_gradient(displacement_gradient).try_inverse().filter(matrix_is_finite)
+    inverse(&deformation_gradient(displacement_gradient))
+}
+
+/// F^-1 for D = 1, 2, 3, or `None` where F is singular or not finite. That of `nalgebra` compiles those of larger
+/// matrices too, whatever D is.
+pub fn inverse<T: Real, const D: usize>(f: &Matrix<T, D>) -> Option<Matrix<T, D>> {
+    let determinant = determinant(f);
+    let cofactor = |i: usize, j: usize| match D {
+        1 => T::one(),
+        2 if i == j => f[(1 - i, 1 - j)],
+        2 => -f[(j, i)],
+        // Rows and columns go round, so that no sign changes.
+        _ => {
+            let ([i1, i2], [j1, j2]) = ([(i + 1) % 3, (i + 2) % 3], [(j + 1) % 3, (j + 2) % 3]);
+            f[(i1, j1)] * f[(i2, j2)] - f[(i1, j2)] * f[(i2, j1)]
+        }
+    };
+    let inverse = Matrix::from_fn(|i, j| cofactor(j, i) / determinant);
+    Some(inverse).filter(matrix_is_finite)
 }
 
 /// cof F = J F^-T, or `None` where F = I + H is singular or not finite.
@@ -67,6 +85,23 @@ mod tests {
         let h = Matrix::<f64, 3>::new(1.0, 2.0, 0.5, -1.0, 3.0, 4.0, 2.0, 0.0, 1.0);
         let exact = (Matrix::<f64, 3>::identity() + h).determinant();
         assert!((jacobian(&h) - exact).abs() < 1e-13);
+    }
+
+    fn the_inverse_has_the_bits_of<const D: usize>(f: &Matrix<f64, D>) {
+        assert_eq!(inverse(f), f.try_inverse());
+        assert_eq!(
+            inverse(&f.map(|entry| entry as f32)),
+            f.map(|entry| entry as f32).try_inverse()
+        );
+    }
+
+    #[test]
+    fn the_inverse_is_that_of_nalgebra() {
+        the_inverse_has_the_bits_of(&Matrix::<f64, 1>::new(0.3));
+        the_inverse_has_the_bits_of(&Matrix::<f64, 2>::new(1.1, 0.2, -0.7, 0.9));
+        the_inverse_has_the_bits_of(&Matrix::<f64, 3>::new(
+            1.1, 0.2, -0.7, 0.3, 0.9, 0.15, -0.25, 0.45, 1.3,
+        ));
     }
 
     #[test]

@@ -10,6 +10,8 @@ macro_rules! arrays {
             impl Machine<$float> for $machine {
                 type Eight = [$float; 8];
                 type Lane = Lane<$float, $fused>;
+                // What multiplies and adds in one step has registers that the compiler knows.
+                const ALONE: bool = !$fused;
 
                 #[inline(never)]
                 fn apart<W: Work<$float>>(self, work: W) -> W::Output {

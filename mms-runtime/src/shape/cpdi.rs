@@ -22,7 +22,7 @@ use crate::nodal::{Nodal, Window};
 use crate::real::{Matrix, Real, Vector};
 use crate::spline;
 use crate::stencil::{Carried, Gathered, Members, Stencil, Tensor, Wanted};
-use crate::tensor::{deformation_gradient, matrix_is_finite};
+use crate::tensor::{deformation_gradient, inverse};
 
 /// GIMP on parallelepipeds: shear and rotation are followed, without gaps or overlaps in a uniform F.
 pub struct Cpdi;
@@ -65,8 +65,7 @@ impl Shape for Cpdi {
             let half_edges = half_edges.get(p);
             let present = deformation_gradient(&displacement_gradient.get(p)) * half_edges;
             let present = if on(Defect::CornersKept) { half_edges } else { present };
-            let inverse = present.try_inverse().filter(matrix_is_finite);
-            let inverse = inverse.ok_or(Cause::FlatDomain)?;
+            let inverse = inverse(&present).ok_or(Cause::FlatDomain)?;
             let transposed = on(Defect::CornersTransposed);
             all_present.set(p, &present);
             all_inverse.set(p, &if transposed { inverse.transpose() } else { inverse });

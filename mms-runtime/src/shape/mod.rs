@@ -40,7 +40,7 @@ extension_list! {
 ///
 /// The weights of one particle add up to 1, and reproduce linear functions of its position: sum_i w_ip
 /// = 1, sum_i w_ip x_i = x_p.
-pub trait Shape: 'static {
+pub trait Shape: Sized + 'static {
     /// The degree of the splines on the grid: 1 has its nodes on the corners of cells.
     const DEGREE: usize = 1;
 
@@ -92,10 +92,9 @@ pub trait Shape: 'static {
         displacement_gradient: &Matrix<T, D>,
     ) -> Result<Self::Stencil<T, D>, Cause> {
         let mut stencil = Self::Stencil::default();
-        let machine = T::PlainMachine::from(Plain);
-        let position = components(machine, &Vectors::alike(position));
-        let (domain, h) = (Bunch::alike(domain), Matrices::alike(displacement_gradient));
-        Self::place(machine, &mut stencil, lattice, &position, &domain, &h)?;
+        let (position, domain) = (Vectors::alike(position), Bunch::alike(domain));
+        let h = Matrices::alike(displacement_gradient);
+        place_alone::<T, D, Self>(&mut stencil, lattice, &position, &domain, &h)?;
         Ok(stencil)
     }
 
@@ -107,6 +106,23 @@ pub trait Shape: 'static {
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
     ) -> Result<Tensor<T, D>, Cause>;
+}
+
+/// [`Shape::place`] with the instructions of every processor, as a function of its own, so that it is compiled once.
+///
+/// # Errors
+/// Likewise.
+#[inline(never)]
+pub(crate) fn place_alone<T: Real, const D: usize, S: Shape>(
+    stencil: &mut S::Stencil<T, D>,
+    lattice: &Lattice<T, D>,
+    position: &Vectors<T, D>,
+    domain: &S::Domain<T, D>,
+    displacement_gradient: &Matrices<T, D>,
+) -> Result<(), Cause> {
+    let machine = T::PlainMachine::from(Plain);
+    let position = components(machine, position);
+    S::place(machine, stencil, lattice, &position, domain, displacement_gradient)
 }
 
 /// What becomes of a bunch at these positions that is off the grid; of its first particle.

@@ -17,7 +17,7 @@ use crate::lanes::{positions, vectors};
 use crate::lattice::Lattice;
 use crate::particle::reorder_bunches;
 use crate::real::{Matrix, Real, Vector};
-use crate::shape::Shape;
+use crate::shape::{Shape, place_alone};
 use crate::transfer::Transfer;
 
 /// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
@@ -188,7 +188,13 @@ impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
                 &unmoved
             };
             let domain = &domains[bunch];
-            if let Err(cause) = S::place(machine, stencil, scene.lattice, &position, domain, h) {
+            let placed = if M::ALONE {
+                let position = &vectors(machine, position);
+                place_alone::<T, D, S>(stencil, scene.lattice, position, domain, h)
+            } else {
+                S::place(machine, stencil, scene.lattice, &position, domain, h)
+            };
+            if let Err(cause) = placed {
                 let positions = vectors(machine, position);
                 let (p, cause) = blamed::<T, D, S>(scene.lattice, &positions, domain, h, cause);
                 return Err((BUNCH * bunch + p, cause));

@@ -60,10 +60,21 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
     /// the shape function is and whoever asks for them. Those of hat functions are done before a call is.
     #[inline(always)]
     pub fn over<M: Machine<T>, const W: usize>(self, machine: M) -> Summed<M::Eight, D, K> {
+        if M::ALONE {
+            return Self::eights(machine, &self.all_alone());
+        }
         if W == 2 {
             return self.all::<M, W>(machine);
         }
-        let summed = machine.apart(Over::<T, D, K, W>(self));
+        Self::eights(machine, &machine.apart(Over::<T, D, K, W>(self)))
+    }
+
+    /// Sums of numbers as such of eights.
+    #[inline(always)]
+    fn eights<M: Machine<T>>(
+        machine: M,
+        summed: &Summed<[T; BUNCH], D, K>,
+    ) -> Summed<M::Eight, D, K> {
         let nothing = machine.splat(T::zero());
         let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; K] };
         for c in 0..D {

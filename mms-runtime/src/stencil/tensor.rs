@@ -63,7 +63,7 @@ pub struct Tensor<T, const D: usize> {
     /// Whether all of each half have the same nodes.
     shared: bool,
     /// How many nodes along each axis have a weight, at most: 2, 3 or 4. Beyond those nothing means anything.
-    width: usize,
+    pub(super) width: usize,
     known: Known,
 }
 
@@ -224,6 +224,11 @@ impl<T: Real, const D: usize> Tensor<T, D> {
         members: Members,
         nodes: Window<'_, T>,
     ) {
+        if M::ALONE {
+            let moment = carried.moments.map(|_| self.moments::<M, W>(machine, lattice).0);
+            let carried = Carried::of(machine, carried);
+            return self.scatter_alone(&carried, moment.as_ref(), members, nodes);
+        }
         if carried.slopes.is_some() || carried.moments.is_some() {
             self.onto::<M, W, true>(machine, lattice, carried, members, nodes);
         } else {

@@ -1,0 +1,143 @@
+//! The sums of one particle after the other, where a machine has no registers for more: as loops over nodes that are
+//! compiled once for all widths, for what is not fast there anyway need not be large. Each particle's numbers are
+//! multiplied in the order in which [`scatter`](super::scatter) and [`gather`](super::gather) multiply those of one.
+
+use super::gather::{Summed, Sums};
+use super::tensor::{Along, Tensor};
+use super::{BUNCH, Carried, HALF, Members};
+use crate::nodal::{Nodal, Window};
+use crate::real::Real;
+
+/// The most axes; along those that a stencil has not there is one node, of weight 1.
+const AXES: usize = 3;
+
+/// The most asides: slopes and moments.
+const ASIDES: usize = 2;
+
+impl<T: Real, const D: usize> Tensor<T, D> {
+    fn nodes_along(&self, axis: usize) -> usize {
+        if axis < D { self.width } else { 1 }
+    }
+
+    fn weight_alone(&self, axis: usize, k: usize, particle: usize) -> T {
+        if axis < D { self.weight[axis][k][particle] } else { T::one() }
+    }
+
+    /// The node `k` along every axis, of a particle.
+    fn node(&self, particle: usize, k: [usize; AXES]) -> u32 {
+        let apart: u32 = (0..D).map(|a| k[a] as u32 * self.stride[a]).sum();
+        self.first[particle].wrapping_add(apart)
+    }
+
+    /// Adds to the nodes of the `members`, with the moments of the weights where such are carried.
+    pub(super) fn scatter_alone(
+        &self,
+        carried: &Carried<[T; BUNCH], D>,
+        moment: Option<&Along<T, D>>,
+        [from, to]: Members,
+        mut nodes: Window<'_, T>,
+    ) {
+        for p in from..to {
+            // What stands in place of the weight of node `k` along an axis.
+            let aside = |a: usize, k: usize| {
+                let mut aside = [T::zero(); HALF];
+                for c in 0..if a < D { D } else { 0 } {
+                    if let Some(slopes) = &carried.slopes {
+                        aside[c] = self.slope[a][k][p] * slopes[a][c][p];
+                    }
+                    if let (Some(moments), Some(moment)) = (&carried.moments, moment) {
+                        aside[c] += moment[a][k][p] * moments[a][c][p];
+                    }
+                }
+                aside
+            };
+            for k2 in 0..self.nodes_along(2) {
+                let (w2, a2) = (self.weight_alone(2, k2, p), aside(2, k2));
+                for k1 in 0..self.nodes_along(1) {
+                    let (w1, a1) = (self.weight_alone(1, k1, p), aside(1, k1));
+                    for k0 in 0..self.nodes_along(0) {
+                        let (w0, a0) = (self.weight_alone(0, k0, p), aside(0, k0));
+                        let [node] = nodes.row(self.node(p, [k0, k1, k2]));
+                        for c in 0..HALF {
+                            let plane = w2 * carried.value[p % HALF][p / HALF * HALF + c] + a2[c];
+                            let row = w1 * plane + w2 * a1[c];
+                            node.0[c] += w0 * row + w1 * (w2 * a0[c]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
+    /// The sums over the nodes of every particle.
+    pub(super) fn all_alone(&self) -> Summed<[T; BUNCH], D, K> {
+        let all = self.stencil.gather_alone(&self.asides, self.nodes);
+        let asides = std::array::from_fn(|s| all.asides[s]);
+        Summed { value: all.value, asides }
+    }
+}
+
+impl<T: Real, const D: usize> Tensor<T, D> {
+    /// Those, with so many asides.
+    fn gather_alone(
+        &self,
+        asides: &[&Along<T, D>],
+        nodes: &[Nodal<T>],
+    ) -> Summed<[T; BUNCH], D, ASIDES> {
+        let nothing = [T::zero(); BUNCH];
+        let mut all = Summed { value: [nothing; D], asides: [[[nothing; D]; D]; ASIDES] };
+        for p in 0..BUNCH {
+            let accumulate = |axis: usize, k: usize, before: &Sum<T>, sums: &mut Sum<T>| {
+                let weight = self.weight_alone(axis, k, p);
+                sums.value += weight * before.value;
+                for (s, aside) in asides.iter().enumerate() {
+                    for b in 0..axis {
+                        sums.asides[s][b] += weight * before.asides[s][b];
+                    }
+                    if axis < D {
+                        sums.asides[s][axis] += aside[axis][k][p] * before.value;
+                    }
+                }
+            };
+            for c in 0..D {
+                let mut space = Sum::nothing();
+                for k2 in 0..self.nodes_along(2) {
+                    let mut plane = Sum::nothing();
+                    for k1 in 0..self.nodes_along(1) {
+                        let mut row = Sum::nothing();
+                        for k0 in 0..self.nodes_along(0) {
+                            let node = &nodes[self.node(p, [k0, k1, k2]) as usize];
+                            let number = Sum { value: node.0[c], ..Sum::nothing() };
+                            accumulate(0, k0, &number, &mut row);
+                        }
+                        accumulate(1, k1, &row, &mut plane);
+                    }
+                    accumulate(2, k2, &plane, &mut space);
+                }
+                all.value[c][p] = space.value;
+                for s in 0..asides.len() {
+                    for a in 0..D {
+                        all.asides[s][a][c][p] = space.asides[s][a];
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+/// The sums of one component of one particle.
+#[derive(Clone, Copy)]
+struct Sum<T> {
+    value: T,
+    asides: [[T; AXES]; ASIDES],
+}
+
+impl<T: Real> Sum<T> {
+    /// To -0 a product is added without an addition.
+    fn nothing() -> Self {
+        Self { value: -T::zero(), asides: [[-T::zero(); AXES]; ASIDES] }
+    }
+}
