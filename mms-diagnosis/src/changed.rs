@@ -97,7 +97,7 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
             return stress.fill(Matrix::zeros());
         }
         self.exact.field.kirchhoff_stress(reference, displacement_gradient, stress);
-        if let Some((Hypothesis { change: Change::Stress(change), .. }, size)) = self.mistake {
+        if let Some((Hypothesis { change: Change::Stress(_, change), .. }, size)) = self.mistake {
             let time = f64::from_bits(self.time.load(Relaxed));
             change(&self.given(size, time, reference, displacement_gradient), stress);
         }

@@ -79,7 +79,7 @@ impl<const D: usize> Sampled<'_, D> {
 
     /// As b. `None` where an exact value is not finite.
     fn force(&self, mut hypotheses: Vec<Hypothesis<D>>) -> Option<Diagnosis> {
-        hypotheses.retain(|it| matches!(it.change, Change::Force(_) | Change::Stress(_)));
+        hypotheses.retain(|it| matches!(it.change, Change::Force(_) | Change::Stress(..)));
         let beside = self.beside();
         let (right, by_differences) = (self.forces(None), self.balanced(&beside, None));
         let scale = size(&right).max(f64::MIN_POSITIVE);
@@ -90,7 +90,7 @@ impl<const D: usize> Sampled<'_, D> {
         let wrong = |hypothesis: &Hypothesis<D>, at: &[f64]| {
             let added = match hypothesis.change {
                 Change::Force(change) => less(&self.forces(Some((change, at))), 1.0, &right),
-                Change::Stress(change) => {
+                Change::Stress(_, change) => {
                     less(&self.balanced(&beside, Some((change, at))), 1.0, &by_differences)
                 }
                 _ => vec![0.0; right.len()],

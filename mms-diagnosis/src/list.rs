@@ -1,7 +1,7 @@
 //! The list of hypotheses, for people.
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, Kind, OF_MOTION, Size, all, of_tangent, voigt_orders};
+use crate::hypothesis::{Change, Hypothesis, Kind, Of, Size, all, of_tangent, voigt_orders};
 use crate::patterns;
 
 /// What a hypothesis is.
@@ -65,8 +65,8 @@ fn names<const D: usize>(exact: &Exact<'_, D>, it: &Hypothesis<D>) -> Vec<Listed
 
 fn shown_by<const D: usize>(it: &Hypothesis<D>) -> &'static str {
     match it.change {
-        Change::Stress(_) if OF_MOTION.contains(&it.name) => "exact state, step, results",
-        Change::Stress(_) => "law, exact state, step, results",
+        Change::Stress(Of::Motion, _) => "exact state, step, results",
+        Change::Stress(..) => "law, exact state, step, results",
         Change::Force(_) | Change::Surface(_) | Change::Density => "exact state, step, results",
         Change::Mass => "exact state, results",
         Change::Start(_) => "step, results",

@@ -279,7 +279,7 @@ pub fn diagnose<const D: usize>(
 ) -> Result<Diagnosis, Refusal> {
     let weak = Weak::new(exact, response.time, response.reference.len() / D)?;
     let is_shown = |change: &Change<D>| match change {
-        Change::Force(_) | Change::Stress(_) | Change::Surface(_) | Change::Density => true,
+        Change::Force(_) | Change::Stress(..) | Change::Surface(_) | Change::Density => true,
         // After one step it is a start at another time.
         Change::Mass => response.step.is_none(),
         Change::Start(_) => response.step.is_some(),

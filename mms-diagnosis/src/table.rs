@@ -5,7 +5,7 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, OF_MOTION, voigt_orders};
+use crate::hypothesis::{Change, Given, Hypothesis, Of, voigt_orders};
 use crate::rank::{Error, explain};
 use crate::smooth::size;
 
@@ -58,19 +58,6 @@ const EXPLAINED: f64 = 1.0 - 1e-6;
 /// In a table mistakes of several sizes may be one formula.
 const NEARER: f64 = 1.3;
 
-/// Mistakes in the measure: what stands for P is written down, whatever the stress is said to be.
-pub(crate) fn is_of_measure(name: &str) -> bool {
-    [
-        "stress_first_piola",
-        "stress_transposed",
-        "stress_second_piola",
-        "stress_kirchhoff",
-        "stress_cauchy",
-        "stress_volume",
-    ]
-    .contains(&name)
-}
-
 /// Diagnoses a law. `None` where an exact stress is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
@@ -80,7 +67,7 @@ pub fn diagnose<const D: usize>(
     if table.measure != Measure::FirstPiola {
         hypotheses.push(Hypothesis::first_piola());
     }
-    hypotheses.retain(|it| matches!(it.change, Change::Stress(_)) && !OF_MOTION.contains(&it.name));
+    hypotheses.retain(|it| matches!(it.change, Change::Stress(of, _) if of != Of::Motion));
     // P is not symmetric, and has nine components.
     if table.measure != Measure::FirstPiola {
         hypotheses.extend(voigt_orders());
@@ -110,11 +97,13 @@ pub fn diagnose<const D: usize>(
             reference: &table.reference,
             gradient: &table.gradient,
         };
-        if let Change::Stress(change) = hypothesis.change {
+        if let Change::Stress(_, change) = hypothesis.change {
             change(&given, &mut wrong);
         }
-        let measure =
-            if is_of_measure(hypothesis.name) { Measure::FirstPiola } else { table.measure };
+        let measure = match hypothesis.change {
+            Change::Stress(Of::Measure, _) => Measure::FirstPiola,
+            _ => table.measure,
+        };
         let mut wrong = flat(&wrong, measure);
         if let Change::Order(order) = hypothesis.change {
             wrong.chunks_mut(D * D).for_each(|it| reorder(it, order));

@@ -7,10 +7,10 @@ use mms_runtime::{Matrix, Vector};
 
 use crate::answer::Diagnosis;
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Given, Hypothesis, OF_MOTION, of_tangent, voigt_orders};
+use crate::hypothesis::{Change, Given, Hypothesis, Of, of_tangent, voigt_orders};
 use crate::slopes::{Slopes, slopes};
 use crate::smooth::size;
-use crate::table::{is_of_measure, to_round_off};
+use crate::table::to_round_off;
 
 /// What a law gave.
 #[derive(Clone, Debug)]
@@ -60,21 +60,13 @@ fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
     (0..36).map(|k| tangent[6 * at(k / 6) + at(k % 6)]).collect()
 }
 
-/// Mistakes of a stress that are none of a tangent: a factor J, which is `tangent_volume` there; and laws that are not objective,
-/// for they have no Jaumann rate.
-const OF_STRESS: [&str; 3] = ["strain_left", "shear_factor", "stress_volume_twice"];
-
 /// Diagnoses a law by its tangent. `None` where the exact one is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
     table: &Table<D>,
     mut hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Diagnosis> {
-    hypotheses.retain(|it| {
-        let is_of_stress =
-            is_of_measure(it.name) || OF_STRESS.contains(&it.name) || OF_MOTION.contains(&it.name);
-        matches!(it.change, Change::Stress(_)) && !is_of_stress
-    });
+    hypotheses.retain(|it| matches!(it.change, Change::Stress(Of::Law, _)));
     let hypotheses: Vec<Hypothesis<D>> =
         [of_tangent(), voigt_orders(), hypotheses].into_iter().flatten().collect();
     let of_stress = |gradient: &[Matrix<f64, D>]| exact.stress(&table.reference, gradient);
@@ -103,7 +95,7 @@ pub fn diagnose<const D: usize>(
             Change::Order(order) => {
                 right.chunks_exact(36).flat_map(|it| reordered(it, *order)).collect()
             }
-            Change::Stress(change) => tangents(&slopes(&table.gradient, |gradient| {
+            Change::Stress(_, change) => tangents(&slopes(&table.gradient, |gradient| {
                 let mut tau = of_stress(gradient);
                 let (time, reference) = (exact.domain.time[0], &table.reference[..]);
                 change(&Given { exact, size, time, reference, gradient }, &mut tau);

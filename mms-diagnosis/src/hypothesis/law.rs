@@ -2,7 +2,7 @@
 
 use mms_runtime::Matrix;
 
-use super::{Change, Given, Hypothesis, Kind, Known, OfStress};
+use super::{Change, Given, Hypothesis, Kind, Known, Of, OfStress};
 use crate::exact::Exact;
 use crate::law::{LAWS, Law};
 
@@ -11,7 +11,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         "moduli_factor",
         "the stress times a factor",
         1.3,
-        Change::Stress(|at, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
+        Change::Stress(Of::Law, |at, tau| tau.iter_mut().for_each(|tau| *tau *= at.size[0])),
         |_| {
             let missing = Known::new(0.0, "stress_missing", "the stress is missing");
             [vec![missing], units()].concat()
@@ -33,7 +33,7 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
             "lambda_factor",
             "lambda times a factor",
             1.3,
-            Change::Stress(|at, tau| {
+            Change::Stress(Of::Law, |at, tau| {
                 with_moduli(at, tau, |[lambda, mu], size| [size * lambda, mu])
             }),
             |exact| {
@@ -73,7 +73,7 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
             "mu_factor",
             "mu times a factor",
             1.3,
-            Change::Stress(|at, tau| {
+            Change::Stress(Of::Law, |at, tau| {
                 with_moduli(at, tau, |[lambda, mu], size| [lambda, size * mu])
             }),
             |exact| {
@@ -94,7 +94,7 @@ fn of_moduli<const D: usize>() -> [Hypothesis<D>; 3] {
         Hypothesis::fixed(
             "moduli_swapped",
             "lambda and mu are swapped",
-            Change::Stress(|at, tau| with_moduli(at, tau, |[lambda, mu], _| [mu, lambda])),
+            Change::Stress(Of::Law, |at, tau| with_moduli(at, tau, |[lambda, mu], _| [mu, lambda])),
         ),
     ]
 }
@@ -129,7 +129,7 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         };
         let kind = if is_linear { Kind::Mistake } else { Kind::Choice };
         let which = (!is_linear).then_some(law.name);
-        Hypothesis { kind, which, ..Hypothesis::fixed(name, says, Change::Stress(change)) }
+        Hypothesis { kind, which, ..Hypothesis::fixed(name, says, Change::Stress(Of::Law, change)) }
     };
     others.map(hypothesis).collect()
 }

@@ -20,7 +20,6 @@ use crate::slopes::Slopes;
 
 pub use face::{away, faces};
 pub use output::earlier_velocity;
-pub use stress::OF_MOTION;
 pub use tangent::{of_tangent, voigt_orders};
 
 /// Where a hypothesis is evaluated: X, and H where that is known.
@@ -64,12 +63,25 @@ pub type OfMotion<const D: usize> = fn(&Given<'_, D>, MotionPart<'_, D>);
 /// What a tangent of this size makes of a symmetric rate of deformation, from how tau changes with F there and at F = I.
 pub type OfTangent<const D: usize> = fn([&Slopes<D>; 2], &[f64], &Matrix<f64, D>) -> Matrix<f64, D>;
 
+/// What a mistake in the stress is of, for one who sees the law alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// The law: its stress shows it, and its tangent.
+    Law,
+    /// The stress alone: its tangent is one of another mistake, or there is none, for the law is not objective.
+    Stress,
+    /// The measure: this one stands for P, whatever the stress is said to be.
+    Measure,
+    /// The motion besides F: no law shows it.
+    Motion,
+}
+
 /// What a hypothesis changes. The functions are given what is right.
 pub enum Change<const D: usize> {
     /// b.
     Force(OfForce<D>),
     /// tau in the body.
-    Stress(OfStress<D>),
+    Stress(Of, OfStress<D>),
     /// tau whose tractions act on the face.
     Surface(OfTraction<D>),
     /// rho0, by the size as a factor.
@@ -95,7 +107,7 @@ impl<const D: usize> Change<D> {
     pub fn name(&self) -> &'static str {
         match self {
             Change::Force(_) => "body force",
-            Change::Stress(_) => "stress",
+            Change::Stress(..) => "stress",
             Change::Surface(_) => "traction",
             Change::Density | Change::Mass => "mass",
             Change::Start(_) => "start",
@@ -232,7 +244,7 @@ impl<const D: usize> Hypothesis<D> {
     /// P in place of another measure, where a law is asked for that.
     pub fn first_piola() -> Self {
         let says = "P in place of the measure that it is said to be";
-        Self::fixed("stress_first_piola", says, Change::Stress(|_, _| {}))
+        Self::fixed("stress_first_piola", says, Change::Stress(Of::Measure, |_, _| {}))
     }
 
     /// The same, with a size that is a part of a time step or of a cell: smaller on a finer mesh.

@@ -3,55 +3,63 @@
 use mms_runtime::Matrix;
 use mms_runtime::tensor::determinant;
 
-use super::{Change, Given, Hypothesis, Known, inverse, of_first};
+use super::{Change, Given, Hypothesis, Known, Of, inverse, of_first};
 use crate::exact::Exact;
 
-/// What depends on the motion besides F: nothing that a law alone shows.
-pub const OF_MOTION: [&str; 3] = ["moduli_at_present", "viscosity", "artificial_viscosity"];
-
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
-    let stress = |name, says, change| Hypothesis::fixed(name, says, Change::Stress(change));
+    let stress = |of, name, says, change| Hypothesis::fixed(name, says, Change::Stress(of, change));
     vec![
-        stress("stress_transposed", "P^T in place of P", |at, tau| {
+        stress(Of::Measure, "stress_transposed", "P^T in place of P", |at, tau| {
             of_first(at, tau, |f, p| p.transpose() * f.transpose());
         }),
-        stress("stress_second_piola", "S in place of P", |at, tau| {
+        stress(Of::Measure, "stress_second_piola", "S in place of P", |at, tau| {
             of_first(at, tau, |f, p| inverse(f) * p * f.transpose());
         }),
-        stress("stress_kirchhoff", "tau in place of P", |at, tau| {
+        stress(Of::Measure, "stress_kirchhoff", "tau in place of P", |at, tau| {
             of_first(at, tau, |f, p| p * f.transpose() * f.transpose());
         }),
-        stress("stress_cauchy", "sigma in place of P", |at, tau| {
+        stress(Of::Measure, "stress_cauchy", "sigma in place of P", |at, tau| {
             of_first(at, tau, |f, p| p * f.transpose() * f.transpose() / determinant(f));
         }),
-        stress("stress_volume", "P/J in place of P: sigma with the reference volume", |at, tau| {
-            of_first(at, tau, |f, p| p * f.transpose() / determinant(f));
-        }),
         stress(
+            Of::Measure,
+            "stress_volume",
+            "P/J in place of P: sigma with the reference volume",
+            |at, tau| {
+                of_first(at, tau, |f, p| p * f.transpose() / determinant(f));
+            },
+        ),
+        stress(
+            Of::Stress,
             "stress_volume_twice",
             "J P in place of P: tau with the present volume",
             |at, tau| {
                 of_first(at, tau, |f, p| p * f.transpose() * determinant(f));
             },
         ),
-        stress("deformation_transposed", "F^T in place of F in the law", |at, tau| {
+        stress(Of::Law, "deformation_transposed", "F^T in place of F in the law", |at, tau| {
             let transposed: Vec<_> = at.gradient.iter().map(Matrix::transpose).collect();
             tau.copy_from_slice(&at.exact.stress(at.reference, &transposed));
         }),
-        stress("strain_left", "F F^T in place of F^T F: S of the wrong strain", |at, tau| {
-            let transposed: Vec<_> = at.gradient.iter().map(Matrix::transpose).collect();
-            let other = at.exact.stress(at.reference, &transposed);
-            for ((tau, other), h) in tau.iter_mut().zip(other).zip(at.gradient) {
-                let f = h + Matrix::identity();
-                // tau(F^T) = F^T S F.
-                *tau = f * inverse(&f.transpose()) * other * inverse(&f) * f.transpose();
-            }
-        }),
+        stress(
+            Of::Stress,
+            "strain_left",
+            "F F^T in place of F^T F: S of the wrong strain",
+            |at, tau| {
+                let transposed: Vec<_> = at.gradient.iter().map(Matrix::transpose).collect();
+                let other = at.exact.stress(at.reference, &transposed);
+                for ((tau, other), h) in tau.iter_mut().zip(other).zip(at.gradient) {
+                    let f = h + Matrix::identity();
+                    // tau(F^T) = F^T S F.
+                    *tau = f * inverse(&f.transpose()) * other * inverse(&f) * f.transpose();
+                }
+            },
+        ),
         Hypothesis::factor(
             "shear_factor",
             "the shear components of the stress times a factor",
             2.0,
-            Change::Stress(|at, tau| {
+            Change::Stress(Of::Stress, |at, tau| {
                 for tau in tau {
                     let diagonal = Matrix::from_diagonal(&tau.diagonal());
                     *tau = diagonal + (*tau - diagonal) * at.size[0];
@@ -73,16 +81,21 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
                 ]
             },
         ),
-        stress("moduli_at_present", "moduli at the present place x in place of X", |at, tau| {
-            let u = at.exact.displacement(at.time, at.reference);
-            let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x + u).collect();
-            tau.copy_from_slice(&at.exact.stress(&places, at.gradient));
-        }),
+        stress(
+            Of::Motion,
+            "moduli_at_present",
+            "moduli at the present place x in place of X",
+            |at, tau| {
+                let u = at.exact.displacement(at.time, at.reference);
+                let places: Vec<_> = at.reference.iter().zip(&u).map(|(x, u)| x + u).collect();
+                tau.copy_from_slice(&at.exact.stress(&places, at.gradient));
+            },
+        ),
         Hypothesis::amount(
             "viscosity",
             "viscous stresses besides, as stiffness-proportional damping has: tau + 2 eta D; the size is eta",
             vec![0.01 * wave_modulus(exact) * (exact.domain.time[1] - exact.domain.time[0])],
-            Change::Stress(|at, tau| {
+            Change::Stress(Of::Motion, |at, tau| {
                 let pairs = tau.iter_mut().zip(rates(at));
                 pairs.for_each(|(tau, rate)| *tau += rate * (2.0 * at.size[0]));
             }),
@@ -93,7 +106,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
             "artificial_viscosity",
             "a pressure c rho h c0 |div v| besides where div v < 0, of von Neumann and Richtmyer; the size is c",
             vec![0.5],
-            Change::Stress(|at, tau| {
+            Change::Stress(Of::Motion, |at, tau| {
                 let density = at.exact.density(at.reference);
                 let mut speed = vec![0.0; tau.len()];
                 at.exact.field.wave_speed(at.reference, &mut speed);
