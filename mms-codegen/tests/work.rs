@@ -1,4 +1,5 @@
-//! A check ends soon, whatever the text: it counts steps, and says what it left. And it stops when it is asked to.
+//! A check ends soon, whatever the text: it counts steps, and says what it left. And it stops when it is asked to. Where
+//! formulas are too large to be derived, the one that makes them so is named.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,10 @@ use mms_codegen::certify::rest::Rest;
 use mms_codegen::certify::written::gaps;
 use mms_codegen::certify::{claims, computed};
 use mms_codegen::compile::{Failure, compile_unproved};
+use mms_codegen::culprit::culprit;
 use mms_codegen::{Compiled, Options};
+use mms_spec::read_field;
+use mms_spec::source::Sources;
 use mms_symbolic::work::Stop;
 
 /// A check ends within ten seconds of the processor's time. What takes this long has no end.
@@ -184,4 +188,53 @@ fn a_stress_at_rest_is_found_with_its_components() {
     assert_eq!(stress, &[3e5, 0.0, 0.0, 3e5]);
     let warning = found.warning(&compiled).expect("a warning");
     assert!(warning.is_warning && warning.message.contains("stress at rest"));
+}
+
+/// The text that is found guilty in a field of these definitions, and what it is part of.
+fn found(lets: &str, u: &str) -> Option<(String, String)> {
+    let text = format!(
+        "[field]\ntitle = \"x\"\ndimension = 1\n[let]\n{lets}\n[displacement]\nu = [\"{u}\"]\n"
+    );
+    let mut sources = Sources::default();
+    let id = sources.add("x.toml", text);
+    let field = read_field(&sources, id, "x", &mut Vec::new()).expect("a field");
+    let culprit = culprit(&field)?;
+    Some((sources.slice(culprit.span).to_string(), culprit.definition))
+}
+
+fn waves(count: usize) -> String {
+    let waves: Vec<_> = (1..=count).map(|k| format!("sin({k}*X*t)")).collect();
+    waves.join("*")
+}
+
+#[test]
+fn the_definition_with_most_of_the_nodes_is_found() {
+    let product = waves(30);
+    let lets = format!("a = \"X^2\"\nb = \"1 + cos(t)*({product})\"\nc = \"b + a\"");
+    let (text, definition) = found(&lets, "c*X").expect("a culprit");
+    assert_eq!(definition, "`b`");
+    assert!(text.starts_with("sin(1*X*t)") && text.ends_with("sin(30*X*t)"), "{text}");
+}
+
+#[test]
+fn the_sub_expression_is_found_in_a_component() {
+    let product = waves(40);
+    let (text, definition) =
+        found("a = \"t\"", &format!("X*(t + exp({product}))")).expect("a culprit");
+    assert_eq!(definition, "component 1 of u");
+    assert!(text.contains(&product) && !text.starts_with("X*"), "{text}");
+}
+
+#[test]
+fn many_small_definitions_are_not_to_blame_for_what_uses_them() {
+    let lets: String = (0..60).map(|k| format!("a{k} = \"sin({k}*X + t)\"\n")).collect();
+    let product: Vec<_> = (0..60).map(|k| format!("a{k}")).collect();
+    let (text, definition) = found(&lets, &product.join("*")).expect("a culprit");
+    assert_eq!((text, definition), (product.join("*"), "component 1 of u".into()));
+}
+
+#[test]
+fn a_long_chain_of_definitions_takes_few_trials() {
+    let lets: String = (1..2_000).map(|k| format!("a{k} = \"a{}*X + t\"\n", k - 1)).collect();
+    assert!(found(&format!("a0 = \"X\"\n{lets}"), "a1999").is_some());
 }

@@ -1,5 +1,6 @@
 //! Only what is asked for: selected quantities, changed defaults, frozen parameters.
 
+mod quick;
 mod refusals;
 
 use std::collections::{BTreeMap, BTreeSet};
