@@ -19,7 +19,7 @@ fn functions() -> Vec<(String, u64)> {
 
 /// One dimension, one precision, one shape function: its weights, P2G, G2P and the residual of XPIC, and the sums over
 /// three and four nodes (onto them with slopes and without; of values, gradients and slopes), each for the processor's
-/// registers and for none; and no spline or parallelogram.
+/// registers, while without such there are no sums of eight particles; and no spline or parallelogram.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_bar_needs_the_solver_of_a_bar() {
@@ -41,7 +41,7 @@ fn a_bar_needs_the_solver_of_a_bar() {
     let kernels = named(&["8dispatch8baseline"]);
     assert_eq!(kernels.len(), passes, "{kernels:?}");
     let kernels = named(&["Plain", "5apart"]);
-    assert_eq!(kernels.len(), sums, "{kernels:?}");
+    assert!(kernels.is_empty(), "{kernels:?}");
     if cfg!(target_arch = "x86_64") {
         let kernels = named(&["8dispatch4avx2"]);
         assert_eq!(kernels.len(), passes + sums, "{kernels:?}");
