@@ -19,7 +19,7 @@ fn functions() -> Vec<(String, u64)> {
 
 /// One dimension, one precision, one shape function: its weights, P2G, G2P and the residual of XPIC, and the sums over
 /// three and four nodes (onto them with slopes and without; of values, gradients and slopes), each for the processor's
-/// registers, while without such there are no sums of eight particles; and no spline or parallelogram.
+/// registers, while without such there is one sum onto nodes and one over them; and no spline or parallelogram.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_bar_needs_the_solver_of_a_bar() {
@@ -45,6 +45,8 @@ fn a_bar_needs_the_solver_of_a_bar() {
     if cfg!(target_arch = "x86_64") {
         let kernels = named(&["8dispatch4avx2"]);
         assert_eq!(kernels.len(), passes + sums, "{kernels:?}");
+        let kernels = named(&["7stencil5alone", "_alone"]);
+        assert_eq!(kernels.len(), 2, "{kernels:?}");
     }
     // What is not inlined under the dispatch is compiled without the processor's instructions, and calls each of them.
     for numbers in ["_pd", "_ps"] {
