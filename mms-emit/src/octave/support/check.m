@@ -20,6 +20,15 @@ function values = rows(text)
   values = reshape(hex2num(reshape(text', 16, [])'), width / 16, count)';
 end
 
+function now = stacked(times)
+  % What is known at each of some times, as columns.
+  now = struct();
+  names = fieldnames(times{1});
+  for k = 1:numel(names)
+    now.(names{k}) = cellfun(@(time) time.(names{k}), times);
+  end
+end
+
 function found = at_arrays(evaluate, subject, inputs, count)
   % The components at arrays of other shapes, which make one of two rows and three columns.
   shapes = {[2, 1], [1, 3], [2, 3]};
