@@ -75,7 +75,7 @@ impl Ranked {
     }
 
     /// Whether it fits with a size that nobody would have expected.
-    fn is_free(&self) -> bool {
+    pub fn is_free(&self) -> bool {
         self.is_sized && !self.is_known
     }
 }

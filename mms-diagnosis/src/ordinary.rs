@@ -4,7 +4,9 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
 use mms_runtime::{Fill, Method};
 
-use crate::answer::{Diagnosis, Explained, Fields, Finding, Like, Limits, Rung, ranked, unseen};
+use crate::answer::{
+    Diagnosis, Explained, Fields, Finding, Like, Limits, Ranked, Rung, ranked, unseen,
+};
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
@@ -173,7 +175,8 @@ where
 }
 
 /// When a mistake is named, on one mesh and on two. What has no size to be fitted and explains an error is there, however small it
-/// is: right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size.
+/// is: right solvers do not make such errors. On one mesh the error of a method may look like a mistake of some size, and so may on
+/// two what falls with its order.
 const LIMITS: [Limits; 2] = [
     Limits { excess: [0.05, 1.0], left: [0.35, 0.12], nearer: [1.3, 0.95] },
     Limits { excess: [0.05, 0.4], left: [0.35, 0.15], nearer: [1.3, 0.95] },
@@ -214,7 +217,12 @@ where
     let middle = ordinary[ordinary.len() / 2];
     let ranked = ranked(exact, hypotheses, explained.clone(), middle, &needs);
     let kind = usize::from(look.levels.are_two());
+    // What may be the error of a method, as that of a wave's speed, may look like a factor.
+    let is_of_method = look.levels.order().is_none_or(|order| order >= VANISHES) && error <= middle;
     let finding = match LIMITS[kind].finding(&ranked, look.error.excess()) {
+        Finding::Named if is_of_method && ranked.first().is_some_and(Ranked::is_free) => {
+            Finding::Nothing
+        }
         Finding::Unexplained if look.is_ordinary(error, &ordinary) => Finding::Nothing,
         found => found,
     };

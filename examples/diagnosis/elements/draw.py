@@ -15,7 +15,7 @@ import tempfile
 
 import numpy as np
 
-from solver import Mesh, broadcast, solve
+from solver import Mesh, Solver, broadcast, write
 
 FIELDS = [
     "travelling_wave_2d",
@@ -80,7 +80,8 @@ class Case:
 
     def solved(self, mistake, size):
         """u on each mesh; None where a run stops."""
-        runs = [solve(self.field, self.faces, mesh, self.end, self.courant, mistake, size) for mesh in self.meshes]
+        solvers = [Solver(self.field, self.faces, mesh, mistake, size) for mesh in self.meshes]
+        runs = [solver.until(self.end, self.courant) for solver in solvers]
         return None if any(u is None for u in runs) else runs
 
     def error(self, u):
@@ -93,8 +94,7 @@ class Case:
         with tempfile.TemporaryDirectory() as folder:
             paths = [os.path.join(folder, f"{n}.csv") for n in self.cells]
             for path, mesh, values in zip(paths, self.meshes, u):
-                rows = np.column_stack([np.full(mesh.x.shape[1], self.end), *mesh.x, *values])
-                np.savetxt(path, rows, delimiter=",", header="time,X,Y,ux,uy", comments="", fmt="%.17g")
+                write(path, mesh, self.end, values)
             sizes = ",".join(repr(float(mesh.spacing[0])) for mesh in self.meshes)
             words = [command, "diagnose", self.name, *paths, "--h", sizes, "--json"]
             return json.loads(subprocess.run(words, capture_output=True, text=True).stdout)

@@ -65,14 +65,11 @@ class Mesh:
         return np.bincount(self.cells.ravel(), values.ravel(), self.x.shape[1])
 
 
-def wrong_stress(mistake, size, field, x, h):
+def wrong_stress(mistake, size, law, x, h):
     """P of H, with a mistake."""
-    law = lambda h: np.array(
-        np.broadcast_arrays(*np.ravel(np.array(field.material_first_piola_kirchhoff(*x, *h.reshape(4, -1)), object)))
-    ).reshape(2, 2, -1)
     if mistake == "stress_small_strain":
-        return law(h * 1e-6) / 1e-6
-    p = law(h)
+        return law(x, h * 1e-6) / 1e-6
+    p = law(x, h)
     f = h + np.eye(2)[:, :, None]
     j = f[0, 0] * f[1, 1] - f[0, 1] * f[1, 0]
     inverse = np.array([[f[1, 1], -f[0, 1]], [-f[1, 0], f[0, 0]]]) / j
@@ -109,65 +106,116 @@ def wrong_force(mistake, size, field, time, step, x, u):
     return b
 
 
-def solve(field, faces, mesh, end, courant, mistake=None, size=None):
-    """u at the nodes at the end by the central-difference method; None where that is not finite."""
-    start = float(field.time_window()[0])
-    faces = dict(faces)
-    if mistake in ("held_face", "free_face"):
-        faces[size] = "prescribed" if mistake == "held_face" else "free"
-    held = np.zeros(mesh.x.shape, bool)
-    for face, claim in faces.items():
-        if claim in ("fixed", "prescribed"):
-            held[:, mesh.face(face)] = True
-        elif claim == "roller":
-            held["xy".index(face[0]), mesh.face(face)] = True
-    loaded = [face for face, claim in faces.items() if claim == "traction"]
-    if mistake == "traction_missing":
-        loaded.remove(size)
-    factor = size if mistake == "density_factor" else 1.0
-    density = [broadcast([field.density(*x)], x[0])[0] * factor for _, _, _, x in mesh.points]
-    mass = sum(
-        mesh.assembled(values[:, None] * (rho * volume)) for (values, _, volume, _), rho in zip(mesh.points, density)
-    )
-    speed = max(np.max(field.wave_speed(*x)) for _, _, _, x in mesh.points)
-    steps = int(np.ceil((end - start) * speed / (courant * mesh.spacing.min() / 2)))
-    step = (end - start) / steps
-    first = field.at_time(start)
-    u, v = (broadcast(it(*mesh.x), mesh.x[0]) for it in (first.displacement, first.velocity))
-    u = 0 * u if mistake == "start_undeformed" else u
-    v = 0 * v if mistake == "start_at_rest" else v
+class Solver:
+    """The balance of momentum on a mesh. `law` is P of X and H, `without` the terms that are left out."""
 
-    def acceleration(time):
-        force = np.zeros(mesh.x.shape)
-        for (values, gradients, volume, x), rho in zip(mesh.points, density):
-            h = np.einsum("ikc,jkc->ijc", u[:, mesh.cells], gradients)
-            p = wrong_stress(mistake, size, field, x, h)
-            b = wrong_force(mistake, size, field, time, step, x, np.einsum("k,ikc->ic", values, u[:, mesh.cells]))
+    def __init__(self, field, faces, mesh, mistake=None, size=None, law=None, without=()):
+        self.field, self.faces, self.mesh = field, dict(faces), mesh
+        self.mistake, self.size, self.without = mistake, size, without
+        self.law = law or self.law_of_field
+        self.step = 0.0
+        if mistake in ("held_face", "free_face"):
+            self.faces[size] = "prescribed" if mistake == "held_face" else "free"
+        self.held = self.held_nodes()
+        self.density, self.mass = self.masses()
+
+    def law_of_field(self, x, h):
+        components = self.field.material_first_piola_kirchhoff(*x, *h.reshape(4, -1))
+        return np.array(np.broadcast_arrays(*np.ravel(np.array(components, object)))).reshape(2, 2, -1)
+
+    def held_nodes(self):
+        """Which components of nodes follow the field."""
+        held = np.zeros(self.mesh.x.shape, bool)
+        for face, claim in self.faces.items():
+            if claim in ("fixed", "prescribed"):
+                held[:, self.mesh.face(face)] = True
+            elif claim == "roller":
+                held["xy".index(face[0]), self.mesh.face(face)] = True
+        return held
+
+    def masses(self):
+        """The densities of each point of the quadrature, and the masses of nodes."""
+        mesh, factor = self.mesh, self.size if self.mistake == "density_factor" else 1.0
+        density = [broadcast([self.field.density(*x)], x[0])[0] * factor for _, _, _, x in mesh.points]
+        parts = zip(mesh.points, density)
+        return density, sum(mesh.assembled(values[:, None] * (rho * volume)) for (values, _, volume, _), rho in parts)
+
+    def gradient(self, u, gradients):
+        """H in each cell."""
+        return np.einsum("ikc,jkc->ijc", u[:, self.mesh.cells], gradients)
+
+    def internal(self, force, p, gradients, volume):
+        """Adds the forces of stresses."""
+        for i in (0, 1):
+            force[i] -= self.mesh.assembled(volume * np.einsum("jc,jkc->kc", p[i], gradients))
+
+    def external(self, force, b, values, rho, volume):
+        """Adds the body forces."""
+        for i in (0, 1):
+            force[i] += self.mesh.assembled(values[:, None] * (volume * rho * b[i]))
+
+    def tractions(self, force, now, face):
+        """Adds the loads of a face, by two points along each edge."""
+        sign = -1.0 if self.mistake == "traction_sign" and face == self.size else 1.0
+        normal = [0.0, 0.0]
+        normal["xy".index(face[0])] = -1.0 if face.endswith("min") else 1.0
+        nodes, place = self.mesh.face(face), self.mesh.x
+        a, b = nodes[:-1], nodes[1:]
+        length = np.hypot(*(place[:, b] - place[:, a]))
+        for part in (0.5 - GAUSS, 0.5 + GAUSS):
+            x = place[:, a] * (1 - part) + place[:, b] * part
+            t = broadcast(now.traction(*x, *(n + 0 * x[0] for n in normal)), x[0])
             for i in (0, 1):
-                inner = np.einsum("jc,jkc->kc", p[i], gradients)
-                force[i] += mesh.assembled(volume * (values[:, None] * (rho * b[i]) - inner))
-        now = field.at_time(time)
-        for face in loaded:
-            sign = -1.0 if mistake == "traction_sign" and face == size else 1.0
-            normal = [0.0, 0.0]
-            normal["xy".index(face[0])] = -1.0 if face.endswith("min") else 1.0
-            nodes = mesh.face(face)
-            a, b = nodes[:-1], nodes[1:]
-            length = np.hypot(*(mesh.x[:, b] - mesh.x[:, a]))
-            for part in (0.5 - GAUSS, 0.5 + GAUSS):
-                x = mesh.x[:, a] * (1 - part) + mesh.x[:, b] * part
-                t = broadcast(now.traction(*x, *(n + 0 * x[0] for n in normal)), x[0])
-                for i in (0, 1):
-                    np.add.at(force[i], a, sign * t[i] * length / 2 * (1 - part))
-                    np.add.at(force[i], b, sign * t[i] * length / 2 * part)
-        return np.where(held, broadcast(now.acceleration(*mesh.x), mesh.x[0]), force / mass)
+                np.add.at(force[i], a, sign * t[i] * length / 2 * (1 - part))
+                np.add.at(force[i], b, sign * t[i] * length / 2 * part)
 
-    a = acceleration(start)
-    for k in range(1, steps + 1):
-        v = v + step / 2 * a
-        u = u + step * v
-        a = acceleration(start + k * step)
-        v = v + step / 2 * a
-        if not np.isfinite(u).all():
-            return None
-    return u
+    def forces(self, time, u):
+        """All forces at nodes."""
+        force = np.zeros(self.mesh.x.shape)
+        for (values, gradients, volume, x), rho in zip(self.mesh.points, self.density):
+            if "stress" not in self.without:
+                h = self.gradient(u, gradients)
+                self.internal(force, wrong_stress(self.mistake, self.size, self.law, x, h), gradients, volume)
+            if "body_force" not in self.without:
+                moved = np.einsum("k,ikc->ic", values, u[:, self.mesh.cells])
+                b = wrong_force(self.mistake, self.size, self.field, time, self.step, x, moved)
+                self.external(force, b, values, rho, volume)
+        loaded = [face for face, claim in self.faces.items() if claim == "traction" and "traction" not in self.without]
+        for face in loaded:
+            if (self.mistake, self.size) != ("traction_missing", face):
+                self.tractions(force, self.field.at_time(time), face)
+        return force
+
+    def acceleration(self, time, u):
+        """Of nodes; those that are held have that of the field."""
+        exact = broadcast(self.field.at_time(time).acceleration(*self.mesh.x), self.mesh.x[0])
+        return np.where(self.held, exact, self.forces(time, u) / self.mass)
+
+    def start(self, time):
+        """u and v at the start."""
+        now = self.field.at_time(time)
+        u, v = (broadcast(it(*self.mesh.x), self.mesh.x[0]) for it in (now.displacement, now.velocity))
+        return u * (self.mistake != "start_undeformed"), v * (self.mistake != "start_at_rest")
+
+    def until(self, end, courant):
+        """u at the end by the central-difference method; None where that is not finite."""
+        first = float(self.field.time_window()[0])
+        speed = max(np.max(self.field.wave_speed(*x)) for _, _, _, x in self.mesh.points)
+        steps = int(np.ceil((end - first) * speed / (courant * self.mesh.spacing.min() / 2)))
+        self.step = step = (end - first) / steps
+        u, v = self.start(first)
+        a = self.acceleration(first, u)
+        for k in range(1, steps + 1):
+            v = v + step / 2 * a
+            u = u + step * v
+            a = self.acceleration(first + k * step, u)
+            v = v + step / 2 * a
+            if not np.isfinite(u).all():
+                return None
+        return u
+
+
+def write(path, mesh, time, u):
+    """u at the nodes at a time."""
+    rows = np.column_stack([np.full(mesh.x.shape[1], time), *mesh.x, *u])
+    np.savetxt(path, rows, delimiter=",", header="time,X,Y,ux,uy", comments="", fmt="%.17g")

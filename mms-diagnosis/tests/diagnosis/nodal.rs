@@ -85,6 +85,10 @@ fn assembled(code: &Code) -> Vec<Point> {
 }
 
 fn diagnosed(code: &Code) -> Diagnosis {
+    without(Without::default(), code)
+}
+
+fn without(without: Without, code: &Code) -> Diagnosis {
     let exact = exact(&LOADED, code.cells as f64);
     let numbers =
         |points: Vec<Point>| points.iter().flat_map(|x| x.as_slice().to_vec()).collect::<Vec<_>>();
@@ -94,7 +98,7 @@ fn diagnosed(code: &Code) -> Diagnosis {
         reference: numbers(nodes(code.cells)),
         values: numbers(assembled(code)),
         volumes: None,
-        without: Without::default(),
+        without,
         step: None,
     };
     state::diagnose(&exact, &response, &all(&exact)).unwrap()
@@ -131,4 +135,17 @@ fn nodal_residuals_name_a_term() {
     // How long a part of the side has become.
     let present = loaded(|h| traction(h) * h[(0, 1)].hypot(1.0 + h[(1, 1)]));
     assert_eq!(present, "traction_present_area on x_max");
+}
+
+#[test]
+fn nodal_residuals_of_a_part_of_the_balance_are_those_of_a_right_code() {
+    let all = Without::default();
+    let force = Code { force: |_| Point::zeros(), ..RIGHT };
+    assert_eq!(name(&without(Without { body_force: true, ..all }, &force)), "nothing");
+    let stiff = Code { stress: |h| field::first(h, [LAMBDA, MU]) * 1.2, ..force };
+    assert_eq!(name(&without(Without { body_force: true, ..all }, &stiff)), "moduli_factor");
+    let stress = Code { stress: |_| Tensor::zeros(), ..RIGHT };
+    assert_eq!(name(&without(Without { stress: true, ..all }, &stress)), "nothing");
+    let traction = Code { traction: |_| Point::zeros(), ..RIGHT };
+    assert_eq!(name(&without(Without { traction: true, ..all }, &traction)), "nothing");
 }
