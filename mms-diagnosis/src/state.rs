@@ -241,45 +241,49 @@ impl<'a, const D: usize> Weak<'a, D> {
 
     /// Per volume, what a right solver computes in the body, without what tractions add on faces.
     fn smooth_part(&self, response: &Response, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        match response.computed {
+            Computed::Acceleration => self.applied(&response.without, x),
+            Computed::Residual => self.left_over(&response.without, x),
+            // What belongs to a node of it is not known here.
+            Computed::NodalResidual => vec![Vector::zeros(); x.len()],
+        }
+    }
+
+    /// Div P + rho0 b, less what is left out.
+    fn applied(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
         let (a, b) = (self.exact.acceleration(self.time, x), self.exact.body_force(self.time, x));
-        let density = self.exact.density(x);
-        let Without { body_force, stress, .. } = response.without;
-        let keep = |is_out: bool| if is_out { 0.0 } else { 1.0 };
-        let (force, inner) = (keep(body_force), keep(stress));
-        let each = a.iter().zip(&b).zip(&density);
-        each.map(|((a, b), density)| {
-            let applied = ((a - b) * inner + b * force) * *density;
-            match response.computed {
-                Computed::Acceleration => applied,
-                Computed::Residual => a * *density - applied,
-                // What belongs to a node of it is not known here.
-                Computed::NodalResidual => Vector::zeros(),
-            }
-        })
-        .collect()
+        let [force, stress] =
+            [without.body_force, without.stress].map(|is_out| if is_out { 0.0 } else { 1.0 });
+        let each = a.iter().zip(&b).zip(self.exact.density(x));
+        each.map(|((a, b), density)| ((a - b) * stress + b * force) * density).collect()
+    }
+
+    /// rho0 a less that.
+    fn left_over(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+        let pairs = self.exact.acceleration(self.time, x).into_iter().zip(self.exact.density(x));
+        let inertia = pairs.map(|(a, density)| a * density);
+        inertia.zip(self.applied(without, x)).map(|(inertia, applied)| inertia - applied).collect()
     }
 
     /// What sums of forces at nodes are off by, for these are integrated with what shape functions of first order make of w: over
     /// a cell its mean is larger by h^2/12 times the second derivatives of w. In a balance with all its terms that is nothing.
     fn interpolated(&self, without: &Without) -> Vec<f64> {
-        let (x, keep) = (&self.points, |is_out| if is_out { 0.0 } else { 1.0 });
-        let [force, stress, traction] =
-            [without.body_force, without.stress, without.traction].map(keep);
-        let (a, b) = (self.exact.acceleration(self.time, x), self.exact.body_force(self.time, x));
-        let left = a.iter().zip(&b).map(|(a, b)| a - b * force - (a - b) * stress).collect();
+        let x = &self.points;
         let axes: [_; D] = std::array::from_fn(|axis| Vector::from_fn(|i, _| f64::from(i == axis)));
         let mut sums = vec![0.0; self.count()];
-        let values = self.per_volume(left);
+        let values = self.left_over(without, x);
         for ((x, volume), q) in x.iter().zip(&self.volumes).zip(&values) {
             add(&mut sums, &self.curvature(x, &axes), &(q * *volume));
         }
-        // On a face there are nodes; only along it is w interpolated.
+        // On a face there are nodes; only along it is w interpolated. Without its stress a body has the tractions alone, and
+        // without tractions the stress alone.
+        let factor = f64::from(without.traction) - f64::from(without.stress);
         let right = Changed::right(self.exact, Without::default());
         for (piece, load) in self.loads(&right) {
             let x = &piece.position;
             let across = self.curvature(x, &[piece.area.normalize()]);
             let along = less(&self.curvature(x, &axes), 1.0, &across);
-            add(&mut sums, &along, &(load * (stress - traction)));
+            add(&mut sums, &along, &(load * factor));
         }
         sums
     }
