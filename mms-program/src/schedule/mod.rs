@@ -130,8 +130,7 @@ const ONCE_FOR_EVERY_POINT: usize = 8;
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
     let scopes = [Scope::Made];
     let ways = written(graph, components, Scaling::Factors, &scopes);
-    let (flat, roots) = cheapest(graph, &ways, &scopes);
-    cost_of(&flat, &roots)
+    cheapest(graph, &ways, &scopes).0
 }
 
 /// What the components of one output take, in steps.
@@ -175,11 +174,12 @@ fn written(graph: &Graph, components: &[Expr], scaling: Scaling, scopes: &[Scope
     ways
 }
 
-/// The cheapest way to compute what was written down; of equals, the first.
-fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> Way {
+/// The cheapest way to compute what was written down, with what it costs; of equals, the first.
+fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> (Cost, Way) {
     let (plain, work) = (&written[0], graph.work());
+    let cost_of_plain = cost_of(plain);
     if work.is_over() {
-        return plain.clone();
+        return (cost_of_plain, plain.clone());
     }
     let mut best: Option<(Cost, Way)> = None;
     let mut spent = vec![0; written.len()];
@@ -194,16 +194,15 @@ fn cheapest(graph: &Graph, written: &[Way], scopes: &[Scope]) -> Way {
             let (mut flat, roots) = way.clone();
             share::share(&mut flat, &roots, *scope, work);
             *spent = before - work.left();
-            let cost = cost_of(&flat, &roots);
+            let way = (flat, roots);
+            let cost = cost_of(&way);
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, (flat, roots)));
+                best = Some((cost, way));
             }
         }
     }
-    match best {
-        Some((cost, best)) if cost <= cost_of(&plain.0, &plain.1) => best,
-        _ => plain.clone(),
-    }
+    best.filter(|(cost, _)| *cost <= cost_of_plain)
+        .unwrap_or_else(|| (cost_of_plain, plain.clone()))
 }
 
 /// Whether the roots need all operations.
@@ -218,7 +217,7 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
     let scopes = [Scope::Made, Scope::Needed];
     let before = graph.work().left();
     let unscaled = written(graph, components, Scaling::Factors, &scopes);
-    let plain = cheapest(graph, &unscaled, &scopes);
+    let (cost, plain) = cheapest(graph, &unscaled, &scopes);
     if graph.work().is_over() {
         return plain;
     }
@@ -227,15 +226,14 @@ fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> Way {
         return plain;
     }
     let scaled = written(graph, components, Scaling::Sums, &scopes);
-    let scaled = cheapest(graph, &scaled, &scopes);
-    let [cost, other] = [&plain, &scaled].map(|(flat, roots)| cost_of(flat, roots));
+    let (other, scaled) = cheapest(graph, &scaled, &scopes);
     let saved = cost.per_point.saturating_sub(other.per_point);
     let is_worth_it =
         saved >= WORTH_APART && other.total <= cost.total + (ONCE_FOR_EVERY_POINT - 1) * saved;
     if is_worth_it { scaled } else { plain }
 }
 
-fn cost_of(flat: &Flat, roots: &[Item]) -> Cost {
+fn cost_of((flat, roots): &Way) -> Cost {
     let mut builder = Builder::default();
     builder.lower(flat, roots);
     cost_in(&builder)
