@@ -98,7 +98,6 @@ impl Interval {
 
 impl Neg for Interval {
     type Output = Self;
-    #[inline]
     fn neg(self) -> Self {
         Interval { lower: -self.upper, upper: -self.lower, defined: self.defined }
     }
@@ -106,7 +105,6 @@ impl Neg for Interval {
 
 impl Add for Interval {
     type Output = Self;
-    #[inline]
     fn add(self, other: Self) -> Self {
         let lower = sum_below(self.lower, other.lower);
         let upper = -sum_below(-self.upper, -other.upper);
@@ -116,7 +114,6 @@ impl Add for Interval {
 
 impl Sub for Interval {
     type Output = Self;
-    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -124,7 +121,6 @@ impl Sub for Interval {
 
 impl Mul for Interval {
     type Output = Self;
-    #[inline]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
         // Which bounds make the least and the greatest product.
@@ -166,7 +162,6 @@ impl Interval {
 
 impl Div for Interval {
     type Output = Self;
-    #[inline]
     fn div(self, other: Self) -> Self {
         if other.contains(0.0) {
             return Interval::UNDEFINED;
