@@ -6,7 +6,6 @@
 //! mistake in one of them breaks the build at its place. What derivatives say of it, `mms-gallery` finds. Cargo
 //! runs this again when the folder or a file in it changes: `fields/` is its own list.
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io, process};
@@ -62,7 +61,7 @@ fn name(stem: &str) -> Result<(), String> {
 
 /// Refuses what is no field. Only the displacement is compiled.
 fn read(file: &FieldFile) -> Result<(), String> {
-    let quantities = Some(BTreeSet::from([Quantity::Displacement]));
+    let quantities = Some([Quantity::Displacement].into());
     let options = Options::from(Selection { quantities, ..Selection::default() });
     let path = format!("fields/{}.toml", file.name);
     compile_unproved(&file.name, &path, &file.text, &|_| file.load_material(), &options)

@@ -1,7 +1,5 @@
 //! The shipped fields: the folder `fields/` is the list.
 
-use std::collections::BTreeMap;
-
 #[cfg(not(feature = "gallery"))]
 use mms_bar as linked;
 use mms_codegen::compile::Failure;
@@ -16,6 +14,7 @@ use mms_spec::{FieldSpec, MaterialSpec, read_field, read_material};
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// A shipped field.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +76,7 @@ pub fn start(field: &FieldSpec, material: &MaterialSpec) -> Option<&'static str>
     let mut graph = Graph::default();
     let model = Model::resolve(&mut graph, field, Some(material), &mut Vec::new())?;
     let velocity = differentiate(&mut graph, &model.displacement, Symbol::Time);
-    let first = BTreeMap::from([(Symbol::Time, model.domain.time[0])]);
+    let first = SortedMap::from([(Symbol::Time, model.domain.time[0])]);
     let mut vanishes = |components: &[Expr]| {
         let first = substitute(&mut graph, components, &first);
         first.iter().all(|component| graph.is_zero(*component))

@@ -1,6 +1,5 @@
 //! No evaluation allocates. One test alone, since it counts what the whole process does.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use mms::gallery::find;
@@ -9,6 +8,7 @@ use mms_mechanics::Output;
 use mms_program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
+use mms_symbolic::sorted::SortedMap;
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -50,7 +50,7 @@ fn no_evaluation_allocates() {
 fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]]) {
     let entry = find("axis_aligned_3d").expect("a field of the gallery");
     let compiled = entry.compile().expect("a right field");
-    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let plan =
         Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)], Output::is_quantity);
     let mut prepared = Prepared::new(Arc::new(plan), Way::fused(), &parameters);

@@ -1,7 +1,6 @@
 //! ARCHITECTURE.md shows one datum, the bar's J, at every border of the compiler. Here the same is
 //! made, and compared with what the page shows.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use mms_codegen::{Compiled, Selection, compile_with};
@@ -11,10 +10,11 @@ use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
 use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_symbolic::expr::print::Names;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 fn bar() -> Compiled {
     let text = fs::read_to_string("fields/bar_1d.toml").expect("the bar");
-    let quantities = Some(BTreeSet::from([Quantity::Jacobian]));
+    let quantities = Some(SortedSet::from([Quantity::Jacobian]));
     let selection = Selection { quantities, ..Selection::default() };
     let load = |_: &str| Err("no files here".to_string());
     compile_with("bar_1d", "fields/bar_1d.toml", &text, &load, &selection.into())
@@ -60,7 +60,7 @@ fn steps(compiled: &Compiled) -> Vec<(&'static str, String)> {
     let function = emitted.find("pub fn jacobian(").expect("the function");
     let length = emitted[function..].find("\n    }").expect("its end");
     let output = Output::Quantity(Quantity::Jacobian);
-    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let mut interpreter = Interpreter::<f64, _>::new(&compiled.program, &parameters);
     interpreter.set_time(&0.0023);
     let plan = interpreter.plan(&[output]);

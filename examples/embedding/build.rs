@@ -1,7 +1,6 @@
 //! Compiles a field to a file of Rust, which `src/main.rs` includes. For what the macro does not: a
 //! field that is chosen, or written, while the program is built.
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
 
@@ -22,7 +21,7 @@ fn main() -> std::io::Result<()> {
         fs::read_to_string(path).map_err(|error| error.to_string())
     };
     let selection = Selection {
-        quantities: Some(BTreeSet::from([Quantity::BodyForce, Quantity::Displacement])),
+        quantities: Some([Quantity::BodyForce, Quantity::Displacement].into()),
         freeze: Freeze::Everything,
         ..Selection::default()
     };

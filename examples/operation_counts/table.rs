@@ -1,7 +1,5 @@
 //! The table of operation counts, as a page of Markdown.
 
-use std::collections::BTreeSet;
-
 use mms_codegen::rust;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile_with};
@@ -103,7 +101,7 @@ impl Row {
 
     fn selection(&self) -> Selection {
         let wanted =
-            (!self.quantities.is_empty()).then(|| BTreeSet::from_iter(self.quantities.to_vec()));
+            (!self.quantities.is_empty()).then(|| self.quantities.iter().copied().collect());
         let mut selection = Selection { quantities: wanted, ..Selection::default() };
         match self.constants {
             "" => {}

@@ -1,7 +1,5 @@
 //! Operation counts of quantities, before and after simplification.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Derivation;
 use mms_program::schedule::{cost, schedule, schedule_plainly};
@@ -9,6 +7,7 @@ use mms_program::{Op, Program, Stage, unary_name};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 use mms_symbolic::pass::half_turns::half_turns;
+use mms_symbolic::sorted::SortedMap;
 
 /// The number of scalar operations of the program of some quantities: + - * / and each call of a
 /// function count one; constants, loads and changes of sign none.
@@ -19,9 +18,9 @@ pub struct Operations {
     /// Of the expressions that were chosen, and what they share taken out.
     pub after: usize,
     /// The latter, stage by stage.
-    pub by_stage: BTreeMap<Stage, usize>,
+    pub by_stage: SortedMap<Stage, usize>,
     /// The latter by what is done: `add`, `multiply`, `sin`, ...; no entry is 0.
-    pub by_kind: BTreeMap<&'static str, usize>,
+    pub by_kind: SortedMap<&'static str, usize>,
 }
 
 impl Operations {
@@ -35,14 +34,14 @@ impl Operations {
                 .collect()
         };
         let (derived, chosen) = (components(&compiled.derived), components(&compiled.derivation));
-        let before = schedule_plainly(&compiled.graph, &BTreeMap::from([((), derived.clone())]));
+        let before = schedule_plainly(&compiled.graph, &SortedMap::from([((), derived.clone())]));
         // What is cheapest for each alone need not be so together.
         let forms = [chosen, derived];
         let cheapest = forms.into_iter().min_by_key(|form| cost(&compiled.graph, form));
         let mut graph = compiled.graph.clone();
         graph.make_room();
         let outputs = half_turns(&mut graph, &cheapest.unwrap_or_default());
-        let after = schedule(&graph, &BTreeMap::from([((), outputs)]));
+        let after = schedule(&graph, &SortedMap::from([((), outputs)]));
         Operations {
             before: before.operations(&[()]).values().sum(),
             after: after.operations(&[()]).values().sum(),
@@ -52,8 +51,8 @@ impl Operations {
     }
 }
 
-fn by_kind(program: &Program<()>) -> BTreeMap<&'static str, usize> {
-    let mut counts = BTreeMap::new();
+fn by_kind(program: &Program<()>) -> SortedMap<&'static str, usize> {
+    let mut counts = SortedMap::new();
     for instr in program.instrs.iter().filter(|instr| instr.op.is_counted()) {
         let kind = match instr.op {
             Op::Constant(_) | Op::Pi | Op::Input(_) | Op::Negate(_) => continue,
@@ -64,7 +63,7 @@ fn by_kind(program: &Program<()>) -> BTreeMap<&'static str, usize> {
             Op::Unary(function, small, _) => unary_name(function, small),
             Op::Binary(function, ..) => function.name(),
         };
-        *counts.entry(kind).or_default() += 1;
+        *counts.get_or_default(kind) += 1;
     }
     counts
 }

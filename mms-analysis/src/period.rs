@@ -4,7 +4,6 @@
 //! rational multiples of one. That is read off the formula, so a period is proved. It may be a multiple of the
 //! least one, as in sin(w t)^2.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use mms_codegen::compile::Compiled;
@@ -14,6 +13,7 @@ use mms_program::schedule::schedule_plainly;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// Why no period of a displacement is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,12 +49,12 @@ impl std::error::Error for NoPeriod {}
 ///
 /// # Errors
 /// A displacement of which none is known.
-pub fn period(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<f64, NoPeriod> {
+pub fn period(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Result<f64, NoPeriod> {
     let mut graph = compiled.graph.clone();
     graph.make_room();
     let u = &compiled.derived.quantities[&Quantity::Displacement];
     let rates = rates(&mut graph, u)?;
-    let first = *rates.first().ok_or(NoPeriod::AtRest)?;
+    let first = *rates.iter().next().ok_or(NoPeriod::AtRest)?;
     let ratios: Option<Vec<Rational>> = rates
         .iter()
         .map(|rate| {
@@ -67,16 +67,16 @@ pub fn period(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Result<f6
     let turn = graph.pi();
     let turn = graph.scale(turn, 2);
     let period = graph.div(turn, slowest);
-    let program = schedule_plainly(&graph, &BTreeMap::from([((), vec![period])]));
+    let program = schedule_plainly(&graph, &SortedMap::from([((), vec![period])]));
     let period = Interpreter::new(&program, &compiled.parameters::<f64>(set)).output(())[0];
     let period = period.abs();
     (period > 0.0 && period.is_finite()).then_some(period).ok_or(NoPeriod::OutOfRange)
 }
 
 /// The rates at which the angles of all sines and cosines grow that contain t.
-fn rates(graph: &mut Graph, roots: &[Expr]) -> Result<BTreeSet<Expr>, NoPeriod> {
-    let mut rates = BTreeSet::new();
-    let mut seen = BTreeSet::new();
+fn rates(graph: &mut Graph, roots: &[Expr]) -> Result<SortedSet<Expr>, NoPeriod> {
+    let mut rates = SortedSet::new();
+    let mut seen = SortedSet::new();
     let mut open = roots.to_vec();
     while let Some(expr) = open.pop() {
         let moves = matches!(graph.stage(expr), Stage::Time | Stage::PointTime);

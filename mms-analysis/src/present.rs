@@ -14,8 +14,6 @@
 //! decided in neither way is halved. So all X that a body has for a point are found, or it is said that this is not
 //! decided.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::Compiled;
 use mms_math::Scalar as _;
 use mms_mechanics::extent::Extent;
@@ -25,6 +23,7 @@ use mms_program::interpret::{Interpreter, Number as _, Point};
 use mms_program::interval::Interval;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 /// How many tiles a body is cut into at most.
 const MOST_TILES: usize = 4096;
@@ -96,7 +95,7 @@ const GRADIENT: Output = Output::Quantity(Quantity::DeformationGradient);
 
 impl<'a> Inverse<'a> {
     /// Of a compiled field, of which position and deformation gradient are wanted, with some parameters set by position.
-    pub fn new(compiled: &'a Compiled, set: &BTreeMap<usize, Rational>, time: f64) -> Self {
+    pub fn new(compiled: &'a Compiled, set: &SortedMap<usize, Rational>, time: f64) -> Self {
         let values = compiled.parameters::<f64>(set);
         let (body, _) = domain(&compiled.program, &values);
         let bounds = compiled.parameters::<Interval>(set);

@@ -1,12 +1,11 @@
 //! The period of a motion: what formulas tell, and that it is one.
 
-use std::collections::BTreeMap;
-
 use mms_analysis::period::{NoPeriod, period};
 use mms_codegen::{Compiled, compile};
 use mms_mechanics::Output;
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 
 /// A bar of length 1 with this displacement.
 fn bar(u: &str) -> Compiled {
@@ -37,7 +36,7 @@ time = [0, 1]
 }
 
 fn period_of(u: &str) -> Result<f64, NoPeriod> {
-    period(&bar(u), &BTreeMap::new())
+    period(&bar(u), &SortedMap::new())
 }
 
 const TURN: f64 = std::f64::consts::TAU;
@@ -58,7 +57,7 @@ fn it_is_a_turn_over_the_common_rate() {
         assert!((found * rate / TURN - 1.0).abs() < 1e-14, "{u}: {found}");
         let compiled = bar(u);
         let mut interpreter =
-            Interpreter::new(&compiled.program, &compiled.parameters::<f64>(&BTreeMap::new()));
+            Interpreter::new(&compiled.program, &compiled.parameters::<f64>(&SortedMap::new()));
         let output = Output::Quantity(Quantity::Displacement);
         let plan = interpreter.plan(&[output]);
         let mut at = |time: f64| {
@@ -74,10 +73,10 @@ fn it_is_a_turn_over_the_common_rate() {
 
 #[test]
 fn parameters_that_are_set_count() {
-    let set = BTreeMap::from([(0, "5".parse().expect("a number"))]);
+    let set = SortedMap::from([(0, "5".parse().expect("a number"))]);
     let found = period(&bar("X*cos(w*t)/9"), &set).expect("a period");
     assert!((found * 5.0 / TURN - 1.0).abs() < 1e-14);
-    let none = BTreeMap::from([(0, "0".parse().expect("a number"))]);
+    let none = SortedMap::from([(0, "0".parse().expect("a number"))]);
     assert_eq!(period(&bar("X*cos(w*t)/9"), &none), Err(NoPeriod::OutOfRange));
 }
 

@@ -1,13 +1,12 @@
 //! X(x, t): what is found is what was moved there, and what is refused is nowhere or in two places.
 
-use std::collections::BTreeMap;
-
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_codegen::{Compiled, compile};
 use mms_mechanics::Output;
 use mms_mechanics::sample::{domain, samples};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 
 fn gallery(name: &str) -> Compiled {
     let path = format!("{}/../fields/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -21,7 +20,7 @@ fn field(text: &str) -> Compiled {
 }
 
 fn parameters(compiled: &Compiled) -> Vec<f64> {
-    compiled.parameters::<f64>(&BTreeMap::new())
+    compiled.parameters::<f64>(&SortedMap::new())
 }
 
 /// x of a point, by the interpreter.
@@ -60,7 +59,7 @@ time = ["0", "1"]
 #[test]
 fn a_point_of_the_bar_is_where_it_came_from() {
     let bar = gallery("bar_1d");
-    let mut inverse = Inverse::new(&bar, &BTreeMap::new(), 0.013);
+    let mut inverse = Inverse::new(&bar, &SortedMap::new(), 0.013);
     let found = inverse.reference(&[0.4], 0.0).unwrap();
     // By bisection of x(X, 0.013) = 0.4 with 50 digits.
     assert!((found[0] - 0.3669589318356906).abs() <= f64::EPSILON / 4.0, "{found:?}");
@@ -79,7 +78,7 @@ fn points_come_back_in_fields_of_every_dimension() {
         let compiled = gallery(name);
         let (body, [_, last]) = domain(&compiled.program, &parameters(&compiled));
         for time in [0.3 * last, last] {
-            let mut inverse = Inverse::new(&compiled, &BTreeMap::new(), time);
+            let mut inverse = Inverse::new(&compiled, &SortedMap::new(), time);
             for sample in samples(&compiled.program, &parameters(&compiled), 12) {
                 let x = moved(&compiled, &sample.coordinates, time);
                 let found = inverse.reference(&x, 0.0);
@@ -97,7 +96,7 @@ fn points_come_back_in_fields_of_every_dimension() {
 fn corners_of_a_body_are_found_and_lie_on_it() {
     let compiled = gallery("axis_aligned_2d");
     let (body, [_, last]) = domain(&compiled.program, &parameters(&compiled));
-    let mut inverse = Inverse::new(&compiled, &BTreeMap::new(), 0.7 * last);
+    let mut inverse = Inverse::new(&compiled, &SortedMap::new(), 0.7 * last);
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         let corner = body.point(&corner);
         let x = moved(&compiled, &corner, 0.7 * last);
@@ -110,13 +109,13 @@ fn corners_of_a_body_are_found_and_lie_on_it() {
 #[test]
 fn two_points_in_one_place_are_both_named() {
     let once = bent("3");
-    let mut inverse = Inverse::new(&once, &BTreeMap::new(), 0.5);
+    let mut inverse = Inverse::new(&once, &SortedMap::new(), 0.5);
     let x = moved(&once, &[1.25, 0.5], 0.5);
     let found = inverse.reference(&x, 0.0).unwrap();
     assert!((found[0] - 1.25).abs() < 1e-14 && (found[1] - 0.5).abs() < 1e-14, "{found:?}");
 
     let overlapping = bent("7");
-    let mut inverse = Inverse::new(&overlapping, &BTreeMap::new(), 0.5);
+    let mut inverse = Inverse::new(&overlapping, &SortedMap::new(), 0.5);
     let found = inverse.reference(&x, 0.0);
     let Err(Unplaced::Several(mut both)) = found else { panic!("{found:?}") };
     both.sort_by(|a, b| a[1].total_cmp(&b[1]));
@@ -132,7 +131,7 @@ fn two_points_in_one_place_are_both_named() {
 #[test]
 fn a_point_outside_the_image_is_outside() {
     let bar = gallery("bar_1d");
-    let mut inverse = Inverse::new(&bar, &BTreeMap::new(), 0.013);
+    let mut inverse = Inverse::new(&bar, &SortedMap::new(), 0.013);
     let end = moved(&bar, &[1.0], 0.013)[0];
     for outside in [-1e-9, end + 1e-9, 5.0] {
         assert_eq!(inverse.reference(&[outside], 0.0), Err(Unplaced::Outside), "{outside}");

@@ -1,6 +1,5 @@
 //! A field, compiled and interpreted: all that the C interface does, in safe Rust.
 
-use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::mem;
 use std::sync::OnceLock;
@@ -16,6 +15,7 @@ use mms_spec::Face;
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 use crate::border::on_own_stack;
 use crate::error::{Error, MmsCode};
@@ -30,7 +30,7 @@ const UNIT: f64 = 1e-6;
 #[derive(Debug)]
 pub struct Field {
     compiled: Compiled,
-    settings: Settings<Rational>,
+    settings: Settings<SortedMap<usize, Rational>>,
     evaluator: Evaluator,
     /// Which values are surely allowed, once any are set.
     quick: OnceLock<Option<Quick>>,
@@ -86,7 +86,7 @@ impl Field {
             title: shown(compiled.field.title.raw())?,
             parameters: parameters.map(|it| shown(&it.name)).collect::<Result<_, _>>()?,
             faces: faces.iter().map(|face| shown(face.name())).collect::<Result<_, _>>()?,
-            settings: Settings::new(compiled.parameters(&BTreeMap::new())),
+            settings: Settings::new(compiled.parameters(&SortedMap::new())),
             evaluator: Evaluator::default(),
             quick: OnceLock::new(),
             compiled,
@@ -116,7 +116,7 @@ impl Field {
         settings: impl IntoIterator<Item = Result<(&'a str, f64), Error>>,
     ) -> Result<(), Error> {
         let refuse = |message| Err(Error::new(MmsCode::InvalidParameter, message));
-        let mut new = BTreeMap::new();
+        let mut new = SortedMap::new();
         for setting in settings {
             let (name, value) = setting?;
             let Ok(exact) = Rational::try_from(value) else {
@@ -130,7 +130,7 @@ impl Field {
     }
 
     /// The values of all parameters where some are set, if the field allows them.
-    fn accepted(&self, set: &BTreeMap<usize, Rational>) -> Result<Vec<f64>, Error> {
+    fn accepted(&self, set: &SortedMap<usize, Rational>) -> Result<Vec<f64>, Error> {
         let quick = self.quick.get_or_init(|| Quick::new(&self.compiled));
         if let Some(all) = quick.as_ref().and_then(|quick| quick.accepted(set)) {
             return Ok(all);

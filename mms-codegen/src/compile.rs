@@ -9,8 +9,6 @@
 mod phases;
 pub mod quick;
 
-use std::collections::BTreeMap;
-
 use self::phases::Phases;
 use crate::declared;
 use crate::materials::shipped;
@@ -33,6 +31,7 @@ use mms_spec::suggest::advice;
 use mms_spec::syntax;
 use mms_spec::{Face, FieldSpec, Formula, MaterialSpec};
 use mms_symbolic::expr::{DEFAULT_MAX_NODES, Graph, Rational};
+use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Stop;
 
 /// What the search for a cheap program of closed forms or parameters may take, in the steps of [`mms_symbolic::work`].
@@ -172,7 +171,7 @@ impl Compiled {
     ///
     /// # Errors
     /// What it does not allow, with the place in the file that says so.
-    pub fn accepts(&self, set: &BTreeMap<usize, Rational>) -> Result<(), Failure> {
+    pub fn accepts(&self, set: &SortedMap<usize, Rational>) -> Result<(), Failure> {
         let mut graph = self.graph.clone();
         graph.make_room();
         let set = as_set(&mut graph, set);
@@ -184,7 +183,7 @@ impl Compiled {
     }
 
     /// The parameters' values in the order of the file; those that depend on a set one follow it.
-    pub fn parameters<T: Number>(&self, set: &BTreeMap<usize, Rational>) -> Vec<T> {
+    pub fn parameters<T: Number>(&self, set: &SortedMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
         graph.make_room();
         let set = as_set(&mut graph, set);
@@ -231,7 +230,7 @@ impl Compiled {
         graph.make_room();
         let components = tangent(&mut graph, &self.model)?;
         let output = Output::Response(Response::Tangent);
-        Ok(schedule(&graph, &BTreeMap::from([(output, components)])))
+        Ok(schedule(&graph, &SortedMap::from([(output, components)])))
     }
 
     /// A quantity on request at a point and a time: a program of its own, which costs nothing where it is not asked for. An
@@ -240,7 +239,7 @@ impl Compiled {
         let mut graph = self.graph.clone();
         graph.make_room();
         let components = requested(&mut graph, &self.model, &self.derivation, quantity)?;
-        Ok(schedule(&graph, &BTreeMap::from([(Output::Quantity(quantity), components)])))
+        Ok(schedule(&graph, &SortedMap::from([(Output::Quantity(quantity), components)])))
     }
 
     /// The face of that name; otherwise what is wrong with it, in one line.
@@ -259,7 +258,7 @@ impl Compiled {
         graph.make_room();
         let dimension = self.model.displacement.len();
         let normal = face::normal(&mut graph, &self.model.domain.body, dimension, face);
-        schedule(&graph, &BTreeMap::from([(Output::Face(face, Datum::Normal), normal)]))
+        schedule(&graph, &SortedMap::from([(Output::Face(face, Datum::Normal), normal)]))
     }
 
     /// The outward reference unit normals of a face at points of it, `dimension` components each.
@@ -282,7 +281,7 @@ impl Compiled {
 
     /// The quantities that have a closed form, each beside it, as one program.
     pub fn checks(&self) -> Program {
-        let mut outputs = BTreeMap::new();
+        let mut outputs = SortedMap::new();
         for (index, check) in self.model.checks.iter().enumerate() {
             let quantity = check.quantity;
             outputs.insert(Output::Expected(index), check.equals.clone());

@@ -6,8 +6,6 @@
 //! the largest component of u and go down, to a definition that it uses or to an operand, for as long as that part
 //! alone makes most of what the whole does. Trials are bounded in size and number.
 
-use std::collections::BTreeSet;
-
 use mms_mechanics::resolve::Scope;
 use mms_spec::names::COORDINATES;
 use mms_spec::source::Span;
@@ -16,6 +14,7 @@ use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_spec::{FieldSpec, Formula, RigidSpec};
 use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::sorted::SortedSet;
 
 /// How large the graph of a trial may become: enough to tell sizes apart.
 const TRIAL: usize = 20_000;
@@ -48,7 +47,7 @@ pub fn culprit(field: &FieldSpec) -> Option<Culprit> {
     let components = field.lets.len()..definitions.len();
     let (mut size, mut index) =
         components.map(|index| (trial.size(index), index)).max_by_key(|(size, _)| *size)?;
-    let mut tried = BTreeSet::new();
+    let mut tried = SortedSet::new();
     while let Some(larger) = trial.used(index).find_map(|used| {
         let new = tried.len() < TRIALS && tried.insert(used);
         let own = if new { trial.size(used) } else { 0 };
@@ -138,7 +137,7 @@ impl<'a> Trial<'a> {
 
     /// The definitions that a definition uses, the last one first.
     fn used(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        let names: BTreeSet<&str> = self.definitions[index]
+        let names: SortedSet<&str> = self.definitions[index]
             .ast
             .nodes
             .iter()

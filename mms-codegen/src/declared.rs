@@ -10,7 +10,6 @@
 pub(crate) mod elasticity;
 mod material;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use mms_math::Scalar as _;
@@ -26,6 +25,7 @@ use mms_spec::source::Span;
 use mms_spec::{ExtremeSpec, Face, FieldSpec, Formula, MaterialSpec};
 use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 use mms_symbolic::work::Work;
 
 /// What a look at the numbers of a field may take, at its parameters alone, and at all of its extremes.
@@ -45,7 +45,7 @@ pub fn check(
     graph: &Graph,
     model: &Model,
     specs: (&FieldSpec, &MaterialSpec),
-    set: &BTreeMap<usize, Expr>,
+    set: &SortedMap<usize, Expr>,
 ) -> Vec<Diagnostic> {
     let mut graph = graph.clone();
     graph.make_room();
@@ -110,7 +110,7 @@ fn judge(
     mut graph: Graph,
     model: &Model,
     (field, material): (&FieldSpec, &MaterialSpec),
-    set: &BTreeMap<usize, Expr>,
+    set: &SortedMap<usize, Expr>,
 ) -> Vec<Diagnostic> {
     if field.incomplete || graph.is_exhausted() {
         return Vec::new();
@@ -149,14 +149,14 @@ fn too_long(span: Span, what: &str) -> Diagnostic {
 
 /// The values of expressions in the parameters.
 fn evaluate(graph: &Graph, parameters: &[Precise], exprs: &[Expr]) -> Vec<Precise> {
-    let program = schedule(graph, &BTreeMap::from([((), exprs.to_vec())]));
+    let program = schedule(graph, &SortedMap::from([((), exprs.to_vec())]));
     Interpreter::within(graph.work(), &program, parameters).output(())
 }
 
 /// The values of expressions in the parameters at the defaults of these.
 pub(super) fn values(graph: &Graph, model: &Model, exprs: &[Expr]) -> Vec<f64> {
     let mut graph = graph.clone();
-    let defaults = parameter_values(&mut graph, model, &BTreeMap::new());
+    let defaults = parameter_values(&mut graph, model, &SortedMap::new());
     let parameters = evaluate(&graph, &[], &defaults);
     evaluate(&graph, &parameters, exprs).iter().map(Precise::to_f64).collect()
 }
@@ -184,7 +184,7 @@ impl<'a> Declared<'a> {
 
     /// Reports parameters without a value, but not those that only follow from such a one.
     fn parameters_exist(&mut self) -> bool {
-        let undefined: BTreeSet<Symbol> = (0..self.parameters.len())
+        let undefined: SortedSet<Symbol> = (0..self.parameters.len())
             .filter(|index| !self.parameters[*index].is_defined())
             .map(Symbol::Parameter)
             .collect();

@@ -10,8 +10,6 @@
 //! With `quantities` given, only these are scheduled and emitted: no domain, no material, no contract of the
 //! runtime. Messages about the selection itself point into it: `set:1:8`, or the macro's token.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use crate::compile::Compiled;
 use mms_mechanics::Response;
 use mms_mechanics::{Bound, Output, Program};
@@ -26,13 +24,14 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 use mms_spec::{FieldSpec, Formula, ParameterSpec};
 use mms_symbolic::expr::{Rational, Symbol};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// What of a field is wanted. The default is everything, as the file says it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
     /// The quantities; `None` stands for all, with what else a solver needs: the body, the time
     /// window, and the material as a function of a displacement gradient.
-    pub quantities: Option<BTreeSet<Quantity>>,
+    pub quantities: Option<SortedSet<Quantity>>,
     /// New default values: the name of a parameter and a formula, which may use the parameters
     /// above that one. Those that depend on it follow.
     pub set: Vec<(String, String)>,
@@ -163,7 +162,7 @@ impl Selection {
         field: &mut FieldSpec,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let mut seen = BTreeSet::new();
+        let mut seen = SortedSet::new();
         for (name, value) in &self.set {
             let source = sources.add("set", format!("{name} = {value}"));
             let span = sources.span(source, 0, name.len());
@@ -343,7 +342,7 @@ fn undefined_constant(program: &Program) -> Option<usize> {
             constants.push(Value(index as u32));
         }
     }
-    let outputs = BTreeMap::from([((), constants.clone())]);
+    let outputs = SortedMap::from([((), constants.clone())]);
     let program = mms_program::Program { instrs: program.instrs.clone(), outputs };
     // What depends on a parameter is not looked at.
     let any = vec![Precise::from_rational(&Rational::ONE); parameter_count(&program)];

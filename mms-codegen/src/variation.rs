@@ -6,14 +6,13 @@
 //! in the material. What the field claims is not looked at, for its boundary may be another; but for the affine part,
 //! whose faces all get u or P N.
 
-use std::collections::BTreeMap;
-
 use mms_mechanics::model::{Body, Model};
 use mms_spec::source::{Sources, Spanned};
 use mms_spec::{Claim, FieldSpec, Formula, ParameterSpec};
 use mms_symbolic::expr::{Expr, Function, Graph, HALF, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::{coordinates, substitute};
+use mms_symbolic::sorted::SortedMap;
 
 /// What is changed of a field.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -157,7 +156,7 @@ fn give_data(field: &mut FieldSpec) {
 fn affine(graph: &mut Graph, model: &mut Model) {
     let middle = middle(graph, &model.domain.body);
     let axes = || 0..middle.len();
-    let there: BTreeMap<_, _> =
+    let there: SortedMap<_, _> =
         axes().map(|axis| (Symbol::Coordinate(axis), middle[axis])).collect();
     let mut affine = substitute(graph, &model.displacement, &there);
     for axis in axes() {

@@ -1,7 +1,6 @@
 //! Certificates: honest fields, liars (see `data/fail/refuted_*`), and random fields whose values
 //! must lie within what is proved.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +18,7 @@ use mms_program::dual::Dual;
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
 /// What a certificate may take in the mean: some 0.2 ms a box in two dimensions, and 1 ms in three.
@@ -135,7 +135,7 @@ fn the_speed_of_waves_is_bounded_for_the_parameters_that_are_set() {
     let (compiled, certificate) = of_file("axis_aligned_1d.toml");
     let (_, rates) = bounds(&certificate);
     let speed = |set, frame, speed| wave_speed(&compiled, &set, frame, speed).expect("a bound");
-    let defaults = BTreeMap::new();
+    let defaults = SortedMap::new();
     let reference = speed(defaults.clone(), Frame::Reference, 0.0);
     assert!((reference / rates.reference_wave_speed - 1.0).abs() < 0.1, "{reference} {rates:?}");
     // F^2 dP/dF/rho0 = (lambda (1 - ln F) + mu (1 + F^2))/rho0 grows as F does, or falls, with lambda.

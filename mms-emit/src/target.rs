@@ -1,6 +1,5 @@
 //! What a target language is, what it takes, and what it makes.
 
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::port::Port;
@@ -10,6 +9,7 @@ use crate::port::vectors::Vectors;
 use mms_codegen::certify::certificate::reach_at;
 use mms_codegen::compile::Compiled;
 use mms_codegen::rust::File;
+use mms_symbolic::sorted::SortedMap;
 
 /// Names as they are in the file.
 const ANY: Rules = Rules { words: &[], modules: &[], folds_case: false, longest: 120 };
@@ -35,7 +35,7 @@ impl<'a> Subject<'a> {
 
     /// Bounds of x by axis over body and time window, at the defaults of parameters; infinite where none is found.
     pub fn reach(&self) -> &[[f64; 2]] {
-        self.reach.get_or_init(|| reach_at(self.compiled, &BTreeMap::new()))
+        self.reach.get_or_init(|| reach_at(self.compiled, &SortedMap::new()))
     }
 
     /// Whether a check program has something to compare: a point where all functions have a value, if there are

@@ -7,7 +7,6 @@
 
 mod points;
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use dashu_ratio::RBig;
@@ -26,6 +25,7 @@ use mms_runtime::{
 use mms_spec::Claim;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
+use mms_symbolic::sorted::SortedMap;
 
 pub use points::AtPoints;
 
@@ -75,13 +75,13 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
 /// compiles none of it.
 pub trait Interpretable: Real + Blockwise {
     /// See [`scene`](fn@scene).
-    fn scene(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<Self>;
+    fn scene(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<Self>;
 }
 
 macro_rules! interpretable {
     ($($float:ident)*) => {
         $(impl Interpretable for $float {
-            fn scene(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<Self> {
+            fn scene(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<Self> {
                 interpreted(compiled, set)
             }
         })*
@@ -91,13 +91,13 @@ macro_rules! interpretable {
 interpretable!(f32 f64);
 
 /// The scene of a compiled text, some of its parameters set by the caller.
-pub fn scene<T: Interpretable>(compiled: Arc<Compiled>, set: &BTreeMap<usize, RBig>) -> Scene<T> {
+pub fn scene<T: Interpretable>(compiled: Arc<Compiled>, set: &SortedMap<usize, RBig>) -> Scene<T> {
     T::scene(compiled, set)
 }
 
 fn interpreted<T: Real + Blockwise>(
     compiled: Arc<Compiled>,
-    set: &BTreeMap<usize, RBig>,
+    set: &SortedMap<usize, RBig>,
 ) -> Scene<T> {
     let parameters = compiled.parameters(set);
     let dimension = compiled.field.dimension;

@@ -11,8 +11,6 @@
 //! at 24 places; elsewhere it stays. A quotient that has no value at a corner or in the middle of the body, where
 //! the whole has one, is not taken.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use mms_math::{Double, Scalar as _};
 
 use crate::model::Model;
@@ -24,6 +22,7 @@ use mms_symbolic::pass::curvature::{self, curvature};
 use mms_symbolic::pass::difference::{Parts, difference};
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::substitute::replace;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// How many orders in the amplitude may cancel.
 const ORDERS: usize = 3;
@@ -54,9 +53,9 @@ impl Amplitude {
     pub fn find(graph: &Graph, model: &Model) -> Option<Amplitude> {
         let defaults = defaults(graph, model);
         let bounds = bounds(model);
-        let of_body: BTreeSet<Symbol> =
+        let of_body: SortedSet<Symbol> =
             bounds.iter().flat_map(|bound| graph.symbols(*bound)).collect();
-        let of_motion: BTreeSet<Symbol> =
+        let of_motion: SortedSet<Symbol> =
             model.displacement.iter().flat_map(|u| graph.symbols(*u)).collect();
         let candidates = (0..defaults.len()).filter(|index| {
             let symbol = Symbol::Parameter(*index);
@@ -107,7 +106,7 @@ impl Amplitude {
             let inner: Vec<Expr> = lossy.into_iter().filter(|it| !mended.contains(it)).collect();
             let apart = self.apart(graph, &inner);
             let changes = inner.into_iter().zip(apart).filter_map(|(it, made)| Some((it, made?)));
-            let changes: BTreeMap<Expr, Expr> = changes.filter(|(it, made)| it != made).collect();
+            let changes: SortedMap<Expr, Expr> = changes.filter(|(it, made)| it != made).collect();
             if changes.is_empty() {
                 break;
             }

@@ -4,8 +4,6 @@
 //! Normals are exact (`face`), and on a face of a box the coordinate that is constant there is put in before the
 //! code is made, so that nothing is computed which a face does not need.
 
-use std::collections::BTreeMap;
-
 use crate::derivation::Derivation;
 use crate::face::{normal, projection};
 use crate::model::{Body, Model};
@@ -13,6 +11,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face, FieldSpec};
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// What is given on a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -44,9 +43,9 @@ pub fn data(
     model: &Model,
     field: &FieldSpec,
     derivation: &Derivation,
-) -> BTreeMap<(Face, Datum), Vec<Expr>> {
+) -> SortedMap<(Face, Datum), Vec<Expr>> {
     let dimension = model.displacement.len();
-    let mut data = BTreeMap::new();
+    let mut data = SortedMap::new();
     for face in Face::of(&field.domain.body, dimension) {
         let claim = field.boundary.iter().find(|boundary| boundary.face.value == face);
         match claim.map_or(Claim::Prescribed, |claim| claim.claim.value) {

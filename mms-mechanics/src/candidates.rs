@@ -13,8 +13,6 @@
 //! `choose` costs each by its schedule, keeps those that keep their digits at a small amplitude if there are such, and
 //! takes the cheapest whose bound of the rounding error is small ([`Rounding::first`]).
 
-use std::collections::BTreeMap;
-
 use crate::amplitude::Amplitude;
 use crate::rounding::Rounding;
 use mms_program::schedule::{Cost, cost};
@@ -24,12 +22,13 @@ use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::nest::nest;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::{Relations, lateness};
+use mms_symbolic::sorted::SortedMap;
 
 /// How many times the operations of the cheapest candidate at a point another one may take for its digits.
 const DEAREST: usize = 2;
 
 /// The components of whatever has a key.
-pub(super) type Components<K> = BTreeMap<K, Vec<Expr>>;
+pub(super) type Components<K> = SortedMap<K, Vec<Expr>>;
 
 /// What made a candidate; see the table of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +49,7 @@ pub struct Candidate<K> {
     /// What made it.
     pub rewriting: Rewriting,
     /// The components of each key.
-    pub components: BTreeMap<K, Vec<Expr>>,
+    pub components: SortedMap<K, Vec<Expr>>,
 }
 
 impl<K: Ord + Copy> Candidate<K> {
@@ -108,7 +107,7 @@ pub(super) fn reduced<K: Ord + Copy>(
 /// Every candidate, where the motion has these identities.
 pub fn candidates<K: Ord + Copy>(
     graph: &mut Graph,
-    derived: &BTreeMap<K, Vec<Expr>>,
+    derived: &SortedMap<K, Vec<Expr>>,
     relations: &Relations,
 ) -> Vec<Candidate<K>> {
     let mut all = unexpanded(graph, derived);
@@ -165,9 +164,9 @@ fn choose<'a>(
     mut ways: Vec<&'a [Expr]>,
     accuracy: Accuracy<'_>,
 ) -> Option<&'a [Expr]> {
-    let mut costs = BTreeMap::<&[Expr], Cost>::new();
+    let mut costs = SortedMap::<&[Expr], Cost>::new();
     for way in &ways {
-        costs.entry(way).or_insert_with(|| cost(graph, way));
+        costs.get_or_insert_with(way, || cost(graph, way));
     }
     ways.sort_by_key(|way| costs[way]);
     ways.dedup();

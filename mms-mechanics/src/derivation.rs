@@ -1,7 +1,5 @@
 //! From a resolved field to every quantity.
 
-use std::collections::BTreeMap;
-
 use crate::amplitude::{Amplitude, mended};
 use crate::invariant::{Kind, SUPPLIED_VOLUME};
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
@@ -14,6 +12,7 @@ use mms_symbolic::expr::{Expr, Graph, HALF, Symbol};
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
+use mms_symbolic::sorted::SortedMap;
 
 /// Functions of a displacement gradient H that the caller supplies: the material of the field as a
 /// solver needs it.
@@ -37,9 +36,9 @@ pub enum Response {
 #[derive(Clone, Debug)]
 pub struct Derivation {
     /// The components of each quantity, tensors row-major.
-    pub quantities: BTreeMap<Quantity, Vec<Expr>>,
+    pub quantities: SortedMap<Quantity, Vec<Expr>>,
     /// The components of each response.
-    pub responses: BTreeMap<Response, Vec<Expr>>,
+    pub responses: SortedMap<Response, Vec<Expr>>,
 }
 
 /// What was being derived when the graph reached its bound.
@@ -81,7 +80,7 @@ pub fn derive_settled(
     model: &Model,
     relations: &Relations,
     amplitude: Option<&Amplitude>,
-) -> Result<Option<BTreeMap<Quantity, Vec<Expr>>>, TooLarge> {
+) -> Result<Option<SortedMap<Quantity, Vec<Expr>>>, TooLarge> {
     let plain = factor(graph, &model.displacement);
     let gradient = gradient_of(graph, &plain);
     let gradient = traceless(graph, model, gradient);
@@ -113,7 +112,7 @@ pub(crate) fn within_bound(graph: &Graph, what: &'static str) -> Result<(), TooL
 }
 
 /// u, x = X + u, v, a, H, F and J.
-fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> BTreeMap<Quantity, Vec<Expr>> {
+fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> SortedMap<Quantity, Vec<Expr>> {
     let strain = &motion.strain;
     let displacement = motion.displacement.iter().enumerate();
     let position = displacement
@@ -122,7 +121,7 @@ fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> BTreeMap<Quantity
             graph.add(reference, *component)
         })
         .collect();
-    BTreeMap::from([
+    SortedMap::from([
         (Quantity::Displacement, motion.displacement.clone()),
         (Quantity::Position, position),
         (Quantity::Velocity, motion.velocity.clone()),
@@ -134,13 +133,13 @@ fn kinematic_quantities(graph: &mut Graph, motion: &Motion) -> BTreeMap<Quantity
 }
 
 /// C, B and E = (C - I)/2. E is made of H, so that small strains do not cancel.
-fn strain_quantities(graph: &mut Graph, strain: &Strain) -> BTreeMap<Quantity, Vec<Expr>> {
+fn strain_quantities(graph: &mut Graph, strain: &Strain) -> SortedMap<Quantity, Vec<Expr>> {
     let identity = Tensor::identity(graph, strain.gradient.dimension());
     let right = identity.add(graph, &strain.right);
     let left = identity.add(graph, &strain.left);
     let half = graph.number(HALF);
     let lagrange = strain.right.scale(graph, half);
-    BTreeMap::from([
+    SortedMap::from([
         (Quantity::RightCauchyGreen, right.components().to_vec()),
         (Quantity::LeftCauchyGreen, left.components().to_vec()),
         (Quantity::GreenLagrange, lagrange.components().to_vec()),
@@ -163,7 +162,7 @@ fn stress_quantities(
     strain: &Strain,
     energy: Expr,
     from: Kirchhoff,
-) -> BTreeMap<Quantity, Vec<Expr>> {
+) -> SortedMap<Quantity, Vec<Expr>> {
     let first = law.first_piola_kirchhoff(graph, strain);
     let kirchhoff = match from {
         Kirchhoff::Left => law.kirchhoff(graph, strain),
@@ -180,7 +179,7 @@ fn stress_quantities(
             dot(graph, pairs)
         })
         .collect();
-    BTreeMap::from([
+    SortedMap::from([
         (Quantity::StrainEnergy, vec![energy]),
         (Quantity::FirstPiolaKirchhoff, first.components().to_vec()),
         (Quantity::NominalStress, first.transpose().components().to_vec()),
@@ -198,7 +197,7 @@ fn balance_quantities(
     density: Expr,
     motion: &Motion,
     divergence: Vec<Expr>,
-) -> BTreeMap<Quantity, Vec<Expr>> {
+) -> SortedMap<Quantity, Vec<Expr>> {
     let per_volume = graph.power(motion.strain.jacobian, -1);
     let mut body_force = Vec::new();
     let mut body_force_density = Vec::new();
@@ -213,7 +212,7 @@ fn balance_quantities(
     let mut current = |reference: &[Expr]| -> Vec<Expr> {
         reference.iter().map(|component| graph.mul(per_volume, *component)).collect()
     };
-    BTreeMap::from([
+    SortedMap::from([
         (Quantity::MassDensity, current(&[density])),
         (Quantity::DivSigma, current(&divergence)),
         (Quantity::CurrentBodyForceDensity, current(&body_force_density)),
@@ -233,12 +232,12 @@ fn supplied(graph: &mut Graph, model: &Model) -> Strain {
     Strain::new(graph, gradient, &model.kind, &Relations::default())
 }
 
-fn responses(graph: &mut Graph, law: &Law, model: &Model) -> BTreeMap<Response, Vec<Expr>> {
+fn responses(graph: &mut Graph, law: &Law, model: &Model) -> SortedMap<Response, Vec<Expr>> {
     let strain = supplied(graph, model);
     let modulus = law.fastest_modulus(graph, &model.kind);
     let squared_speed = graph.div(modulus, model.density);
     let speed = graph.power(squared_speed, HALF);
-    BTreeMap::from([
+    SortedMap::from([
         (Response::Density, vec![model.density]),
         (Response::WaveSpeed, vec![speed]),
         (Response::StrainEnergy, vec![law.energy(graph, &strain)]),

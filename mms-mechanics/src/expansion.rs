@@ -13,12 +13,11 @@
 //! products, powers and logarithms keep that form. Since W and P vanish at F = I, the values and the slopes of all
 //! W add up to 0.
 
-use std::collections::BTreeMap;
-
 use crate::invariant::{EXCESS, FIBRE, FIRST, MINORS, SECOND, VOLUME};
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::expand::expand;
 use mms_symbolic::pass::factor::factor;
+use mms_symbolic::sorted::SortedMap;
 
 /// Greater powers, and roots of a higher order, are not expanded.
 const MAX_POWER: i32 = 12;
@@ -46,7 +45,7 @@ pub(super) fn of_second_order(graph: &mut Graph, energy: Expr) -> Expr {
 }
 
 fn parts(graph: &mut Graph, energy: Expr) -> Option<Part> {
-    let mut parts = BTreeMap::<Expr, Part>::new();
+    let mut parts = SortedMap::<Expr, Part>::new();
     for expr in graph.reachable(&[energy]) {
         let part = match graph.node(expr).clone() {
             // Of coordinates alone, which moduli may depend on.
@@ -95,7 +94,7 @@ fn sum(
     graph: &mut Graph,
     constant: Rational,
     terms: &[(Expr, Rational)],
-    parts: &BTreeMap<Expr, Part>,
+    parts: &SortedMap<Expr, Part>,
 ) -> Part {
     let mut total = |of: &dyn Fn(&Part) -> Expr| {
         graph.sum(terms.iter().map(|(term, coefficient)| (of(&parts[term]), coefficient.clone())))

@@ -1,11 +1,10 @@
 //! The named faces of a body: where they lie, and which way they look.
 
-use std::collections::BTreeMap;
-
 use crate::model::Body;
 use mms_spec::Face;
 use mms_symbolic::expr::{Expr, Graph, HALF, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// The radius, among the coordinates of [`polar`].
 pub const RADIUS: Symbol = Symbol::Coordinate(0);
@@ -68,14 +67,14 @@ fn circular(graph: &mut Graph, angle: Expr) -> [Expr; 2] {
 /// What X is in terms of coordinates between whose bounds the body is a box: of themselves for a
 /// box (nothing is replaced), of radius and angle for an annulus, X = R cos theta and Y = R sin
 /// theta, which take the places of X and Y.
-pub fn polar(graph: &mut Graph, body: &Body) -> BTreeMap<Symbol, Expr> {
+pub fn polar(graph: &mut Graph, body: &Body) -> SortedMap<Symbol, Expr> {
     if matches!(body, Body::Box { .. }) {
-        return BTreeMap::new();
+        return SortedMap::new();
     }
     let (radius, angle) = (graph.symbol(RADIUS), graph.symbol(ANGLE));
     let [sine, cosine] = circular(graph, angle);
     let (x, y) = (graph.mul(radius, cosine), graph.mul(radius, sine));
-    BTreeMap::from([(Symbol::Coordinate(0), x), (Symbol::Coordinate(1), y)])
+    SortedMap::from([(Symbol::Coordinate(0), x), (Symbol::Coordinate(1), y)])
 }
 
 /// The bounds of the coordinates of [`polar`], in their order.
@@ -102,11 +101,11 @@ pub fn fixed_coordinate(face: Face) -> (usize, bool) {
 
 /// The point of a face that a point X of the body stands for, as a function of X: the nearest one on a
 /// flat face of a box, that of the same angle on a circle, that of the same radius on an edge.
-pub fn projection(graph: &mut Graph, body: &Body, face: Face) -> BTreeMap<Symbol, Expr> {
+pub fn projection(graph: &mut Graph, body: &Body, face: Face) -> SortedMap<Symbol, Expr> {
     let (axis, is_upper) = fixed_coordinate(face);
     let bound = bounds(body)[axis][usize::from(is_upper)];
     if matches!(body, Body::Box { .. }) {
-        return BTreeMap::from([(Symbol::Coordinate(axis), bound)]);
+        return SortedMap::from([(Symbol::Coordinate(axis), bound)]);
     }
     let point = match face {
         Face::ThetaMin | Face::ThetaMax => {
@@ -128,7 +127,7 @@ pub fn present(
     graph: &mut Graph,
     body: &Body,
     declared: Vec<Face>,
-    parameters: &BTreeMap<Symbol, Expr>,
+    parameters: &SortedMap<Symbol, Expr>,
 ) -> Vec<Face> {
     let Body::Annulus { inner, theta, .. } = *body else { return declared };
     let pi = graph.pi();

@@ -5,8 +5,6 @@
 //! multiply what rounding leaves. What is 0 so is seen by its values (`place.rs`). Then I : F,J is left out of the
 //! gradients of the invariants as well.
 
-use std::collections::BTreeMap;
-
 use crate::amplitude::{Amplitude, mended};
 use crate::invariant::{
     EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
@@ -20,6 +18,7 @@ use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::settle::settle;
+use mms_symbolic::sorted::SortedMap;
 
 /// What follows from a displacement gradient H = du/dX at one point.
 #[derive(Clone, Debug)]
@@ -37,7 +36,7 @@ pub struct Strain {
     /// B - I = H + H^T + H H^T.
     pub left: Tensor,
     /// What the density is a function of, by symbol.
-    pub invariants: BTreeMap<Symbol, Expr>,
+    pub invariants: SortedMap<Symbol, Expr>,
     /// The fibres, where the density is a function of I4.
     pub fibre: Option<Fibre>,
 }
@@ -191,7 +190,7 @@ impl Strain {
             Kind::Isotropic | Kind::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
             Kind::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
         };
-        let mut invariants: BTreeMap<Symbol, Expr> = symbols.into_iter().zip(invariants).collect();
+        let mut invariants: SortedMap<Symbol, Expr> = symbols.into_iter().zip(invariants).collect();
         let minors = right.principal_minors(graph, 2);
         invariants.extend([(EXCESS, excess), (MINORS, minors)]);
         let reciprocal = graph.power(jacobian, -1);
@@ -296,7 +295,7 @@ pub struct Motion {
     /// (ln J),J = F^-1_Kk u_k,KJ.
     pub log_volume_gradient: Vec<Expr>,
     /// The gradients of what the density is a function of, by symbol.
-    pub invariant_gradients: BTreeMap<Symbol, Vec<Expr>>,
+    pub invariant_gradients: SortedMap<Symbol, Vec<Expr>>,
     /// a0_K,J, where there are fibres.
     pub fibre_gradient: Option<Tensor>,
 }
@@ -351,7 +350,7 @@ impl Motion {
             strain,
             second_gradient,
             log_volume_gradient: Vec::new(),
-            invariant_gradients: BTreeMap::new(),
+            invariant_gradients: SortedMap::new(),
             fibre_gradient,
         };
         if !relations.is_empty() && !matches!(route, Route::Settled(_)) {
@@ -417,7 +416,7 @@ impl Motion {
         let volume = log_volume.iter().map(|slope| graph.mul(strain.jacobian, *slope)).collect();
         self.log_volume_gradient = log_volume;
         self.invariant_gradients =
-            BTreeMap::from([(FIRST, first), (SECOND, second), (VOLUME, volume)]);
+            SortedMap::from([(FIRST, first), (SECOND, second), (VOLUME, volume)]);
     }
 
     /// I4,J = 2 (F a0)_m a0_K u_m,KJ + 2 ((C - I) a0)_K a0_K,J.
@@ -448,7 +447,7 @@ impl Motion {
         let strain = self.strain.small(graph);
         let half = self.contract_second_gradient(graph, &strain);
         let square = half.into_iter().map(|component| graph.scale(component, 2)).collect();
-        self.invariant_gradients = BTreeMap::from([(SMALL_TRACE, trace), (SMALL_SQUARE, square)]);
+        self.invariant_gradients = SortedMap::from([(SMALL_TRACE, trace), (SMALL_SQUARE, square)]);
     }
 
     /// d2u_i / dX_J dX_J.

@@ -4,8 +4,6 @@
 //! `small_strain.rs` that of eps = (H + H^T)/2. The dimensions that a field lacks contribute a
 //! stretch of one.
 
-use std::collections::BTreeMap;
-
 use crate::expansion;
 use crate::finite::{self, Finite};
 use crate::invariant::Kind;
@@ -17,6 +15,7 @@ use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// A strain-energy density and the coefficients of its stress, as functions of the invariants.
 #[derive(Clone, Debug)]
@@ -115,7 +114,7 @@ impl Law {
         let stress = self.first_piola_kirchhoff(graph, &strain).at(0, 0);
         let slope = differentiate(graph, &[stress], stretch);
         let zero = graph.number(0);
-        substitute(graph, &slope, &BTreeMap::from([(stretch, zero)]))[0]
+        substitute(graph, &slope, &SortedMap::from([(stretch, zero)]))[0]
     }
 }
 

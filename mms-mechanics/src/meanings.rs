@@ -1,16 +1,15 @@
 //! What the names of parameters stand for: themselves, or constants.
 
-use std::collections::BTreeMap;
-
 use mms_spec::ParameterSpec;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// What the names of parameters stand for in the formulas of a field: themselves, or constants.
 #[derive(Debug, Default)]
 pub(crate) struct Meanings {
     /// The value of each parameter so far, where all have their defaults.
-    defaults: BTreeMap<Symbol, Expr>,
+    defaults: SortedMap<Symbol, Expr>,
 }
 
 impl Meanings {

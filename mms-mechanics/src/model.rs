@@ -4,8 +4,6 @@ pub mod energy;
 mod superposed;
 mod written;
 
-use std::collections::BTreeMap;
-
 pub use superposed::{RigidMotion, Rotation};
 
 use crate::invariant::Kind;
@@ -22,6 +20,7 @@ use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::substitute::substitute;
 
 use mms_symbolic::expr::print::AXES;
+use mms_symbolic::sorted::SortedMap;
 use written::Read;
 pub use written::{Part, Written};
 
@@ -119,7 +118,7 @@ pub struct Model {
     /// Closed forms from paper.
     pub checks: Vec<Check>,
     /// The values of each extreme by position of the parameter, in terms of the parameters before it.
-    pub extremes: Vec<BTreeMap<usize, Expr>>,
+    pub extremes: Vec<SortedMap<usize, Expr>>,
     /// The rigid motion on top of u.
     pub rigid: Option<RigidMotion>,
     /// The formulas as they are written.
@@ -329,7 +328,7 @@ impl Reader<'_> {
             if let Some(value) =
                 value.filter(|value| self.graph.node(*value).children().next().is_some())
             {
-                names.expressions.entry(value).or_insert_with(|| definition.name.value.clone());
+                names.expressions.get_or_insert_with(value, || definition.name.value.clone());
             }
         }
     }
@@ -450,9 +449,9 @@ impl Reader<'_> {
     }
 
     /// The values that extremes set.
-    fn extremes(&mut self, field: &FieldSpec) -> Vec<BTreeMap<usize, Expr>> {
+    fn extremes(&mut self, field: &FieldSpec) -> Vec<SortedMap<usize, Expr>> {
         let names = field.parameters.iter().enumerate();
-        let places: BTreeMap<&str, usize> =
+        let places: SortedMap<&str, usize> =
             names.map(|(index, parameter)| (parameter.name.value.as_str(), index)).collect();
         let mut setting = |(name, value): &(Spanned<String>, Formula)| {
             let index = *places.get(name.value.as_str())?;
@@ -516,7 +515,7 @@ impl Reader<'_> {
 }
 
 /// Values that are set, as expressions.
-pub fn as_set(graph: &mut Graph, set: &BTreeMap<usize, Rational>) -> BTreeMap<usize, Expr> {
+pub fn as_set(graph: &mut Graph, set: &SortedMap<usize, Rational>) -> SortedMap<usize, Expr> {
     set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
 }
 
@@ -524,9 +523,9 @@ pub fn as_set(graph: &mut Graph, set: &BTreeMap<usize, Rational>) -> BTreeMap<us
 pub fn parameter_values(
     graph: &mut Graph,
     model: &Model,
-    set: &BTreeMap<usize, Expr>,
+    set: &SortedMap<usize, Expr>,
 ) -> Vec<Expr> {
-    let mut known = BTreeMap::new();
+    let mut known = SortedMap::new();
     for (index, parameter) in model.parameters.iter().enumerate() {
         let value = *set.get(&index).unwrap_or(&parameter.default);
         let value = substitute(graph, &[value], &known)[0];

@@ -7,12 +7,11 @@
 //! the coordinates before anything is derived. X - s becomes a value of its own, [`Node::Offset`]: to every
 //! pass it is a leaf as exact as X is, with the slope 1, and in the program a difference.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use crate::model::{Body, Model};
 use crate::place::{defaults, value_with};
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::substitute::{coordinates, substitute};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// How many times larger than the body a coordinate is where it is far from the origin.
 const FAR: f64 = 4.0;
@@ -32,9 +31,9 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
 }
 
 /// The places that parameters say, by axes.
-fn said(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
+fn said(graph: &mut Graph, model: &Model) -> SortedMap<usize, Expr> {
     let axes: Vec<usize> = (0..model.displacement.len()).collect();
-    let mut places = BTreeMap::<usize, Expr>::new();
+    let mut places = SortedMap::<usize, Expr>::new();
     for parameter in subtracted(graph, model) {
         let mut some = std::iter::once(&axes[..]).chain(axes.chunks(1));
         let about = some.find(|axes| is_about(graph, model, axes, parameter));
@@ -52,9 +51,9 @@ fn said(graph: &mut Graph, model: &Model) -> BTreeMap<usize, Expr> {
 fn far_corners(
     graph: &mut Graph,
     model: &Model,
-    places: &BTreeMap<usize, Expr>,
-) -> BTreeMap<usize, Expr> {
-    let Body::Box { lower, upper } = &model.domain.body else { return BTreeMap::new() };
+    places: &SortedMap<usize, Expr>,
+) -> SortedMap<usize, Expr> {
+    let Body::Box { lower, upper } = &model.domain.body else { return SortedMap::new() };
     let defaults = defaults(graph, model);
     let far = |axis: usize| {
         let number = |expr: Expr| value_with(graph, expr, &defaults).to_f64();
@@ -69,12 +68,12 @@ fn far_corners(
 }
 
 /// The parameters that a coordinate has beside it in a sum.
-fn subtracted(graph: &mut Graph, model: &Model) -> BTreeSet<Expr> {
+fn subtracted(graph: &mut Graph, model: &Model) -> SortedSet<Expr> {
     let is = |expr: Expr, wanted: fn(&Symbol) -> bool| match graph.node(expr) {
         Node::Symbol(symbol) => wanted(symbol),
         _ => false,
     };
-    let mut found = BTreeSet::new();
+    let mut found = SortedSet::new();
     for expr in graph.reachable(&model.in_space()) {
         let Node::Sum(_, terms) = graph.node(expr) else { continue };
         let of = |wanted| terms.iter().map(|(term, _)| *term).filter(move |it| is(*it, wanted));

@@ -2,14 +2,13 @@
 
 mod sign;
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED};
 use mms_spec::names::FUNCTIONS;
 use mms_spec::source::{Span, Spanned};
 use mms_spec::suggest::advice;
 use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// Functions that people try, and why a field cannot have them.
 const NON_SMOOTH: &[&str] =
@@ -37,15 +36,15 @@ impl Step {
 /// The names that a formula may use.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
-    names: BTreeMap<String, Expr>,
+    names: SortedMap<String, Expr>,
     /// Names whose definitions stand further down, with those definitions.
-    later: BTreeMap<String, Span>,
+    later: SortedMap<String, Span>,
     /// Names whose definitions failed or were refused: using them is a consequence, not a mistake.
-    failed: BTreeSet<String>,
+    failed: SortedSet<String>,
     /// Names that exist elsewhere in the language, with the reason why they do not here.
-    unavailable: BTreeMap<String, String>,
+    unavailable: SortedMap<String, String>,
     /// Symbols known to be positive.
-    positive: BTreeSet<Symbol>,
+    positive: SortedSet<Symbol>,
     /// A part of the file could not be read: a name may be defined there.
     incomplete: bool,
 }

@@ -42,8 +42,6 @@
 //!
 //! `tests/operations.rs` holds operation counts to bounds.
 
-use std::collections::BTreeMap;
-
 use crate::amplitude::Amplitude;
 use crate::candidates::{
     Accuracy, Candidate, Components, Rewriting, candidates, choose_all, reduced, unexpanded,
@@ -62,6 +60,7 @@ use mms_symbolic::pass::gather::gather;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::separate::separate;
 use mms_symbolic::pass::shift::shift;
+use mms_symbolic::sorted::SortedMap;
 
 /// What a solver asks for at every step, and may keep of points as far as X determines it; and what that is made of.
 const FORCES: [Quantity; 5] = [
@@ -331,7 +330,7 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> V
 fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
     let shifted = graph.attempt(|graph| shift(graph, &components));
     let shifted = shifted.filter(|shifted| *shifted != components);
-    let shifted = shifted.map(|shifted| unexpanded(graph, &BTreeMap::from([((), shifted)])));
+    let shifted = shifted.map(|shifted| unexpanded(graph, &SortedMap::from([((), shifted)])));
     let shifted = shifted.into_iter().flatten().map(|mut it| it.components.remove(&()));
     let mut ways: Vec<Vec<Expr>> = shifted.flatten().collect();
     ways.push(components.clone());

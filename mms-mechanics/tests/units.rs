@@ -4,8 +4,6 @@
 //! The route is independent: the symbols are multiplied by what a change of units does to them,
 //! and the formula is evaluated in 77 digits, before and after.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 use mms_mechanics::Output;
 use mms_mechanics::resolve::Scope;
@@ -17,6 +15,7 @@ use mms_spec::source::Sources;
 use mms_spec::syntax::{Ast, parse};
 use mms_spec::units::{Dimension, Formulas, Measure, Unit};
 use mms_symbolic::expr::{Graph, Rational, Symbol};
+use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
@@ -112,7 +111,7 @@ fn evaluate(ast: &Ast, factors: &[Precise; 3]) -> Option<Precise> {
     }
     let expr = scope.resolve(&mut graph, ast, &mut Vec::new())?;
     let output = Output::Parameter(0);
-    let program = schedule(&graph, &BTreeMap::from([(output, vec![expr])]));
+    let program = schedule(&graph, &SortedMap::from([(output, vec![expr])]));
     let value = Interpreter::new(&program, &parameters).output(output).remove(0);
     value.is_defined().then_some(value)
 }

@@ -7,11 +7,10 @@
 //! numbers that are there anyway are computed where they are read; and where several can be made of one number,
 //! that is handed on in their place.
 
-use std::collections::BTreeSet;
-
 use crate::program::{Key, Op, Program, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::Symbol;
+use mms_symbolic::sorted::SortedSet;
 
 /// How many sums and products a number is worth that one loop over points leaves to the next one.
 pub const WORTH_IN_CACHE: usize = 1;
@@ -71,10 +70,10 @@ pub struct Cut {
 impl Cut {
     /// What is taken in place of these columns, where a number is `worth` so many operations.
     pub fn new<K: Key>(program: &Program<K>, columns: &Columns, worth: usize) -> Self {
-        let mut taken: BTreeSet<Value> = columns.values.iter().copied().collect();
-        let mut made = BTreeSet::new();
+        let mut taken: SortedSet<Value> = columns.values.iter().copied().collect();
+        let mut made = SortedSet::new();
         loop {
-            let there = &taken | &made;
+            let there = taken.iter().chain(&made).copied().collect();
             let steps = |value: &Value| Some((*value, steps(program, *value, worth, &there)?));
             if let Some((value, steps)) = taken.iter().find_map(steps) {
                 taken.remove(&value);
@@ -86,7 +85,7 @@ impl Cut {
                 None => break,
             }
         }
-        let mut axes: BTreeSet<usize> = columns.axes.iter().copied().collect();
+        let mut axes: SortedSet<usize> = columns.axes.iter().copied().collect();
         for value in &made {
             for operand in program.instr(*value).op.operands() {
                 if let Op::Input(Symbol::Coordinate(axis)) = program.instr(operand).op {
@@ -102,8 +101,8 @@ impl Cut {
 /// The number of which most of those that are `taken` could be made, if more than one.
 fn best_of_those_behind<K: Key>(
     program: &Program<K>,
-    taken: &BTreeSet<Value>,
-    there: &BTreeSet<Value>,
+    taken: &SortedSet<Value>,
+    there: &SortedSet<Value>,
     worth: usize,
 ) -> Option<Value> {
     let of_it = |another: &Value| {
@@ -112,7 +111,7 @@ fn best_of_those_behind<K: Key>(
         let is_made = |value: &&Value| steps(program, **value, worth, &there).is_some();
         taken.iter().filter(is_made).count()
     };
-    let others: BTreeSet<Value> =
+    let others: SortedSet<Value> =
         taken.iter().flat_map(|value| behind(program, *value, worth)).collect();
     let best = others.iter().map(|other| (of_it(other), *other)).max();
     best.filter(|(several, _)| *several > 1).map(|(_, other)| other)
@@ -123,9 +122,9 @@ fn steps<K: Key>(
     program: &Program<K>,
     value: Value,
     most: usize,
-    there: &BTreeSet<Value>,
-) -> Option<BTreeSet<Value>> {
-    let mut steps = BTreeSet::from([value]);
+    there: &SortedSet<Value>,
+) -> Option<SortedSet<Value>> {
+    let mut steps = SortedSet::from([value]);
     let mut open = vec![value];
     while let Some(step) = open.pop() {
         let op = &program.instr(step).op;
@@ -140,9 +139,9 @@ fn steps<K: Key>(
 }
 
 /// What comes before a value, up to so many sums and products.
-fn behind<K: Key>(program: &Program<K>, value: Value, most: usize) -> BTreeSet<Value> {
+fn behind<K: Key>(program: &Program<K>, value: Value, most: usize) -> SortedSet<Value> {
     let op = &program.instr(value).op;
-    let mut found = BTreeSet::new();
+    let mut found = SortedSet::new();
     if most > 0 && is_cheap(op) {
         for operand in op.operands().filter(|operand| is_found_at_points(program, *operand)) {
             found.insert(operand);

@@ -1,10 +1,10 @@
 //! Straight-line code, value-numbered.
 
-use std::collections::BTreeMap;
 use std::fmt::{self, Debug, Display, Formatter};
 use std::ops::Range;
 
 use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 /// What names an output of a program. Outputs are scheduled in the order of their keys.
 pub trait Key: Copy + Ord + Debug {}
@@ -110,7 +110,7 @@ pub struct Program<K> {
     /// In order of stage, operands first.
     pub instrs: Vec<Instr>,
     /// The components of each output, tensors row-major.
-    pub outputs: BTreeMap<K, Vec<Value>>,
+    pub outputs: SortedMap<K, Vec<Value>>,
 }
 
 impl<K: Key> Program<K> {
@@ -154,11 +154,11 @@ impl<K: Key> Program<K> {
 
     /// How many operations `outputs` take, stage by stage: + - * / and each function call count
     /// one; constants, loads and changes of sign none.
-    pub fn operations(&self, outputs: &[K]) -> BTreeMap<Stage, usize> {
-        let mut counts: BTreeMap<Stage, usize> = Stage::ALL.map(|stage| (stage, 0)).into();
+    pub fn operations(&self, outputs: &[K]) -> SortedMap<Stage, usize> {
+        let mut counts: SortedMap<Stage, usize> = Stage::ALL.map(|stage| (stage, 0)).into();
         for (instr, needed) in self.instrs.iter().zip(self.needed(outputs)) {
             if needed && instr.op.is_counted() {
-                *counts.entry(instr.stage).or_default() += 1;
+                *counts.get_or_default(instr.stage) += 1;
             }
         }
         counts

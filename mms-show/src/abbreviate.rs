@@ -1,9 +1,8 @@
 //! Abbreviates formulas: one that would be too long for a line is put together from named parts.
 
-use std::collections::BTreeMap;
-
 use super::reading::Reading;
 use mms_symbolic::expr::{Expr, Node, Rational};
+use mms_symbolic::sorted::SortedMap;
 
 /// The longest right-hand side, in characters of text.
 pub(super) const LINE: usize = 72;
@@ -20,7 +19,7 @@ impl Reading {
             return roots.to_vec();
         }
         let uses = self.uses(roots);
-        let mut shorter = BTreeMap::<Expr, Expr>::new();
+        let mut shorter = SortedMap::<Expr, Expr>::new();
         for expr in self.graph.reachable(roots) {
             let node = with_operands(self.graph.node(expr), &shorter);
             let mut made = self.graph.remake(node);
@@ -35,12 +34,12 @@ impl Reading {
     }
 
     /// How often each part is an operand.
-    fn uses(&self, roots: &[Expr]) -> BTreeMap<Expr, usize> {
-        let mut uses = BTreeMap::new();
+    fn uses(&self, roots: &[Expr]) -> SortedMap<Expr, usize> {
+        let mut uses = SortedMap::new();
         for expr in self.graph.reachable(roots) {
-            uses.entry(expr).or_insert(0);
+            uses.get_or_insert_with(expr, || 0);
             for child in self.graph.node(expr).children() {
-                *uses.entry(child).or_insert(0) += 1;
+                *uses.get_or_insert_with(child, || 0) += 1;
             }
         }
         uses
@@ -74,7 +73,7 @@ impl Reading {
             return None;
         }
         let name = self.numbered(longest);
-        let node = with_operands(&node, &BTreeMap::from([(longest, name)]));
+        let node = with_operands(&node, &SortedMap::from([(longest, name)]));
         Some(self.graph.remake(node))
     }
 
@@ -137,7 +136,7 @@ impl Reading {
 }
 
 /// A node over other operands.
-fn with_operands(node: &Node, others: &BTreeMap<Expr, Expr>) -> Node {
+fn with_operands(node: &Node, others: &SortedMap<Expr, Expr>) -> Node {
     let mut node = node.clone();
     node.map_children(|child| others.get(&child).copied().unwrap_or(child));
     node

@@ -1,8 +1,6 @@
 //! What there is to show of a field, in the order in which a person would write it. It holds
 //! expressions and names; how they look is for the notations to say.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::energy::energy_of_file;
 use super::motion::{Formulas, Quantities};
 use super::name::Name;
@@ -19,6 +17,7 @@ use mms_spec::Formula;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// Names that stand for one value.
 #[derive(Clone, Debug)]
@@ -102,7 +101,7 @@ impl Document {
         let defined = 0..reading.entries.len();
         let mut quantities = Quantities::motion(&mut reading, compiled, &formulas);
         stress::derive(&mut reading, compiled, &formulas, &mut quantities);
-        let mut listing = Listing { reading, listed: BTreeSet::new(), fitted: BTreeSet::new() };
+        let mut listing = Listing { reading, listed: SortedSet::new(), fitted: SortedSet::new() };
         let mut definitions = Vec::new();
         for id in defined {
             definitions.extend(listing.up_to([id].into()));
@@ -152,9 +151,9 @@ impl Document {
 /// Puts down what has been derived, each thing before it is used and only once.
 struct Listing {
     reading: Reading,
-    listed: BTreeSet<Id>,
+    listed: SortedSet<Id>,
     /// Entries whose formulas fit on a line.
-    fitted: BTreeSet<Id>,
+    fitted: SortedSet<Id>,
 }
 
 impl Listing {
@@ -200,12 +199,12 @@ impl Listing {
     ) -> Section {
         let ids = quantities.ids(quantity);
         self.fit(ids);
-        let used: BTreeSet<Id> = ids
+        let used: SortedSet<Id> = ids
             .iter()
             .flat_map(|id| self.reading.entries_in(self.reading.entries[*id].shown))
             .collect();
         let whereby = self.up_to(used);
-        self.listed.extend(ids);
+        self.listed.extend(ids.iter().copied());
         let components: Vec<Line> = ids.iter().map(|id| self.line(*id)).collect();
         let counts = compiled.program.operations(&[Output::Quantity(quantity)]);
         let operations = Stage::ALL.iter().map(|stage| (*stage, counts[stage]));
@@ -229,7 +228,7 @@ impl Listing {
     }
 
     /// The lines of these entries and of all that they use, as far as they have not been listed.
-    fn up_to(&mut self, wanted: BTreeSet<Id>) -> Vec<Line> {
+    fn up_to(&mut self, wanted: SortedSet<Id>) -> Vec<Line> {
         let mut lines = Vec::new();
         let mut open: Vec<(Id, bool)> = wanted.into_iter().rev().map(|id| (id, false)).collect();
         while let Some((id, is_ready)) = open.pop() {
@@ -256,7 +255,7 @@ impl Listing {
 
 /// Lines of one value as one line, in the order of the first.
 fn grouped(lines: &[Line]) -> Vec<Line> {
-    let mut places = BTreeMap::<Expr, usize>::new();
+    let mut places = SortedMap::<Expr, usize>::new();
     let mut grouped: Vec<Line> = Vec::new();
     for line in lines {
         match places.get(&line.value) {

@@ -1,7 +1,5 @@
 //! W as it is typed, with the invariants as leaves.
 
-use std::collections::BTreeMap;
-
 use super::motion::{Formulas, resolved};
 use super::name::Name;
 use super::reading::{Reading, Role};
@@ -11,6 +9,7 @@ use mms_mechanics::resolve::Scope;
 use mms_symbolic::expr::{Expr, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// What W is a function of, as leaves that stand for nothing else, in the order of [`INVARIANTS`].
 struct Leaves {
@@ -61,7 +60,7 @@ impl Leaves {
     /// The model's W, which is a function of the departures from the undeformed state.
     fn of_model(&self, reading: &mut Reading, energy: Expr) -> Expr {
         let graph = &mut reading.graph;
-        let mut values = BTreeMap::new();
+        let mut values = SortedMap::new();
         for (invariant, leaf) in INVARIANTS.iter().zip(&self.leaves) {
             let constant = graph.number(invariant.at_identity);
             values.insert(invariant.symbol, graph.sub(*leaf, constant));

@@ -1,7 +1,5 @@
 //! The formulas of the field file with its own names kept, and the motion that follows from them.
 
-use std::collections::BTreeMap;
-
 use super::matrix::{matrix_product, transpose};
 use super::name::{Along, Name};
 use super::reading::{Id, Reading, Role};
@@ -14,6 +12,7 @@ use mms_spec::{Formula, LetSpec};
 use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, HALF, Symbol};
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// The longest formula that is repeated in place of the name of what it says: F_11 is written out
 /// where it is short, and is 1 + H_11 where it is not.
@@ -26,14 +25,14 @@ pub(super) struct Formulas {
     /// Names stand for what they are defined as.
     expanded: Scope,
     /// What each entry of a definition stands for.
-    definitions: BTreeMap<Symbol, Expr>,
+    definitions: SortedMap<Symbol, Expr>,
 }
 
 impl Formulas {
     /// Reads the definitions of a field.
     pub fn new(reading: &mut Reading, compiled: &Compiled) -> Self {
         let (typed, expanded) = (Scope::default(), Scope::default());
-        let mut formulas = Formulas { typed, expanded, definitions: BTreeMap::new() };
+        let mut formulas = Formulas { typed, expanded, definitions: SortedMap::new() };
         let pi = reading.graph.pi();
         formulas.define("pi", pi);
         formulas.given("t", Symbol::Time, reading);
@@ -107,14 +106,14 @@ pub(super) fn resolved(reading: &mut Reading, scope: &Scope, formula: &Formula) 
 /// The quantities that have been derived: the entries of their components.
 pub(super) struct Quantities {
     pub dimension: usize,
-    ids: BTreeMap<Quantity, Vec<Id>>,
+    ids: SortedMap<Quantity, Vec<Id>>,
 }
 
 impl Quantities {
     /// u, x, v, a, H, F, C, B and E.
     pub fn motion(reading: &mut Reading, compiled: &Compiled, formulas: &Formulas) -> Self {
         let dimension = compiled.field.dimension;
-        let mut quantities = Quantities { dimension, ids: BTreeMap::new() };
+        let mut quantities = Quantities { dimension, ids: SortedMap::new() };
         let displacement: Vec<Expr> = (compiled.field.displacement.iter())
             .zip(&compiled.model.displacement)
             .map(|(formula, derived)| formulas.read(reading, formula, *derived))

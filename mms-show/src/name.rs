@@ -1,10 +1,9 @@
 //! Names of what a derivation talks about, structured so that each notation can set them well.
 
-use std::collections::BTreeSet;
-
 use mms_mechanics::invariant::INVARIANTS;
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
+use mms_symbolic::sorted::SortedSet;
 
 /// What a derivative is taken by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -128,7 +127,7 @@ impl Name {
 
 /// The names given so far. Two names that some notation may set alike count as one.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Taken(BTreeSet<String>);
+pub(super) struct Taken(SortedSet<String>);
 
 impl Taken {
     /// Keeps a name that must stay as it is.

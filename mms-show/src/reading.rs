@@ -4,8 +4,6 @@
 //! says F. So a reading keeps its own leaves: each stands for an [`Entry`], which holds its value in
 //! terms of earlier ones. Derivatives follow the chain rule through the entries.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::name::{Along, Name, Taken};
 use super::text::Text;
 use super::walk::{Names, write};
@@ -15,6 +13,7 @@ use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Expr, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::factor::factor;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// A formula of at most so many characters is said in place of a name of its own.
 const SHORT: usize = 16;
@@ -58,9 +57,9 @@ pub(super) struct Reading {
     /// The parameters of the field, whose leaves come before those of entries.
     pub parameters: Vec<String>,
     pub taken: Taken,
-    derivatives: BTreeMap<(Id, Along), Expr>,
+    derivatives: SortedMap<(Id, Along), Expr>,
     /// Helpers by their values, so that nothing is named twice.
-    by_value: BTreeMap<Expr, Id>,
+    by_value: SortedMap<Expr, Id>,
     /// The last number that was tried for a helper without a better name.
     numbers: usize,
 }
@@ -96,8 +95,8 @@ impl Reading {
             entries: Vec::new(),
             parameters,
             taken,
-            derivatives: BTreeMap::new(),
-            by_value: BTreeMap::new(),
+            derivatives: SortedMap::new(),
+            by_value: SortedMap::new(),
             numbers: 0,
         }
     }
@@ -171,7 +170,7 @@ impl Reading {
 
     /// How many nodes the expression has where it is written out.
     fn tree_size(&self, root: Expr) -> u64 {
-        let mut sizes = BTreeMap::<Expr, u64>::new();
+        let mut sizes = SortedMap::<Expr, u64>::new();
         for expr in self.graph.reachable(&[root]) {
             let below = self.graph.node(expr).children().map(|child| sizes[&child]);
             let size = below.fold(1, u64::saturating_add);
@@ -187,7 +186,7 @@ impl Reading {
     }
 
     /// The entries that the expressions are made of, directly.
-    pub fn entries_in(&self, expr: Expr) -> BTreeSet<Id> {
+    pub fn entries_in(&self, expr: Expr) -> SortedSet<Id> {
         let symbols = self.graph.symbols(expr);
         symbols.into_iter().filter_map(|symbol| self.entry_of(symbol)).collect()
     }
@@ -195,7 +194,7 @@ impl Reading {
     /// The total derivative: what depends on `along` through entries counts too.
     pub fn derivative(&mut self, expr: Expr, along: Along) -> Expr {
         // Entries are made of earlier ones, so that their derivatives are known in time.
-        let mut needed = BTreeSet::new();
+        let mut needed = SortedSet::new();
         let mut open: Vec<Id> = self.entries_in(expr).into_iter().collect();
         while let Some(id) = open.pop() {
             if !self.derivatives.contains_key(&(id, along)) && needed.insert(id) {

@@ -1,9 +1,8 @@
 //! The one walk from an expression to a formula: signs, fractions, powers, roots and parentheses.
 //! A [`Notation`] says only how each of these is set.
 
-use std::collections::BTreeMap;
-
 use mms_symbolic::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol, magnitude};
+use mms_symbolic::sorted::SortedMap;
 
 use super::name::Name;
 
@@ -90,7 +89,7 @@ impl Names for mms_symbolic::expr::print::Names {
 /// The formula of `root` in a notation.
 pub fn write(graph: &Graph, root: Expr, names: &dyn Names, notation: &dyn Notation) -> String {
     let writer = Writer { graph, names, notation };
-    let mut pieces = BTreeMap::<Expr, Piece>::new();
+    let mut pieces = SortedMap::<Expr, Piece>::new();
     for expr in graph.reachable(&[root]) {
         let piece = writer.node(graph.node(expr), &pieces);
         pieces.insert(expr, piece);
@@ -121,7 +120,7 @@ impl Term {
 }
 
 impl Writer<'_> {
-    fn node(&self, node: &Node, pieces: &BTreeMap<Expr, Piece>) -> Piece {
+    fn node(&self, node: &Node, pieces: &SortedMap<Expr, Piece>) -> Piece {
         match node {
             Node::Number(number) => vec![self.scaled(&Term::default(), number)],
             Node::Pi => Term::of(Factor::atom(self.notation.pi())),
@@ -144,7 +143,7 @@ impl Writer<'_> {
         &self,
         constant: &Rational,
         terms: &[(Expr, Rational)],
-        pieces: &BTreeMap<Expr, Piece>,
+        pieces: &SortedMap<Expr, Piece>,
     ) -> Piece {
         let mut sum = Piece::new();
         if !constant.is_zero() {
@@ -165,7 +164,7 @@ impl Writer<'_> {
     }
 
     /// 1 + x.
-    fn one_more(&self, expr: Expr, pieces: &BTreeMap<Expr, Piece>) -> Piece {
+    fn one_more(&self, expr: Expr, pieces: &SortedMap<Expr, Piece>) -> Piece {
         match self.graph.node(expr) {
             Node::Sum(constant, terms) => self.terms(&(constant + Rational::ONE), terms, pieces),
             _ => self.terms(&Rational::ONE, &[(expr, Rational::ONE)], pieces),
@@ -192,7 +191,7 @@ impl Writer<'_> {
         term
     }
 
-    fn product(&self, factors: &[(Expr, Rational)], pieces: &BTreeMap<Expr, Piece>) -> Term {
+    fn product(&self, factors: &[(Expr, Rational)], pieces: &SortedMap<Expr, Piece>) -> Term {
         let mut term = Term::default();
         let mut factors: Vec<_> = factors.iter().collect();
         factors.sort_by_key(|(base, _)| self.place(*base));
@@ -261,7 +260,7 @@ impl Writer<'_> {
         &self,
         function: Function,
         arguments: &[Expr],
-        pieces: &BTreeMap<Expr, Piece>,
+        pieces: &SortedMap<Expr, Piece>,
     ) -> Factor {
         match function {
             Function::Powf => self.variable_power(&pieces[&arguments[0]], &pieces[&arguments[1]]),

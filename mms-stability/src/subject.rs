@@ -1,7 +1,5 @@
 //! The state of a compiled field at a place and a time, with the defaults of its parameters.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::compile::Compiled;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Response, at_rest};
@@ -12,6 +10,7 @@ use mms_program::schedule::schedule_plainly;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 use nalgebra::{SMatrix, SVector};
 
@@ -58,7 +57,7 @@ impl Formulas {
         let [stress, tangent] = at_rest(&mut graph, &compiled.model);
         let position = quantity(Quantity::Position);
         let is_static = is_static(&mut graph, &position);
-        let outputs = BTreeMap::from([
+        let outputs = SortedMap::from([
             (Output::Position, position),
             (Output::Gradient, quantity(Quantity::DisplacementGradient)),
             (Output::Density, response(Response::Density)),
@@ -69,7 +68,7 @@ impl Formulas {
         let program = schedule_plainly(&graph, &outputs);
         let work = graph.work().share();
         let is_frame_indifferent = compiled.material.frame_indifferent;
-        let parameters = compiled.parameters(&BTreeMap::new());
+        let parameters = compiled.parameters(&SortedMap::new());
         Formulas { program, parameters, work, is_static, is_frame_indifferent }
     }
 
@@ -128,7 +127,7 @@ struct Evaluated<'a, T: Number> {
     interpreter: Interpreter<'a, T, Output>,
     /// That of the last evaluation.
     time: Option<T>,
-    plans: BTreeMap<Output, Vec<bool>>,
+    plans: SortedMap<Output, Vec<bool>>,
 }
 
 impl<'a, T: Number> Evaluated<'a, T> {

@@ -1,6 +1,5 @@
 //! The shortest wavelength of a motion, which tells how fine a mesh has to be.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use mms_codegen::compile::Compiled;
@@ -10,6 +9,7 @@ use mms_program::schedule::schedule_plainly;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::sorted::SortedMap;
 
 /// At how many points of body and window.
 const POINTS: usize = 256;
@@ -47,7 +47,7 @@ fn largest_derivatives(compiled: &Compiled) -> Option<Vec<Vec<Vec<f64>>>> {
     graph.work().allow(STEPS);
     let dimension = compiled.field.dimension;
     let displacement = &compiled.derived.quantities[&Quantity::Displacement];
-    let mut outputs = BTreeMap::new();
+    let mut outputs = SortedMap::new();
     for axis in 0..dimension {
         let mut derivative = displacement.clone();
         for order in 0..ORDERS {
@@ -59,7 +59,7 @@ fn largest_derivatives(compiled: &Compiled) -> Option<Vec<Vec<Vec<f64>>>> {
         return None;
     }
     let program = schedule_plainly(&graph, &outputs);
-    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let mut interpreter = Interpreter::within(graph.work(), &program, &parameters);
     let keys: Vec<_> = outputs.keys().copied().collect();
     let plan = interpreter.plan(&keys);

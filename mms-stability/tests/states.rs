@@ -2,13 +2,12 @@
 
 mod support;
 
-use std::collections::BTreeMap;
-
 use mms_codegen::Compiled;
 use mms_mechanics::{Output, Response};
 use mms_program::interpret::{Interpreter, Point};
 use mms_stability::resting::Material;
 use mms_stability::subject::{Formulas, Subject};
+use mms_symbolic::sorted::SortedMap;
 use nalgebra::{SMatrix, SVector};
 use support::{gallery, neo_hookean, plane};
 
@@ -17,7 +16,7 @@ fn agrees<const D: usize>(name: &str, compiled: &Compiled) {
     let formulas = Formulas::new(compiled);
     let mut subject = Subject::<D>::new(compiled, &formulas);
     let program = compiled.tangent().expect("a tangent");
-    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let mut interpreter = Interpreter::new(&program, &parameters);
     let output = Output::Response(Response::Tangent);
     let plan = interpreter.plan(&[output]);
@@ -73,7 +72,7 @@ fn elasticity_is_that_by_hand() {
 fn moduli_at_rest_are_those_that_a_field_gives() {
     let mut seen = 0;
     for (name, compiled) in gallery() {
-        let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+        let parameters = compiled.parameters::<f64>(&SortedMap::new());
         let named = |wanted: &str| {
             let index = compiled.model.parameters.iter().position(|it| it.name == wanted)?;
             Some(parameters[index])

@@ -13,6 +13,7 @@ use mms_campaign::cover::{Candidate, smallest};
 use mms_mechanics::TooLarge;
 use mms_runtime::Division;
 use mms_spec::{Claim, FieldSpec};
+use mms_symbolic::sorted::SortedMap;
 
 use crate::gallery;
 use crate::session::input::{Input, Variant};
@@ -167,7 +168,7 @@ fn affine(allowed: &[&Shown]) -> Option<Affine> {
         it.visibility.span() == Some(Span::Linear) && !it.visibility.lacks(&Term::Velocity)
     };
     let found = allowed.iter().find(is_affine)?;
-    let speed = sound(&found.input.compiled, &BTreeMap::new())[1];
+    let speed = sound(&found.input.compiled, &SortedMap::new())[1];
     let scene = found.input.scene::<f64>(&[], |code| code.double).ok()?;
     let longest = 0.4 * scene.cell_size(&Division::Uniform(CELLS)) / speed;
     Some(Affine {

@@ -2,7 +2,6 @@
 
 mod folder;
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
@@ -146,7 +145,7 @@ impl Emit {
             Some(names) => Freeze::Only(names.iter().map(|name| name.trim().into()).collect()),
         };
         Ok(Selection {
-            quantities: wanted.map(BTreeSet::from_iter),
+            quantities: wanted.map(|wanted| wanted.into_iter().collect()),
             set,
             freeze,
             ..Selection::default()

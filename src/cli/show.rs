@@ -195,7 +195,7 @@ fn together(compiled: &Compiled, document: &Document) -> Value {
         "before": operations.before,
         "after": operations.after,
         "by_stage": BTreeMap::from(by_stage),
-        "by_kind": operations.by_kind,
+        "by_kind": BTreeMap::from_iter(operations.by_kind),
     })
 }
 

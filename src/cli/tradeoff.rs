@@ -1,6 +1,5 @@
 //! `mms tradeoff`: error against cost, and what to choose.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, anyhow, bail};
@@ -11,6 +10,7 @@ use mms_mechanics::sample::domain;
 use mms_runtime::Division;
 use mms_spec::Form;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 use super::{Outcome, print, print_json, say, this_command};
 use crate::report::tradeoff::Report;
@@ -230,7 +230,7 @@ impl Bench<'_> {
 
 /// About how many particle-steps a run takes on one cell as long as the `longest` edge of the body, with one particle in it
 /// and a Courant number of 1: the part of the cell that is the body's, times how often a wave crosses it.
-fn unit_work(compiled: &Compiled, set: &BTreeMap<usize, Rational>, longest: f64) -> f64 {
+fn unit_work(compiled: &Compiled, set: &SortedMap<usize, Rational>, longest: f64) -> f64 {
     let (extent, [start, end]) = domain(&compiled.program, &compiled.parameters::<f64>(set));
     let [_, speed] = sound(compiled, set);
     let part: f64 = match extent {

@@ -1,7 +1,5 @@
 //! A field at an extreme, and what comes of running it there.
 
-use std::collections::BTreeMap;
-
 use mms_analysis::accuracy::{Varied, regime, vary};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Compiled, Options};
@@ -13,6 +11,7 @@ use mms_runtime::study::{Observer, Watch};
 use mms_runtime::{Division, FormulationName, Method};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 use super::rows::Row;
 use super::theory::Elasticity;
@@ -30,7 +29,7 @@ pub struct Subject {
     /// The field.
     pub input: Input,
     /// The parameters that are set, by position.
-    pub set: BTreeMap<usize, Rational>,
+    pub set: SortedMap<usize, Rational>,
     /// What is extreme about the field, in words; nothing, if it is as declared.
     pub settings: String,
     /// The largest displacement.
@@ -54,7 +53,7 @@ impl Subject {
         row: Option<&Row>,
     ) -> anyhow::Result<Result<Self, String>> {
         let mut options = declared.clone();
-        let mut set = BTreeMap::new();
+        let mut set = SortedMap::new();
         let mut settings = String::new();
         let text = Text::find(field)?;
         if let Some(name) = row.and_then(|row| row.regime.as_deref()) {
@@ -85,7 +84,7 @@ impl Subject {
         Ok(Ok(Self::of(input, set, settings)))
     }
 
-    fn of(input: Input, set: BTreeMap<usize, Rational>, settings: String) -> Self {
+    fn of(input: Input, set: SortedMap<usize, Rational>, settings: String) -> Self {
         let compiled = &input.compiled;
         let parameters = compiled.parameters::<f64>(&set);
         let (extent, window) = domain(&compiled.program, &parameters);
@@ -212,12 +211,12 @@ fn take(
     compiled: &Compiled,
     varied: Varied,
     declared: &Options,
-) -> (Options, BTreeMap<usize, Rational>) {
+) -> (Options, SortedMap<usize, Rational>) {
     let parameters = &compiled.model.parameters;
-    let (own, added): (BTreeMap<_, _>, BTreeMap<_, _>) =
+    let (own, added): (SortedMap<_, _>, SortedMap<_, _>) =
         varied.values.into_iter().partition(|(at, _)| *at < parameters.len());
     let own = own.iter().map(|(at, value)| (parameters[*at].name.clone(), format!("({value})")));
-    let own: BTreeMap<_, _> = own.collect();
+    let own: SortedMap<_, _> = own.collect();
     let mut selection = declared.selection.clone();
     selection.set.retain(|(name, _)| !own.contains_key(name));
     selection.set.extend(own);

@@ -1,6 +1,5 @@
 //! What is interpreted has the bits of compiled code.
 
-use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -10,6 +9,7 @@ use mms_runtime::column::BUNCH;
 use mms_runtime::column::{Bunch as _, Matrices};
 use mms_runtime::scene::{Code, Scene};
 use mms_runtime::{ManufacturedField, Matrix, Real, Vector};
+use mms_symbolic::sorted::SortedMap;
 
 use super::{Entry, FIELDS};
 
@@ -104,10 +104,10 @@ fn stress_of_bunches<T: Real, const D: usize>(
 fn hold<T: Interpretable>(entry: &Entry, of: fn(&Code) -> Build<T>) {
     let code = mms_gallery::find(entry.name).expect("the field is compiled");
     let compiled = Arc::new(entry.compile().expect("a field of the gallery"));
-    let parameters = compiled.parameters::<T>(&BTreeMap::new());
+    let parameters = compiled.parameters::<T>(&SortedMap::new());
     let all = samples(&compiled.program, &parameters, COUNTS[COUNTS.len() - 1]);
     let time = all[0].time;
-    let interpreted = scene::<T>(compiled, &BTreeMap::new());
+    let interpreted = scene::<T>(compiled, &SortedMap::new());
     let Some(compiled) = of(&code)(&parameters) else { panic!("as many parameters") };
     macro_rules! dimension {
         ($compiled:expr, $interpreted:expr) => {{

@@ -1,8 +1,6 @@
 //! The motion that a field prescribes: its body with a grid on it at some times, coloured by how far each
 //! place has moved.
 
-use std::collections::BTreeMap;
-
 use dashu_ratio::RBig;
 use maud::{Markup, html};
 use mms_codegen::Compiled;
@@ -10,6 +8,7 @@ use mms_mechanics::{Bound, Output};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::Body;
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 
 use super::picture::{Moment, Scale, Shape, pictures, project};
 use super::plot::short;
@@ -34,7 +33,7 @@ type Cell = Vec<Vec<f64>>;
 
 impl Motion {
     /// That of a field with some parameters set; nothing, where u is not finite.
-    pub fn of(compiled: &Compiled, set: &BTreeMap<usize, RBig>) -> Option<Self> {
+    pub fn of(compiled: &Compiled, set: &SortedMap<usize, RBig>) -> Option<Self> {
         let parameters = compiled.parameters::<f64>(set);
         let mut interpreter = Interpreter::new(&compiled.program, &parameters);
         let cells = cells(&interpreter, &compiled.field.domain.body);
@@ -234,10 +233,10 @@ fn outline(cells: &[Cell]) -> Vec<Vec<[f64; 2]>> {
     let unit = 1e-9 * size(cells);
     let key = |place: &[f64]| [(place[0] / unit).round() as i64, (place[1] / unit).round() as i64];
     let edges = || cells.iter().flat_map(|cell| cell.iter().zip(cell.iter().cycle().skip(1)));
-    let mut seen = BTreeMap::new();
+    let mut seen = SortedMap::<_, usize>::new();
     for (a, b) in edges() {
         let (a, b) = (key(a), key(b));
-        *seen.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+        *seen.get_or_default((a.min(b), a.max(b))) += 1;
     }
     let is_outside = |(a, b): &(&Vec<f64>, &Vec<f64>)| {
         let (a, b) = (key(a), key(b));
@@ -261,7 +260,7 @@ mod tests {
     fn bodies_of_every_dimension_have_their_pictures() {
         for name in ["bar_1d", "expanding_ring", "twisted_column"] {
             let compiled = gallery::find(name).unwrap().compile().unwrap();
-            let motion = Motion::of(&compiled, &BTreeMap::new()).expect("a finite motion");
+            let motion = Motion::of(&compiled, &SortedMap::new()).expect("a finite motion");
             assert_eq!(motion.moments.len(), MOMENTS, "{name}");
             assert!(motion.scale.range[1] > 0.0, "{name}");
         }

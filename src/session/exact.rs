@@ -11,6 +11,7 @@ use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
 use mms_spec::Face;
 use mms_spec::quantity::{Quantity, Shape};
+use mms_symbolic::sorted::SortedMap;
 
 use super::input::Input;
 use super::method::processors;
@@ -23,7 +24,7 @@ pub const SAME: f64 = 1e-9;
 pub struct Exact {
     input: Input,
     /// Parameters that were set, by position.
-    set: BTreeMap<usize, RBig>,
+    set: SortedMap<usize, RBig>,
     parameters: Vec<f64>,
     /// Its dimension.
     pub dimension: usize,

@@ -1,6 +1,5 @@
 //! What every command takes: a field, and settings of its parameters.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -21,6 +20,7 @@ use mms_spec::foreign::{Foreign, shown};
 use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
+use mms_symbolic::sorted::SortedMap;
 
 use crate::gallery::{self, Entry};
 use crate::provenance;
@@ -249,7 +249,7 @@ impl Input {
     /// The same, with parameters that are set by position.
     pub fn scene_with<T: Interpretable>(
         &self,
-        set: &BTreeMap<usize, RBig>,
+        set: &SortedMap<usize, RBig>,
         build: impl Fn(&Code) -> fn(&[T]) -> Option<Scene<T>>,
     ) -> anyhow::Result<Scene<T>> {
         match self.code {
@@ -278,9 +278,9 @@ impl Input {
     }
 
     /// The parameters that `name=value` settings set, by position.
-    pub fn settings(&self, settings: &[String]) -> anyhow::Result<BTreeMap<usize, RBig>> {
+    pub fn settings(&self, settings: &[String]) -> anyhow::Result<SortedMap<usize, RBig>> {
         let parameters = &self.compiled.model.parameters;
-        let mut set = BTreeMap::new();
+        let mut set = SortedMap::new();
         for setting in settings {
             let given = given(setting);
             let (name, value) =

@@ -4,8 +4,6 @@
 //! begins, unless `--allow-unstable` is given. The certificate is asked for the wave speed in the frame of the
 //! grid, for the parameters of the run, and no sharper than it takes to decide; compiled fields and others alike.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::Compiled;
 use mms_codegen::certify::certificate::wave_speed;
 use mms_codegen::certify::rates::Frame;
@@ -15,6 +13,7 @@ use mms_mechanics::sample::samples;
 use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::{FormulationName, Method};
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 use super::input::Input;
 use crate::terminal::say;
@@ -36,7 +35,7 @@ pub fn fastest_wave(
 /// The same, with parameters that are set by position.
 pub fn fastest_wave_with(
     input: &Input,
-    set: &BTreeMap<usize, Rational>,
+    set: &SortedMap<usize, Rational>,
     method: &Method,
 ) -> Option<f64> {
     let frame = match method.formulation {
@@ -60,7 +59,7 @@ pub fn fastest_wave_with(
 }
 
 /// The least and the greatest c0 at some points; the least is 0 where there is none.
-pub fn sound(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> [f64; 2] {
+pub fn sound(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> [f64; 2] {
     let parameters = compiled.parameters::<f64>(set);
     let output = Output::Response(Response::WaveSpeed);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);

@@ -13,7 +13,7 @@ pub const CRATES: &[Crate] = &[
             "bunched generate",
         ],
     },
-    Crate { name: "mms-symbolic", knows: &[], layers: &["work", "expr", "pass"] },
+    Crate { name: "mms-symbolic", knows: &[], layers: &["sorted work", "expr", "pass"] },
     Crate {
         name: "mms-program",
         knows: &["mms-math", "mms-symbolic"],

@@ -16,7 +16,6 @@ pub mod probe;
 pub mod regime;
 mod variants;
 
-use std::collections::BTreeMap;
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::thread;
@@ -42,6 +41,7 @@ use mms_spec::Form;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 /// At how many points J is looked for, at least: so that a regime is the same one at fewer points.
 const SEARCHED: usize = 1000;
@@ -129,7 +129,7 @@ pub struct Varied {
     /// The field that is made of the field.
     pub variation: Variation,
     /// The values.
-    pub values: BTreeMap<usize, Rational>,
+    pub values: SortedMap<usize, Rational>,
 }
 
 /// How a field is put in a regime; otherwise why it cannot be. A body that is elsewhere brings its box with it.

@@ -1,8 +1,6 @@
 //! How a field answers to its parameters: which one scales the displacement, and where J is small or
 //! large.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use super::points::{Input, Place, exact, inputs};
@@ -14,6 +12,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 /// How many points show what a parameter does.
 const POINTS: usize = 64;
@@ -40,7 +39,7 @@ impl Amplitude {
     /// The parameter of that position, if all of u vanishes with it and neither body nor time window
     /// depend on it.
     pub fn of(compiled: &Compiled, parameter: usize) -> Option<Amplitude> {
-        let value = compiled.parameters::<f64>(&BTreeMap::new())[parameter];
+        let value = compiled.parameters::<f64>(&SortedMap::new())[parameter];
         let reduced = value * 2f64.powi(-REDUCED);
         if value == 0.0 || !value.is_finite() || !reduced.is_normal() {
             return None;
@@ -75,18 +74,18 @@ impl Amplitude {
 }
 
 /// A setting of one parameter; none where the value is not finite.
-pub fn set(parameter: usize, value: f64) -> BTreeMap<usize, Rational> {
+pub fn set(parameter: usize, value: f64) -> SortedMap<usize, Rational> {
     exact(value).map(|value| (parameter, value)).into_iter().collect()
 }
 
-fn bounds(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Vec<f64> {
+fn bounds(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<f64> {
     let interpreter = Interpreter::new(&compiled.program, &compiled.parameters::<f64>(set));
     let all = [Bound::Lower, Bound::Upper, Bound::Inner, Bound::Outer, Bound::Theta, Bound::Time];
     all.into_iter().flat_map(|bound| interpreter.output(Output::Bound(bound))).collect()
 }
 
 /// With 77 digits: what is typed as a difference may cancel.
-fn largest_displacement(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> f64 {
+fn largest_displacement(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> f64 {
     let output = Output::Quantity(Quantity::Displacement);
     let parameters = compiled.parameters::<Precise>(set);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
@@ -129,7 +128,7 @@ struct Jacobian<'a> {
 impl<'a> Jacobian<'a> {
     const OUTPUT: Output = Output::Quantity(Quantity::Jacobian);
 
-    fn new(compiled: &'a Compiled, set: &BTreeMap<usize, Rational>) -> Self {
+    fn new(compiled: &'a Compiled, set: &SortedMap<usize, Rational>) -> Self {
         let parameters = compiled.parameters::<f64>(set);
         let interpreter = Interpreter::new(&compiled.program, &parameters);
         let plan = interpreter.plan(&[Self::OUTPUT]);
@@ -192,7 +191,7 @@ enum Points {
 
 impl Points {
     fn new(compiled: &Compiled, search: Search) -> Self {
-        let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+        let parameters = compiled.parameters::<f64>(&SortedMap::new());
         match search {
             Search::Points(count) => {
                 Points::Some(inputs(compiled, &parameters, Place::Body, count))
@@ -206,7 +205,7 @@ impl Points {
     }
 
     /// The least of `sign` J.
-    fn least(&self, compiled: &Compiled, set: &BTreeMap<usize, Rational>, sign: f64) -> f64 {
+    fn least(&self, compiled: &Compiled, set: &SortedMap<usize, Rational>, sign: f64) -> f64 {
         let mut jacobian = Jacobian::new(compiled, set);
         match self {
             Points::Some(points) => points

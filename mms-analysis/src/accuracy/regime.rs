@@ -5,8 +5,6 @@
 //! u vanishes while body and time window stay, and J near 0 is found by raising it), or from a variation of the
 //! field ([`mms_codegen::variation`]). A regime that a field cannot be put in is left out with the reason.
 
-use std::collections::BTreeMap;
-
 use super::points::{LATE, Place, exact, size};
 use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
 use super::variants::Variants;
@@ -15,6 +13,7 @@ use mms_codegen::variation::Variation;
 use mms_program::precision::Precision;
 use mms_spec::units::{Dimension, Unit};
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 /// A way to evaluate any field.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,7 +89,7 @@ pub(super) struct Case {
 
 #[derive(Clone, Debug)]
 enum Setting {
-    Values(BTreeMap<usize, Rational>),
+    Values(SortedMap<usize, Rational>),
     Subnormal(usize),
     Largest(usize),
 }
@@ -103,7 +102,7 @@ impl Case {
             extreme: None,
             place: Place::Body,
             least_jacobian: None,
-            setting: Setting::Values(BTreeMap::new()),
+            setting: Setting::Values(SortedMap::new()),
         }
     }
 
@@ -113,7 +112,7 @@ impl Case {
     }
 
     /// The parameters that are set, by position.
-    pub fn values(&self, precision: Precision) -> BTreeMap<usize, Rational> {
+    pub fn values(&self, precision: Precision) -> SortedMap<usize, Rational> {
         match &self.setting {
             Setting::Values(values) => values.clone(),
             Setting::Subnormal(parameter) => set(*parameter, 1000.0 * precision.smallest()),
@@ -144,13 +143,13 @@ impl Regime {
             }
             Kind::Shifted => {
                 let field = subject.plain();
-                let shift = LATE * size(field, &field.parameters::<f64>(&BTreeMap::new()));
+                let shift = LATE * size(field, &field.parameters::<f64>(&SortedMap::new()));
                 let setting = Setting::Values(set(field.model.parameters.len(), shift));
                 Case { variation: Variation::Shifted, place: Place::Shifted, setting, ..plain }
             }
             Kind::Displacement(part) => {
                 let field = subject.plain();
-                let displacement = part * size(field, &field.parameters::<f64>(&BTreeMap::new()));
+                let displacement = part * size(field, &field.parameters::<f64>(&SortedMap::new()));
                 with_amplitude(subject, |_, amplitude| {
                     let value = amplitude.for_displacement(displacement);
                     Ok(Setting::Values(set(amplitude.parameter, value)))
@@ -195,8 +194,8 @@ fn scaled(
     dimension: &Dimension,
     what: &str,
     target: f64,
-) -> Result<BTreeMap<usize, Rational>, String> {
-    let defaults = field.parameters::<f64>(&BTreeMap::new());
+) -> Result<SortedMap<usize, Rational>, String> {
+    let defaults = field.parameters::<f64>(&SortedMap::new());
     let measures = |index: &usize| {
         let parameter = &field.model.parameters[*index];
         let unit = parameter.unit.as_deref().and_then(Unit::known);

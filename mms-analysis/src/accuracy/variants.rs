@@ -1,7 +1,6 @@
 //! The field whose errors are measured, and what is made of it.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::regime::Case;
@@ -10,6 +9,7 @@ use mms_codegen::variation::Variation;
 use mms_spec::Form;
 use mms_spec::quantity::Quantity;
 use mms_spec::twin::Twin;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// Compiles a field with some options, whether or not it is what it claims to be.
 pub type Compile<'a> = &'a dyn Fn(&Options) -> Result<Compiled, Failure>;
@@ -23,7 +23,7 @@ pub(super) struct Variants<'a> {
     options: Options,
     /// In the stable form, without a rigid motion on top.
     plain: Compiled,
-    variants: RefCell<BTreeMap<Key, Arc<Compiled>>>,
+    variants: RefCell<SortedMap<Key, Arc<Compiled>>>,
 }
 
 impl<'a> Variants<'a> {
@@ -36,7 +36,7 @@ impl<'a> Variants<'a> {
         let always = [Quantity::Displacement, Quantity::Jacobian];
         let mut options = options.clone();
         options.selection.quantities =
-            Some(BTreeSet::from_iter(quantities.iter().copied().chain(always)));
+            Some(SortedSet::from_iter(quantities.iter().copied().chain(always)));
         let mut still = options.clone();
         still.selection.twin = Twin::Nothing;
         still.form = Form::Stable;

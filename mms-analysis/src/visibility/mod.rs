@@ -9,8 +9,6 @@ mod scale;
 mod term;
 mod vanish;
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use mms_codegen::compile::Compiled;
@@ -21,6 +19,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule_plainly;
 use mms_symbolic::expr::{Expr, Graph};
+use mms_symbolic::sorted::SortedMap;
 pub use term::Term;
 
 use scale::Sizes;
@@ -90,7 +89,7 @@ impl Visibility {
         if graph.is_exhausted() {
             return Err(TooLarge("terms of the equations"));
         }
-        let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+        let parameters = compiled.parameters::<Precise>(&SortedMap::new());
         let points = samples(&compiled.program, &parameters, POINTS);
         let sizes = sizes(compiled, &parameters, &points);
         let statuses = statuses(&graph, &terms, &parameters, &points, &sizes);
@@ -147,7 +146,7 @@ fn statuses(
 ) -> Vec<Status> {
     let is_zero = |exprs: &[Expr]| exprs.iter().all(|expr| graph.is_zero(*expr));
     let outputs = terms.iter().enumerate().filter(|(_, (_, exprs))| !is_zero(exprs));
-    let outputs: BTreeMap<usize, Vec<Expr>> =
+    let outputs: SortedMap<usize, Vec<Expr>> =
         outputs.map(|(index, (_, exprs))| (index, exprs.clone())).collect();
     let program = schedule_plainly(graph, &outputs);
     let mut interpreter = Interpreter::new(&program, parameters);

@@ -12,8 +12,6 @@
 //! | parameter p of the material | p d(Div P)/dp, of a second derivation with p exp(s) for p |
 //! | traction on a face | P N, with X replaced by its projection to the face |
 
-use std::collections::BTreeMap;
-
 use super::term::Term;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::face;
@@ -30,6 +28,7 @@ use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// Every term that a field of this dimension may have, with what it takes to be absent.
 pub fn terms(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
@@ -75,7 +74,7 @@ fn motion(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
         .map(|of| quantity(compiled, of));
     let [first, last] = compiled.model.domain.time;
     let mut at =
-        |of: &[Expr], time: Expr| substitute(graph, of, &BTreeMap::from([(Symbol::Time, time)]));
+        |of: &[Expr], time: Expr| substitute(graph, of, &SortedMap::from([(Symbol::Time, time)]));
     let (start, end) = ([u, v, a].map(|of| at(of, first)), at(u, last));
     let [displaced, moving, accelerated] = start;
     vec![
@@ -221,7 +220,7 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
     let energy = energy_with(graph, field, material, &varied).unwrap_or(model.energy);
     let divergence = divergence(graph, &Model { energy, ..model.clone() });
     let (zero, count) = (graph.number(0), model.arguments.len());
-    let at_rest: BTreeMap<Symbol, Expr> = (0..count).map(|k| (Symbol::Local(k), zero)).collect();
+    let at_rest: SortedMap<Symbol, Expr> = (0..count).map(|k| (Symbol::Local(k), zero)).collect();
     let undefined = graph.call(Function::Ln, &[zero]);
     let term = |(k, (name, _)): (usize, &(Spanned<String>, Formula))| {
         let slopes = match is_varied[k] {
@@ -251,7 +250,7 @@ fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
 /// P N on each face; a point of the body stands for the one of the face that it projects to.
 fn tractions(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> {
     let (model, field) = (&compiled.model, &compiled.field);
-    let values = parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate();
+    let values = parameter_values(graph, model, &SortedMap::new()).into_iter().enumerate();
     let values = values.map(|(index, value)| (Symbol::Parameter(index), value)).collect();
     let (body, dimension) = (&model.domain.body, field.dimension);
     let declared = Face::of(&field.domain.body, dimension);

@@ -28,7 +28,7 @@ fn values(set: &Set) -> Result<Vec<f64>, &'static str> {
 /// Each evaluation sees one of the allowed states, and no less than one before it. The last state remains.
 fn explore(changes: &'static [&'static [(usize, f64)]], allowed: &'static [[f64; 3]]) {
     loom::model(move || {
-        let settings = Arc::new(Settings::<f64>::new(vec![0.0; 3]));
+        let settings = Arc::new(Settings::<Set>::new(vec![0.0; 3]));
         let changing = changes.iter().map(|change| {
             let settings = settings.clone();
             thread::spawn(move || settings.change(change.iter().copied().collect(), values))

@@ -7,8 +7,6 @@
 //! slower (`mms_math::batch`). So an angle that depends on a parameter without a range, which may be set to
 //! anything, is left as it is; `freeze` makes a number of such a parameter. Ports call the plain functions.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::chart::Chart;
 use super::enclosure::Formulas;
 use super::search::{Measure, largest};
@@ -20,6 +18,7 @@ use mms_program::interval::Interval;
 use mms_spec::FieldSpec;
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Small, Symbol};
 use mms_symbolic::pass::substitute::rebuild;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// The magnitude that is proved of small angles: less than the sine and the cosine of such know
 /// (`mms_math::WITHIN_ONE` and `mms_math::NEAR_ZERO`), since a computed angle has errors.
@@ -34,14 +33,14 @@ pub fn near_zero(
     graph: &mut Graph,
     field: &FieldSpec,
     model: &Model,
-    outputs: &mut BTreeMap<Output, Vec<Expr>>,
+    outputs: &mut SortedMap<Output, Vec<Expr>>,
 ) {
     let roots: Vec<Expr> = outputs.values().flatten().copied().collect();
     let candidates = candidates(graph, model, &roots);
     if candidates.is_empty() {
         return;
     }
-    let proved: BTreeMap<Expr, Small> = graph.aside(|graph| {
+    let proved: SortedMap<Expr, Small> = graph.aside(|graph| {
         let chart = Chart::new(graph, field, model, None);
         let proved = |angle| Some((angle, proved(graph, &chart, angle)?));
         candidates.into_iter().filter_map(proved).collect()
@@ -60,11 +59,11 @@ pub fn near_zero(
 }
 
 /// The angles at points of the body that depend on nothing without bounds.
-fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> BTreeSet<Expr> {
+fn candidates(graph: &Graph, model: &Model, roots: &[Expr]) -> SortedSet<Expr> {
     let is_bounded = |expr: Expr| is_bounded(graph, model, expr);
     let mut bounds = face::bounds(&model.domain.body).into_iter().flatten();
     if !bounds.all(is_bounded) || !model.domain.time.into_iter().all(is_bounded) {
-        return BTreeSet::new();
+        return SortedSet::new();
     }
     let angle = |expr: Expr| match graph.node(expr) {
         Node::Call(Function::Sin | Function::Cos, angle) => Some(angle[0]),

@@ -4,8 +4,6 @@
 //! An annulus is a box in radius and angle; a face is a box of one variable less. So everything that
 //! is proved over a domain is proved over a box.
 
-use std::collections::BTreeMap;
-
 use super::search::{Cell, Limit};
 use mms_mechanics::face;
 use mms_mechanics::face::{ANGLE, RADIUS};
@@ -21,6 +19,7 @@ use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, Symbol};
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::{rebuild, substitute};
+use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 
 /// The variables of a field on its body or on a face, and what they replace.
@@ -29,9 +28,9 @@ pub struct Chart {
     /// The symbols that vary: parameters, the time, coordinates.
     variables: Vec<Symbol>,
     /// What stands for the other parameters, and for a coordinate that is constant on a face.
-    fixed: BTreeMap<Symbol, Expr>,
+    fixed: SortedMap<Symbol, Expr>,
     /// X in terms of radius and angle; empty for a box.
-    polar: BTreeMap<Symbol, Expr>,
+    polar: SortedMap<Symbol, Expr>,
     /// The bounds of each variable, in terms of the parameters among those before it; then X and
     /// all parameters.
     program: Program<Output>,
@@ -57,7 +56,7 @@ impl Chart {
     /// The chart of the body, or of one of its faces.
     pub fn new(graph: &mut Graph, field: &FieldSpec, model: &Model, face: Option<Face>) -> Self {
         let body = &model.domain.body;
-        let (mut fixed, mut variables) = (BTreeMap::new(), Vec::new());
+        let (mut fixed, mut variables) = (SortedMap::new(), Vec::new());
         for (index, parameter) in model.parameters.iter().enumerate() {
             let symbol = Symbol::Parameter(index);
             match parameter.range {
@@ -81,7 +80,7 @@ impl Chart {
             }
         }
         let polar = face::polar(graph, body);
-        let mut outputs = BTreeMap::new();
+        let mut outputs = SortedMap::new();
         for (index, (_, bounds)) in variables.iter().enumerate() {
             outputs.insert(Output::Bounds(index), substitute(graph, bounds, &fixed));
         }
@@ -345,7 +344,7 @@ impl<T: Number, K: Key> Run<'_, T, K> {
 pub fn straightened(
     graph: &mut Graph,
     formulas: &[Expr],
-    polar: &BTreeMap<Symbol, Expr>,
+    polar: &SortedMap<Symbol, Expr>,
 ) -> Vec<Expr> {
     if polar.is_empty() {
         return formulas.to_vec();

@@ -1,6 +1,6 @@
 //! Bounds of formulas over a part of their domain, and of their slopes.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use mms_math::Scalar as _;
@@ -13,6 +13,7 @@ use mms_program::interval::Interval;
 use mms_program::schedule::schedule_plainly;
 use mms_symbolic::expr::{Expr, Graph};
 use mms_symbolic::pass::differentiate::differentiate;
+use mms_symbolic::sorted::SortedMap;
 
 /// Formulas in the variables of a chart, with their derivatives by these.
 #[derive(Clone, Debug)]
@@ -31,7 +32,7 @@ enum Output {
 impl Formulas {
     /// Differentiates formulas that were pulled back to a chart.
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
-        let mut outputs = BTreeMap::from([(Output::Values, compact(graph, formulas))]);
+        let mut outputs = SortedMap::from([(Output::Values, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
             // Without a budget what is scheduled has no value, whatever it is.
             let slopes = match graph.work().is_over() {

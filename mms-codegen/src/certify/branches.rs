@@ -12,7 +12,6 @@
 //! at the place of the call. What is neither proved nor refuted is refused as unproved.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet};
 
 use mms_math::Scalar as _;
 
@@ -34,6 +33,7 @@ use mms_spec::source::Span;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// How often the way between two points is halved on which a limit is met.
 const HALVINGS: usize = 60;
@@ -136,20 +136,20 @@ impl<'a> Steps<'a> {
         &self,
         graph: &mut Graph,
         chart: &Chart,
-        invariants: Option<&BTreeMap<Symbol, Expr>>,
+        invariants: Option<&SortedMap<Symbol, Expr>>,
     ) -> Vec<Condition> {
         let left = limits(graph, &self.formulas);
         let key = |limit: &Limit| (limit.analytic, limit.operands.clone());
-        let known: BTreeSet<_> = left.iter().map(key).collect();
+        let known: SortedSet<_> = left.iter().map(key).collect();
         // At a pole a quantity is not finite; what it is made of may have one that drops out of all of them.
-        let finite: BTreeSet<_> = limits(graph, &self.quantities).iter().map(key).collect();
+        let finite: SortedSet<_> = limits(graph, &self.quantities).iter().map(key).collect();
         let strict = left.into_iter().filter(|it| !(it.is_pole && finite.contains(&key(it))));
         let strict = strict.map(|limit| (Some(limit.analytic), limit));
         // What canonical form has cancelled needs no more than a value.
         let cancelled = self.limits.iter().flatten().filter(|limit| !known.contains(&key(limit)));
         let cancelled = cancelled.map(|limit| (limit.defined, limit.clone()));
         let volume = invariants.map(|_| volume(graph));
-        let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+        let (mut found, mut seen) = (Vec::new(), SortedSet::new());
         for (must, limit) in strict.chain(cancelled) {
             if volume.is_some_and(|volume| limit.operands == [volume]) {
                 continue;
@@ -194,7 +194,7 @@ fn invariants(
     chart: &Chart,
     compiled: &Compiled,
     motion: &ChartMotion,
-) -> BTreeMap<Symbol, Expr> {
+) -> SortedMap<Symbol, Expr> {
     let kind = match &compiled.model.kind {
         Kind::Fibrous(direction) => Kind::Fibrous(chart.pull_back(graph, direction)),
         other => other.clone(),

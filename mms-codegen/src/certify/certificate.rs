@@ -1,7 +1,5 @@
 //! Everything that is proved of a field, and the cheaper search for what contradicts it.
 
-use std::collections::BTreeMap;
-
 use super::branches::{self, Exit};
 use super::claims::{self, Finding};
 use super::computed::{self, AsComputed};
@@ -21,6 +19,7 @@ use mms_spec::BoundarySpec;
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Graph, Rational};
+use mms_symbolic::sorted::SortedMap;
 
 /// How many cells each bound may take.
 pub const CELLS: usize = 2000;
@@ -197,7 +196,7 @@ impl Budget {
 /// position. `None` where J > 0 is not proved, or nothing bounds the speed.
 pub fn wave_speed(
     compiled: &Compiled,
-    set: &BTreeMap<usize, Rational>,
+    set: &SortedMap<usize, Rational>,
     frame: Frame,
     speed: f64,
 ) -> Option<f64> {
@@ -220,7 +219,7 @@ pub fn reach(compiled: &Compiled) -> Vec<[f64; 2]> {
 }
 
 /// The same where parameters have their defaults, but for those that are `set`, by position.
-pub fn reach_at(compiled: &Compiled, set: &BTreeMap<usize, Rational>) -> Vec<[f64; 2]> {
+pub fn reach_at(compiled: &Compiled, set: &SortedMap<usize, Rational>) -> Vec<[f64; 2]> {
     reach_in(compiled, |graph| chart_of(graph, compiled, set))
 }
 
@@ -235,7 +234,7 @@ fn reach_in(compiled: &Compiled, chart: impl Fn(&mut Graph) -> Chart) -> Vec<[f6
 /// Parameters have their defaults, but for those that are `set`, by position.
 pub fn not_computed(
     compiled: &Compiled,
-    set: &BTreeMap<usize, Rational>,
+    set: &SortedMap<usize, Rational>,
     precision: Precision,
 ) -> Option<Diagnostic> {
     let mut graph = room(compiled);
@@ -249,7 +248,7 @@ pub fn not_computed(
 pub(super) fn chart_of(
     graph: &mut Graph,
     compiled: &Compiled,
-    set: &BTreeMap<usize, Rational>,
+    set: &SortedMap<usize, Rational>,
 ) -> Chart {
     let mut model = compiled.model.clone();
     for (index, parameter) in model.parameters.iter_mut().enumerate() {

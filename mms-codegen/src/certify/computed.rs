@@ -16,8 +16,6 @@
 //! turns are taken off c t, the exact value is what is left when as many are taken off as are taken off what is
 //! computed: of angles that may be more than a few turns only the size is known then.
 
-use std::collections::BTreeSet;
-
 use mms_math::Scalar as _;
 
 use super::finite::{blame, corners};
@@ -35,6 +33,7 @@ use mms_program::precision::Precision;
 use mms_program::{Op, Stage, Value};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Symbol};
+use mms_symbolic::sorted::SortedSet;
 
 /// Angles of which so many digits are right after the point are told from their neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
@@ -165,7 +164,7 @@ impl<'a> QuantityProgram<'a> {
         let instrs = self.program.instrs.iter().zip(&self.plan);
         let operands = instrs.filter(|(_, needed)| **needed).filter_map(|(it, _)| of(&it.op));
         let output = self.program.outputs.get(&Output::Quantity(Quantity::Jacobian));
-        let all: BTreeSet<usize> =
+        let all: SortedSet<usize> =
             operands.chain(output.into_iter().flatten().copied()).map(Value::index).collect();
         all.into_iter().collect()
     }

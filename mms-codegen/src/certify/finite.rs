@@ -1,7 +1,5 @@
 //! Whether every quantity has a finite value everywhere, its derivatives included.
 
-use std::collections::BTreeMap;
-
 use super::motion::{ChartMotion, without_volume};
 use crate::bounds::chart::{Chart, Spot};
 use crate::bounds::enclosure::Formulas;
@@ -17,6 +15,7 @@ use mms_program::schedule::schedule_plainly;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::substitute::replace;
+use mms_symbolic::sorted::SortedMap;
 use mms_symbolic::work::Work;
 
 /// What is known of the values of all quantities.
@@ -140,7 +139,7 @@ struct Quantities<'a> {
 
 impl<'a> Quantities<'a> {
     fn new(graph: &mut Graph, compiled: &Compiled, work: &'a Work) -> Self {
-        let mut outputs = BTreeMap::new();
+        let mut outputs = SortedMap::new();
         for (quantity, components) in &compiled.derived.quantities {
             let mut components = components.clone();
             if *quantity == Quantity::Traction {
@@ -152,7 +151,7 @@ impl<'a> Quantities<'a> {
         let whole = schedule_plainly(graph, &outputs);
         let jacobian = compiled.derived.quantities[&Quantity::Jacobian][0];
         let values = without_volume(graph, jacobian);
-        for (output, components) in &mut outputs {
+        for (output, components) in outputs.iter_mut() {
             if *output != Output::Quantity(Quantity::Jacobian) {
                 *components = replace(graph, components, &values);
             }

@@ -18,9 +18,8 @@
 //! An angle `atan2(y, x)` that only sines and cosines of whole multiples of it read, and tangents of half of such,
 //! may pass its cut, since a turn more changes nothing: all that it needs is that y and x are not both 0.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational, is_negative};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// What must hold of operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -142,7 +141,7 @@ fn of_call(graph: &mut Graph, function: Function, arguments: Vec<Expr>) -> Vec<L
 /// All limits of some formulas and of what they are made of, operands before users.
 pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
     let turning = single_valued_angles(graph, formulas);
-    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+    let (mut found, mut seen) = (Vec::new(), SortedSet::new());
     // A sum has none but those of its terms.
     let is_own = |graph: &Graph, expr: &Expr| !matches!(graph.node(*expr), Node::Sum(..));
     let reachable = graph.reachable(formulas);
@@ -160,12 +159,12 @@ pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
 }
 
 /// Angles, each with how many times it is taken.
-type Turns = BTreeMap<Expr, Rational>;
+type Turns = SortedMap<Expr, Rational>;
 
 /// The angles whose whole turns nothing sees.
-fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> BTreeSet<Expr> {
-    let mut turns = BTreeMap::<Expr, Turns>::new();
-    let (mut angles, mut seen) = (BTreeSet::new(), BTreeSet::new());
+fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> SortedSet<Expr> {
+    let mut turns = SortedMap::<Expr, Turns>::new();
+    let (mut angles, mut seen) = (SortedSet::new(), SortedSet::new());
     for expr in graph.reachable(formulas) {
         let none = Turns::new();
         let of = |expr: &Expr| turns.get(expr).unwrap_or(&none);
@@ -174,7 +173,7 @@ fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> BTreeSet<Expr> {
                 let mut own = Turns::new();
                 for (term, factor) in terms {
                     for (angle, times) in of(term) {
-                        *own.entry(*angle).or_default() += times * factor;
+                        *own.get_or_default(*angle) += times * factor;
                     }
                 }
                 own
@@ -194,7 +193,8 @@ fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> BTreeSet<Expr> {
         turns.insert(expr, own);
     }
     seen.extend(formulas.iter().flat_map(|formula| turns[formula].keys().copied()));
-    angles.difference(&seen).copied().collect()
+    angles.retain(|angle| !seen.contains(angle));
+    angles
 }
 
 /// Whether a function has the same value when each of these angles is a whole turn more.

@@ -1,8 +1,6 @@
 //! The motion of a field in the variables of a chart, which proofs bound: H, C - I and its rate, J, the density,
 //! and the stress as a function of H.
 
-use std::collections::BTreeMap;
-
 use crate::bounds::chart::Chart;
 use crate::compile::Compiled;
 use mms_mechanics::Response;
@@ -14,6 +12,7 @@ use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::replace;
+use mms_symbolic::sorted::SortedMap;
 
 /// The motion of a field in the variables of a chart.
 ///
@@ -136,9 +135,9 @@ fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
 
 /// What J, J - 1 and what J is a multiple of are in terms of [`SUPPLIED_VOLUME`]. Interval arithmetic
 /// alone would not know that J is positive where it is small.
-pub fn without_volume(graph: &mut Graph, jacobian: Expr) -> BTreeMap<Expr, Expr> {
+pub fn without_volume(graph: &mut Graph, jacobian: Expr) -> SortedMap<Expr, Expr> {
     if graph.as_number(jacobian).is_some() {
-        return BTreeMap::new();
+        return SortedMap::new();
     }
     let one = graph.number(1);
     let change = graph.symbol(SUPPLIED_VOLUME);
@@ -146,5 +145,5 @@ pub fn without_volume(graph: &mut Graph, jacobian: Expr) -> BTreeMap<Expr, Expr>
     let less_one = graph.sub(jacobian, one);
     let (content, primitive) = graph.split_content(jacobian);
     let scaled = graph.scale(whole, Rational::ONE / content);
-    BTreeMap::from([(less_one, change), (primitive, scaled), (jacobian, whole)])
+    SortedMap::from([(less_one, change), (primitive, scaled), (jacobian, whole)])
 }

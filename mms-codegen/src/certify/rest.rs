@@ -4,8 +4,6 @@
 //! A material without a stress at rest has none. A file that forgot a term of W has one, which no proof and no
 //! study of its own sees. It may be meant, so it is a warning.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use super::certificate::chart_of;
@@ -20,6 +18,7 @@ use mms_program::schedule::schedule_plainly;
 use mms_spec::diagnostic::Diagnostic;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// At how many points of the body, for the defaults and again for parameters within their ranges.
 const POINTS: usize = 16;
@@ -69,7 +68,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
     let zero = graph.number(0);
     let dimension = compiled.field.dimension;
     let entries = (0..dimension).flat_map(|i| (0..dimension).map(move |j| Symbol::Gradient(i, j)));
-    let undeformed: BTreeMap<_, _> = entries.map(|entry| (entry, zero)).collect();
+    let undeformed: SortedMap<_, _> = entries.map(|entry| (entry, zero)).collect();
     let responses = &compiled.derived.responses;
     let mut stress =
         substitute(&mut graph, &responses[&Response::FirstPiolaKirchhoff], &undeformed);
@@ -83,7 +82,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
     }
     let [speed, density] = [Response::WaveSpeed, Response::Density].map(|it| responses[&it][0]);
     let modulus = graph.product([(speed, 2.into()), (density, 1.into())]);
-    let of_defaults = chart_of(&mut graph, compiled, &BTreeMap::new());
+    let of_defaults = chart_of(&mut graph, compiled, &SortedMap::new());
     let of_ranges = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
     let formulas = [&stress[..], &[modulus]].concat();
     let found =
@@ -99,7 +98,7 @@ pub fn stress(compiled: &Compiled) -> Rest {
 /// if any is beyond doubt.
 fn greatest(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Option<(Vec<f64>, Witness)> {
     let formulas = chart.pull_back(graph, formulas);
-    let program = schedule_plainly(graph, &BTreeMap::from([((), formulas)]));
+    let program = schedule_plainly(graph, &SortedMap::from([((), formulas)]));
     let mut run = chart.run::<Precise, _>(&program);
     let mut found: Option<(f64, Vec<f64>, Witness)> = None;
     for index in 1..=POINTS {

@@ -1,7 +1,5 @@
 //! dP/dF over a box of states, by dual numbers over intervals, all columns at once.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use crate::bounds::chart::{Chart, Run};
@@ -13,6 +11,7 @@ use mms_program::interpret::Number;
 use mms_program::interval::Interval;
 use mms_program::schedule::schedule_plainly;
 use mms_symbolic::expr::{Expr, Graph, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 /// dP/dF, by dual numbers, and its own derivatives by dual numbers of these.
 pub struct Tangent<'a> {
@@ -34,7 +33,7 @@ const DIRECTIONS: usize = 4;
 impl<'a> Tangent<'a> {
     /// The program of P at a gradient that is supplied.
     pub fn program(graph: &Graph, stress: &[Expr]) -> Program<()> {
-        schedule_plainly(graph, &BTreeMap::from([((), stress.to_vec())]))
+        schedule_plainly(graph, &SortedMap::from([((), stress.to_vec())]))
     }
 
     /// Of the stress of such a program.

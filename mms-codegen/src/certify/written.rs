@@ -3,8 +3,6 @@
 //! Canonical form cancels: sqrt(X)*sqrt(X) becomes X, which is defined where the former is not. So
 //! the formulas are evaluated once operation by operation, as they stand in the file.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use crate::compile::Compiled;
@@ -17,6 +15,7 @@ use mms_spec::syntax;
 use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_spec::{FieldSpec, Formula, RigidSpec};
 use mms_symbolic::expr::Function;
+use mms_symbolic::sorted::SortedMap;
 
 /// At how many points of the domain u is evaluated.
 pub const POINTS: usize = 32;
@@ -51,7 +50,7 @@ type Traced = (Precise, Option<Span>);
 pub fn gaps(compiled: &Compiled) -> Vec<Gap> {
     let field = &compiled.field;
     let Some([lets, formulas]) = parsed(field) else { return Vec::new() };
-    let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+    let parameters = compiled.parameters::<Precise>(&SortedMap::new());
     let mut found: Vec<Option<Gap>> = vec![None; formulas.len()];
     for point in samples(&compiled.program, &parameters, points(compiled)) {
         let mut names = leaves(compiled, &parameters, &point);
@@ -101,8 +100,8 @@ fn leaves<'a>(
     compiled: &'a Compiled,
     parameters: &[Precise],
     point: &Sample<Precise>,
-) -> BTreeMap<&'a str, Traced> {
-    let mut names = BTreeMap::new();
+) -> SortedMap<&'a str, Traced> {
+    let mut names = SortedMap::new();
     for (parameter, value) in compiled.model.parameters.iter().zip(parameters) {
         names.insert(parameter.name.as_str(), (value.clone(), None));
     }
@@ -119,7 +118,7 @@ fn leaves<'a>(
 
 /// The value of a formula. The blame goes to the first operation without a value whose operands
 /// have one.
-fn evaluate(ast: &Ast, names: &BTreeMap<&str, Traced>) -> Traced {
+fn evaluate(ast: &Ast, names: &SortedMap<&str, Traced>) -> Traced {
     let mut values: Vec<Traced> = Vec::with_capacity(ast.nodes.len());
     for node in &ast.nodes {
         let of = |operand: &usize| values[*operand].0.clone();

@@ -3,8 +3,6 @@
 //! Each phase has its own budget of steps ([`crate::work`]). Reading and deriving are refused beyond theirs.
 //! Simplifying and scheduling keep the shortest form that they have found when theirs ends.
 
-use std::collections::BTreeMap;
-
 use super::{Compiled, Loader, Options};
 use crate::bounds::angles::near_zero;
 use crate::culprit::culprit;
@@ -33,6 +31,7 @@ use mms_symbolic::expr::{DEFAULT_MAX_NODES, Expr, Graph};
 use mms_symbolic::pass::half_turns::half_turns;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::whole_turns::whole_turns;
+use mms_symbolic::sorted::SortedMap;
 
 /// How many steps reading and deriving may take, each, for each node that a graph may have: beyond them a text is
 /// refused.
@@ -124,7 +123,7 @@ impl<'a> Phases<'a> {
         let (model, material) = (model?, material?);
         let specs = (&field, &material);
         let reported = diagnostics.len();
-        diagnostics.extend(declared::check(graph, &model, specs, &BTreeMap::new()));
+        diagnostics.extend(declared::check(graph, &model, specs, &SortedMap::new()));
         if diagnostics.is_empty() {
             diagnostics.extend(declared::extremes(graph, &model, specs));
         }
@@ -320,8 +319,8 @@ fn outputs(
     model: &Model,
     field: &FieldSpec,
     derivation: &Derivation,
-) -> BTreeMap<Output, Vec<Expr>> {
-    let mut outputs = BTreeMap::new();
+) -> SortedMap<Output, Vec<Expr>> {
+    let mut outputs = SortedMap::new();
     for (quantity, components) in &derivation.quantities {
         outputs.insert(Output::Quantity(*quantity), components.clone());
     }
@@ -343,7 +342,8 @@ fn outputs(
         }
     }
     outputs.insert(Output::Bound(Bound::Time), model.domain.time.to_vec());
-    for (index, value) in parameter_values(graph, model, &BTreeMap::new()).into_iter().enumerate() {
+    for (index, value) in parameter_values(graph, model, &SortedMap::new()).into_iter().enumerate()
+    {
         outputs.insert(Output::Parameter(index), vec![value]);
     }
     outputs

@@ -3,8 +3,6 @@
 //! It evaluates what [`Compiled::accepts`] looks at once, in intervals that hold for the whole body. Where that does
 //! not decide, or something is wrong, it says nothing.
 
-use std::collections::BTreeMap;
-
 use mms_math::Double;
 
 use super::Compiled;
@@ -16,6 +14,7 @@ use mms_program::interpret::{Interpreter, Number as _, Point};
 use mms_program::interval::Interval;
 use mms_program::schedule::schedule;
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 /// Sectors of a turn are left to those who tell them from full rings.
 const TURN: f64 = std::f64::consts::TAU * (1.0 - 1e-9);
@@ -57,7 +56,7 @@ impl Default {
             Some(number) => {
                 Default::Number(Interval::from_rational(number), Double::from_rational(number))
             }
-            None => Default::Made(schedule(graph, &BTreeMap::from([((), vec![default])]))),
+            None => Default::Made(schedule(graph, &SortedMap::from([((), vec![default])]))),
         }
     }
 
@@ -111,7 +110,7 @@ impl Quick {
     }
 
     /// The values of all parameters where some are set, if the field surely allows them.
-    pub fn accepted(&self, set: &BTreeMap<usize, Rational>) -> Option<Vec<f64>> {
+    pub fn accepted(&self, set: &SortedMap<usize, Rational>) -> Option<Vec<f64>> {
         let (mut enclosures, mut values) = (Vec::new(), Vec::new());
         for (index, default) in self.defaults.iter().enumerate() {
             let (enclosure, value) = match set.get(&index) {
@@ -204,7 +203,7 @@ impl Quick {
 }
 
 /// The expressions that are looked at.
-fn outputs(graph: &mut Graph, model: &Model) -> BTreeMap<Output, Vec<Expr>> {
+fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<Output, Vec<Expr>> {
     let ranges = model.parameters.iter().filter_map(|parameter| parameter.range).flatten();
     let body = match &model.domain.body {
         Body::Box { lower, upper } => [&lower[..], upper].concat(),
@@ -213,7 +212,7 @@ fn outputs(graph: &mut Graph, model: &Model) -> BTreeMap<Output, Vec<Expr>> {
         }
     };
     let (_, slopes) = curvatures(graph, model);
-    BTreeMap::from([
+    SortedMap::from([
         (Output::Ranges, ranges.collect()),
         (Output::Body, body),
         (Output::Time, model.domain.time.to_vec()),

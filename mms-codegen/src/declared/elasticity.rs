@@ -4,8 +4,6 @@
 //! of an isotropic solid, which says all, and along some tens with fibres. Points of the body are sampled, which
 //! is no proof.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use super::material::Counterexample;
@@ -24,6 +22,7 @@ use mms_symbolic::expr::{Expr, Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 
 /// What is of this size beside the entries of a matrix is 0 but for rounding.
 const ROUNDING: f64 = 1e-60;
@@ -153,7 +152,7 @@ pub fn curvatures(graph: &mut Graph, model: &Model) -> (Vec<String>, Vec<Expr>) 
         }
     }
     let zero = graph.number(0);
-    let undeformed: BTreeMap<_, _> = symbols.iter().map(|symbol| (*symbol, zero)).collect();
+    let undeformed: SortedMap<_, _> = symbols.iter().map(|symbol| (*symbol, zero)).collect();
     (names, substitute(graph, &exprs, &undeformed))
 }
 

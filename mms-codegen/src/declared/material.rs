@@ -1,7 +1,5 @@
 //! What a field declares about its material: looked at in points of the body, which is no proof.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use super::{AXES, Declared, digits};
@@ -16,6 +14,7 @@ use mms_spec::source::Span;
 use mms_symbolic::expr::{Expr, HALF, Rational, Symbol};
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::Relations;
+use mms_symbolic::sorted::SortedMap;
 
 /// At how many points of the body a material is looked at, beside the corners.
 pub const POINTS: usize = 128;
@@ -116,7 +115,7 @@ impl Declared<'_> {
         exprs: &[Expr],
         is_right: impl Fn(&[Precise]) -> bool,
     ) -> Option<Counterexample> {
-        let program = schedule(&self.graph, &BTreeMap::from([((), exprs.to_vec())]));
+        let program = schedule(&self.graph, &SortedMap::from([((), exprs.to_vec())]));
         let mut interpreter = Interpreter::within(self.graph.work(), &program, &self.parameters);
         let plan = interpreter.plan(&[()]);
         let mut symbols = exprs.iter().flat_map(|expr| self.graph.symbols(*expr));

@@ -1,7 +1,5 @@
 //! Quantities at many points: the functions of a point, driven over slices.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
 
@@ -12,6 +10,7 @@ use mms_program::loops::{Columns, Cut, is_worth_two};
 use mms_program::{Op, Stage, Value};
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::{Function, Symbol};
+use mms_symbolic::sorted::SortedSet;
 
 impl Emitter<'_> {
     /// The module of batches.
@@ -31,7 +30,7 @@ impl Emitter<'_> {
                 (quantity, self.kept_for(&columns), columns)
             })
             .collect();
-        let kept: BTreeSet<Value> =
+        let kept: SortedSet<Value> =
             reads.iter().flat_map(|(_, kept, _)| &kept.columns.values).copied().collect();
         let kept = Vec::from_iter(kept);
         let (stand_ins, points) = (self.stand_ins(), self.points(&kept));

@@ -10,8 +10,6 @@ mod kernel;
 mod point;
 mod quantity;
 
-use std::collections::BTreeMap;
-
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -24,6 +22,7 @@ use mms_spec::foreign::blanked;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::print::AXES;
 use mms_symbolic::expr::{Rational, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 pub use file::{File, file};
 
@@ -146,7 +145,7 @@ struct Emitter<'a> {
     /// Whether the module fulfils the contract of the runtime.
     contract: bool,
     /// The parameters that were not frozen as members of a struct, by their positions in the file.
-    parameter_names: BTreeMap<usize, Ident>,
+    parameter_names: SortedMap<usize, Ident>,
     /// Values of the Parameter and Time stages that are read at points, or that are outputs.
     kept: Vec<bool>,
     /// Values of the Parameter stage that the Time stage reads.
@@ -284,7 +283,7 @@ impl<'a> Emitter<'a> {
 }
 
 /// The parameters that are left, as members of a struct.
-fn parameter_names(compiled: &Compiled) -> BTreeMap<usize, Ident> {
+fn parameter_names(compiled: &Compiled) -> SortedMap<usize, Ident> {
     let parameters = compiled.field.parameters.iter().enumerate();
     let (positions, names): (Vec<_>, Vec<_>) = parameters
         .filter(|(_, parameter)| !parameter.frozen)

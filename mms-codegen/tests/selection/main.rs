@@ -3,8 +3,6 @@
 mod quick;
 mod refusals;
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use mms_codegen::rust;
 use mms_codegen::selection::{Freeze, Selection};
 use mms_codegen::{Compiled, compile, compile_with};
@@ -14,6 +12,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Op, Stage};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Function, Rational, Small};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// A field of one dimension; `{dimension}` and the like are filled in.
 const FIELD: &str = r#"
@@ -72,7 +71,7 @@ fn compiled(text: &str, selection: &Selection) -> Compiled {
 
 /// The values of a quantity at some points of the domain, for the default parameters but for those
 /// set here.
-fn values(compiled: &Compiled, quantity: Quantity, set: &BTreeMap<usize, Rational>) -> Vec<f64> {
+fn values(compiled: &Compiled, quantity: Quantity, set: &SortedMap<usize, Rational>) -> Vec<f64> {
     let parameters = compiled.parameters::<f64>(set);
     let output = Output::Quantity(quantity);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
@@ -101,9 +100,9 @@ fn assert_same(found: &[f64], expected: &[f64], what: &str) {
 }
 
 /// The functions of emitted Rust, with the number of their statements.
-fn functions(text: &str) -> BTreeMap<String, usize> {
+fn functions(text: &str) -> SortedMap<String, usize> {
     let file: syn::File = syn::parse_str(text).expect("Rust");
-    let mut functions = BTreeMap::new();
+    let mut functions = SortedMap::new();
     for item in file.items {
         match item {
             syn::Item::Fn(function) => {
@@ -124,7 +123,7 @@ fn functions(text: &str) -> BTreeMap<String, usize> {
 }
 
 fn names(text: &str) -> Vec<String> {
-    functions(text).into_keys().collect()
+    functions(text).into_iter().map(|(name, _)| name).collect()
 }
 
 #[test]
@@ -143,7 +142,7 @@ fn each_quantity_alone_has_its_values_and_no_other_code() {
     let all = compiled(&text, &Selection::default());
     for quantity in Quantity::ALL {
         let alone = compiled(&text, &selection(&[*quantity], &[], &[]));
-        let none = BTreeMap::new();
+        let none = SortedMap::new();
         let [found, expected] = [&alone, &all].map(|of| values(of, *quantity, &none));
         assert_same(&found, &expected, quantity.name());
         let (name, at) = (quantity.name().to_string(), format!("{}_at", quantity.name()));
@@ -196,10 +195,10 @@ fn a_body_force_without_lambda_has_no_logarithm_and_no_stress() {
     assert!(!emitted.contains("stress") && !emitted.contains("lambda:"), "{emitted}");
     // By another route: the unfrozen program where the parameter is 0.
     let all = compiled(&text, &Selection::default());
-    let zero = BTreeMap::from([(0, Rational::ZERO)]);
+    let zero = SortedMap::from([(0, Rational::ZERO)]);
     let expected = values(&all, Quantity::BodyForce, &zero);
-    assert_same(&values(&frozen, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
-    let with_lambda = values(&all, Quantity::BodyForce, &BTreeMap::new());
+    assert_same(&values(&frozen, Quantity::BodyForce, &SortedMap::new()), &expected, "b");
+    let with_lambda = values(&all, Quantity::BodyForce, &SortedMap::new());
     assert!(expected.iter().zip(&with_lambda).any(|(a, b)| (a - b).abs() > 1e-3 * b.abs()));
 }
 
@@ -238,14 +237,14 @@ fn a_field_of_one_dimension_has_no_three_by_three_algebra() {
 fn a_set_value_changes_the_default_and_those_that_depend_on_it() {
     let text = moving();
     let set = compiled(&text, &selection(&[], &[("mu", "1e6"), ("rho0", "mu/1000")], &[]));
-    assert_eq!(set.parameters::<f64>(&BTreeMap::new()), [6e5, 1e6, 2e6, 1e3, 0.1]);
+    assert_eq!(set.parameters::<f64>(&SortedMap::new()), [6e5, 1e6, 2e6, 1e3, 0.1]);
     let selected = set.selected();
     assert_eq!(selected.len(), 1);
     assert!(selected[0].starts_with("Changed defaults: mu = 1000000, rho0 = "), "{selected:?}");
     let plain = compiled(&text, &Selection::default());
-    let parameters = BTreeMap::from([(1, Rational::from(1_000_000)), (3, Rational::from(1000))]);
+    let parameters = SortedMap::from([(1, Rational::from(1_000_000)), (3, Rational::from(1000))]);
     let expected = values(&plain, Quantity::BodyForce, &parameters);
-    assert_same(&values(&set, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
+    assert_same(&values(&set, Quantity::BodyForce, &SortedMap::new()), &expected, "b");
     // Other input, other hash.
     assert_ne!(set.provenance(), plain.provenance());
 }
@@ -261,11 +260,11 @@ fn a_frozen_parameter_keeps_the_value_that_the_defaults_give() {
     let emitted = rust::text(&frozen);
     assert!(emitted.contains(r#"NAMES: [&str; 3] = ["lambda", "mu", "rho0"]"#), "{emitted}");
     let plain = compiled(&text, &Selection::default());
-    let twice = BTreeMap::from([(2, Rational::from(2_000_000))]);
+    let twice = SortedMap::from([(2, Rational::from(2_000_000))]);
     let expected = values(&plain, Quantity::BodyForce, &twice);
-    assert_same(&values(&frozen, Quantity::BodyForce, &BTreeMap::new()), &expected, "b");
+    assert_same(&values(&frozen, Quantity::BodyForce, &SortedMap::new()), &expected, "b");
     // What it depended on has no effect any more.
-    let other = BTreeMap::from([(1, Rational::from(7))]);
+    let other = SortedMap::from([(1, Rational::from(7))]);
     assert_same(&values(&frozen, Quantity::BodyForce, &other), &expected, "b");
 }
 
@@ -280,7 +279,7 @@ fn with_all_parameters_frozen_nothing_depends_on_any() {
     let plain = compiled(&moving(), &Selection::default());
     for quantity in Quantity::ALL {
         let [found, expected] =
-            [&everything, &plain].map(|of| values(of, *quantity, &BTreeMap::new()));
+            [&everything, &plain].map(|of| values(of, *quantity, &SortedMap::new()));
         assert_same(&found, &expected, quantity.name());
     }
 }
@@ -291,7 +290,7 @@ fn a_constant_need_not_be_rational() {
     let [frozen, plain] = [&["size"][..], &[]]
         .map(|freeze| compiled(&text, &selection(&[Quantity::Displacement], &[], freeze)));
     let [found, expected] =
-        [&frozen, &plain].map(|of| values(of, Quantity::Displacement, &BTreeMap::new()));
+        [&frozen, &plain].map(|of| values(of, Quantity::Displacement, &SortedMap::new()));
     assert_same(&found, &expected, "u");
 }
 
@@ -314,7 +313,7 @@ fn subsets_are_not_dearer_than_the_whole() {
     for pair in pairs {
         let outputs: Vec<_> = pair.iter().map(|quantity| Output::Quantity(*quantity)).collect();
         let part = compiled(&moving(), &selection(pair, &[], &[]));
-        assert_eq!(part.selection.quantities, Some(BTreeSet::from_iter(pair.to_vec())));
+        assert_eq!(part.selection.quantities, Some(SortedSet::from_iter(pair.to_vec())));
         let sum =
             |compiled: &Compiled| -> usize { compiled.program.operations(&outputs).values().sum() };
         assert!(sum(&part) <= sum(&all), "{pair:?}");
@@ -322,7 +321,7 @@ fn subsets_are_not_dearer_than_the_whole() {
 }
 
 /// Which of the functions of angles the program calls, and what is proved of these.
-fn functions_of_angles(compiled: &Compiled) -> BTreeSet<(Function, Option<Small>)> {
+fn functions_of_angles(compiled: &Compiled) -> SortedSet<(Function, Option<Small>)> {
     let called = compiled.program.instrs.iter().filter_map(|instr| match instr.op {
         Op::Unary(function, small, _) if instr.stage >= Stage::Point => Some((function, small)),
         _ => None,
@@ -333,7 +332,7 @@ fn functions_of_angles(compiled: &Compiled) -> BTreeSet<(Function, Option<Small>
 #[test]
 fn nothing_is_taken_off_an_angle_that_is_proved_small() {
     let [any, near_zero, within_one] = [None, Some(Small::NearZero), Some(Small::WithinOne)]
-        .map(|small| BTreeSet::from([(Function::Sin, small), (Function::Cos, small)]));
+        .map(|small| SortedSet::from([(Function::Sin, small), (Function::Cos, small)]));
     // The angle grows to `size`, which may be set to anything unless it is frozen or has a range.
     let text = FIELD.replace("size*X*(1 - X)*TIME", "sin(size*X^2*t)/10");
     let free = compiled(&text, &Selection::default());
@@ -351,7 +350,7 @@ fn nothing_is_taken_off_an_angle_that_is_proved_small() {
         let ranged = compiled(&ranged, &Selection::default());
         assert_eq!(functions_of_angles(&ranged), *expected, "{range}");
         let [found, of_free] =
-            [&ranged, &free].map(|of| values(of, Quantity::BodyForce, &BTreeMap::new()));
+            [&ranged, &free].map(|of| values(of, Quantity::BodyForce, &SortedMap::new()));
         assert_same(&found, &of_free, range);
     }
     // A window that ends later lets the angle grow.

@@ -1,10 +1,9 @@
 //! Values that are accepted quickly.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::compile;
 use mms_codegen::compile::quick::Quick;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 const FIELDS: [(&str, &str); 4] = [
     ("axis_aligned_2d", include_str!("../../../fields/axis_aligned_2d.toml")),
@@ -20,13 +19,13 @@ fn what_is_accepted_quickly_is_accepted() {
         let compiled = compile(name, name, text, &|_| Err("no files here".into()))
             .unwrap_or_else(|failure| panic!("{failure}"));
         let quick = Quick::new(&compiled).expect("an isotropic field");
-        let defaults = compiled.parameters::<f64>(&BTreeMap::new());
+        let defaults = compiled.parameters::<f64>(&SortedMap::new());
         let (mut accepted, mut refused) = (0, 0);
         for index in 0..compiled.model.parameters.len() {
             let default = defaults[index];
             for factor in [1.0, 1.25, 0.7, 1e-3, 0.0, -1.0, 1e30] {
                 let number = Rational::try_from(default * factor).expect("a finite number");
-                let set = BTreeMap::from([(index, number)]);
+                let set = SortedMap::from([(index, number)]);
                 let allowed = compiled.accepts(&set).is_ok();
                 match quick.accepted(&set) {
                     Some(values) => {

@@ -6,7 +6,6 @@
 
 mod measure;
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -22,6 +21,7 @@ use mms_program::precise::Precise;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::{MaterialSpec, read_material};
+use mms_symbolic::sorted::SortedMap;
 
 /// The bound, in units of eps.
 const BOUND: f64 = 64.0;
@@ -130,7 +130,7 @@ fn a_field_far_away_has_the_values_of_the_same_field_at_the_origin() {
         far.replace("X - x0", "X").replace("Y - y0", "Y").replace("3e6", "0").replace("-7e5", "0");
     let values = |text: &str, [x, y]: [f64; 2]| {
         let compiled = compiled("a wave", text);
-        let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+        let parameters = compiled.parameters::<Precise>(&SortedMap::new());
         let mut interpreter = Interpreter::new(&compiled.program, &parameters);
         interpreter.set_time(&Precise::from_f64(0.375));
         let quantities = Quantity::ALL.iter().filter(|it| **it != Quantity::Position);

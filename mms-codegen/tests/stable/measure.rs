@@ -1,6 +1,5 @@
 //! Errors in units of eps, of double precision against 77 digits.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use mms_codegen::Compiled;
@@ -13,6 +12,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_program::precise::Precise;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::SortedMap;
 
 /// How many points and times.
 const POINTS: usize = 24;
@@ -56,7 +56,7 @@ struct Largest {
 /// Every quantity at the default parameters, or with one of them set.
 pub fn of_field(compiled: &Compiled, name: &str, set: Option<(usize, f64)>) -> Vec<Excess> {
     let exact = |value: f64| Rational::try_from(value).expect("a finite number");
-    let set: BTreeMap<usize, Rational> =
+    let set: SortedMap<usize, Rational> =
         set.into_iter().map(|(index, value)| (index, exact(value))).collect();
     let parameters = compiled.parameters::<f64>(&set);
     let dimension = compiled.field.dimension;

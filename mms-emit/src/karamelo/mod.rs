@@ -6,7 +6,6 @@
 mod check;
 mod dialect;
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use self::dialect::Karamelo;
@@ -19,6 +18,7 @@ use crate::target::{Bundle, Subject, Target};
 use mms_codegen::rust::File;
 use mms_program::Value;
 use mms_symbolic::expr::Function;
+use mms_symbolic::sorted::SortedMap;
 
 /// Karamelo.
 pub const TARGET: Target = Target {
@@ -109,7 +109,7 @@ fn text(port: &Port<'_>) -> String {
 
 /// How many names the longest formula has when all formulas stand in the place of their names.
 fn longest(port: &Port<'_>, roots: &[Value]) -> u64 {
-    let mut lengths: BTreeMap<Value, u64> = BTreeMap::new();
+    let mut lengths: SortedMap<Value, u64> = SortedMap::new();
     for (index, instr) in port.program().instrs.iter().enumerate() {
         let operands = instr.op.operands().map(|operand| lengths[&operand]);
         let length = operands.fold(1_u64, u64::saturating_add);

@@ -6,7 +6,6 @@
 mod check;
 mod dialect;
 
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 pub(super) use self::check::functions;
@@ -22,6 +21,7 @@ use crate::text::listed;
 use mms_codegen::rust::File;
 use mms_program::{Op, Value};
 use mms_symbolic::expr::{Function, Symbol};
+use mms_symbolic::sorted::SortedSet;
 
 /// MOOSE.
 pub const TARGET: Target = Target {
@@ -78,7 +78,7 @@ fn text(port: &Port<'_>) -> String {
     let roots: Vec<Value> =
         places.clone().flat_map(|callable| port.values(callable.output)).copied().collect();
     let apart = apart(port, &roots);
-    let (mut blocks, mut read) = (String::new(), BTreeSet::new());
+    let (mut blocks, mut read) = (String::new(), SortedSet::new());
     for value in (0..apart.len()).filter(|index| apart[*index]) {
         blocks += &block(port, &format!("q{value}"), "", Value(value as u32), &apart, &mut read);
     }
@@ -136,7 +136,7 @@ fn block(
     doc: &str,
     value: Value,
     apart: &[bool],
-    read: &mut BTreeSet<usize>,
+    read: &mut SortedSet<usize>,
 ) -> String {
     let program = port.program();
     let mut needed = vec![false; program.instrs.len()];

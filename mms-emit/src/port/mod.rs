@@ -34,7 +34,6 @@ pub mod support;
 pub mod vectors;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use self::callable::{Callable, callables};
 use self::names::{Rules, of_holder, unique};
@@ -44,6 +43,7 @@ use mms_codegen::liveness::Later;
 use mms_mechanics::{Output, Program};
 use mms_program::{Stage, Value};
 use mms_symbolic::expr::Function;
+use mms_symbolic::sorted::SortedMap;
 
 /// The stages that are evaluated at a point.
 pub const AT_POINTS: &[Stage] = &[Stage::Point, Stage::PointTime];
@@ -58,7 +58,7 @@ pub struct Port<'a> {
     /// Its name in the language, which files are named after too.
     pub name: String,
     /// The parameters that are left: their positions in the file, and their names in the language.
-    pub parameters: BTreeMap<usize, String>,
+    pub parameters: SortedMap<usize, String>,
     /// The functions.
     pub callables: Vec<Callable>,
     /// What a prepared field holds: values of the Parameter stage that points read.

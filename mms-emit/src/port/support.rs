@@ -3,11 +3,11 @@
 //! What the code of a field calls is recorded while it is printed (`Calls`). What a support text calls itself is read
 //! from that text, which is ours and the same for every field.
 
-use std::collections::BTreeSet;
+use mms_symbolic::sorted::SortedSet;
 
 /// The names that printed code calls.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Calls(BTreeSet<String>);
+pub struct Calls(SortedSet<String>);
 
 impl Calls {
     /// Records a name, and returns it to be printed.

@@ -6,8 +6,6 @@
 //! left out. Inputs are exact in single precision, so that both precisions get the same. Expected values are the
 //! program in 77 digits at these very numbers, rounded to double precision.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 
 use super::Port;
@@ -21,6 +19,7 @@ use mms_program::precise::Precise;
 use mms_program::precision::Digits;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Rational, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 /// The largest error of a function that a check program accepts, in eps of the largest magnitude
 /// of its values over the points of one set of parameters. It is what the stable form promises.
@@ -113,7 +112,7 @@ impl Port<'_> {
         let compiled = self.compiled;
         let left = |values: &[f64]| self.parameters.keys().map(|index| values[*index]).collect();
         let mut vectors = Vectors {
-            defaults: left(&compiled.parameters(&BTreeMap::new())),
+            defaults: left(&compiled.parameters(&SortedMap::new())),
             sets: Vec::new(),
             samples: Vec::new(),
             expected: vec![Vec::new(); self.callables.len()],
@@ -210,8 +209,8 @@ impl Port<'_> {
     }
 
     /// Values of parameters, by position; what depends on them follows.
-    fn sets(&self) -> Vec<BTreeMap<usize, Rational>> {
-        let mut sets = vec![BTreeMap::new(), self.changed()];
+    fn sets(&self) -> Vec<SortedMap<usize, Rational>> {
+        let mut sets = vec![SortedMap::new(), self.changed()];
         let first = self.parameters.keys().take(CANDIDATES);
         let mut amplitudes = first.filter_map(|index| Amplitude::of(self.compiled, *index));
         if let Some(amplitude) = amplitudes.next() {
@@ -235,7 +234,7 @@ impl Port<'_> {
 
     /// Parameters that are numbers, each changed by a sixteenth: all of them, or those that the file
     /// lets change.
-    fn changed(&self) -> BTreeMap<usize, Rational> {
+    fn changed(&self) -> SortedMap<usize, Rational> {
         let changed = |index: &usize, sixteenths: u8| {
             let default = self.compiled.model.parameters[*index].default;
             let number = self.compiled.graph.as_number(default)?;
@@ -245,7 +244,7 @@ impl Port<'_> {
         if self.compiled.accepts(&all).is_ok() {
             return all;
         }
-        let mut set = BTreeMap::new();
+        let mut set = SortedMap::new();
         for index in self.parameters.keys() {
             for sixteenths in [17, 15] {
                 set.extend(changed(index, sixteenths));

@@ -1,7 +1,5 @@
 //! Every operation and every function, at every stage, in every language.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::{Compiled, compile};
 use mms_emit::Subject;
 use mms_mechanics::Output;
@@ -11,6 +9,7 @@ use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 use super::build::{all_are_required, can_prove, ports, prove, quick};
 
@@ -126,7 +125,7 @@ fn nest(graph: &mut Graph, x: Expr, y: Expr, depth: usize) -> Expr {
 /// computation with twice as many has become visible.
 fn rest(graph: &mut Graph, expr: Expr, parameters: &[Precise]) -> Expr {
     let output = Output::Expected(0);
-    let program = schedule(graph, &BTreeMap::from([(output, vec![expr])]));
+    let program = schedule(graph, &SortedMap::from([(output, vec![expr])]));
     let value = Interpreter::new(&program, parameters).output(output)[0].to_f64();
     let near = graph.number(Rational::try_from(value).expect("a finite value"));
     let rest = graph.sub(expr, near);
@@ -135,7 +134,7 @@ fn rest(graph: &mut Graph, expr: Expr, parameters: &[Precise]) -> Expr {
 
 /// The field with these formulas in place of those of its quantities.
 fn with_formulas(mut compiled: Compiled, graph: &mut Graph, formulas: &[Expr]) -> Compiled {
-    let mut outputs = BTreeMap::new();
+    let mut outputs = SortedMap::new();
     let mut left = formulas.iter().copied();
     for quantity in Quantity::pointwise() {
         let count = quantity.shape().components(3);
@@ -179,7 +178,7 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
         Symbol::Coordinate(2),
     ]
     .map(|it| symbol(&mut graph, it));
-    let parameters = compiled.parameters::<Precise>(&BTreeMap::new());
+    let parameters = compiled.parameters::<Precise>(&SortedMap::new());
     let xt = graph.mul(x, t);
     let xt = graph.add(xt, x);
     let mut of_parameters = functions(&mut graph, a, b);
@@ -195,7 +194,7 @@ fn every_operation_and_function_is_right_at_every_stage_in_every_language() {
     }
     programs[2].extend(functions(&mut graph, x, y));
     programs[3].extend(functions(&mut graph, xt, y));
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = SortedSet::new();
     for (index, formulas) in programs.iter_mut().enumerate() {
         // Each component of each quantity has some formula.
         let room: usize = Quantity::pointwise().map(|it| it.shape().components(3)).sum();

@@ -1,13 +1,12 @@
 //! How far the motion goes, as modules tell it.
 
-use std::collections::BTreeMap;
-
 use mms_codegen::Compiled;
 use mms_emit::{Subject, Target};
 use mms_mechanics::Output;
 use mms_mechanics::sample::domain;
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 
 use super::gallery::{field, gallery};
 
@@ -25,7 +24,7 @@ const SHARP: f64 = 0.015;
 /// The least and the greatest x by axis of samples, by the scheduled program, which is none of what bounds are made of.
 fn sampled(compiled: &Compiled) -> Vec<[f64; 2]> {
     let output = Output::Quantity(Quantity::Position);
-    let parameters = compiled.parameters::<f64>(&BTreeMap::new());
+    let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let (body, [first, last]) = domain(&compiled.program, &parameters);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
     let plan = interpreter.plan(&[output]);

@@ -2,13 +2,12 @@
 //!
 //! Canonical form cancels, and derivatives know of no cut. What a file says is therefore kept beside what is made of it.
 
-use std::collections::BTreeSet;
-
 use super::Reader;
 use crate::resolve::Step;
 use mms_spec::source::Span;
 use mms_spec::syntax::{Ast, Kind};
 use mms_symbolic::expr::Expr;
+use mms_symbolic::sorted::SortedSet;
 
 /// What all quantities of a field are made of.
 #[derive(Clone, Debug, Default)]
@@ -68,7 +67,7 @@ impl Reader<'_> {
 impl Part {
     /// The formulas that define nothing, and the definitions that they need.
     fn of(read: Vec<Read>) -> Self {
-        let (mut part, mut needed) = (Part::default(), BTreeSet::new());
+        let (mut part, mut needed) = (Part::default(), SortedSet::new());
         for Read { name, uses, value, span, steps } in read.into_iter().rev() {
             match &name {
                 None => part.formulas.push((value, span)),

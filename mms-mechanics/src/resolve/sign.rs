@@ -1,9 +1,8 @@
 //! What can be read off about the sign of an expression: enough for the base of a variable exponent.
 
-use std::collections::BTreeMap;
-
 use super::Scope;
 use mms_symbolic::expr::{Expr, Function, Graph, Node, Rational};
+use mms_symbolic::sorted::SortedMap;
 
 /// What can be read off about the sign of a value where it is defined.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,7 +15,7 @@ enum Sign {
 impl Scope {
     /// Whether an expression is seen to be positive wherever it is defined.
     pub fn is_positive(&self, graph: &Graph, root: Expr) -> bool {
-        let mut signs = BTreeMap::new();
+        let mut signs = SortedMap::new();
         for expr in graph.reachable(&[root]) {
             let sign = self.sign(graph.node(expr), &signs);
             signs.insert(expr, sign);
@@ -24,7 +23,7 @@ impl Scope {
         signs[&root] == Sign::Positive
     }
 
-    fn sign(&self, node: &Node, signs: &BTreeMap<Expr, Sign>) -> Sign {
+    fn sign(&self, node: &Node, signs: &SortedMap<Expr, Sign>) -> Sign {
         match node {
             Node::Number(number) => sign_of_number(number),
             Node::Symbol(symbol) if self.positive.contains(symbol) => Sign::Positive,

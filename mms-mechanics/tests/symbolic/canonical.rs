@@ -1,7 +1,5 @@
 //! The canonical form: one handle per expression, of the value of what was written.
 
-use std::collections::BTreeMap;
-
 use mms_mechanics::candidates::candidates;
 use mms_program::schedule::cost;
 use mms_symbolic::expr::print::Names;
@@ -9,6 +7,7 @@ use mms_symbolic::expr::{Function, Graph, Rational};
 use mms_symbolic::pass::differentiate::differentiate;
 use mms_symbolic::pass::relations::Relations;
 use mms_symbolic::pass::substitute::substitute;
+use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
 use super::evaluation::{Extent, close, place, places, value_and_extent, values};
@@ -63,7 +62,7 @@ proptest! {
         let mut graph = Graph::default();
         let root = built(&mut graph, &recipe)?;
         let x = graph.symbol(X);
-        prop_assert_eq!(substitute(&mut graph, &[root], &BTreeMap::from([(X, x)])), vec![root]);
+        prop_assert_eq!(substitute(&mut graph, &[root], &SortedMap::from([(X, x)])), vec![root]);
     }
 
     #[test]
@@ -84,7 +83,7 @@ fn a_full_graph_is_told_and_never_answers() {
         let root = read(&mut graph, "sin(X)*cos(X + 1)*exp(X*t)*sin(2*X)").ok()?;
         let slope = differentiate(&mut graph, &[root], X);
         let relations = Relations::find(&mut graph, &slope);
-        let candidates = candidates(&mut graph, &BTreeMap::from([((), slope)]), &relations);
+        let candidates = candidates(&mut graph, &SortedMap::from([((), slope)]), &relations);
         let ways = candidates.iter().map(|candidate| &candidate.components[&()]);
         let chosen = ways.min_by_key(|way| cost(&graph, way))?[0];
         let at = place(0.846, -0.4, 0.43);

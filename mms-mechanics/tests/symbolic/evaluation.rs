@@ -1,7 +1,5 @@
 //! Values of expressions in any scalar, and when two of them are the same.
 
-use std::collections::BTreeMap;
-
 use mms_math::Scalar as _;
 use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Number, Point};
@@ -9,13 +7,14 @@ use mms_program::interval::Interval;
 use mms_program::precise::Precise;
 use mms_program::schedule::schedule;
 use mms_symbolic::expr::{Expr, Graph, Rational};
+use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
 use super::recipe::Place;
 
 /// The value of each root at a place, by its program.
 pub fn values<T: Number>(graph: &Graph, roots: &[Expr], at: &Place<T>) -> Vec<T> {
-    let outputs = BTreeMap::from([(Output::Expected(0), roots.to_vec())]);
+    let outputs = SortedMap::from([(Output::Expected(0), roots.to_vec())]);
     run(&schedule(graph, &outputs), at)
 }
 

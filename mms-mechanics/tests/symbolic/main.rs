@@ -11,3 +11,4 @@ mod intervals;
 mod passes;
 mod read;
 mod recipe;
+mod sorted;

@@ -1,7 +1,5 @@
 //! What passes keep: the value of every expression. A new pass is one more line here.
 
-use std::collections::BTreeMap;
-
 use mms_mechanics::Output;
 use mms_mechanics::candidates::candidates;
 use mms_program::Stage;
@@ -14,6 +12,7 @@ use mms_symbolic::pass::nest::nest;
 use mms_symbolic::pass::reduce::reduce;
 use mms_symbolic::pass::relations::{Relations, lateness};
 use mms_symbolic::pass::separate::separate;
+use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
 use super::evaluation::{close, places, run, same_value, value_and_extent, values};
@@ -74,7 +73,7 @@ proptest! {
         if let Some(thorough) = relations.thorough() {
             written.push(reduce(&mut graph, &[root], &thorough));
         }
-        let candidates = candidates(&mut graph, &BTreeMap::from([((), vec![root])]), &relations);
+        let candidates = candidates(&mut graph, &SortedMap::from([((), vec![root])]), &relations);
         written.extend(candidates.into_iter().map(|mut it| it.components.remove(&()).expect("all keys")));
         for after in written {
             same_value(&graph, root, after[0])?;
@@ -88,7 +87,7 @@ proptest! {
         let mut graph = Graph::default();
         let roots = recipes.iter().map(|recipe| built(&mut graph, recipe));
         let roots = roots.collect::<Result<Vec<_>, _>>()?;
-        let outputs = BTreeMap::from([(Output::Expected(0), roots.clone())]);
+        let outputs = SortedMap::from([(Output::Expected(0), roots.clone())]);
         let plainly = schedule_plainly(&graph, &outputs);
         for at in places() {
             let (plain, shared) = (run(&plainly, &at), values(&graph, &roots, &at));

@@ -1,6 +1,5 @@
 //! The interpreter of one point is the judge: random programs, every length, numbers of all kinds.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use mms_math::Double;
@@ -12,6 +11,7 @@ use crate::interpret::{Interpreter, Point};
 use crate::program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Function, Rational, Small, Symbol};
+use mms_symbolic::sorted::SortedMap;
 
 /// Outputs that compiled code computes in two loops, or in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,7 +69,7 @@ fn program(recipe: &[(u8, u16, u16)]) -> Program {
     let last = |count: usize| -> Vec<Value> {
         (ops.len() - count..ops.len()).map(|index| Value(index as u32)).collect()
     };
-    let outputs = BTreeMap::from([
+    let outputs = SortedMap::from([
         (quantity(), last(4)),
         (Output::Expected(0), last(9)),
         (Output::Expected(1), vec![Value(0), Value(5), Value(6)]),
@@ -86,7 +86,7 @@ fn quantity() -> Output {
     Output::TwoLoops
 }
 
-fn in_stage_order(ops: Vec<Op>, outputs: BTreeMap<Output, Vec<Value>>) -> Program {
+fn in_stage_order(ops: Vec<Op>, outputs: SortedMap<Output, Vec<Value>>) -> Program {
     let mut stages: Vec<Stage> = Vec::new();
     for op in &ops {
         let of_operands = op.operands().map(|operand| stages[operand.index()]);
@@ -314,7 +314,7 @@ fn every_function_of_wild_numbers_has_the_bits_of_one_point() {
             1 => Op::Unary(function, small, Value(0)),
             _ => Op::Binary(function, Value(0), Value(1)),
         };
-        let outputs = BTreeMap::from([(quantity(), vec![Value(2)])]);
+        let outputs = SortedMap::from([(quantity(), vec![Value(2)])]);
         let program = in_stage_order(vec![x, y, call], outputs);
         hold::<f64>(&program, &WILD, 300);
         hold::<f32>(&program, &WILD, 300);
@@ -337,7 +337,7 @@ fn whole_turns_are_taken_off_as_at_one_point() {
             Op::Subtract(Value(4), Value(3)),
             Op::Unary(wave, None, Value(5)),
         ];
-        let outputs = BTreeMap::from([(quantity(), vec![Value(6)])]);
+        let outputs = SortedMap::from([(quantity(), vec![Value(6)])]);
         let program = in_stage_order(ops, outputs);
         hold::<f64>(&program, &MILD, 130);
         hold::<f32>(&program, &MILD, 260);
@@ -361,7 +361,7 @@ fn fused_products_round_once_or_twice_as_they_should() {
                 Op::Subtract(Value(term), Value(4)),
             ] {
                 let ops = vec![a.clone(), b.clone(), x.clone(), y.clone(), product.clone(), sum];
-                let outputs = BTreeMap::from([(Output::Expected(0), vec![Value(5)])]);
+                let outputs = SortedMap::from([(Output::Expected(0), vec![Value(5)])]);
                 let program = in_stage_order(ops, outputs);
                 let plan = plan_of(&program, &[Output::Expected(0)]);
                 assert_eq!(plan.steps.len(), 1, "{:?}", plan.steps);
@@ -408,7 +408,7 @@ fn other_parameters_and_times_are_those_of_a_plan_made_anew() {
     let results =
         vec![push(Op::Add(wave, angle)), push(Op::Multiply(y, place(Op::Input(Symbol::Time))))];
     let outputs = [Output::Expected(0)];
-    let program = in_stage_order(ops, BTreeMap::from([(outputs[0], results)]));
+    let program = in_stage_order(ops, SortedMap::from([(outputs[0], results)]));
     let plan = Arc::new(plan_of(&program, &outputs));
     let points = given::<f64>(70, &MILD);
     let mut changed = Prepared::new(plan.clone(), Way::portable(), &[0.2, 0.4]);
@@ -489,7 +489,7 @@ fn registers_are_used_again() {
         .into_iter()
         .chain((0..100).map(|k| Op::Unary(Function::Sin, None, Value(k))))
         .collect();
-    let outputs = BTreeMap::from([(Output::Expected(0), vec![Value(100)])]);
+    let outputs = SortedMap::from([(Output::Expected(0), vec![Value(100)])]);
     let plan = plan_of(&in_stage_order(ops, outputs), &[Output::Expected(0)]);
     assert_eq!((plan.steps.len(), plan.registers), (100, 3));
 }

@@ -18,8 +18,6 @@ mod lower;
 mod share;
 mod signs;
 
-use std::collections::BTreeMap;
-
 use flat::{Flat, Grouping, Item, Scaling};
 use lower::Builder;
 use share::Scope;
@@ -28,6 +26,7 @@ use crate::fusion::Fusion;
 use crate::program::{Instr, Key, Program, Value};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
+use mms_symbolic::sorted::SortedMap;
 
 /// What operations cost: those that depend on X first, since they are done at every point, then
 /// all; of two that are alike in both, the one that leaves less to t.
@@ -89,7 +88,7 @@ const WORTH_APART: usize = 2;
 const ROOM: usize = 16;
 
 /// The program of `outputs`, without anything that they do not need.
-pub fn schedule<K: Key>(graph: &Graph, outputs: &BTreeMap<K, Vec<Expr>>) -> Program<K> {
+pub fn schedule<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
     let mut builder = Builder::default();
     let outputs = outputs
         .iter()
@@ -104,7 +103,7 @@ pub fn schedule<K: Key>(graph: &Graph, outputs: &BTreeMap<K, Vec<Expr>>) -> Prog
 
 /// The program of `outputs` as their expressions stand: nothing is shared but equal expressions. Where the budget is spent,
 /// what is left has no value.
-pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &BTreeMap<K, Vec<Expr>>) -> Program<K> {
+pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
     let mut builder = Builder::default();
     let outputs = outputs
         .iter()
@@ -310,7 +309,7 @@ mod tests {
         let mut graph = Graph::default();
         let components = components(&mut graph, bare);
         let output = 0;
-        let program = schedule(&graph, &BTreeMap::from([(output, components)]));
+        let program = schedule(&graph, &SortedMap::from([(output, components)]));
         let operations = program.operations(&[output]);
         let mut interpreter = Interpreter::new(&program, &[0.75]);
         interpreter.set_time(&0.5);
@@ -329,7 +328,7 @@ mod tests {
 
     /// The operations of the one output that is scheduled for an expression, outputs last.
     fn operations(graph: &Graph, root: Expr) -> Vec<Op> {
-        let program = schedule(graph, &BTreeMap::from([(0, vec![root])]));
+        let program = schedule(graph, &SortedMap::from([(0, vec![root])]));
         program.instrs.into_iter().map(|instr| instr.op).collect()
     }
 

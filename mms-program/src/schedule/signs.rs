@@ -1,8 +1,7 @@
 //! Changes of sign that cost nothing: -((a - b) c) is (b - a) c.
 
-use std::collections::BTreeSet;
-
 use crate::program::{Key, Op, Program, Value};
+use mms_symbolic::sorted::SortedSet;
 
 /// The program with a difference turned round wherever that spares a change of sign.
 ///
@@ -10,7 +9,7 @@ use crate::program::{Key, Op, Program, Value};
 /// same number as before, or of the other sign and read where that is allowed for.
 pub(super) fn carried<K: Key>(mut program: Program<K>) -> Program<K> {
     let mut readers = readers(&program);
-    let mut differences: BTreeSet<(Value, Value)> =
+    let mut differences: SortedSet<(Value, Value)> =
         program.instrs.iter().filter_map(|instr| difference(&instr.op)).collect();
     let mut renamed: Vec<Value> =
         (0..program.instrs.len()).map(|index| Value(index as u32)).collect();

@@ -1,10 +1,9 @@
 //! From the tree of a formula to Python, as it was typed. Nothing is resolved, derived or simplified
 //! on the way, so that the script owes nothing to the compiler but its parser.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use mms_spec::syntax::{Ast, Kind, Operator};
 use mms_symbolic::expr::Rational;
+use mms_symbolic::sorted::{SortedMap, SortedSet};
 
 /// What Python or the script itself means by a name.
 const KEPT: &[&str] = &[
@@ -64,8 +63,8 @@ const KEPT: &[&str] = &[
 /// What the names of a file are called in the script.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Renamed {
-    names: BTreeMap<String, String>,
-    used: BTreeSet<String>,
+    names: SortedMap<String, String>,
+    used: SortedSet<String>,
 }
 
 impl Renamed {

@@ -16,12 +16,11 @@
 //! | ln(1 + x) = ln_1p(x) | always |
 //! | sin(-x) = -sin x, cos(-x) = cos x | always; the sign is that of the leading coefficient |
 
-use std::collections::BTreeMap;
-
 use dashu_int::ops::{BitTest as _, Gcd as _};
 use dashu_int::{IBig, UBig};
 
 use super::{Expr, Function, Graph, HALF, Node, Rational, Small, Symbol, is_negative, magnitude};
+use crate::sorted::SortedMap;
 
 /// Powers of numbers are folded up to about this many bits; beyond, the power stays symbolic.
 const FOLDED_BITS: usize = 1 << 14;
@@ -251,9 +250,9 @@ impl Graph {
         for (_, coefficient) in terms {
             divisor = gcd(&divisor, coefficient);
         }
-        let mut counts = BTreeMap::<Rational, usize>::new();
+        let mut counts = SortedMap::<Rational, usize>::new();
         for (_, coefficient) in terms {
-            *counts.entry(magnitude(coefficient)).or_default() += 1;
+            *counts.get_or_default(magnitude(coefficient)) += 1;
         }
         let ones = |content: &Rational| counts.get(content).copied().unwrap_or(0);
         let mut content = divisor;

@@ -25,7 +25,6 @@ mod function;
 pub mod print;
 mod stage;
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasher;
 
 pub use build::steps_of_length;
@@ -36,6 +35,7 @@ use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 pub use stage::Stage;
 
+use crate::sorted::{SortedMap, SortedSet};
 use crate::work::{Stop, Work};
 
 /// A handle to a node of one [`Graph`]; smaller handles never depend on larger ones.
@@ -419,19 +419,19 @@ impl Graph {
     }
 
     /// How many of the expressions that are `among`, and of the roots, read an expression.
-    pub fn readers(&self, roots: &[Expr], among: impl Fn(Expr) -> bool) -> BTreeMap<Expr, usize> {
-        let mut readers = BTreeMap::new();
+    pub fn readers(&self, roots: &[Expr], among: impl Fn(Expr) -> bool) -> SortedMap<Expr, usize> {
+        let mut readers = SortedMap::new();
         let reachable = self.reachable(roots);
         let among = reachable.iter().filter(|expr| among(**expr));
         let read = among.flat_map(|expr| self.node(*expr).children());
         for read in read.chain(roots.iter().copied()) {
-            *readers.entry(read).or_default() += 1;
+            *readers.get_or_default(read) += 1;
         }
         readers
     }
 
     /// The symbols that `root` depends on.
-    pub fn symbols(&self, root: Expr) -> BTreeSet<Symbol> {
+    pub fn symbols(&self, root: Expr) -> SortedSet<Symbol> {
         let symbol = |expr: Expr| match self.node(expr) {
             Node::Symbol(symbol) => Some(*symbol),
             _ => None,

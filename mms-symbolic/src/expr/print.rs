@@ -1,8 +1,7 @@
 //! Text of an expression, in the language of field files.
 
-use std::collections::BTreeMap;
-
 use super::{Expr, Function, Graph, HALF, Node, Rational, Symbol, magnitude};
+use crate::sorted::SortedMap;
 
 /// How tightly a printed text binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,7 +24,7 @@ pub struct Names {
     /// The parameters, in the order of the field file.
     pub parameters: Vec<String>,
     /// Sub-expressions with names of their own; a named one is printed as its name.
-    pub expressions: BTreeMap<Expr, String>,
+    pub expressions: SortedMap<Expr, String>,
 }
 
 impl Names {
@@ -50,7 +49,7 @@ impl Graph {
     /// The text of `root`; parsed again it is the same expression. Where `root` itself is named,
     /// its definition is printed.
     pub fn print(&self, root: Expr, names: &Names) -> String {
-        let mut printed = BTreeMap::<Expr, (String, Binding)>::new();
+        let mut printed = SortedMap::<Expr, (String, Binding)>::new();
         for expr in self.reachable(&[root]) {
             let text = match names.expressions.get(&expr) {
                 Some(name) if expr != root => (name.clone(), Binding::Atom),
@@ -65,7 +64,7 @@ impl Graph {
         &self,
         expr: Expr,
         names: &Names,
-        printed: &BTreeMap<Expr, (String, Binding)>,
+        printed: &SortedMap<Expr, (String, Binding)>,
     ) -> (String, Binding) {
         let at_least = |child: &Expr, least: Binding| {
             let (text, binding) = &printed[child];
@@ -117,15 +116,16 @@ impl Graph {
         factors: &[(Expr, Rational)],
         names: &Names,
     ) -> (Powers<String>, Powers<Expr>) {
-        let mut factors: BTreeMap<Expr, Rational> = factors.iter().cloned().collect();
+        let mut factors: SortedMap<Expr, Rational> = factors.iter().cloned().collect();
         let mut known = Vec::new();
         // Later definitions are made of earlier ones, and say more.
-        for (named, name) in names.expressions.range(..product).rev() {
+        let earlier = names.expressions.iter().rev().skip_while(|(named, _)| **named >= product);
+        for (named, name) in earlier {
             let Node::Product(parts) = self.node(*named) else { continue };
             let mut count = 0;
             while parts.iter().all(|(base, part)| holds(factors.get(base), part)) {
                 for (base, part) in parts {
-                    *factors.entry(*base).or_default() -= part;
+                    *factors.get_or_default(*base) -= part;
                 }
                 factors.retain(|_, exponent| !exponent.is_zero());
                 count += 1;
@@ -149,7 +149,7 @@ fn holds(power: Option<&Rational>, part: &Rational) -> bool {
 fn print_call(
     function: Function,
     arguments: &[Expr],
-    printed: &BTreeMap<Expr, (String, Binding)>,
+    printed: &SortedMap<Expr, (String, Binding)>,
 ) -> (String, Binding) {
     let arguments: Vec<_> = arguments.iter().map(|child| printed[child].0.as_str()).collect();
     let arguments = arguments.join(", ");

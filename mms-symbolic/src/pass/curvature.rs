@@ -18,9 +18,8 @@
 //! at their defaults alone, it is kept beside the rest, factored, so that what cancels in it does so in the
 //! parameters, which have twice the digits.
 
-use std::collections::BTreeMap;
-
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Symbol};
+use crate::sorted::SortedMap;
 
 /// The longest sum for a root; the greatest exponent.
 const MAX_ROOT: u32 = 12;
@@ -40,7 +39,7 @@ pub struct Parts {
 /// Splits each root; `None` for one that has an operation without a rule.
 pub fn curvature(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
     let symbol = graph.symbol(symbol);
-    let mut split = Split { symbol, known: BTreeMap::new() };
+    let mut split = Split { symbol, known: SortedMap::new() };
     for expr in graph.reachable(roots) {
         let term = split.term(graph, expr);
         split.known.insert(expr, term);
@@ -67,7 +66,7 @@ struct Term {
 
 struct Split {
     symbol: Expr,
-    known: BTreeMap<Expr, Option<Term>>,
+    known: SortedMap<Expr, Option<Term>>,
 }
 
 impl Split {

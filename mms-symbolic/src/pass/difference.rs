@@ -17,9 +17,8 @@
 //! acos is pi/2 less that. (Boole, A Treatise on the Calculus of Finite Differences, 1860, has the rules of
 //! products and functions.)
 
-use std::collections::BTreeMap;
-
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage, Symbol};
+use crate::sorted::SortedMap;
 
 /// The longest sum for a root; the greatest exponent.
 const MAX_ROOT: u32 = 12;
@@ -36,7 +35,7 @@ pub struct Parts {
 
 /// Splits each root; `None` for one that has no value where `symbol` is 0.
 pub fn difference(graph: &mut Graph, roots: &[Expr], symbol: Symbol) -> Vec<Option<Parts>> {
-    let mut split = Split { symbol, known: BTreeMap::new() };
+    let mut split = Split { symbol, known: SortedMap::new() };
     for expr in graph.reachable(roots) {
         let term = split.term(graph, expr);
         split.known.insert(expr, term);
@@ -72,7 +71,7 @@ impl Term {
 
 struct Split {
     symbol: Symbol,
-    known: BTreeMap<Expr, Option<Term>>,
+    known: SortedMap<Expr, Option<Term>>,
 }
 
 impl Split {

@@ -4,10 +4,9 @@
 //! is; `simplify`, in mechanics, keeps its result only where that is no dearer. It also brings the terms
 //! that are left together, so that (1 + j) (m/(1 + j) + l/(1 + j)) becomes m + l.
 
-use std::collections::BTreeMap;
-
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational, is_negative};
+use crate::sorted::SortedMap;
 
 /// Bases with their exponents.
 type Powers = Vec<(Expr, Rational)>;
@@ -103,12 +102,12 @@ fn take_common_of(
 }
 
 /// The powers that can be taken out of a term: not those of 0, which nothing divides away.
-fn powers(graph: &Graph, term: Expr) -> BTreeMap<Expr, Rational> {
+fn powers(graph: &Graph, term: Expr) -> SortedMap<Expr, Rational> {
     match graph.node(term) {
         Node::Product(factors) => {
             factors.iter().filter(|(base, _)| !graph.is_zero(*base)).cloned().collect()
         }
-        _ => BTreeMap::from([(term, Rational::ONE)]),
+        _ => SortedMap::from([(term, Rational::ONE)]),
     }
 }
 

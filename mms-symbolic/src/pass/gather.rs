@@ -4,11 +4,10 @@
 //! It does so where nothing else reads c + x. A parameter c stays with x: it may be as large as x, and set to
 //! anything.
 
-use std::collections::BTreeMap;
-
 use super::Operands;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
+use crate::sorted::SortedMap;
 
 /// `roots` with the constants of inner sums added to those of outer ones.
 pub fn gather(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
@@ -39,7 +38,7 @@ fn outwards(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
 /// A term, or, if it is made of early factors and of one sum with a constant, the two that it becomes.
 fn opened(
     graph: &mut Graph,
-    readers: &BTreeMap<Expr, usize>,
+    readers: &SortedMap<Expr, usize>,
     (term, coefficient): (Expr, Rational),
 ) -> Operands {
     let Node::Product(factors) = graph.node(term).clone() else { return vec![(term, coefficient)] };

@@ -1,11 +1,10 @@
 //! Nesting, the multivariate Horner scheme: a x + a y + b = a (x + y) + b. The factor that most terms have is
 //! taken out first. A sum that is a square is written as one.
 
-use std::collections::BTreeMap;
-
 use super::polynomial::{Monomial, Polynomial, product};
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
+use crate::sorted::SortedMap;
 
 /// Longer sums are left as they are: the work can grow with the square of their length.
 const MAX_TERMS: usize = 2000;
@@ -115,7 +114,7 @@ impl Level {
     ) -> Option<Polynomial> {
         let (atom, sign) = self.counts.most_frequent(graph, rank)?;
         let terms = std::mem::take(&mut self.rest.terms);
-        let (with, without): (BTreeMap<_, _>, _) =
+        let (with, without): (SortedMap<_, _>, _) =
             terms.into_iter().partition(|(monomial, _)| power_in(monomial, atom, sign) > 0);
         with.keys().for_each(|monomial| self.counts.add(monomial, -1));
         self.rest = Polynomial { terms: without };
@@ -134,12 +133,12 @@ impl Level {
 
 /// In how many terms each factor stands, above and below the line.
 #[derive(Default)]
-struct Counts(BTreeMap<(Expr, i32), i32>);
+struct Counts(SortedMap<(Expr, i32), i32>);
 
 impl Counts {
     fn add(&mut self, monomial: &Monomial, count: i32) {
         for (atom, exponent) in monomial {
-            *self.0.entry((*atom, exponent.signum())).or_default() += count;
+            *self.0.get_or_default((*atom, exponent.signum())) += count;
         }
     }
 
@@ -157,11 +156,11 @@ impl Counts {
 
 /// The factors that all terms share, and the polynomial without them.
 pub(super) fn take_common(polynomial: Polynomial) -> (Monomial, Polynomial) {
-    let mut monomials = polynomial.terms.keys();
-    let Some(first) = monomials.next().filter(|_| polynomial.terms.len() > 1) else {
+    if polynomial.terms.len() < 2 {
         return (Monomial::new(), polynomial);
-    };
-    let mut common = first.clone();
+    }
+    let mut monomials = polynomial.terms.keys();
+    let mut common = monomials.next().cloned().unwrap_or_default();
     for monomial in monomials {
         common.retain_mut(|(atom, exponent)| {
             let sign = exponent.signum();

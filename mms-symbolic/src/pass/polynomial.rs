@@ -1,8 +1,7 @@
 //! Polynomials in expressions: sums that are fully multiplied out, with exact coefficients.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use crate::expr::{Expr, Graph, Rational};
+use crate::sorted::{SortedMap, SortedSet};
 
 /// Factors with non-zero integer exponents, negative ones included, in order of handles.
 pub(super) type Monomial = Vec<(Expr, i32)>;
@@ -21,7 +20,7 @@ const MAX_ROOT: usize = 8;
 /// Operations return `None` where the result would have more than [`MAX_TERMS`] terms.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Polynomial {
-    pub(super) terms: BTreeMap<Monomial, Rational>,
+    pub(super) terms: SortedMap<Monomial, Rational>,
 }
 
 impl Polynomial {
@@ -45,22 +44,21 @@ impl Polynomial {
 
     /// Adds a term.
     pub(super) fn add(&mut self, monomial: Monomial, coefficient: Rational) {
-        use std::collections::btree_map::Entry;
-        match self.terms.entry(monomial) {
-            Entry::Vacant(entry) if !coefficient.is_zero() => drop(entry.insert(coefficient)),
-            Entry::Vacant(_) => {}
-            Entry::Occupied(mut entry) => {
-                *entry.get_mut() += coefficient;
-                if entry.get().is_zero() {
-                    entry.remove();
+        match self.terms.get_mut(&monomial) {
+            Some(sum) => {
+                *sum += coefficient;
+                if sum.is_zero() {
+                    self.terms.remove(&monomial);
                 }
             }
+            None if coefficient.is_zero() => {}
+            None => drop(self.terms.insert(monomial, coefficient)),
         }
     }
 
     /// The only term, if there is one and no other.
     pub(super) fn single(&self) -> Option<(&Monomial, &Rational)> {
-        if self.terms.len() == 1 { self.terms.first_key_value() } else { None }
+        if self.terms.len() == 1 { self.terms.iter().next() } else { None }
     }
 
     /// c and q with c q^2 = self and fewer terms in q; found in short polynomials of one expression.
@@ -91,7 +89,7 @@ impl Polynomial {
     }
 
     /// Every expression that it has a power of.
-    pub(super) fn atoms(&self) -> BTreeSet<Expr> {
+    pub(super) fn atoms(&self) -> SortedSet<Expr> {
         self.terms.keys().flatten().map(|(atom, _)| *atom).collect()
     }
 

@@ -3,13 +3,12 @@
 //! Sums without anything that a relation knows, and functions of one root alone, stay in one piece; what would
 //! have more than 200 terms does too. Reduction is therefore bounded, and need not pay.
 
-use std::collections::BTreeMap;
-
 use super::nest::{integral_power, nested, take_common};
 use super::polynomial::Polynomial;
 use super::relations::Relations;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational};
+use crate::sorted::SortedMap;
 
 /// `roots` in normal form modulo `relations`, nested. What would become too large is kept in one
 /// piece.
@@ -17,14 +16,14 @@ pub fn reduce(graph: &mut Graph, roots: &[Expr], relations: &Relations) -> Vec<E
     if relations.is_empty() {
         return roots.to_vec();
     }
-    let mut reducer = Reducer { relations, forms: BTreeMap::new(), rebuilt: BTreeMap::new() };
+    let mut reducer = Reducer { relations, forms: SortedMap::new(), rebuilt: SortedMap::new() };
     for expr in graph.reachable(roots) {
         let form = reducer.form(graph, expr);
         reducer.forms.insert(expr, form);
     }
     let reduced: Vec<Expr> = roots.iter().map(|root| reducer.rebuilt(graph, *root)).collect();
     // Sines and cosines were kept as relations know them, with angles as they were.
-    let angles: BTreeMap<Expr, Expr> = relations
+    let angles: SortedMap<Expr, Expr> = relations
         .angles(graph)
         .filter(|angle| reducer.forms.contains_key(angle))
         .collect::<Vec<_>>()
@@ -43,8 +42,8 @@ pub fn reduce(graph: &mut Graph, roots: &[Expr], relations: &Relations) -> Vec<E
 
 struct Reducer<'a> {
     relations: &'a Relations,
-    forms: BTreeMap<Expr, Polynomial>,
-    rebuilt: BTreeMap<Expr, Expr>,
+    forms: SortedMap<Expr, Polynomial>,
+    rebuilt: SortedMap<Expr, Expr>,
 }
 
 impl Reducer<'_> {

@@ -6,10 +6,9 @@
 //! form (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 2015, section 2.9). It ends: what replaces a
 //! square has neither that square nor one that an earlier relation replaces.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::polynomial::{Monomial, Polynomial};
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational, Stage};
+use crate::sorted::{SortedMap, SortedSet};
 
 fn half_of(graph: &mut Graph, angle: Expr) -> Expr {
     graph.scale(angle, HALF)
@@ -19,13 +18,13 @@ fn half_of(graph: &mut Graph, angle: Expr) -> Expr {
 #[derive(Clone, Debug, Default)]
 pub struct Relations {
     /// What the square of an expression equals.
-    squares: BTreeMap<Expr, Polynomial>,
+    squares: SortedMap<Expr, Polynomial>,
     /// The root of what stands under one.
-    roots: BTreeMap<Expr, Expr>,
+    roots: SortedMap<Expr, Expr>,
     /// Sines and cosines, hyperbolic ones included.
-    circular: BTreeSet<Expr>,
+    circular: SortedSet<Expr>,
     /// What stands squared under a root.
-    squared: BTreeSet<Expr>,
+    squared: SortedSet<Expr>,
     /// Whether functions of a single root are multiplied out as well.
     thorough: bool,
     /// Whether functions of a root have high powers of sums, such as (1 - (R - 1)^2)^2: multiplied
@@ -86,7 +85,7 @@ impl Relations {
         let used = graph.reachable(used);
         let mut relations = Self::find(graph, expressions);
         relations.squares.retain(|leading, _| !relations.circular.contains(leading));
-        relations.circular.clear();
+        relations.circular = SortedSet::new();
         let reachable = graph.reachable(expressions);
         for expr in reachable.iter().copied() {
             let Node::Call(function, angle) = graph.node(expr).clone() else { continue };
@@ -119,7 +118,7 @@ impl Relations {
             return roots.to_vec();
         }
         // What stands in an angle stays, for angles are known as they are.
-        let mut halved = BTreeMap::<Expr, Expr>::new();
+        let mut halved = SortedMap::<Expr, Expr>::new();
         for expr in graph.reachable(roots) {
             let made = match graph.node(expr).clone() {
                 call @ Node::Call(
@@ -262,7 +261,7 @@ impl Relations {
 
     /// Whether a sum of these factors is worth multiplying out. One of a single radius, or without
     /// anything that a relation knows, only grows.
-    pub(super) fn opens(&self, graph: &Graph, atoms: &BTreeSet<Expr>) -> bool {
+    pub(super) fn opens(&self, graph: &Graph, atoms: &SortedSet<Expr>) -> bool {
         if atoms.iter().any(|atom| self.circular.contains(atom)) {
             return true;
         }
@@ -298,7 +297,7 @@ impl Relations {
 
     fn is_steep(&self, graph: &Graph, reachable: &[Expr]) -> bool {
         // How often powers of sums stand in one another, up to each expression.
-        let mut depths = BTreeMap::<Expr, usize>::new();
+        let mut depths = SortedMap::<Expr, usize>::new();
         for expr in reachable {
             let of = |child: Expr| depths.get(&child).copied().unwrap_or(0);
             let depth = match graph.node(*expr) {

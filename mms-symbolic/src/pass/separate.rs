@@ -4,10 +4,9 @@
 //! A factor goes into the only sum of a product that needs both, where nothing else reads that sum. Sums of one
 //! kind stay as they are written, and two sums are never multiplied out: what cancels in one goes on to do so.
 
-use std::collections::BTreeMap;
-
 use super::Operands;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};
+use crate::sorted::SortedMap;
 
 /// `roots` with every sum that needs both X and t in parts, of what X determines and of what t does.
 pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
@@ -23,16 +22,16 @@ pub fn separate(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
 }
 
 /// A sum of products: a factor without t for each factor with it.
-type Sum = BTreeMap<Expr, Expr>;
+type Sum = SortedMap<Expr, Expr>;
 
 #[derive(Default)]
 struct Parts {
     /// How many of the expressions that need X and t, and of the roots, read an expression.
-    readers: BTreeMap<Expr, usize>,
+    readers: SortedMap<Expr, usize>,
     /// What needs X and t.
-    sums: BTreeMap<Expr, Sum>,
+    sums: SortedMap<Expr, Sum>,
     /// The same as expressions, where that was asked.
-    wholes: BTreeMap<Expr, Expr>,
+    wholes: SortedMap<Expr, Expr>,
 }
 
 impl Parts {
@@ -132,7 +131,7 @@ fn by_stage(graph: &Graph, operands: Operands) -> [Operands; 3] {
 /// Adds a number times a product to a sum.
 fn add(graph: &mut Graph, sum: &mut Sum, (late, factor): (Expr, Expr), number: &Rational) {
     let zero = graph.number(0);
-    let total = sum.entry(late).or_insert(zero);
+    let total = sum.get_or_insert_with(late, || zero);
     *total = graph.sum([(*total, Rational::ONE), (factor, number.clone())]);
 }
 

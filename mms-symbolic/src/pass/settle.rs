@@ -12,13 +12,12 @@
 //! Kahan, Branch Cuts, 1987, have their like.) Those rewritings are made after which terms cancel in exact
 //! numbers, and no others.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::nest::{flat_view, integral_power, nested};
 use super::polynomial::Polynomial;
 use super::relations::lateness;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Function, Graph, HALF, Node, Rational};
+use crate::sorted::{SortedMap, SortedSet};
 
 /// How deep sums in sums are opened.
 const DEPTH: usize = 6;
@@ -60,7 +59,7 @@ enum Parts {
 
 /// What atoms are made of, as far as that was asked.
 #[derive(Default)]
-struct Splits(BTreeMap<Factor, Option<Parts>>);
+struct Splits(SortedMap<Factor, Option<Parts>>);
 
 impl Splits {
     /// The polynomial with the fewest atoms split that make terms of it cancel.
@@ -92,8 +91,13 @@ impl Splits {
 
     /// The atoms that can be split, in the polynomial and in what its sums are made of; sums of
     /// which no function is a part only where `plain` is set.
-    fn reachable(&mut self, graph: &mut Graph, view: &Polynomial, plain: bool) -> BTreeSet<Factor> {
-        let mut found = BTreeSet::new();
+    fn reachable(
+        &mut self,
+        graph: &mut Graph,
+        view: &Polynomial,
+        plain: bool,
+    ) -> SortedSet<Factor> {
+        let mut found = SortedSet::new();
         let mut open = vec![(view.clone(), 0)];
         while let Some((polynomial, depth)) = open.pop() {
             for (atom, power) in polynomial.terms.keys().flatten() {
@@ -137,10 +141,10 @@ impl Splits {
         &mut self,
         graph: &mut Graph,
         view: &Polynomial,
-        chosen: &BTreeSet<Factor>,
+        chosen: &SortedSet<Factor>,
     ) -> Option<(Polynomial, bool)> {
         let mut cancelled = false;
-        let (mut opened, mut sums) = (BTreeMap::<Factor, Polynomial>::new(), Vec::new());
+        let (mut opened, mut sums) = (SortedMap::<Factor, Polynomial>::new(), Vec::new());
         for place in chosen {
             match self.of(graph, *place)? {
                 Parts::Limit(parts) => drop(opened.insert(*place, parts)),
@@ -162,11 +166,11 @@ impl Splits {
 /// The polynomial with atoms replaced, and whether terms cancelled.
 fn put_in(
     view: &Polynomial,
-    parts: &BTreeMap<Factor, Polynomial>,
+    parts: &SortedMap<Factor, Polynomial>,
     cancelled: &mut bool,
 ) -> Option<Polynomial> {
     let mut total = Polynomial::default();
-    let mut met = BTreeSet::new();
+    let mut met = SortedSet::new();
     for (monomial, coefficient) in &view.terms {
         let mut product = Polynomial::constant(coefficient.clone());
         for (atom, power) in monomial {
@@ -289,7 +293,7 @@ fn power_less_one(graph: &mut Graph, rest: Expr, power: Expr) -> Expr {
 
 /// Whether a function or a root is part of a sum, beside those in arguments.
 fn has_function(graph: &Graph, sum: Expr) -> bool {
-    let mut seen = BTreeSet::new();
+    let mut seen = SortedSet::new();
     let mut open = vec![sum];
     while let Some(expr) = open.pop() {
         if !seen.insert(expr) {

@@ -4,11 +4,10 @@
 //!
 //! Beside a constant that is large x^2 loses its digits. Who takes the result asks `mechanics::rounding` before.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::Operands;
 use super::substitute::rebuild;
 use crate::expr::{Expr, Graph, Node, Rational, Stage};
+use crate::sorted::{SortedMap, SortedSet};
 
 /// A sum of a product and a constant.
 struct Shifted {
@@ -20,15 +19,15 @@ struct Shifted {
 }
 
 /// Such sums, by the first factor of their product.
-type ByFactor = BTreeMap<Expr, Vec<Shifted>>;
+type ByFactor = SortedMap<Expr, Vec<Shifted>>;
 
 /// `roots` with products written by sums that differ from them by constants, wherever those occur.
 pub fn shift(graph: &mut Graph, roots: &[Expr]) -> Vec<Expr> {
     let found = graph.reachable(roots).into_iter().filter_map(|sum| as_shifted(graph, sum));
-    let (mut sums, mut by_factor) = (BTreeSet::new(), ByFactor::new());
+    let (mut sums, mut by_factor) = (SortedSet::new(), ByFactor::new());
     for shifted in found {
         sums.insert(shifted.sum);
-        by_factor.entry(shifted.factors[0].0).or_default().push(shifted);
+        by_factor.get_or_default(shifted.factors[0].0).push(shifted);
     }
     rebuild(graph, roots, |graph, node| {
         let made = graph.remake(node);

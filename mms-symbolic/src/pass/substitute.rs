@@ -1,11 +1,14 @@
 //! Rebuilding expressions with other leaves.
 
-use std::collections::BTreeMap;
-
 use crate::expr::{ByExpr, Expr, Graph, Node, Symbol};
+use crate::sorted::SortedMap;
 
 /// `roots` with every symbol that `values` names replaced by its value.
-pub fn substitute(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Symbol, Expr>) -> Vec<Expr> {
+pub fn substitute(
+    graph: &mut Graph,
+    roots: &[Expr],
+    values: &SortedMap<Symbol, Expr>,
+) -> Vec<Expr> {
     rebuild(graph, roots, |graph, node| match node {
         Node::Symbol(symbol) => match values.get(&symbol) {
             Some(value) => *value,
@@ -20,7 +23,7 @@ pub fn coordinates(
     graph: &mut Graph,
     places: impl IntoIterator<Item = (usize, Expr)>,
     made: impl Fn(&mut Graph, Expr, Expr) -> Expr,
-) -> BTreeMap<Symbol, Expr> {
+) -> SortedMap<Symbol, Expr> {
     let made = |(axis, place)| {
         let symbol = Symbol::Coordinate(axis);
         let coordinate = graph.symbol(symbol);
@@ -30,7 +33,7 @@ pub fn coordinates(
 }
 
 /// `roots` with whole sub-expressions replaced, wherever they stand as operands.
-pub fn replace(graph: &mut Graph, roots: &[Expr], values: &BTreeMap<Expr, Expr>) -> Vec<Expr> {
+pub fn replace(graph: &mut Graph, roots: &[Expr], values: &SortedMap<Expr, Expr>) -> Vec<Expr> {
     let mut replaced = ByExpr::of(roots);
     for expr in graph.reachable(roots) {
         let made = match values.get(&expr) {

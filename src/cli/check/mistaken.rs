@@ -1,6 +1,5 @@
 //! The mistake that gives a closed form which differs.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use mms_codegen::Compiled;
@@ -12,6 +11,7 @@ use mms_diagnosis::table::Measure;
 use mms_mechanics::Output;
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
+use mms_symbolic::sorted::SortedMap;
 use serde_json::{Value, json};
 
 /// What is looked at of a quantity.
@@ -36,7 +36,7 @@ pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option
 
 /// The mistake that gives the closed form of a check.
 fn of(compiled: &Arc<Compiled>, check: usize, of: ClosedForm) -> Option<Ranked> {
-    let (program, defaults) = (compiled.checks(), BTreeMap::new());
+    let (program, defaults) = (compiled.checks(), SortedMap::new());
     let (dimension, parameters) = (compiled.field.dimension, compiled.parameters(&defaults));
     let outputs = [Output::Expected(check)];
     let values = |time: f64, points: &[f64]| {
