@@ -6,6 +6,7 @@
 //! way that is known without a solver.
 
 use mms_runtime::body::{Filling, Piece, bounding_box};
+use mms_runtime::tensor::inverse;
 use mms_runtime::{
     Condition, Face, Fill, ManufacturedField as _, Material as _, Matrix, Refusal, Vector,
 };
@@ -307,7 +308,7 @@ impl<'a, const D: usize> Weak<'a, D> {
 /// P = tau F^-T; what is not finite where F is singular.
 fn first<const D: usize>(tau: &Matrix<f64, D>, h: &Matrix<f64, D>) -> Matrix<f64, D> {
     let f = h + Matrix::identity();
-    f.try_inverse().map_or(Matrix::repeat(f64::NAN), |inverse| tau * inverse.transpose())
+    inverse(&f).map_or(Matrix::repeat(f64::NAN), |inverse| tau * inverse.transpose())
 }
 
 /// Adds q.w for all functions, whose components come one after the other.

@@ -1,6 +1,6 @@
 //! Diagnosis of a law alone: stresses beside the F at which they were computed, without a solver.
 
-use mms_runtime::tensor::determinant;
+use mms_runtime::tensor::{determinant, inverse};
 use mms_runtime::{Matrix, Vector};
 
 use crate::answer::{Diagnosis, Limits, Ranked, Rung, ranked, unseen};
@@ -25,7 +25,7 @@ pub enum Measure {
 impl Measure {
     /// This measure of tau at F; what is not finite where F is singular.
     pub fn of<const D: usize>(self, f: &Matrix<f64, D>, tau: &Matrix<f64, D>) -> Matrix<f64, D> {
-        let inverse = f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN));
+        let inverse = inverse(f).unwrap_or(Matrix::repeat(f64::NAN));
         match self {
             Measure::FirstPiola => tau * inverse.transpose(),
             Measure::SecondPiola => inverse * tau * inverse.transpose(),

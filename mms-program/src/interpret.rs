@@ -3,7 +3,7 @@
 use mms_math::{Double, Scalar};
 
 use crate::effort;
-use crate::program::{Key, Op, Program, Value};
+use crate::program::{Instr, Key, Op, Program, Value, range};
 use mms_symbolic::expr::{Function, Rational, Small, Stage, Symbol};
 use mms_symbolic::work::Work;
 
@@ -91,13 +91,7 @@ impl<'a, T> Point<'a, T> {
 #[derive(Clone, Debug)]
 pub struct Interpreter<'a, T: Number, K> {
     program: &'a Program<K>,
-    values: Vec<T>,
-    /// The stages Parameter and Time, which are rounded when they are done.
-    once: Vec<T::Wide>,
-    /// What it may take, if that is bounded: beyond, values are not numbers.
-    work: Option<&'a Work>,
-    /// How many times what an operation takes is charged.
-    times: u64,
+    run: Run<'a, T>,
 }
 
 impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
@@ -122,24 +116,17 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         work: Option<&'a Work>,
         times: u64,
     ) -> Self {
-        let values = vec![T::from_f64(0.0); program.instrs.len()];
-        let once = vec![T::Wide::from_f64(0.0); program.start(Stage::Point)];
-        let mut interpreter = Interpreter { program, values, once, work, times };
-        interpreter.run_once(Stage::Parameter, |symbol| match symbol {
-            Symbol::Parameter(index) => parameters[index].clone(),
-            _ => unreachable!("the Parameter stage reads parameters only"),
-        });
-        interpreter
+        Interpreter { program, run: Run::new(&program.instrs, parameters, work, times) }
     }
 
     /// Charges every operation from now on as so many.
     pub fn charge(&mut self, times: u64) {
-        self.times = times;
+        self.run.times = times;
     }
 
     /// Runs the Time stage.
     pub fn set_time(&mut self, time: &T) {
-        self.run_once(Stage::Time, |symbol| match symbol {
+        self.run.once(Stage::Time, &|symbol| match symbol {
             Symbol::Time => time.clone(),
             _ => unreachable!("the Time stage reads the time only"),
         });
@@ -152,8 +139,63 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
 
     /// Runs the Point and PointTime stages of a plan.
     pub fn set_point(&mut self, plan: &[bool], point: Point<'_, T>) {
+        self.run.at_point(plan, point);
+    }
+
+    /// Like [`Interpreter::set_point`], for a program with other leaves: the caller has the value of each.
+    pub fn set_leaves(&mut self, plan: &[bool], leaf: &dyn Fn(Symbol) -> T) {
+        self.run.at_leaves(plan, leaf);
+    }
+
+    /// The components of an output that has been planned and run; a tensor is row-major.
+    pub fn output(&self, output: K) -> Vec<T> {
+        self.run.components(self.program.outputs.get(&output).map_or(&[][..], Vec::as_slice))
+    }
+}
+
+/// An interpreter that knows no keys of outputs: it is compiled once for each scalar, whatever they are.
+#[derive(Clone, Debug)]
+struct Run<'a, T: Number> {
+    instrs: &'a [Instr],
+    values: Vec<T>,
+    /// The stages Parameter and Time, which are rounded when they are done.
+    once: Vec<T::Wide>,
+    /// What it may take, if that is bounded: beyond, values are not numbers.
+    work: Option<&'a Work>,
+    /// How many times what an operation takes is charged.
+    times: u64,
+}
+
+impl<'a, T: Number> Run<'a, T> {
+    fn new(instrs: &'a [Instr], parameters: &[T], work: Option<&'a Work>, times: u64) -> Self {
+        let values = vec![T::from_f64(0.0); instrs.len()];
+        let once = vec![T::Wide::from_f64(0.0); range(instrs, Stage::Point).start];
+        let mut run = Run { instrs, values, once, work, times };
+        run.once(Stage::Parameter, &|symbol| match symbol {
+            Symbol::Parameter(index) => parameters[index].clone(),
+            _ => unreachable!("the Parameter stage reads parameters only"),
+        });
+        run
+    }
+
+    /// Runs a stage that is computed with more digits and then rounded.
+    fn once(&mut self, stage: Stage, input: &dyn Fn(Symbol) -> T) {
+        for index in range(self.instrs, stage) {
+            if self.is_over(index) {
+                self.once[index] = T::Wide::from_f64(f64::NAN);
+                self.values[index] = T::from_f64(f64::NAN);
+                continue;
+            }
+            let op = &self.instrs[index].op;
+            let input = |symbol| input(symbol).widen();
+            self.once[index] = apply(op, &self.once, T::wide_from_rational, T::wide_square, &input);
+            self.values[index] = T::narrow(self.once[index].clone());
+        }
+    }
+
+    fn at_point(&mut self, plan: &[bool], point: Point<'_, T>) {
         let dimension = point.gradient.len().isqrt();
-        self.set_leaves(plan, |symbol| match symbol {
+        self.at_leaves(plan, &|symbol| match symbol {
             Symbol::Coordinate(axis) => point.coordinates[axis].clone(),
             Symbol::Normal(axis) => point.normal[axis].clone(),
             Symbol::Gradient(row, column) => point.gradient[row * dimension + column].clone(),
@@ -161,32 +203,20 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         });
     }
 
-    /// Like [`Interpreter::set_point`], for a program with other leaves: the caller has the value of each.
-    pub fn set_leaves(&mut self, plan: &[bool], leaf: impl Fn(Symbol) -> T) {
-        for stage in [Stage::Point, Stage::PointTime] {
-            self.run(stage, plan, &leaf);
-        }
-    }
-
-    /// The components of an output that has been planned and run; a tensor is row-major.
-    pub fn output(&self, output: K) -> Vec<T> {
-        let values = self.program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
-        values.iter().map(|value| self.values[value.index()].clone()).collect()
-    }
-
-    /// Runs a stage that is computed with more digits and then rounded.
-    fn run_once(&mut self, stage: Stage, input: impl Fn(Symbol) -> T) {
-        for index in self.program.range(stage) {
+    fn at_leaves(&mut self, plan: &[bool], leaf: &dyn Fn(Symbol) -> T) {
+        let stages = [Stage::Point, Stage::PointTime].map(|stage| range(self.instrs, stage));
+        for index in stages.into_iter().flatten().filter(|index| plan[*index]) {
             if self.is_over(index) {
-                self.once[index] = T::Wide::from_f64(f64::NAN);
                 self.values[index] = T::from_f64(f64::NAN);
                 continue;
             }
-            let op = &self.program.instrs[index].op;
-            let input = |symbol| input(symbol).widen();
-            self.once[index] = apply(op, &self.once, T::wide_from_rational, T::wide_square, input);
-            self.values[index] = T::narrow(self.once[index].clone());
+            let op = &self.instrs[index].op;
+            self.values[index] = apply(op, &self.values, T::from_rational, T::square, leaf);
         }
+    }
+
+    fn components(&self, values: &[Value]) -> Vec<T> {
+        values.iter().map(|value| self.values[value.index()].clone()).collect()
     }
 
     /// Whether the budget has nothing left for an instruction; else it is charged.
@@ -195,7 +225,7 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         if work.is_over() {
             return true;
         }
-        let steps = match &self.program.instrs[index].op {
+        let steps = match &self.instrs[index].op {
             Op::Unary(function, _, a) | Op::Binary(function, a, _) => {
                 self.values[a.index()].steps(Some(*function))
             }
@@ -205,26 +235,15 @@ impl<'a, T: Number, K: Key> Interpreter<'a, T, K> {
         work.spend(self.times * steps);
         false
     }
-
-    fn run(&mut self, stage: Stage, plan: &[bool], input: impl Fn(Symbol) -> T) {
-        for index in self.program.range(stage).filter(|index| plan[*index]) {
-            if self.is_over(index) {
-                self.values[index] = T::from_f64(f64::NAN);
-                continue;
-            }
-            let op = &self.program.instrs[index].op;
-            self.values[index] = apply(op, &self.values, T::from_rational, T::square, &input);
-        }
-    }
 }
 
 /// One operation on the values before it.
 pub fn apply<T: Scalar>(
     op: &Op,
     values: &[T],
-    constant: impl Fn(&Rational) -> T,
-    square: impl Fn(T) -> T,
-    input: impl Fn(Symbol) -> T,
+    constant: fn(&Rational) -> T,
+    square: fn(T) -> T,
+    input: &dyn Fn(Symbol) -> T,
 ) -> T {
     let of = |value: &Value| values[value.index()].clone();
     match op {

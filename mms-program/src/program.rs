@@ -113,6 +113,29 @@ pub struct Program<K> {
     pub outputs: SortedMap<K, Vec<Value>>,
 }
 
+/// The positions of the instructions of a stage.
+pub(crate) fn range(instrs: &[Instr], stage: Stage) -> Range<usize> {
+    let position =
+        |is_before: &dyn Fn(Stage) -> bool| instrs.partition_point(|it| is_before(it.stage));
+    position(&|other| other < stage)..position(&|other| other <= stage)
+}
+
+/// Which instructions some values need, themselves included, by position.
+pub(crate) fn needed(instrs: &[Instr], values: &mut dyn Iterator<Item = Value>) -> Vec<bool> {
+    let mut needed = vec![false; instrs.len()];
+    for value in values {
+        needed[value.index()] = true;
+    }
+    for index in (0..instrs.len()).rev() {
+        if needed[index] {
+            for operand in instrs[index].op.operands() {
+                needed[operand.index()] = true;
+            }
+        }
+    }
+    needed
+}
+
 impl<K: Key> Program<K> {
     /// The instruction that makes a value.
     pub fn instr(&self, value: Value) -> &Instr {
@@ -121,13 +144,12 @@ impl<K: Key> Program<K> {
 
     /// The position of the first instruction of a stage or of a later one.
     pub fn start(&self, stage: Stage) -> usize {
-        self.instrs.partition_point(|instr| instr.stage < stage)
+        self.range(stage).start
     }
 
     /// The positions of the instructions of a stage.
     pub fn range(&self, stage: Stage) -> Range<usize> {
-        let length = self.instrs.partition_point(|instr| instr.stage <= stage);
-        self.start(stage)..length
+        range(&self.instrs, stage)
     }
 
     /// Which instructions `outputs` need, by position.
@@ -138,18 +160,7 @@ impl<K: Key> Program<K> {
 
     /// Which instructions `values` need, themselves included, by position.
     pub fn needed_for(&self, values: impl IntoIterator<Item = Value>) -> Vec<bool> {
-        let mut needed = vec![false; self.instrs.len()];
-        for value in values {
-            needed[value.index()] = true;
-        }
-        for index in (0..self.instrs.len()).rev() {
-            if needed[index] {
-                for operand in self.instrs[index].op.operands() {
-                    needed[operand.index()] = true;
-                }
-            }
-        }
-        needed
+        needed(&self.instrs, &mut values.into_iter())
     }
 
     /// How many operations `outputs` take, stage by stage: + - * / and each function call count

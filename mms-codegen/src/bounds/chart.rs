@@ -310,11 +310,11 @@ impl<T: Number, K: Key> Run<'_, T, K> {
 
     /// Some outputs at values of the variables.
     pub fn at(&mut self, values: &[T], outputs: &[K]) -> Vec<Vec<T>> {
-        self.with(values, |_| unreachable!("all leaves are variables"), outputs)
+        self.with(values, &|_| unreachable!("all leaves are variables"), outputs)
     }
 
     /// Some outputs at values of the variables and of the leaves that are left open.
-    pub fn with(&mut self, values: &[T], open: impl Fn(Symbol) -> T, outputs: &[K]) -> Vec<Vec<T>> {
+    pub fn with(&mut self, values: &[T], open: &dyn Fn(Symbol) -> T, outputs: &[K]) -> Vec<Vec<T>> {
         let known = self.plans.iter().position(|(planned, _)| planned == outputs);
         let plan = known.unwrap_or_else(|| {
             self.plans.push((outputs.to_vec(), self.program.needed(outputs)));
@@ -332,7 +332,7 @@ impl<T: Number, K: Key> Run<'_, T, K> {
         };
         let (time, coordinates) = self.chart.split(values);
         interpreter.set_time(&time);
-        interpreter.set_leaves(&self.plans[plan].1, |symbol| match symbol {
+        interpreter.set_leaves(&self.plans[plan].1, &|symbol| match symbol {
             Symbol::Coordinate(axis) => coordinates[axis].clone(),
             other => open(other),
         });

@@ -260,11 +260,11 @@ impl<'a> QuantityProgram<'a> {
             }
             if index < wide.len() {
                 let (constant, square) = (T::wide_from_rational, T::wide_square);
-                let value = apply(&instr.op, &wide, constant, square, |it| input(it).widen());
+                let value = apply(&instr.op, &wide, constant, square, &|it| input(it).widen());
                 wide[index] = meet_wide(index, value);
                 narrow[index] = T::narrow(wide[index].clone());
             } else {
-                let value = apply(&instr.op, &narrow, T::from_rational, T::square, input);
+                let value = apply(&instr.op, &narrow, T::from_rational, T::square, &input);
                 narrow[index] = meet(index, value);
             }
         }

@@ -178,7 +178,7 @@ impl<'a> Quantities<'a> {
         interpreter.set_time(&spot.time);
         let volume = jacobian.map(|jacobian| jacobian - T::from_f64(1.0));
         let all = vec![true; program.instrs.len()];
-        interpreter.set_leaves(&all, |symbol| match (symbol, &volume) {
+        interpreter.set_leaves(&all, &|symbol| match (symbol, &volume) {
             (Symbol::Coordinate(axis), _) => spot.coordinates[axis].clone(),
             (SUPPLIED_VOLUME, Some(volume)) => volume.clone(),
             _ => unreachable!("quantities are of a position and a time"),

@@ -54,7 +54,7 @@ impl<'a> Tangent<'a> {
         let mut volume = volume(&gradient);
         volume.value = volume.value.meet(jacobian - Interval::from_f64(1.0));
         self.first.charge(gradient.len() as u64);
-        let stress = self.first.with(&place, leaves(&gradient, &volume), &[()]).swap_remove(0);
+        let stress = self.first.with(&place, &leaves(&gradient, &volume), &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value, it.slope(column)))
     }
 
@@ -113,7 +113,7 @@ impl<'a> Tangent<'a> {
         let gradient: Vec<_> = gradient.iter().enumerate().map(variable).collect();
         let volume = volume(&gradient);
         self.second.charge(gradient.len() as u64);
-        let stress = self.second.with(&place, leaves(&gradient, &volume), &[()]).swap_remove(0);
+        let stress = self.second.with(&place, &leaves(&gradient, &volume), &[()]).swap_remove(0);
         matrix(&stress, |it, column| slope_of(it.value.value, it.slope(column).slope))
     }
 }

@@ -13,7 +13,7 @@ mod stress;
 mod tangent;
 mod wall;
 
-use mms_runtime::{Condition, Face, Matrix, Vector};
+use mms_runtime::{Condition, Face, Matrix, Vector, tensor};
 
 use crate::exact::{Exact, Quantity};
 use crate::slopes::Slopes;
@@ -338,5 +338,5 @@ fn of_first<const D: usize>(
 
 /// The inverse; of a singular F what is not finite, which a solver refuses.
 fn inverse<const D: usize>(f: &Matrix<f64, D>) -> Matrix<f64, D> {
-    f.try_inverse().unwrap_or(Matrix::repeat(f64::NAN))
+    tensor::inverse(f).unwrap_or(Matrix::repeat(f64::NAN))
 }

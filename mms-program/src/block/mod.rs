@@ -140,14 +140,13 @@ impl<T: Blockwise> Prepared<T> {
         self.stamp = STAMPS.fetch_add(1, Ordering::Relaxed);
         let plan = &self.plan;
         self.early.clear();
+        let input = |symbol| match symbol {
+            Symbol::Parameter(index) => parameters[index].widen(),
+            _ => unreachable!("the stage Parameter reads parameters only"),
+        };
         for instr in &plan.once[..plan.early] {
             let value =
-                apply(&instr.op, &self.early, T::wide_from_rational, T::wide_square, |symbol| {
-                    match symbol {
-                        Symbol::Parameter(index) => parameters[index].widen(),
-                        _ => unreachable!("the stage Parameter reads parameters only"),
-                    }
-                });
+                apply(&instr.op, &self.early, T::wide_from_rational, T::wide_square, &input);
             self.early.push(value);
         }
         for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {
@@ -262,14 +261,12 @@ impl<T: Blockwise> Room<T> {
 
     fn pass_time(&mut self, plan: &Plan, time: T) {
         self.once.truncate(plan.early);
+        let input = |symbol| match symbol {
+            Symbol::Time => time.widen(),
+            _ => unreachable!("the stage Time reads the time only"),
+        };
         for instr in &plan.once[plan.early..] {
-            let value =
-                apply(&instr.op, &self.once, T::wide_from_rational, T::wide_square, |symbol| {
-                    match symbol {
-                        Symbol::Time => time.widen(),
-                        _ => unreachable!("the stage Time reads the time only"),
-                    }
-                });
+            let value = apply(&instr.op, &self.once, T::wide_from_rational, T::wide_square, &input);
             self.once.push(value);
         }
         for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {

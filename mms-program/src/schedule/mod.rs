@@ -23,7 +23,7 @@ use lower::Builder;
 use share::Scope;
 
 use crate::fusion::Fusion;
-use crate::program::{Instr, Key, Program, Value};
+use crate::program::{Instr, Key, Program, Value, needed};
 use mms_symbolic::expr::Stage;
 use mms_symbolic::expr::{Expr, Graph, STEPS_OF_NODE, reachable};
 use mms_symbolic::sorted::SortedMap;
@@ -89,37 +89,49 @@ const ROOM: usize = 16;
 
 /// The program of `outputs`, without anything that they do not need.
 pub fn schedule<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
-    let mut builder = Builder::default();
-    let outputs = outputs
-        .iter()
-        .map(|(output, components)| {
-            let (flat, roots) = cheapest_of_all(graph, components);
-            (*output, builder.lower(&flat, &roots))
-        })
-        .collect();
-    let program = in_stage_order(Program { instrs: builder.instrs, outputs });
-    in_stage_order(signs::carried(program))
+    let program = lowered(outputs, &|components| cheapest_of_all(graph, components));
+    named(outputs, in_stage_order(signs::carried(in_stage_order(program))))
 }
 
 /// The program of `outputs` as their expressions stand: nothing is shared but equal expressions. Where the budget is spent,
 /// what is left has no value.
 pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
+    let program = lowered(outputs, &|components| {
+        let (flat, roots) = match graph.work().is_over() {
+            true => Flat::void(components.len()),
+            false => {
+                let all = (&graph.reachable(components)[..], components);
+                Flat::new(graph, all, Grouping::Staged, Scaling::Factors)
+            }
+        };
+        graph.work().spend(STEPS_OF_OPERAND * flat.forms.len() as u64);
+        (flat, roots)
+    });
+    named(outputs, in_stage_order(program))
+}
+
+/// A program whose outputs are in the order of their keys. No pass asks for the keys, so each is compiled once, whatever
+/// they are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Unnamed {
+    instrs: Vec<Instr>,
+    outputs: Vec<Vec<Value>>,
+}
+
+/// A program with the keys of its outputs.
+fn named<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, made: Unnamed) -> Program<K> {
+    Program { instrs: made.instrs, outputs: outputs.keys().copied().zip(made.outputs).collect() }
+}
+
+/// All outputs, each as it is written.
+fn lowered<K: Key>(outputs: &SortedMap<K, Vec<Expr>>, written: &dyn Fn(&[Expr]) -> Way) -> Unnamed {
     let mut builder = Builder::default();
-    let outputs = outputs
-        .iter()
-        .map(|(output, components)| {
-            let (flat, roots) = match graph.work().is_over() {
-                true => Flat::void(components.len()),
-                false => {
-                    let all = (&graph.reachable(components)[..], &components[..]);
-                    Flat::new(graph, all, Grouping::Staged, Scaling::Factors)
-                }
-            };
-            graph.work().spend(STEPS_OF_OPERAND * flat.forms.len() as u64);
-            (*output, builder.lower(&flat, &roots))
-        })
-        .collect();
-    in_stage_order(Program { instrs: builder.instrs, outputs })
+    let lower = |components: &Vec<Expr>| {
+        let (flat, roots) = written(components);
+        builder.lower(&flat, &roots)
+    };
+    let outputs = outputs.values().map(lower).collect();
+    Unnamed { instrs: builder.instrs, outputs }
 }
 
 /// How many operations that are done once may save one at every point.
@@ -257,30 +269,21 @@ fn counted(builder: &Builder, stages: &[Stage]) -> usize {
 }
 
 /// Drops what no output needs, and sorts by stage; within a stage the order stays.
-fn in_stage_order<K: Key>(program: Program<K>) -> Program<K> {
-    let all: Vec<K> = program.outputs.keys().copied().collect();
-    let needed = program.needed(&all);
-    let mut order: Vec<usize> = (0..program.instrs.len()).filter(|index| needed[*index]).collect();
-    order.sort_by_key(|index| program.instrs[*index].stage);
-    let mut renamed = vec![Value(0); program.instrs.len()];
+fn in_stage_order(program: Unnamed) -> Unnamed {
+    let Unnamed { instrs, mut outputs } = program;
+    let needed = needed(&instrs, &mut outputs.iter().flatten().copied());
+    let mut order: Vec<usize> = (0..instrs.len()).filter(|index| needed[*index]).collect();
+    order.sort_by_key(|index| instrs[*index].stage);
+    let mut renamed = vec![Value(0); instrs.len()];
     for (new, old) in order.iter().enumerate() {
         renamed[*old] = Value(new as u32);
     }
     let rename = |value: Value| renamed[value.index()];
-    Program {
-        instrs: order
-            .into_iter()
-            .map(|old| Instr {
-                op: program.instrs[old].op.map(rename),
-                stage: program.instrs[old].stage,
-            })
-            .collect(),
-        outputs: program
-            .outputs
-            .into_iter()
-            .map(|(output, values)| (output, values.into_iter().map(rename).collect()))
-            .collect(),
+    for value in outputs.iter_mut().flatten() {
+        *value = rename(*value);
     }
+    let instr = |old: usize| Instr { op: instrs[old].op.map(rename), stage: instrs[old].stage };
+    Unnamed { instrs: order.into_iter().map(instr).collect(), outputs }
 }
 
 #[cfg(test)]

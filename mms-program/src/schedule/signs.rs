@@ -1,13 +1,14 @@
 //! Changes of sign that cost nothing: -((a - b) c) is (b - a) c.
 
-use crate::program::{Key, Op, Program, Value};
+use super::Unnamed;
+use crate::program::{Op, Value};
 use mms_symbolic::sorted::SortedSet;
 
 /// The program with a difference turned round wherever that spares a change of sign.
 ///
 /// The sign is carried to the difference through products and quotients that nothing else reads. So every value is the
 /// same number as before, or of the other sign and read where that is allowed for.
-pub(super) fn carried<K: Key>(mut program: Program<K>) -> Program<K> {
+pub(super) fn carried(mut program: Unnamed) -> Unnamed {
     let mut readers = readers(&program);
     let mut differences: SortedSet<(Value, Value)> =
         program.instrs.iter().filter_map(|instr| difference(&instr.op)).collect();
@@ -25,17 +26,17 @@ pub(super) fn carried<K: Key>(mut program: Program<K>) -> Program<K> {
             renamed[index] = value;
         }
     }
-    for values in program.outputs.values_mut() {
-        values.iter_mut().for_each(|value| *value = renamed[value.index()]);
+    for value in program.outputs.iter_mut().flatten() {
+        *value = renamed[value.index()];
     }
     program
 }
 
 /// How many instructions and outputs read each value.
-fn readers<K: Key>(program: &Program<K>) -> Vec<usize> {
+fn readers(program: &Unnamed) -> Vec<usize> {
     let mut readers = vec![0; program.instrs.len()];
     let operands = program.instrs.iter().flat_map(|instr| instr.op.operands());
-    for value in operands.chain(program.outputs.values().flatten().copied()) {
+    for value in operands.chain(program.outputs.iter().flatten().copied()) {
         readers[value.index()] += 1;
     }
     readers
@@ -49,14 +50,10 @@ fn difference(op: &Op) -> Option<(Value, Value)> {
 }
 
 /// The difference that can take a sign in place of a value: the value itself, or a factor of it.
-fn carrier<K: Key>(
-    program: &Program<K>,
-    readers: &[usize],
-    value: Value,
-) -> Option<(Value, [Value; 2])> {
+fn carrier(program: &Unnamed, readers: &[usize], value: Value) -> Option<(Value, [Value; 2])> {
     let mut open = vec![value];
     while let Some(value) = open.pop() {
-        match program.instr(value).op {
+        match program.instrs[value.index()].op {
             _ if readers[value.index()] > 1 => {}
             Op::Subtract(a, b) => return Some((value, [a, b])),
             Op::Multiply(a, b) | Op::Divide(a, b) => open.extend([b, a]),
@@ -74,7 +71,7 @@ mod tests {
     use mms_symbolic::expr::Symbol;
 
     /// x, y, x - y, (x - y) y and its negative, which is an output beside these `others`.
-    fn program(others: &[u32]) -> Program<usize> {
+    fn program(others: &[u32]) -> Unnamed {
         let [x, y, difference, product] = [0, 1, 2, 3].map(Value);
         let ops = [
             Op::Input(Symbol::Coordinate(0)),
@@ -84,9 +81,9 @@ mod tests {
             Op::Negate(product),
         ];
         let values = [4].iter().chain(others).map(|index| Value(*index)).collect();
-        Program {
+        Unnamed {
             instrs: ops.map(|op| Instr { op, stage: Stage::Point }).into(),
-            outputs: [(0, values)].into(),
+            outputs: vec![values],
         }
     }
 
@@ -94,7 +91,7 @@ mod tests {
     fn a_difference_that_nothing_else_reads_takes_the_sign() {
         let carried = carried(program(&[]));
         assert_eq!(carried.instrs[2].op, Op::Subtract(Value(1), Value(0)));
-        assert_eq!(carried.outputs[&0], [Value(3)]);
+        assert_eq!(carried.outputs[0], [Value(3)]);
     }
 
     #[test]
