@@ -58,6 +58,10 @@ struct Weak<'a, const D: usize> {
     points: Vec<Vector<f64, D>>,
     volumes: Vec<f64>,
     pieces: Vec<Piece<D>>,
+    /// All functions at the points, point by point: every hypothesis asks for them.
+    at_points: Vec<f64>,
+    /// Their gradients.
+    slopes_at_points: Vec<Vector<f64, D>>,
 }
 
 /// The sums of a field, apart by their terms: of a, of P in the body, of b, of tractions.
@@ -74,14 +78,19 @@ impl<'a, const D: usize> Weak<'a, D> {
         let [lower, upper] = bounding_box(body)?;
         let spacing = (upper - lower) / POINTS[D - 1];
         let filling = Filling::new(body, Fill::Fitted, &spacing)?;
-        Ok(Weak {
+        let mut weak = Weak {
             exact,
             time,
             smooth: Smooth::new(body, points, DEGREE)?,
             points: filling.position,
             volumes: filling.volume,
             pieces: filling.pieces,
-        })
+            at_points: Vec::new(),
+            slopes_at_points: Vec::new(),
+        };
+        weak.at_points = weak.points.iter().flat_map(|x| weak.functions(x)).collect();
+        weak.slopes_at_points = weak.points.iter().flat_map(|x| weak.gradients(x)).collect();
+        Ok(weak)
     }
 
     /// 0 where the motion of a component is given, and of the size of 1 in the body.
@@ -132,8 +141,9 @@ impl<'a, const D: usize> Weak<'a, D> {
     /// int q.w over the body, of q at the points of the quadrature.
     fn paired(&self, values: &[Vector<f64, D>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
-        for ((x, volume), q) in self.points.iter().zip(&self.volumes).zip(values) {
-            add(&mut sums, &self.functions(x), &(q * *volume));
+        let functions = self.at_points.chunks(self.count());
+        for ((functions, volume), q) in functions.zip(&self.volumes).zip(values) {
+            add(&mut sums, functions, &(q * *volume));
         }
         sums
     }
@@ -154,9 +164,9 @@ impl<'a, const D: usize> Weak<'a, D> {
         field.at_time(time);
         field.kirchhoff_stress(x, &h, &mut tau);
         let mut stress = vec![0.0; self.count()];
-        for (((x, volume), tau), h) in x.iter().zip(&self.volumes).zip(&tau).zip(&h) {
+        let slopes = self.slopes_at_points.chunks(self.count());
+        for (((gradients, volume), tau), h) in slopes.zip(&self.volumes).zip(&tau).zip(&h) {
             let p = first(tau, h) * *volume;
-            let gradients = self.gradients(x);
             let each = gradients.chunks(self.smooth.count()).enumerate();
             let terms = each.flat_map(|(i, of)| of.iter().map(move |slope| (p.row(i) * slope)[0]));
             stress.iter_mut().zip(terms).for_each(|(sum, term)| *sum -= term);
