@@ -17,6 +17,9 @@ pub trait Work<T> {
     /// What comes of it.
     type Output;
 
+    /// Whether AVX-512 gains over AVX2: else there is no version for it, and that for AVX2 is taken.
+    const GAINS_BY_AVX512: bool = true;
+
     /// Does it, with loops over `M::Lane` and eight numbers at a time. Everything that is called has to be inlined, or
     /// is not compiled for the instruction set.
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output;
@@ -127,11 +130,11 @@ impl Instructions {
             // Safety: the processor has what the function is compiled for, or there would be no such value.
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             #[allow(unsafe_code)]
-            Level::Avx512 => unsafe { avx512(work) },
-            // Safety: likewise.
+            Level::Avx512 if W::GAINS_BY_AVX512 => unsafe { avx512(work) },
+            // Safety: likewise; AVX2 is there where AVX-512 is.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            Level::Avx2 => unsafe { avx2(work) },
+            Level::Avx2 | Level::Avx512 => unsafe { avx2(work) },
             _ => baseline(work),
         }
     }

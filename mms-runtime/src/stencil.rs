@@ -146,6 +146,9 @@ pub enum Wanted {
 
 /// The nodes that a bunch touches.
 pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
+    /// Whether the sums, and the search for the weights, gain by AVX-512 over AVX2.
+    const GAINS_BY_AVX512: bool;
+
     /// Calls `visit(i, w_ip, grad w_ip)` for every node i of one of the particles; a node may come more than
     /// once, and its weights then add up.
     fn each(&self, particle: usize, visit: impl FnMut(usize, T, Vector<T, D>));

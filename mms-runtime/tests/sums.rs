@@ -34,16 +34,21 @@ struct Sums<'a, T, const D: usize, S> {
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
-    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, with moments, and with both.
-    fn by<M: Machine<T>>(&self, machine: M) -> Vec<T> {
+    /// The sums of nodes for every particle, and those to nodes: of values, with slopes, with moments, and with both. Then
+    /// the slopes of the linear functions that are nearest to the nodes. What is wanted is no constant, so that sums are
+    /// compiled once.
+    fn by<M: Machine<T>>(&self, machine: M) -> [Vec<T>; 2] {
         let Self { stencil, lattice, nodes, carried, members } = *self;
-        let mut all = Vec::new();
-        for wanted in [Wanted::Value, Wanted::Gradient] {
-            let Gathered { value, gradient, .. } = stencil.gather(machine, lattice, wanted, nodes);
-            let gradient = if wanted == Wanted::Value { &[] } else { &gradient[..] };
-            for components in [value].iter().chain(gradient) {
-                all.extend(components.iter().flat_map(|&eight| machine.numbers(eight)));
-            }
+        let (mut all, mut nearest) = (Vec::new(), Vec::new());
+        for wanted in [Wanted::Value, Wanted::Gradient, Wanted::Slopes] {
+            let Gathered { value, gradient, slopes } =
+                stencil.gather(machine, lattice, wanted, nodes);
+            let (found, vectors) = match wanted {
+                Wanted::Value => (&mut all, vec![value]),
+                Wanted::Gradient => (&mut all, [&[value], &gradient[..]].concat()),
+                Wanted::Slopes => (&mut nearest, slopes.to_vec()),
+            };
+            found.extend(vectors.iter().flatten().flat_map(|&eight| machine.numbers(eight)));
         }
         let value = std::array::from_fn(|p| {
             machine.halves(&carried[EACH * p].0, &carried[EACH * (p + HALF)].0)
@@ -61,7 +66,7 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
             stencil.scatter(machine, lattice, &carried, members, Window { start: 0, nodes });
         }
         all.extend(sums.iter().flatten().flat_map(|node| node.0));
-        all
+        [all, nearest]
     }
 
     /// The same by their definitions.
@@ -99,20 +104,13 @@ impl<T: Real, const D: usize, S: Stencil<T, D>> Sums<'_, T, D, S> {
         let gathered = values.chain(gathered.iter().flatten().flatten());
         gathered.copied().chain(sums.iter().flatten().flat_map(|node| node.0)).collect()
     }
-
-    /// The slopes of the linear functions that are nearest to the nodes.
-    fn slopes<M: Machine<T>>(&self, machine: M) -> Vec<T> {
-        let Self { stencil, lattice, nodes, .. } = *self;
-        let slopes = stencil.gather(machine, lattice, Wanted::Slopes, nodes).slopes;
-        slopes.iter().flatten().flat_map(|&eight| machine.numbers(eight)).collect()
-    }
 }
 
 impl<T: Real, const D: usize, S: Stencil<T, D>> Work<T> for &Sums<'_, T, D, S> {
     type Output = [Vec<T>; 2];
 
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
-        [self.by(machine), self.slopes(machine)]
+        self.by(machine)
     }
 }
 

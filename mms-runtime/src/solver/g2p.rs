@@ -60,6 +60,7 @@ where
     St: Stencil<T, D>,
 {
     type Output = Result<Sound, (usize, Cause)>;
+    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {
@@ -254,6 +255,7 @@ where
     St: Stencil<T, D>,
 {
     type Output = Result<Sound, (usize, Cause)>;
+    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {

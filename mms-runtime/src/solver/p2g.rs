@@ -180,6 +180,7 @@ struct Scatter<'a, T: Real, const D: usize, St> {
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, St> {
     type Output = Result<(), Stop>;
+    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {

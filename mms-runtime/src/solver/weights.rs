@@ -18,6 +18,7 @@ use crate::lattice::Lattice;
 use crate::particle::reorder_bunches;
 use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, place_alone};
+use crate::stencil::Stencil as _;
 use crate::transfer::Transfer;
 
 /// How many bunches ahead of the one that is worked on the state of a bunch is brought near: with large bodies it has
@@ -166,6 +167,7 @@ struct Weights<'a, T: Real, const D: usize, S: Shape> {
 
 impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
     type Output = Result<(), (usize, Cause)>;
+    const GAINS_BY_AVX512: bool = S::Stencil::<T, D>::GAINS_BY_AVX512;
 
     #[inline(always)]
     fn on<M: Machine<T>>(self, machine: M) -> Self::Output {

@@ -342,6 +342,9 @@ impl<T: Real, const D: usize> Default for Tensor<T, D> {
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
+    // A register of AVX2 holds eight numbers of single precision, and a single row of nodes is soon summed.
+    const GAINS_BY_AVX512: bool = D > 1 && size_of::<T>() == size_of::<f64>();
+
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let width = |a: usize| if a < D { self.width } else { 1 };
         for k2 in 0..width(2) {
