@@ -6,8 +6,8 @@ use std::sync::PoisonError;
 
 use crate::locks::{Arc, Mutex, RwLock};
 
-/// The parameters of a field: a set `S` has the exact values of those that were set, by position. A panic leaves no change half done, so that its
-/// poison means nothing.
+/// The parameters of a field. A set `S` has the exact values of those that were set, by position. A panic leaves no
+/// change half done, so that its poison means nothing.
 #[derive(Debug)]
 pub struct Settings<S> {
     /// Those that were set; the others are at their defaults, which may depend on these. Locked from

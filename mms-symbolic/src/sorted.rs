@@ -1,6 +1,6 @@
 //! Maps and sets as sorted vectors.
 //!
-//! They have the order of `SortedMap` and `SortedSet`, and each pair of types costs the compiler a tenth of what these do.
+//! They have the order of `BTreeMap` and `BTreeSet`, and each pair of types costs the compiler a tenth of what these do.
 //! Here keys come in order, or are few: a key that comes late for its order moves all that follow it.
 
 use std::borrow::Borrow;

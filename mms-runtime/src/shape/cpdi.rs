@@ -107,7 +107,7 @@ impl<T: Real, const D: usize> Default for Corners<T, D> {
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for Corners<T, D> {
-    // As fast by AVX2, as measured: what takes long is where the corners are.
+    // As fast by AVX2, as measured.
     const GAINS_BY_AVX512: bool = false;
 
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
