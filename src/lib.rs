@@ -21,6 +21,9 @@ mod provenance;
 mod read;
 pub mod report;
 mod rows;
+#[cfg(test)]
+#[path = "../tests/support/sampled.rs"]
+mod sampled;
 pub mod schema;
 mod session;
 mod shell;

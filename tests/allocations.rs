@@ -1,7 +1,8 @@
-//! No evaluation allocates. One test alone, since it counts what the whole process does.
+//! No evaluation allocates, as counted by the allocator of the thread.
 
 use std::sync::Arc;
 
+use allocation_counter::measure;
 use mms::gallery::find;
 use mms_gallery::axis_aligned_3d;
 use mms_mechanics::Output;
@@ -9,10 +10,6 @@ use mms_program::block::{Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedMap;
-use peak_alloc::PeakAlloc;
-
-#[global_allocator]
-static MEMORY: PeakAlloc = PeakAlloc;
 
 #[test]
 fn no_evaluation_allocates() {
@@ -25,25 +22,24 @@ fn no_evaluation_allocates() {
     let field = axis_aligned_3d::prepare(&axis_aligned_3d::Parameters::<f64>::default());
     let kept = field.at_points(columns.each_ref().map(|column| &column[..]));
 
-    MEMORY.reset_peak_usage();
-    let before = MEMORY.current_usage();
-    for step in 0..3 {
-        let at = field.at_time(0.01 * f64::from(step));
-        for (row, point) in rows.iter_mut().zip(&points) {
-            *row = at.body_force(*point);
+    let counted = measure(|| {
+        for step in 0..3 {
+            let at = field.at_time(0.01 * f64::from(step));
+            for (row, point) in rows.iter_mut().zip(&points) {
+                *row = at.body_force(*point);
+            }
+            at.body_force_batch_aos(&points, &mut rows);
+            let points = columns.each_ref().map(|column| &column[..]);
+            at.body_force_batch(points, out.each_mut().map(|column| &mut column[..]));
+            at.body_force_batch_at(&kept, out.each_mut().map(|column| &mut column[..]));
         }
-        at.body_force_batch_aos(&points, &mut rows);
-        let points = columns.each_ref().map(|column| &column[..]);
-        at.body_force_batch(points, out.each_mut().map(|column| &mut column[..]));
-        at.body_force_batch_at(&kept, out.each_mut().map(|column| &mut column[..]));
-    }
-    assert_eq!((MEMORY.current_usage(), MEMORY.peak_usage()), (before, before));
+    });
+    assert_eq!(counted.count_total, 0);
     assert!(out[0][500] != 0.0 && rows[500][0] != 0.0);
     no_evaluation_in_blocks_allocates(&points, &mut rows);
 
     // The count sees what is allocated and given back.
-    drop(vec![0_u8; 4096]);
-    assert!(MEMORY.peak_usage() >= before + 4096);
+    assert_eq!(measure(|| drop(std::hint::black_box(vec![0_u8; 4096]))).bytes_max, 4096);
 }
 
 /// Once a room has been used, for however few points: neither do other times, nor other parameters.
@@ -72,12 +68,12 @@ fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]])
         rows[0][0]
     };
     let first = evaluate(&prepared, 0.01, 1);
-    MEMORY.reset_peak_usage();
-    let before = MEMORY.current_usage();
-    for step in 0..3 {
-        evaluate(&prepared, 0.01 * f64::from(step), points.len());
-        prepared.set(&parameters);
-    }
-    assert_eq!((MEMORY.current_usage(), MEMORY.peak_usage()), (before, before));
+    let counted = measure(|| {
+        for step in 0..3 {
+            evaluate(&prepared, 0.01 * f64::from(step), points.len());
+            prepared.set(&parameters);
+        }
+    });
+    assert_eq!(counted.count_total, 0);
     assert_eq!(evaluate(&prepared, 0.01, points.len()), first);
 }

@@ -1,6 +1,6 @@
 //! What is generated from the 1D bar, as text to review: a change of it is seen in a difference.
 //!
-//! After a deliberate change, `INSTA_UPDATE=always cargo test --test snapshots` writes the files in
+//! After a deliberate change, `INSTA_UPDATE=always cargo test --test suite snapshots` writes the files in
 //! `snapshots/` anew; read the difference before it is committed.
 
 use std::process::Command;

@@ -11,7 +11,7 @@ use mms_program::Stage;
 use mms_spec::quantity::Quantity;
 use object::{Object as _, ObjectSection as _, SectionKind};
 
-use crate::table::{Table, Variant};
+use super::table::{Table, Variant};
 
 /// How many operations it takes to compute every quantity of a variant at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

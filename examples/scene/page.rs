@@ -2,8 +2,8 @@
 
 use mms::workbench::Workbench;
 
-use crate::cost::{Subject, subjects, times};
-use crate::table::{TABLES, Table, Variant};
+use super::cost::{Subject, subjects, times};
+use super::table::{TABLES, Table, Variant};
 
 /// What stands above the tables.
 const HEAD: &str = "\

@@ -43,7 +43,7 @@
 #ifndef MMS_CAPI_H
 #define MMS_CAPI_H
 
-/* Made of mms-capi/src/abi.rs: MMS_BLESS=1 cargo test -p mms-capi --test header */
+/* Made of mms-capi/src/abi.rs: MMS_BLESS=1 cargo test -p mms-capi --test suite header */
 
 #include <stddef.h>
 #include <stdint.h>

@@ -25,6 +25,6 @@ fn the_header_is_that_of_the_functions() {
     let header = String::from_utf8(header).expect("text");
     assert!(
         fs::read_to_string(&path).is_ok_and(|written| written == header),
-        "include/mms_capi.h is not what src/abi.rs says: MMS_BLESS=1 cargo test -p mms-capi --test header"
+        "include/mms_capi.h is not what src/abi.rs says: MMS_BLESS=1 cargo test -p mms-capi --test suite header"
     );
 }

@@ -1,15 +1,12 @@
 //! No text makes the compiler panic, hang or overflow a stack. The same function is the target of
 //! the fuzzer in `fuzz/`.
 
-#[path = "support/survive.rs"]
-mod survive;
-
 use mms_codegen::Options;
 use proptest::prelude::*;
 
 /// The limits are those that users get.
 fn survive(text: &str) {
-    survive::survive(text, &Options::default());
+    crate::survive::survive(text, &Options::default());
 }
 
 const BAR: &str = include_str!("data/pass/every_key_2d.toml");

@@ -13,6 +13,8 @@ use mms_codegen::certify::computed::Finding;
 use mms_codegen::{Compiled, Options, compile_with};
 use proptest::prelude::*;
 
+use crate::sampled::sampled_count;
+
 /// A field: what u is, in which body, when, and what else the file says.
 struct Case<'a> {
     u: &'a [&'a str],
@@ -21,9 +23,6 @@ struct Case<'a> {
     rest: &'a str,
     material: &'a str,
 }
-
-/// What a proof about a program may take of a field of the gallery.
-const MOST_CELLS: usize = 250;
 
 const BOX: &str = "shape = \"box\"\nlower = [0]\nupper = [1]";
 const SQUARE: &str = "shape = \"box\"\nlower = [-1, -1]\nupper = [1, 1]";
@@ -248,29 +247,8 @@ fn digits_that_sums_lose_are_counted() {
     assert!((1.0..3.0).contains(&far) && at == 1e13, "{far} {at}");
 }
 
-#[test]
-fn honest_fields_are_computed_in_both_precisions() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for folder in ["tests/data/certify", "../fields"] {
-        for entry in fs::read_dir(root.join(folder)).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            let (compiled, certificate) = certified(&fs::read_to_string(&path).expect("a file"));
-            let shown = path.display();
-            assert!(certificate.objections(&compiled).is_empty(), "{shown}: {certificate:?}");
-            let [double, single] = &certificate.computed;
-            assert_eq!(double.finding, Finding::Proved, "{shown}");
-            assert!(double.cells <= MOST_CELLS, "{shown}: {}", double.cells);
-            // A J of a millionth is about as large as what f32 rounds.
-            if !path.ends_with("sliver_2d.toml") {
-                assert_eq!(single.finding, Finding::Proved, "{shown}");
-                assert!(single.cells <= MOST_CELLS, "{shown}: {}", single.cells);
-            }
-        }
-    }
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: sampled_count(96, 4) as u32, ..ProptestConfig::default() })]
     #[test]
     fn no_point_contradicts_a_certificate(data in prop::collection::vec(any::<u8>(), 40..160)) {
         hunt::hunt(&hunt::field(&data), &data);
@@ -279,7 +257,7 @@ proptest! {
 
 /// As many fields as `MMS_HUNT_FIELDS` says, or 200, and what became of them.
 #[test]
-#[ignore = "takes a minute: .ci/run runs it"]
+#[ignore = "takes a minute: .ci/long runs it"]
 fn a_longer_hunt() {
     let number = |name: &str| std::env::var(name).ok().and_then(|it| it.parse::<u64>().ok());
     let fields = number("MMS_HUNT_FIELDS").unwrap_or(200);

@@ -1,7 +1,7 @@
 //! Every file in `data/fail` is wrong, and says what it is about: the text that a user sees for
 //! `NAME.toml` must be exactly `NAME.expected`. The folder is its own list.
 //!
-//! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test diagnostics` writes
+//! After a deliberate change, `MMS_BLESS=1 cargo test -p mms-codegen --test suite diagnostics` writes
 //! the `.expected` files anew; read the difference before it is committed.
 
 use std::collections::BTreeSet;

@@ -48,7 +48,7 @@ fn ten_times_the_terms_make_at_most_ten_times_the_size_of_polynomials() {
 }
 
 #[test]
-#[ignore = "takes a minute: .ci/run runs it"]
+#[ignore = "takes a minute: .ci/long runs it"]
 fn so_they_do_for_as_many_terms_as_a_graph_holds() {
     hold(Family::Waves, MANY);
     hold(Family::Polynomial, MANY);

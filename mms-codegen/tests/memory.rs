@@ -1,21 +1,13 @@
-//! No text makes the compiler take more memory than a stated bound: counted by the allocator. Alone
-//! in its program, since it counts everything that runs in it.
+//! No text makes the compiler take more memory than a stated bound: counted by the allocator.
 
-#[path = "support/survive.rs"]
-mod survive;
-
-use std::sync::{Mutex, PoisonError};
-
+use allocation_counter::measure;
 use mms_codegen::Options;
-use peak_alloc::PeakAlloc;
-use survive::survive;
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use crate::survive::survive;
 
 /// What a compilation may hold at once. The graph holds at most 200,000 nodes and operands of some
 /// 100 bytes each; the programs and the texts that are made of it take several times as much.
-const BOUND: usize = 128 << 20;
+const BOUND: u64 = 128 << 20;
 
 /// What completes a field of one dimension.
 const REST: &str = "[material]\nmodel = \"neo_hookean\"\nlambda = 1\nmu = 1\ndensity = 1\n\
@@ -33,13 +25,8 @@ fn repeated(count: usize, piece: impl Fn(usize) -> String) -> String {
 
 /// Asserts that no text takes more than the bound; each has a name.
 fn hold(texts: &[(&str, String)]) {
-    static ALONE: Mutex<()> = Mutex::new(());
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     for (what, text) in texts {
-        let before = ALLOCATOR.current_usage();
-        ALLOCATOR.reset_peak_usage();
-        survive(text, &Options::default());
-        let taken = ALLOCATOR.peak_usage() - before;
+        let taken = measure(|| survive(text, &Options::default())).bytes_max;
         println!("{what}: {} KiB for a text of {} KiB", taken >> 10, text.len() >> 10);
         assert!(taken < BOUND, "{what}: {taken} bytes");
     }
@@ -68,7 +55,7 @@ fn no_text_takes_more_memory_than_the_bound() {
 
 /// The text that takes the most.
 #[test]
-#[ignore = "takes a minute: .ci/run runs it"]
+#[ignore = "takes a minute: .ci/long runs it"]
 fn long_numbers_take_no_more_memory_than_the_bound() {
     let long = "9".repeat(900);
     let sum = repeated(900, |k| format!("{long}.{k}*sin({k}*X) + "));

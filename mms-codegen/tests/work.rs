@@ -21,6 +21,8 @@ use mms_spec::read_field;
 use mms_spec::source::Sources;
 use mms_symbolic::work::Stop;
 
+use crate::sampled::sampled;
+
 /// A check ends within ten seconds of the processor's time. What takes this long has no end.
 const ENDLESS: Duration = Duration::from_secs(120);
 
@@ -77,7 +79,7 @@ fn the_cases_end_and_say_what_they_left() {
         let is_whole = compiled.simplified && certificate.spent.is_empty();
         let is_proved = certificate.objections(&compiled).is_empty();
         assert!(!is_whole || is_proved, "{name}: {:?}", certificate.spent);
-        if name == "let_double.toml" {
+        if name == "u_sinh.toml" {
             // Equal texts spend equal budgets.
             let (again, _, other) = check(&fault(name)).expect("a field");
             assert!(!certificate.spent.is_empty());
@@ -89,7 +91,7 @@ fn the_cases_end_and_say_what_they_left() {
 
 #[test]
 fn deep_and_wide_formulas_end() {
-    for function in ["sinh", "atan", "sin"] {
+    for function in sampled(["sinh", "atan", "sin"], 3) {
         let _ = check(&field(&format!("a*{}", nested(function, 300, "X/2")), "", "", ""));
     }
     let terms: Vec<_> = (1..8000).map(|k| format!("sin({k}*X + t)/{k}")).collect();

@@ -1,7 +1,5 @@
 //! Bodies full of particles: volumes, faces and domains.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use mms_runtime::body::{Filling, bounding_box};
@@ -255,7 +253,7 @@ fn fitted_fills_turn_with_their_sector() {
 #[test]
 fn particles_per_cell_along_each_axis() {
     use mms_runtime::{Division, Method, Setup, Solve};
-    let field = common::wave::Wave::on_box([1.0, 0.5]);
+    let field = crate::common::wave::Wave::on_box([1.0, 0.5]);
     let particles_per_cell: Division = "3x1".parse().unwrap();
     let setup = Setup { particles_per_cell, ..Setup::default() };
     let cells: Division = "4x8".parse().unwrap();

@@ -1,10 +1,8 @@
 //! Conditions on faces, each with a motion that needs it, converge as on a bar without them.
 
-mod common;
-
+use crate::common::{AxisAligned, Bar, method, wave::Wave};
 use FormulationName::{Total, Updated};
 use ShapeName::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Ugimp};
-use common::{AxisAligned, Bar, method, wave::Wave};
 use mms_runtime::convergence::observed_order;
 use mms_runtime::study::{Level, Solve, run_level};
 use mms_runtime::{

@@ -1,8 +1,6 @@
 //! Observed orders on the 1D bar, with the theory that expects them.
 
-mod common;
-
-use common::{Bar, levels, method};
+use crate::common::{Bar, levels, method};
 use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
 use mms_runtime::study::{Level, judge, orders};
 use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName};

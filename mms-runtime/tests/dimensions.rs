@@ -1,8 +1,6 @@
 //! The solver in two and three dimensions, with rollers: the image method at edges and corners.
 
-mod common;
-
-use common::{AxisAligned, levels, method};
+use crate::common::{AxisAligned, levels, method};
 use mms_runtime::study::orders;
 use mms_runtime::{IntegratorName, Method, ShapeName, Solve};
 

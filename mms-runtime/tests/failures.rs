@@ -1,10 +1,8 @@
 //! Scenes that are refused, and runs that stop: never a wrong number, always where, when and why.
 
-mod common;
-
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Affine, Bar, method, methods, wave::Wave};
+use crate::common::{Affine, Bar, method, methods, wave::Wave};
 use mms_runtime::study::{Level, run_level};
 use mms_runtime::{
     Body, Cause, Condition, Division, Domain, Face, Failure, Fill, FormulationName, IntegratorName,

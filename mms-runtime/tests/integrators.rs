@@ -1,9 +1,7 @@
 //! Properties that every time integrator has, with every shape function and transfer, in both formulations
 //! and in one to three dimensions.
 
-mod common;
-
-use common::{Affine, Bar, levels, method, methods, wave::Wave};
+use crate::common::{Affine, Bar, levels, method, methods, wave::Wave};
 use mms_runtime::convergence::observed_order;
 use mms_runtime::integrator::{Integrator, IntegratorVisitor};
 use mms_runtime::{

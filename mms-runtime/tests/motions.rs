@@ -1,8 +1,6 @@
 //! Motions with a known state: uniform F(t), rotation, and free vibration.
 
-mod common;
-
-use common::{Affine, levels, method, methods, spin::Spin, wave::Wave};
+use crate::common::{Affine, levels, method, methods, spin::Spin, wave::Wave};
 use mms_runtime::study::{Details, Watch};
 use mms_runtime::{
     AnySolver, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName, Solve,

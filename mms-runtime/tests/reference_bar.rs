@@ -1,9 +1,7 @@
 //! A second opinion: the bar with contiguous-particle GIMP and leapfrog as one plain 1-D program that shares
 //! nothing with the runtime, giving the same errors.
 
-mod common;
-
-use common::{Bar, levels};
+use crate::common::{Bar, levels};
 use mms_runtime::Method;
 
 /// Bardenhagen & Kober's weight and gradient at distance x from a node, l <= h/2, case by case.

@@ -1,10 +1,8 @@
 //! Runs that stop and go on from a checkpoint: they end with the same bits as runs that do not.
 
-mod common;
-
 use std::io::Read;
 
-use common::wave::Wave;
+use crate::common::wave::Wave;
 use mms_runtime::study::{Checkpoint, Details, Observer, Record, Watch};
 use mms_runtime::{
     Cause, Condition, FormulationName, IntegratorName, Method, Refusal, Run, Setup, ShapeName,

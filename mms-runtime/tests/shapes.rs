@@ -1,10 +1,8 @@
 //! Properties that every shape function has: new ones are found here by themselves.
 
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::weights::{CELLS, Particle, lattice, weights};
+use crate::common::weights::{CELLS, Particle, lattice, weights};
 use mms_runtime::lattice::Axis;
 use mms_runtime::shape::{Shape, ShapeVisitor};
 use mms_runtime::stencil::Stencil;

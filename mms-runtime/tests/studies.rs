@@ -1,9 +1,7 @@
 //! What a study says beside its orders in space: orders in time, the floor of round-off, the balances of a
 //! run, and the time step that is refused.
 
-mod common;
-
-use common::{AxisAligned, Bar, method};
+use crate::common::{AxisAligned, Bar, method};
 use mms_runtime::convergence::Expected;
 use mms_runtime::study::{Balance, Refinement, Run, Series, Snapshots, Solve, Watch, differences};
 use mms_runtime::{

@@ -1,9 +1,7 @@
 //! The sums between the particles of a bunch and their nodes, which are factorised and may be done together, against
 //! their definitions, particle by particle and node by node; with every machine of the processor.
 
-mod common;
-
-use common::weights::{CELLS, Particle, lattice};
+use crate::common::weights::{CELLS, Particle, lattice};
 use mms_runtime::column::{BUNCH, HALF};
 use mms_runtime::math::dispatch::{Work, best};
 use mms_runtime::math::machine::{Machine, Plain};

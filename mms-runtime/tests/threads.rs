@@ -1,8 +1,6 @@
 //! Runs on several threads, and with particles that are sorted: nothing depends on either.
 
-mod common;
-
-use common::wave::Wave;
+use crate::common::wave::Wave;
 use mms_runtime::study::{Frame, Level, Observer, Watch, run_level};
 use mms_runtime::{
     Condition, FormulationName, IntegratorName, Method, Run, Setup, ShapeName, Solve, Transfer,

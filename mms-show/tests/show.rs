@@ -21,6 +21,8 @@ use mms_spec::source::Sources;
 use mms_spec::syntax;
 use mms_symbolic::expr::{Expr, Graph, Rational, Symbol};
 
+use crate::sampled::sampled;
+
 /// Lines of text are about a hundred characters long, and no longer.
 const LINE: usize = 105;
 
@@ -91,7 +93,7 @@ fn compile_fields() -> Vec<Compiled> {
         .map(|entry| entry.expect("an entry of fields/").path())
         .collect();
     paths.sort();
-    for path in paths {
+    for path in sampled(paths, 4) {
         let name = path.file_stem().expect("a stem").to_string_lossy().into_owned();
         fields.push(compiled(&name, &fs::read_to_string(&path).expect("a field")));
     }

@@ -22,7 +22,7 @@ pub mod impedance;
 mod least;
 mod mesh;
 mod modes;
-mod pencil;
+pub mod pencil;
 pub mod resting;
 pub mod solve;
 pub mod stability;

@@ -1,10 +1,8 @@
 //! Corners against finite elements of scikit-fem, and against the faces that meet there.
 
-mod support;
-
+use crate::support::{plane, zero};
 use mms_spec::Face;
 use mms_stability::judge;
-use support::{plane, zero};
 
 const MODULI: [f64; 2] = [1.5, 1.0];
 const ALL: &str = "x_min = 'traction'\nx_max = 'traction'\ny_min = 'traction'\ny_max = 'traction'";

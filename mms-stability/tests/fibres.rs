@@ -1,12 +1,10 @@
 //! Moduli of fibrous material at rest against closed forms.
 
-mod support;
-
+use crate::support::field;
 use mms_codegen::certify::rest::stress;
 use mms_codegen::compile;
 use mms_stability::fibres::TransverseModuli;
 use mms_stability::resting::Material;
-use support::field;
 
 /// A square of neo-Hookean matrix with E and nu, of whose fibres `energy` tells.
 fn moduli(fibre: &str) -> Option<TransverseModuli> {

@@ -1,13 +1,11 @@
 //! Long waves against closed forms.
 
-mod support;
-
 use std::f64::consts::PI;
 
+use crate::support::{plane, zero};
 use mms_stability::growth::Growth;
 use mms_stability::judge;
 use mms_stability::solve::{Solved, solve};
-use support::{plane, zero};
 
 const ROLLERS: &str = r#"
 x_min = "roller"

@@ -1,11 +1,9 @@
 //! The surface impedance against closed forms and against the equation that defines it.
 
-mod support;
-
+use crate::support::{neo_hookean, zero};
 use mms_stability::elasticity::{Elasticity, unit};
 use mms_stability::impedance::Impedance;
 use nalgebra::{Complex, Matrix2, SMatrix, SVector};
-use support::{neo_hookean, zero};
 
 /// The least eigenvalue for waves along X on a half space below Y = 0.
 fn least(elasticity: &Elasticity<2>) -> f64 {

@@ -83,11 +83,11 @@ mod tests {
 
     use super::*;
     use crate::gallery::FIELDS;
+    use crate::sampled::sampled;
 
     const WRITE: &str = "cargo run --release -- report --gallery docs/gallery";
 
     #[test]
-    #[ignore = "derives every field: .ci/run runs it"]
     fn the_pages_are_those_of_the_gallery_with_its_formulas() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/gallery");
         let mut pages: BTreeSet<String> = std::fs::read_dir(&folder)
@@ -98,7 +98,7 @@ mod tests {
         assert!(pages.remove("index.html"), "{WRITE}");
         let expected: BTreeSet<_> = FIELDS.iter().map(|it| format!("{}.html", it.name)).collect();
         assert_eq!(pages, expected, "{WRITE}");
-        for entry in FIELDS {
+        for entry in sampled(FIELDS, 7) {
             let page =
                 std::fs::read_to_string(folder.join(format!("{}.html", entry.name))).unwrap();
             let shown = field::Shown::of_gallery(entry).unwrap();

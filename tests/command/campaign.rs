@@ -11,6 +11,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use super::mms::{Folder, Run};
+use super::sampled::sampled_count;
 
 /// At the end of the window the bar has u = a X (2 - X), with a = 0.2. It notes each of its runs in `log`.
 const SOLVER: &str = r#"
@@ -417,7 +418,7 @@ fn killed_anywhere_it_loses_one_run_at_most() {
         "[[study]]\nfield = \"bar_1d\"\ncells = [4, 8, 12, 16, 20, 24, 28, 32]\n",
     );
     let mut kills = 0;
-    for at in 0..50_u64 {
+    for at in 0..sampled_count(50, 5) as u64 {
         let mut child = start(&folder);
         sleep(Duration::from_millis(40 + at * 37 % 160));
         signal(&child, "-KILL");

@@ -358,13 +358,11 @@ fn fault(names: &[&str]) -> Folder {
 
 #[test]
 fn what_a_budget_left_is_said_and_no_pass() {
-    for name in ["u_sinh.toml", "let_double.toml"] {
-        let folder = fault(&[name]);
-        let run = folder.mms(&format!("check {name}")).exits(1);
-        run.prints("budget SPENT before the end of: ").prints("UNPROVED");
-        let file = &folder.mms(&format!("check {name} --json")).exits(1).json()["files"][0];
-        assert!(!file["budget_spent"].as_array().expect("a list").is_empty(), "{file}");
-    }
+    let folder = fault(&["u_sinh.toml"]);
+    let run = folder.mms("check u_sinh.toml").exits(1);
+    run.prints("budget SPENT before the end of: ").prints("UNPROVED");
+    let file = &folder.mms("check u_sinh.toml --json").exits(1).json()["files"][0];
+    assert!(!file["budget_spent"].as_array().expect("a list").is_empty(), "{file}");
     let file = &Folder::with_bar("bar.toml").mms("check bar.toml --json").exits(0).json();
     let file = &file["files"][0];
     assert_eq!(file["budget_spent"].as_array().map(Vec::len), Some(0), "{file}");

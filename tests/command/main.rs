@@ -27,6 +27,8 @@ mod report_page;
 mod requested;
 mod rigid;
 mod run;
+#[path = "../support/sampled.rs"]
+mod sampled;
 mod saved;
 mod show;
 mod stability;

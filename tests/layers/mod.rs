@@ -100,3 +100,57 @@ fn imports_are_found() {
     assert!(!has("bounds", "certify"), "{pairs:?}");
     assert!(imports.circles().iter().any(|circle| circle.contains(&vec!["selection".into()])));
 }
+
+/// Programs that list their modules find no file by themselves.
+#[test]
+fn no_file_of_tests_is_left_out() {
+    for Crate { name, .. } in CRATES {
+        let tests = folder(name).join("tests");
+        let read = |path: PathBuf| fs::read_to_string(path).unwrap_or_default();
+        let manifest = read(folder(name).join("Cargo.toml"));
+        if !manifest.contains("autotests = false") {
+            continue;
+        }
+        let entries =
+            fs::read_dir(&tests).expect("a folder").map(|it| it.expect("an entry").path());
+        let entries: Vec<PathBuf> = entries.collect();
+        let files = entries.iter().filter(|path| path.is_file()).cloned();
+        let listed: String = files.map(read).chain([manifest]).collect();
+        for path in entries {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let is_code = path.extension().is_some_and(|it| it == "rs")
+                || ["mod.rs", "main.rs"].iter().any(|file| path.join(file).exists());
+            let [module, file, inside] = [
+                format!("mod {stem};"),
+                format!("\"tests/{stem}.rs\""),
+                format!("\"tests/{stem}/main.rs\""),
+            ];
+            let is_listed = [module, file, inside].iter().any(|place| listed.contains(place));
+            assert!(is_listed || !is_code, "{name}: tests/main.rs lacks `{stem}`");
+        }
+    }
+}
+
+/// Whether documentation has an example that would be a program: a block that names no other language.
+fn has_example(text: &str) -> bool {
+    let lines = text.lines().map(str::trim_start);
+    let comments = lines.filter_map(|it| it.strip_prefix("///").or(it.strip_prefix("//!")));
+    let mut fences = comments.map(str::trim).filter(|it| it.starts_with("```")).step_by(2);
+    fences.any(|opening| ["```", "```rust"].contains(&opening))
+}
+
+/// A crate without examples says so, and spares the time to look for them.
+#[test]
+fn no_example_in_documentation_is_left_out() {
+    for Crate { name, .. } in CRATES {
+        let manifest = fs::read_to_string(folder(name).join("Cargo.toml")).expect("a manifest");
+        if manifest.contains("doctest = false") {
+            let files = format!("{}/src/**/*.rs", folder(name).display());
+            for path in glob::glob(&files).expect("a pattern").map(|path| path.expect("a path")) {
+                let text = fs::read_to_string(&path).expect("a source file");
+                assert!(!has_example(&text), "no test looks at the example in {}", path.display());
+            }
+        }
+    }
+    assert!(has_example("/// ```text\n/// x\n/// ```\n/// ```\n/// x\n/// ```"));
+}

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use crate::verdict::{Kind, json, reader_accepts};
+use super::verdict::{Kind, json, reader_accepts};
 
 /// Files with all keys, between them.
 const FULL: &[(Kind, &str)] = &[

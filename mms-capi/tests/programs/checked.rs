@@ -1,5 +1,5 @@
 //! Programs in C that misuse the library, each by itself, where memory ends at a page that is not there, and with
-//! AddressSanitizer and valgrind. More calls: `MMS_RANDOM_CALLS=1000000 cargo test -p mms-capi --test programs
+//! AddressSanitizer and valgrind. More calls: `MMS_RANDOM_CALLS=1000000 cargo test -p mms-capi --test suite
 //! random`.
 
 use super::{PREFIX, is_installed, quoted, root, run, scratch};

@@ -8,12 +8,14 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 use mms_emit::{Bundle, Subject, TARGETS, Target};
 
+use super::sampled::all_is_tried;
+
 /// The targets that come with a check program.
 pub fn ports() -> impl Iterator<Item = &'static Target> {
     TARGETS.iter().filter(|target| target.name != "rust-mms-math")
 }
 
-/// Whether everything must be tried, and nothing may be skipped.
+/// Whether all compilers must be there.
 pub fn all_are_required() -> bool {
     std::env::var("MMS_REQUIRE_COMPILERS").is_ok_and(|value| value == "1")
 }
@@ -95,11 +97,11 @@ for path in sys.argv[1:]:
         nodes.extend(node.children if node.has_error else [])
 "#;
 
-/// The targets that one of so many cases is tried in: all where compilers are required; elsewhere, to take a
-/// few seconds, C and those whose turn it is, so that each has one case.
+/// The targets that one of so many cases is tried in: C and those whose turn it is, so that each has one case; all
+/// where everything is tried.
 pub fn in_turn(case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
     let is_tried = move |(place, target): &(usize, &Target)| {
-        all_are_required() || target.name == "c" || place % cases == case
+        all_is_tried() || target.name == "c" || place % cases == case
     };
     let targets = ports().enumerate().filter(is_tried);
     targets.map(|(_, target)| target).filter(|target| can_prove(target))

@@ -8,7 +8,8 @@ use std::sync::Mutex;
 use mms_codegen::{Compiled, Options, compile_with};
 use mms_emit::{Subject, Target};
 
-use super::build::{all_are_required, can_prove, in_pairs, ports, prove, quick};
+use super::build::{can_prove, in_pairs, ports, prove, quick};
+use super::sampled::sampled;
 
 /// The fields of the gallery, compiled.
 pub fn gallery() -> Vec<Compiled> {
@@ -36,9 +37,8 @@ fn compiled(path: &Path) -> Compiled {
         .unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-/// Languages that compute in one precision lose the digits of such angles; and the one that takes half a minute.
+/// Languages that compute in one precision lose the digits of such angles.
 const ONE_PRECISION: [&str; 3] = ["ufl", "moose", "karamelo"];
-const SLOW: &str = "octave";
 
 #[test]
 fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions() {
@@ -46,32 +46,23 @@ fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions
     for name in ["wave_in_radians", "wave_in_half_turns"] {
         let field = compiled(&folder.join(format!("{name}.toml")));
         let subject = Subject::new(&field);
-        let is_meant = |target: &&'static Target| {
-            let is_quick = target.name != SLOW || all_are_required();
-            is_quick && !ONE_PRECISION.contains(&target.name)
-        };
-        for target in ports().filter(|target| can_prove(target)).filter(is_meant) {
+        let is_meant = |target: &&'static Target| !ONE_PRECISION.contains(&target.name);
+        let targets = ports().filter(|target| can_prove(target)).filter(is_meant);
+        for target in sampled(targets, 3) {
             let error = prove(target, &subject, &format!("late/{name}"), quick);
             println!("{} {name}: {error} eps", target.name);
         }
     }
 }
 
-/// All pairs of a field and a language where compilers are required; elsewhere, to take no more than
-/// half a minute, each field in C and in one other language.
 #[test]
 fn every_field_proves_itself_in_every_language() {
     let fields = gallery();
     let subjects: Vec<_> = fields.iter().map(Subject::new).collect();
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
-    let others = targets.iter().filter(|target| target.name != "c").count().max(1);
-    let is_tried = |field: usize, target: usize| {
-        all_are_required() || targets[target].name == "c" || (field + target).is_multiple_of(others)
-    };
-    let pairs: Vec<(usize, usize)> = (0..targets.len())
-        .flat_map(|target| (0..fields.len()).map(move |field| (field, target)))
-        .filter(|(field, target)| is_tried(*field, *target))
-        .collect();
+    let pairs =
+        (0..targets.len()).flat_map(|target| (0..fields.len()).map(move |field| (field, target)));
+    let pairs = sampled(pairs, 12);
     let worst = Mutex::new(BTreeMap::new());
     in_pairs(&pairs, |(field, target)| {
         let (name, target) = (fields[*field].field.name.raw(), targets[*target]);

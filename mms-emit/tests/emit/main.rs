@@ -10,4 +10,6 @@ mod literals;
 mod motion;
 mod names;
 mod page;
+#[path = "../../../tests/support/sampled.rs"]
+mod sampled;
 mod strict;

@@ -1,11 +1,11 @@
 //! The page of what is known of the stability of the gallery.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mms_codegen::certify::certificate::certify;
 use mms_codegen::certify::ellipticity::Ellipticity;
-use mms_codegen::{Compiled, compile};
+use mms_codegen::compile;
 use mms_stability::warnings::warnings;
 use mms_stability::{Stability, judge};
 
@@ -27,28 +27,29 @@ window, and the least w^2 in 1/s^2.
 |---|---|---|---|---|---|---|
 ";
 
-/// All of it.
+/// The whole page.
+#[allow(dead_code)] // The test compares rows.
 pub fn page() -> String {
-    let mut rows: Vec<String> = gallery().iter().map(|(name, field)| row(name, field)).collect();
+    let mut rows: Vec<String> = files().iter().map(|path| row(path)).collect();
     rows.insert(0, HEAD.into());
     rows.concat()
 }
 
-fn gallery() -> Vec<(String, Compiled)> {
+/// The files of the gallery, in the order of their rows.
+pub fn files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
     let entries = fs::read_dir(folder).expect("the gallery").map(|entry| entry.expect("an entry"));
     let mut paths: Vec<_> = entries.map(|entry| entry.path()).collect();
     paths.sort();
-    let fields = paths.iter().map(|path| {
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        let text = fs::read_to_string(path).expect("a field file");
-        let compiled = compile(&name, &name, &text, &|_| Err("no other file".into()));
-        (name, compiled.unwrap_or_else(|failure| panic!("{failure}")))
-    });
-    fields.collect()
+    paths
 }
 
-fn row(name: &str, field: &Compiled) -> String {
+/// The row of a field.
+pub fn row(path: &Path) -> String {
+    let name = path.file_stem().expect("a name").to_string_lossy();
+    let text = fs::read_to_string(path).expect("a field file");
+    let compiled = compile(&name, &name, &text, &|_| Err("no other file".into()));
+    let field = &compiled.unwrap_or_else(|failure| panic!("{failure}"));
     let (stability, ellipticity) = (judge(field), certify(field).ellipticity);
     let Stability { waves, surfaces, corners, growth, .. } = &stability;
     let proved = match ellipticity {

@@ -2,7 +2,9 @@
 #![allow(dead_code)]
 
 use std::fs;
+use std::sync::LazyLock;
 
+use crate::sampled::is_in_depth;
 use mms_codegen::{Compiled, compile};
 use mms_stability::elasticity::Elasticity;
 use nalgebra::SMatrix;
@@ -66,17 +68,23 @@ pub fn zero(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64 {
     (from + to) / 2.0
 }
 
-/// The gallery.
-pub fn gallery() -> Vec<(String, Compiled)> {
+/// The fields of the gallery that are measured in depth, in the order of their names.
+pub fn gallery() -> &'static [(String, Compiled)] {
+    static GALLERY: LazyLock<Vec<(String, Compiled)>> = LazyLock::new(compiled_gallery);
+    &GALLERY
+}
+
+fn compiled_gallery() -> Vec<(String, Compiled)> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../fields");
     let mut fields = Vec::new();
-    for entry in fs::read_dir(folder).expect("the gallery") {
-        let path = entry.expect("an entry").path();
+    let paths = fs::read_dir(folder).expect("the gallery").map(|it| it.expect("an entry").path());
+    for path in paths.filter(|path| is_in_depth(path)) {
         let text = fs::read_to_string(&path).unwrap_or_default();
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
         let compiled = compile(&name, &name, &text, &|_| Err("none".into()));
         fields.extend(compiled.ok().map(|compiled| (name, compiled)));
     }
-    assert!(fields.len() > 20, "{}", fields.len());
+    assert!(fields.len() > 10, "{}", fields.len());
+    fields.sort_by(|(one, _), (other, _)| one.cmp(other));
     fields
 }

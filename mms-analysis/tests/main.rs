@@ -1,0 +1,6 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod accuracy;
+mod period;
+mod present;
+mod visibility;

@@ -1,0 +1,22 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod arbitrary_text;
+mod branches;
+mod certify;
+mod diagnostics;
+mod faces;
+mod growth;
+mod language;
+mod materials;
+mod mechanics;
+mod memory;
+mod offset;
+mod operations;
+mod pass;
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;
+mod selection;
+mod stable;
+#[path = "support/survive.rs"]
+mod survive;
+mod work;

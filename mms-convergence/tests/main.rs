@@ -1,0 +1,4 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod coverage;
+mod verdicts;

@@ -1,0 +1,7 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod files;
+mod memory;
+mod norms;
+mod pairing;
+mod write;

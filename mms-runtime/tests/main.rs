@@ -1,0 +1,16 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod bodies;
+mod boundaries;
+mod common;
+mod convergence;
+mod dimensions;
+mod failures;
+mod integrators;
+mod motions;
+mod reference_bar;
+mod restart;
+mod shapes;
+mod studies;
+mod sums;
+mod threads;

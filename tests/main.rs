@@ -1,0 +1,18 @@
+//! The tests of this crate, as one program, so that what they share is compiled and linked once.
+
+mod accuracy;
+mod allocations;
+mod audit;
+mod batch;
+mod datum;
+mod emitted;
+mod layers;
+mod operation_counts;
+pub mod programs;
+mod rigid;
+#[path = "support/sampled.rs"]
+mod sampled;
+mod scene;
+mod schema;
+mod snapshots;
+mod words;
