@@ -8,6 +8,7 @@ use std::thread;
 use mms_codegen::materials::MATERIALS;
 
 use super::*;
+use crate::evaluator::BLOCK;
 
 /// Room for any message but those of field files.
 const CAPACITY: usize = 1024;
@@ -276,6 +277,26 @@ fn normals_point_outward_and_carry_the_traction() {
         assert_eq!(code, MmsCode::UnknownName);
         assert!(message.contains("this body has inner, outer"), "{message}");
     }
+}
+
+#[test]
+fn points_of_later_blocks_have_their_normals_and_numbers() {
+    const COUNT: usize = 3 * BLOCK + 2;
+    let ring = Handle::new(c"expanding_ring");
+    let directions = (0..COUNT).flat_map(|k| <[f64; 2]>::from((0.1 * k as f64).sin_cos()));
+    let normals: Vec<f64> = directions.collect();
+    let mut points: Vec<f64> = normals.iter().rev().map(|x| 0.8 * x).collect();
+    let traction =
+        |points: &[f64], normals: &[f64]| ring.evaluate(c"traction", 0.1, points, Some(normals), 2);
+    let all = traction(&points, &normals).expect("values");
+    for k in 0..COUNT {
+        let own = 2 * k..2 * k + 2;
+        let alone = traction(&points[own.clone()], &normals[own.clone()]).expect("values");
+        assert_eq!(all[own], alone, "point {k}");
+    }
+    points[2 * COUNT - 1] = f64::NAN;
+    let (_, message) = traction(&points, &normals).expect_err("a failure");
+    assert_eq!(message, format!("point {} has NaN: expected finite numbers", COUNT - 1));
 }
 
 #[test]
