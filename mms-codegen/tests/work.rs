@@ -74,7 +74,8 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 
 #[test]
 fn the_cases_end_and_say_what_they_left() {
-    for name in ["u_sinh.toml", "deep_sin_100.toml", "let_double.toml", "time_03.toml"] {
+    let long = sampled(["deep_sin_100.toml", "let_double.toml", "time_03.toml"], 3);
+    for name in ["u_sinh.toml"].into_iter().chain(long) {
         let (compiled, _, certificate) = check(&fault(name)).expect("a field");
         let is_whole = compiled.simplified && certificate.spent.is_empty();
         let is_proved = certificate.objections(&compiled).is_empty();

@@ -10,6 +10,8 @@ mod integrators;
 mod motions;
 mod reference_bar;
 mod restart;
+#[path = "../../tests/support/sampled.rs"]
+mod sampled;
 mod shapes;
 mod studies;
 mod sums;

@@ -172,7 +172,7 @@ fn stresses_of_materials_of_ones_own_hold() {
     let motions = files("tests/data/stable");
     let pairs = motions.iter().flat_map(|motion| energies.map(|energy| (motion, energy)));
     let mut measured = Vec::new();
-    for (path, energy) in sampled(pairs, 6) {
+    for (path, energy) in sampled(pairs, 10) {
         let motion = fs::read_to_string(path).expect("a readable file");
         let text = format!("{motion}\n[material]\nmodel = \"./own.toml\"\nmu = 3\ndensity = 2\n");
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -230,7 +230,7 @@ fn with_every_material(folder: &str, bulk: usize, share: usize) -> Vec<Excess> {
 
 #[test]
 fn motions_with_large_rotations_and_tiny_strains_hold_for_every_material() {
-    hold(with_every_material("tests/data/stable", 2, 6));
+    hold(with_every_material("tests/data/stable", 2, 12));
 }
 
 /// Where the divergence of u is 0, which the formulas do not show, a bulk modulus multiplies what is of second order

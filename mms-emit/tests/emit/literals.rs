@@ -49,7 +49,7 @@ fn a_thousand_terms_compile_in_every_language() {
         (1..=1000).map(|k| format!("sin({k}*X + t)/{}", 1000 * k * k)).collect();
     let field = field(&terms.join(" + "), Quantity::Velocity);
     let subject = Subject::new(&field);
-    for target in sampled(ports().filter(|target| can_prove(target)), 3) {
+    for target in sampled(ports().filter(|target| can_prove(target)), 6) {
         prove(target, &subject, "thousand", quick);
     }
 }
