@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::sync::Mutex;
+use std::sync::{LazyLock, Mutex};
 
 use mms_codegen::{Compiled, Options, compile_with};
 use mms_emit::{Subject, Target};
@@ -12,14 +12,14 @@ use super::build::{can_prove, in_pairs, ports, prove, quick};
 use super::sampled::sampled;
 
 /// The fields of the gallery, compiled.
-pub fn gallery() -> Vec<Compiled> {
+pub static GALLERY: LazyLock<Vec<Compiled>> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fields");
     let files = fs::read_dir(folder).expect("the gallery");
     let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
     paths.sort();
     let fields = paths.iter().filter(|path| path.extension().is_some_and(|it| it == "toml"));
     fields.map(|path| compiled(path)).collect()
-}
+});
 
 /// A field of the gallery, compiled.
 pub fn field(name: &str) -> Compiled {
@@ -57,8 +57,7 @@ fn waves_after_many_periods_prove_themselves_in_every_language_of_two_precisions
 
 #[test]
 fn every_field_proves_itself_in_every_language() {
-    let fields = gallery();
-    let subjects: Vec<_> = fields.iter().map(Subject::new).collect();
+    let fields = &*GALLERY;
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
     let pairs =
         (0..targets.len()).flat_map(|target| (0..fields.len()).map(move |field| (field, target)));
@@ -66,7 +65,8 @@ fn every_field_proves_itself_in_every_language() {
     let worst = Mutex::new(BTreeMap::new());
     in_pairs(&pairs, |(field, target)| {
         let (name, target) = (fields[*field].field.name.raw(), targets[*target]);
-        let error = prove(target, &subjects[*field], &format!("gallery/{name}"), quick);
+        let error =
+            prove(target, &Subject::new(&fields[*field]), &format!("gallery/{name}"), quick);
         let mut worst = worst.lock().expect("no panic while it is held");
         let most = worst.entry(target.name).or_insert((0.0, String::new()));
         if error > most.0 {

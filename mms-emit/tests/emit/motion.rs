@@ -8,7 +8,7 @@ use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-use super::gallery::{field, gallery};
+use super::gallery::{GALLERY, field};
 
 /// How many samples the body has along each edge, in one to three dimensions, and how many times are looked at.
 const ALONG: [usize; 3] = [65, 25, 7];
@@ -49,11 +49,11 @@ fn sampled(compiled: &Compiled) -> Vec<[f64; 2]> {
 #[test]
 fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
     let (mut sharp, mut all) = (0, 0);
-    for compiled in gallery() {
+    for compiled in &*GALLERY {
         let name = compiled.field.name.raw();
-        let subject = Subject::new(&compiled);
+        let subject = Subject::new(compiled);
         let told = subject.reach();
-        for (axis, (told, found)) in told.iter().zip(sampled(&compiled)).enumerate() {
+        for (axis, (told, found)) in told.iter().zip(sampled(compiled)).enumerate() {
             let width = found[1] - found[0];
             // The samples are rounded.
             let rounding = 1e-14 * (found[0].abs() + found[1].abs());
