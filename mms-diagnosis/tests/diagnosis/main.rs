@@ -490,6 +490,9 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
     ordinary::diagnose(&exact, &frame, meshes, &all(&exact), None).unwrap()
 }
 
+/// u as a function of t and X.
+type Motion = fn(f64, &Point) -> Point;
+
 /// What is said of results with this displacement.
 fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
     let points = points(24);
@@ -505,7 +508,7 @@ fn of_results(displacement: impl Fn(f64, &Point) -> Point) -> Diagnosis {
 fn what_is_written_wrongly_is_named() {
     let u = field::displacement;
     assert_eq!(name(&of_results(u)), "nothing");
-    let mistakes: [(&str, fn(f64, &Point) -> Point); 4] = [
+    let mistakes: [(&str, Motion); 4] = [
         ("components_swapped", |t, x| {
             let u = field::displacement(t, x);
             Point::new(u[1], u[0])
