@@ -31,7 +31,7 @@ const BOXES: usize = 1000;
 /// How many honest fields are not proved to be strongly elliptic.
 const UNPROVED: usize = 5;
 
-/// What a proof about a program may take of a field of the gallery.
+/// The most cells that the proof about a program may take, for a field of the gallery.
 const MOST_CELLS: usize = 250;
 
 /// Fields of the gallery and some more that are right, with their certificates.

@@ -22,7 +22,7 @@ const SLACK: f64 = 0.25;
 const SHARP: f64 = 0.015;
 
 /// The least and the greatest x by axis of samples, by the scheduled program, which is none of what bounds are made of.
-fn sampled(compiled: &Compiled) -> Vec<[f64; 2]> {
+fn reached(compiled: &Compiled) -> Vec<[f64; 2]> {
     let output = Output::Quantity(Quantity::Position);
     let parameters = compiled.parameters::<f64>(&SortedMap::new());
     let (body, [first, last]) = domain(&compiled.program, &parameters);
@@ -53,7 +53,7 @@ fn every_field_stays_within_what_its_modules_tell_and_nearly_fills_it() {
         let name = compiled.field.name.raw();
         let subject = Subject::new(compiled);
         let told = subject.reach();
-        for (axis, (told, found)) in told.iter().zip(sampled(compiled)).enumerate() {
+        for (axis, (told, found)) in told.iter().zip(reached(compiled)).enumerate() {
             let width = found[1] - found[0];
             // The samples are rounded.
             let rounding = 1e-14 * (found[0].abs() + found[1].abs());
