@@ -1,31 +1,49 @@
 //! What the levels of one norm say of the expected order.
 
 use crate::limit::{Limit, limit};
-use crate::order::{Basis, Estimate, misfit, pairs};
+use crate::order::{Basis, Estimate, Line, pairs};
 use crate::sequence::{Level, Sequence};
-use crate::term::{Kind, Term, second_term};
+use crate::share::{Share, lower, rounding};
+use crate::term::{Term, second_term};
 use crate::verdict::Verdict;
 
-/// What theory says, and how narrow an interval must be.
+/// What theory says, and how far an order may be from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
     /// p.
     pub order: f64,
-    /// Half the width that an interval of the order may have.
+    /// How far the order may be from p.
     pub tolerance: f64,
 }
 
 impl Expected {
-    /// An order is not told from another that is nearer than this, a quarter of the tolerance: so much the digits of
-    /// tables and terms of higher order make. A term that moves the order by less decides nothing.
+    /// A quarter of the tolerance: no interval of an order is printed narrower.
     pub fn resolution(&self) -> f64 {
         self.tolerance / 4.0
     }
 
-    /// Whether an order is off by the tolerance at most.
-    fn is_near(&self, order: f64) -> bool {
-        (order - self.order).abs() <= self.tolerance
+    /// Judges an order that is known to within `reach` at either side: in its place, below it, above it, or undecided.
+    fn place(&self, order: f64, reach: f64) -> Place {
+        match order - self.order {
+            off if off.abs() + reach <= self.tolerance => Place::Near,
+            off if off + reach < -self.tolerance => Place::Below,
+            off if off - reach > self.tolerance => Place::Above,
+            _ => Place::Open,
+        }
     }
+}
+
+/// Where an order is, seen from the expected one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// Within the tolerance.
+    Near,
+    /// Below it.
+    Below,
+    /// Above it.
+    Above,
+    /// The interval of the order holds an end of the tolerance.
+    Open,
 }
 
 /// Why a verdict is what it is.
@@ -41,19 +59,15 @@ pub enum Reason {
     TooFewLevels,
     /// There are two, so that nothing says whether their order is settled: it alone is held to the expected one.
     TwoLevels,
-    /// The whole interval lies below the expected order.
+    /// The digits that were printed leave the order open.
+    Digits,
+    /// The order is below the expected one by more than the tolerance.
     Below,
-    /// It does, but orders approach the expected one.
-    Approaching,
-    /// It does, by less than the tolerance, and three levels cannot tell noise from a lower order.
-    Near,
-    /// The whole interval lies above the expected order.
+    /// The order is above the expected one by more than the tolerance.
     Above,
-    /// The interval holds the expected order, and much else.
-    Wide,
-    /// A plateau or a lower order is there, and takes over on finer levels.
-    HiddenTerm,
-    /// The interval holds the expected order and is narrow.
+    /// A term of lower order may make up more of the finest error than the tolerance allows, or less.
+    Open,
+    /// The order is within the tolerance.
     Settled,
 }
 
@@ -66,25 +80,32 @@ pub struct Finding {
     pub reason: Reason,
     /// The order, if there is one.
     pub estimate: Option<Estimate>,
+    /// The share of a term of lower order, of three levels or more: it decides.
+    pub share: Option<Share>,
     /// The second term that explains the drift of the orders best, if one is shown.
     pub term: Option<Term>,
-    /// What is left in the limit, of four levels or more.
+    /// The limit of fine levels, of four levels or more.
     pub limit: Option<Limit>,
     /// The lengths of the levels that decided, from coarse to fine.
     pub lengths: Vec<f64>,
 }
 
+/// Levels whose logarithms are no farther than this from a straight line follow a power law: its order decides.
+const PURE: f64 = 1e-3;
+
 impl Finding {
-    /// Judges one norm. The levels that decide are those before the first that may be nothing but round-off, less
-    /// coarse ones while more than three are left, orders are shown to approach the expected one, and the rest says
-    /// more: these are not asymptotic yet.
+    /// Judges one norm. The levels that decide are those before the first that may be nothing but round-off. If they do not
+    /// tell, coarse ones are left out while more than three are left and the term of order p + 1 leads on the coarsest.
     pub fn of(sequence: &Sequence, expected: Expected) -> Self {
         if sequence.is_exact() {
             return Self::exact(sequence.levels());
         }
         let mut levels = sequence.sound();
         let mut finding = Self::on(levels, expected);
-        while levels.len() > 3 && finding.is_pre_asymptotic() && finding.verdict != Verdict::Pass {
+        let is_coarse = |it: &Self| {
+            it.verdict == Verdict::NotAsymptotic && it.share.is_some_and(|share| share.is_coarse)
+        };
+        while levels.len() > 3 && is_coarse(&finding) {
             levels = &levels[1..];
             finding = Self::on(levels, expected);
         }
@@ -96,102 +117,105 @@ impl Finding {
 
     /// Of levels whose errors are nothing but round-off.
     fn exact(levels: &[Level]) -> Self {
+        let (verdict, reason) = (Verdict::Exact, Reason::Exact);
+        Self { verdict, reason, ..Self::none(levels.iter().map(|level| level.length).collect()) }
+    }
+
+    /// Says nothing of levels of these lengths.
+    fn none(lengths: Vec<f64>) -> Self {
         Self {
-            verdict: Verdict::Exact,
-            reason: Reason::Exact,
+            verdict: Verdict::NotAsymptotic,
+            reason: if lengths.len() > 1 { Reason::NoOrder } else { Reason::TooFewLevels },
             estimate: None,
+            share: None,
             term: None,
             limit: None,
-            lengths: levels.iter().map(|level| level.length).collect(),
+            lengths,
         }
     }
 
-    /// Judges an order that a fit of more than one length has, by half its interval; `None` where nothing fits.
+    /// Judges an order that a fit of more than one length has, by half its interval; `None` if nothing fits.
     pub(crate) fn of_fit(order: Option<[f64; 2]>, lengths: Vec<f64>, expected: Expected) -> Self {
-        let estimate = order.map(|[order, reach]| {
-            let reach = reach.max(expected.resolution());
-            let interval = Some([order - reach, order + reach]);
-            Estimate { order, interval, basis: Basis::Scatter }
-        });
-        let (verdict, reason) = (Verdict::NotAsymptotic, Reason::NoOrder);
-        let mut finding = Self { verdict, reason, estimate, term: None, limit: None, lengths };
-        (finding.verdict, finding.reason) = finding.decide(&[], expected);
-        finding
+        let Some([order, reach]) = order else { return Self::none(lengths) };
+        let shown = reach.max(expected.resolution());
+        let interval = Some([order - shown, order + shown]);
+        let estimate = Some(Estimate { order, interval, basis: Basis::Scatter });
+        let place = match expected.place(order, 0.0) {
+            Place::Near if reach > expected.tolerance => Place::Open,
+            Place::Below | Place::Above if (order - expected.order).abs() <= reach => Place::Open,
+            place => place,
+        };
+        Self { estimate, ..Self::none(lengths) }.decided(place)
     }
 
-    /// The second term, where it moves the order on the finest level by enough to be seen.
+    /// The second term, if it moves the order on the finest level by enough to be seen.
     pub fn material_term(&self, expected: Expected) -> Option<Term> {
         self.term.filter(|term| term.moves(expected.order) >= expected.resolution())
     }
 
-    /// The limit that is left, where it is shown not to be 0, moves the order by enough to be seen, and is no other term.
+    /// The limit that is left, if it is shown not to be 0, moves the order by enough to be seen, and is no other term.
     pub fn inconsistency(&self, expected: Expected) -> Option<Limit> {
         let is_seen = |it: &Limit| it.share * it.order >= expected.resolution();
         self.limit.filter(|it| self.term.is_none() && !it.is_consistent() && is_seen(it))
     }
 
-    fn is_pre_asymptotic(&self) -> bool {
-        self.term.is_some_and(|term| term.kind == Kind::PreAsymptotic)
-    }
-
     /// On just these levels.
     fn on(levels: &[Level], expected: Expected) -> Self {
-        let orders = pairs(levels).filter(|orders| !orders.is_empty());
-        let mut finding = Self {
-            verdict: Verdict::NotAsymptotic,
-            reason: if levels.len() > 1 { Reason::NoOrder } else { Reason::TooFewLevels },
-            estimate: Estimate::of(levels, expected.resolution()),
-            term: None,
-            limit: None,
-            lengths: levels.iter().map(|level| level.length).collect(),
+        let mut finding = Self::none(levels.iter().map(|level| level.length).collect());
+        let Some(orders) = pairs(levels).filter(|orders| !orders.is_empty()) else {
+            return finding;
         };
-        if let Some(orders) = orders.as_ref().filter(|orders| orders.len() > 1) {
-            let term = second_term(levels, expected.order, misfit(levels));
-            finding.term = term.filter(Term::is_shown);
-            finding.limit = limit(levels);
-            (finding.verdict, finding.reason) = finding.decide(orders, expected);
-        } else if let Some([order]) = orders.as_deref() {
-            finding.verdict = match order - expected.order {
-                off if off < -expected.tolerance => Verdict::Fail,
-                off if off > expected.tolerance => Verdict::NotAsymptotic,
-                _ => Verdict::Pass,
-            };
-            finding.reason = Reason::TwoLevels;
+        finding.estimate = Estimate::of(levels, expected.resolution());
+        if let [order] = orders[..] {
+            let reach = finding.estimate.filter(|it| it.interval.is_some()).map(|it| it.reach());
+            let place = expected.place(order, reach.unwrap_or(0.0));
+            let is_open = place == Place::Open;
+            let reason = if is_open { Reason::Digits } else { Reason::TwoLevels };
+            return Self { reason, ..finding.decided(place) };
         }
-        finding
+        let p = expected.order;
+        finding.term = second_term(levels, p).filter(Term::is_shown);
+        finding.limit = limit(levels);
+        finding.share = Share::of(levels, p, lower(p));
+        let place = finding.place(levels, orders[orders.len() - 1], expected);
+        let is_rounded = finding.share.is_some_and(|share| share.is_rounded);
+        let finding = finding.decided(place);
+        let is_open = finding.reason == Reason::Open && is_rounded;
+        Self { reason: if is_open { Reason::Digits } else { finding.reason }, ..finding }
     }
 
-    /// By the orders between neighbours, from coarse to fine.
-    fn decide(&self, orders: &[f64], expected: Expected) -> (Verdict, Reason) {
-        let Some(estimate) = self.estimate else {
-            return (Verdict::NotAsymptotic, Reason::NoOrder);
-        };
-        let hidden = self.material_term(expected).filter(|_| !self.is_pre_asymptotic());
-        let is_hidden = hidden.is_some() || self.inconsistency(expected).is_some();
-        let is_outside = !estimate.holds(expected.order);
-        let approaches = self.is_pre_asymptotic() || approach(orders, expected);
-        match estimate {
-            _ if is_outside && approaches => (Verdict::NotAsymptotic, Reason::Approaching),
-            it if is_outside && it.order > expected.order => {
-                (Verdict::NotAsymptotic, Reason::Above)
-            }
-            it if is_outside && it.basis == Basis::Drift && expected.is_near(it.order) => {
-                (Verdict::NotAsymptotic, Reason::Near)
-            }
-            _ if is_outside => (Verdict::Fail, Reason::Below),
-            _ if is_hidden => (Verdict::NotAsymptotic, Reason::HiddenTerm),
-            it if it.reach() > expected.tolerance => (Verdict::NotAsymptotic, Reason::Wide),
-            _ => (Verdict::Pass, Reason::Settled),
+    /// Where the order of three levels or more is; `finest` is that of the finest pair.
+    fn place(&self, levels: &[Level], finest: f64, expected: Expected) -> Place {
+        let Expected { order: p, tolerance } = expected;
+        let is_pure = |line: &Line| line.scatter.max(rounding(levels)) <= PURE;
+        if let Some(line) = Line::through(levels).filter(is_pure) {
+            return expected.place(line.order, 0.0);
+        }
+        let levels_off = |it: Limit| it.is_plain() && it.share * it.order > 2.0 * tolerance;
+        if self.limit.is_some_and(levels_off) {
+            return Place::Below;
+        }
+        let Some(share) = self.share else { return Place::Open };
+        let [least, most] = share.lowers(p);
+        if least > tolerance && expected.place(finest, 0.0) == Place::Below {
+            Place::Below
+        } else if share.total_order - share.reach > p + tolerance {
+            Place::Above
+        } else if most <= tolerance {
+            Place::Near
+        } else {
+            Place::Open
         }
     }
-}
 
-/// Whether the order of the finest pair is near the expected one, and nearer than that of the pair before.
-fn approach(orders: &[f64], expected: Expected) -> bool {
-    let [.., before, last] =
-        orders.iter().map(|it| (it - expected.order).abs()).collect::<Vec<_>>()[..]
-    else {
-        return false;
-    };
-    last <= expected.tolerance && last + expected.resolution() < before
+    /// With the verdict of a place.
+    fn decided(self, place: Place) -> Self {
+        let (verdict, reason) = match place {
+            Place::Near => (Verdict::Pass, Reason::Settled),
+            Place::Below => (Verdict::Fail, Reason::Below),
+            Place::Above => (Verdict::NotAsymptotic, Reason::Above),
+            Place::Open => (Verdict::NotAsymptotic, Reason::Open),
+        };
+        Self { verdict, reason, ..self }
+    }
 }

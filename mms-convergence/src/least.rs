@@ -19,8 +19,13 @@ impl<const K: usize> Solution<K> {
         if self.freedom == 0 {
             return f64::INFINITY;
         }
-        let variance = self.left / self.freedom as f64 * self.variances[which];
-        quantile(outside, self.freedom) * variance.sqrt()
+        let variance = self.left / self.freedom as f64;
+        quantile(outside, self.freedom) * self.deviation(which, variance)
+    }
+
+    /// The standard deviation of an unknown, if rows have this variance.
+    pub fn deviation(&self, which: usize, variance: f64) -> f64 {
+        (variance * self.variances[which]).sqrt()
     }
 }
 

@@ -14,13 +14,18 @@
 //! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order alone, which is held to the expected one, and not whether it is settled |
 //! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), where the drift may lead |
 //! | 4 and more, or replicates | ln e = ln C + p ln h | the interval of 95 % by Student's t, from the scatter |
+//! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) that D has of the finest error, which decides |
 //! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term), its share and where it takes over |
 //! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 holds 0 |
 //!
-//! * `pass`: the interval holds the expected order, half its width is the tolerance at most, and no lower term is shown that
-//!   matters; of two levels, the order is near the expected one.
-//! * `fail`: the interval lies below it, of three levels by more than the tolerance, as the order of two; or a run stopped.
-//! * `not asymptotic`: else; so too where the interval lies above.
+//! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, which is 0.8 standard
+//! deviations: of the scatter about the fit, of a further level that is off by 2 %, and of printed digits. Errors that
+//! follow a power law to 0.1 % are judged by its order, and two levels by theirs, instead of p - s.
+//!
+//! * `pass`: s + u is the tolerance at most, and the order is not above.
+//! * `fail`: s - u is more than the tolerance, or a plateau that fits better lowers the order by more; or a run stopped. Of
+//!   three levels the order of the finest pair is low, too.
+//! * `not asymptotic`: else; so too if the order is above p by more than the tolerance and u.
 //! * `exact to round-off`: who measured knows that every error is nothing but round-off ([`Sequence::exact`]).
 //!
 //! ```
@@ -41,6 +46,7 @@ mod least;
 mod limit;
 mod order;
 mod sequence;
+mod share;
 mod student;
 mod term;
 mod verdict;
@@ -52,8 +58,9 @@ pub use judgement::{Judged, Judgement};
 pub use limit::Limit;
 pub use order::{Basis, Estimate};
 pub use sequence::{Level, Sample, Sequence, observed_order};
+pub use share::Share;
 pub use term::{Kind, Term};
-pub use verdict::{CONSTANT_TOLERANCE, TOLERANCE, Verdict, is_near};
+pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};
 pub use words::Name;
 
 /// How likely what is sought lies outside an interval.

@@ -18,6 +18,11 @@ pub struct Limit {
 }
 
 impl Limit {
+    /// Whether something is left beyond doubt: the interval is a fifth of the error at most, to each side.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.interval[0] > 0.8 * self.error
+    }
+
     /// Whether nothing need be left: the method is consistent, as far as these levels show.
     pub fn is_consistent(&self) -> bool {
         self.interval[0] <= 0.0
@@ -32,8 +37,9 @@ pub(crate) fn limit(levels: &[Level]) -> Option<Limit> {
     if levels.len() < 4 {
         return None;
     }
-    let finest = levels.last()?.length;
-    let points: Vec<_> = levels.iter().map(|it| [it.length / finest, it.error()]).collect();
+    let finest = levels.last()?;
+    let point = |it: &Level| [it.length / finest.length, it.error() / finest.error()];
+    let points: Vec<_> = levels.iter().map(point).collect();
     let left = |p: f64| linear(&points, p).map_or(f64::INFINITY, |found| found.left);
     let order = least(left);
     if order - ORDERS[0] < 1e-3 || ORDERS[1] - order < 1e-3 {
@@ -47,7 +53,8 @@ pub(crate) fn limit(levels: &[Level]) -> Option<Limit> {
     });
     let reach = solve(&rows.collect::<Vec<_>>())?.reach(0, OUTSIDE);
     let share = error / (error + constant);
-    Some(Limit { error, interval: [error - reach, error + reach], order, share })
+    let interval = [error - reach, error + reach].map(|it| it * finest.error());
+    Some(Limit { error: error * finest.error(), interval, order, share })
 }
 
 fn linear(points: &[[f64; 2]], p: f64) -> Option<Solution<2>> {

@@ -10,7 +10,7 @@ use crate::student::tail_of_ratio;
 pub struct Estimate {
     /// The best guess.
     pub order: f64,
-    /// From where to where it may be; none of two levels.
+    /// From where to where it may be; none of two levels whose errors were not rounded.
     pub interval: Option<[f64; 2]>,
     /// What the interval rests on.
     pub basis: Basis,
@@ -23,6 +23,8 @@ pub enum Basis {
     Scatter,
     /// The drift between two pairs of levels, which have no scatter.
     Drift,
+    /// The digits that are printed of two errors.
+    Digits,
     /// Nothing: two levels have an order, and no second one to compare it with.
     Nothing,
 }
@@ -35,7 +37,7 @@ impl Estimate {
     pub(crate) fn of(levels: &[Level], resolution: f64) -> Option<Self> {
         let first = *pairs(levels)?.last()?;
         let (order, reach, basis) = match levels {
-            [_, _] => return Some(Self { order: first, interval: None, basis: Basis::Nothing }),
+            [coarse, fine] => return Some(Self::of_two(first, coarse, fine)),
             _ => match scatter(levels) {
                 Some((order, reach)) => (order, [order - reach, order + reach], Basis::Scatter),
                 None => (first, drift(levels)?, Basis::Drift),
@@ -43,6 +45,15 @@ impl Estimate {
         };
         let interval = [reach[0].min(order - resolution), reach[1].max(order + resolution)];
         Some(Self { order, interval: Some(interval), basis })
+    }
+
+    fn of_two(order: f64, coarse: &Level, fine: &Level) -> Self {
+        let digits = coarse.rounding + fine.rounding;
+        if digits == 0.0 {
+            return Self { order, interval: None, basis: Basis::Nothing };
+        }
+        let reach = digits / (coarse.length / fine.length).ln();
+        Self { order, interval: Some([order - reach, order + reach]), basis: Basis::Digits }
     }
 
     /// Whether an order lies in the interval.
@@ -101,7 +112,20 @@ fn power_law(points: impl Iterator<Item = [f64; 2]>) -> Option<Solution<2>> {
     solve(&points.iter().map(|[h, e]| ([1.0, h - first], *e)).collect::<Vec<_>>())
 }
 
-/// How far levels are from a power law of an order of their own: the sum of squares of logarithms.
-pub(crate) fn misfit(levels: &[Level]) -> f64 {
-    power_law(means(levels)).map_or(f64::INFINITY, |found| found.left)
+/// The power law of an order of their own that is nearest to the means of levels.
+pub(crate) struct Line {
+    pub order: f64,
+    /// The sum of squares of logarithms that is left.
+    pub left: f64,
+    /// Its root mean square.
+    pub scatter: f64,
+}
+
+impl Line {
+    /// Through three levels or more.
+    pub fn through(levels: &[Level]) -> Option<Self> {
+        let found = power_law(means(levels))?;
+        let scatter = (found.left / levels.len().checked_sub(2)? as f64).sqrt();
+        Some(Self { order: found.unknowns[1], left: found.left, scatter })
+    }
 }

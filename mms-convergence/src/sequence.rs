@@ -20,12 +20,18 @@ pub struct Sample {
     pub error: Option<f64>,
     /// Whether the error may be nothing but round-off.
     pub is_noise: bool,
+    /// Half a unit of the last digit that was printed of the error; 0 if it was not rounded.
+    pub rounding: f64,
 }
 
 impl Sample {
     /// Of a run that ended, well above round-off.
     pub fn new(length: f64, error: f64) -> Self {
-        Self { length, error: Some(error), is_noise: false }
+        Self { length, error: Some(error), is_noise: false, rounding: 0.0 }
+    }
+
+    fn relative_rounding(&self) -> f64 {
+        self.error.filter(|error| *error > 0.0).map_or(0.0, |error| self.rounding / error)
     }
 }
 
@@ -39,6 +45,8 @@ pub struct Level {
     pub length: f64,
     /// The errors of its runs, in the sequence in which they were given.
     pub errors: Vec<f64>,
+    /// How far the digits that were printed may be from an error, relative to it: the largest of its runs.
+    pub(crate) rounding: f64,
     has_stopped: bool,
     is_noise: bool,
 }
@@ -59,6 +67,7 @@ impl Level {
 
     fn join(&mut self, sample: Sample) {
         self.errors.extend(sample.error);
+        self.rounding = self.rounding.max(sample.relative_rounding());
         self.has_stopped |= sample.error.is_none();
         self.is_noise |= sample.is_noise;
     }
@@ -83,6 +92,7 @@ impl Sequence {
                 _ => levels.push(Level {
                     length: sample.length,
                     errors: sample.error.into_iter().collect(),
+                    rounding: sample.relative_rounding(),
                     has_stopped: sample.error.is_none(),
                     is_noise: sample.is_noise,
                 }),

@@ -2,6 +2,7 @@
 
 use crate::OUTSIDE;
 use crate::least::solve;
+use crate::order::Line;
 use crate::sequence::Level;
 
 /// What a second term is, and so what a drift of the orders shows.
@@ -56,11 +57,12 @@ fn kinds(expected: f64) -> impl Iterator<Item = (Kind, f64)> {
 const EXACT: f64 = 1e-20;
 
 /// The second term that explains the errors of three levels or more best, if one explains them better than a power law
-/// of another order does, which leaves `misfit`.
+/// of another order does.
 ///
 /// Each error counts relative to itself. Intervals are Student's for one of four terms that were looked at
 /// (Bonferroni), so that scatter alone shows one in 5 % of all cases at most.
-pub(crate) fn second_term(levels: &[Level], expected: f64, misfit: f64) -> Option<Term> {
+pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
+    let misfit = Line::through(levels).map_or(f64::INFINITY, |line| line.left);
     if misfit < EXACT {
         return None;
     }
@@ -71,9 +73,9 @@ pub(crate) fn second_term(levels: &[Level], expected: f64, misfit: f64) -> Optio
 
 /// One of them, and its misfit.
 fn fit(levels: &[Level], p: f64, (kind, q): (Kind, f64)) -> Option<(Term, f64)> {
-    let finest = levels.last()?.length;
+    let finest = levels.last()?;
     let row = |level: &Level| {
-        let (x, e) = (level.length / finest, level.error());
+        let (x, e) = (level.length / finest.length, level.error() / finest.error());
         ([x.powf(p) / e, x.powf(q) / e], 1.0)
     };
     let rows: Vec<_> = levels.iter().map(row).collect();
@@ -84,7 +86,7 @@ fn fit(levels: &[Level], p: f64, (kind, q): (Kind, f64)) -> Option<(Term, f64)> 
     let error = c + d;
     let reach = found.reach(1, OUTSIDE / 4.0) / error;
     let share = d / error;
-    let takes_over = finest * (d / c).abs().powf(1.0 / (p - q));
+    let takes_over = finest.length * (d / c).abs().powf(1.0 / (p - q));
     let term = Term { kind, order: q, share, interval: [share - reach, share + reach], takes_over };
     (misfit.is_finite() && error > 0.0).then_some((term, misfit))
 }

@@ -2,7 +2,10 @@
 
 use std::fmt;
 
-/// How narrow the interval of an order must be for a `pass`, by default: half its width.
+/// The version of the rule by which verdicts are made: another rule has another number.
+pub const RULE: u32 = 2;
+
+/// How far the observed order may be from the expected one, by default.
 pub const TOLERANCE: f64 = 0.15;
 
 /// How far an error constant may be from the expected one, relative to it: runs are the same on every machine but for
@@ -16,9 +19,9 @@ pub enum Verdict {
     Exact,
     /// The levels show the expected order.
     Pass,
-    /// They do not tell, or show a higher one.
+    /// The levels do not tell, or show a higher order.
     NotAsymptotic,
-    /// They show a lower one or another error constant, or a run stopped.
+    /// The levels show a lower order or another error constant, or a run stopped.
     Fail,
 }
 

@@ -70,7 +70,7 @@ impl Finding {
         let p = expected.order;
         match self.reason {
             Reason::Exact => "; no error is more than rounding makes".into(),
-            Reason::Settled | Reason::Below | Reason::Above => String::new(),
+            Reason::Settled | Reason::Above => String::new(),
             Reason::Stopped => "; a run stopped".into(),
             Reason::NoOrder => "; an error is exactly zero, or nothing fits".into(),
             Reason::TooFewLevels => {
@@ -79,17 +79,27 @@ impl Finding {
             Reason::TwoLevels => {
                 "; two levels cannot show that it is settled: a third would".into()
             }
-            Reason::Approaching => format!("; orders approach {p}, but are not near it yet"),
-            Reason::Near => {
-                "; near it, and three levels cannot tell noise from a lower order: give a fourth"
+            Reason::Digits => {
+                "; the digits of the errors leave the order open: give errors with more digits"
                     .into()
             }
-            Reason::Wide => format!(
-                "; the interval is wider than +-{}: the orders are not settled",
-                expected.tolerance
-            ),
-            Reason::HiddenTerm => format!("; orders leave {p} on finer levels"),
+            Reason::Below => self.share_says(p).unwrap_or_default(),
+            Reason::Open => {
+                let share = self.share_says(p);
+                let share = share.unwrap_or_else(|| "; the order is not settled".into());
+                let limit = expected.tolerance;
+                format!("{share}, and +-{limit} is allowed: give finer meshes, or more of them")
+            }
         }
+    }
+
+    /// The share of the term of lower order.
+    fn share_says(&self, p: f64) -> Option<String> {
+        let (share, [low, high]) = (self.share?, self.share?.lowers(p));
+        Some(format!(
+            "; an error of order {} lowers the order on the finest mesh by {low:.2} to {high:.2}",
+            share.order
+        ))
     }
 
     /// What the fits say, in words.
@@ -103,6 +113,7 @@ impl Finding {
             Basis::Drift => Some(
                 "the interval is from the drift of two orders: three levels have no scatter to judge by".into(),
             ),
+            Basis::Digits => Some("the interval is from the digits of the two errors".into()),
             Basis::Nothing => None,
         }));
         lines.extend(
@@ -118,23 +129,20 @@ impl Finding {
             lines.push(ABOVE.into());
         }
         if self.verdict == Verdict::Pass {
-            lines.extend(self.left_open(expected, name));
+            lines.extend(self.left_open(name));
         }
         lines
     }
 
     /// What a pass does not exclude.
-    fn left_open(&self, expected: Expected, name: Name<'_>) -> Option<String> {
-        let ([low, _], finest) = (self.estimate?.interval?, self.lengths.last()?);
-        let share = (expected.order - low).max(expected.resolution());
-        let lower = expected.order - 1.0;
-        (lower > 0.0).then(|| {
-            format!(
-                "an error of order {lower} that makes up less than {:.0} % at {} is not excluded",
-                100.0 * share.min(1.0),
-                name(*finest)
-            )
-        })
+    fn left_open(&self, name: Name<'_>) -> Option<String> {
+        let (share, finest) = (self.share?, self.lengths.last()?);
+        Some(format!(
+            "an error of order {} that makes up less than {:.0} % at {} is not excluded",
+            share.order,
+            100.0 * share.interval()[1].clamp(0.0, 1.0),
+            name(*finest)
+        ))
     }
 }
 

@@ -30,9 +30,12 @@ use crate::store::digest;
 /// all decides. An empty field is a run that stopped; `round_off` is a column of floors below which errors are left out;
 /// counts, orders and times are passed over, so that the CSV file of `mms study` can be judged as it is.
 ///
-/// pass: the interval of the order holds the expected one, half its width is the tolerance at most, and no lower order is
-/// shown. fail: it lies below. not asymptotic: else. Two levels are held to the order alone. exact to round-off: no error of
-/// results is more than rounding makes, in files with the digits of single precision at least.
+/// pass: the order is the expected one within --tolerance. Of three levels and more C h^p + D h^(p-1) + E h^(p+1) is fitted: the
+/// share of D in the finest error, with its uncertainty, is the tolerance at most. fail: the order is lower. not
+/// asymptotic: the levels do not tell, or the order is higher. Two levels are held to their order alone. exact to
+/// round-off: no error of results is more than rounding makes, in files with the digits of single precision at least.
+///
+/// The digits of a table count: an order from 1.2e-3 and 3.1e-4 is known to 0.1.
 ///
 /// Beside a pass of u, v or F stands what it excludes: the mistakes that `mms diagnose` knows, by what they add to a run of this
 /// project's own solver, over the finest error.
@@ -57,7 +60,7 @@ pub struct Judge {
     /// are refined each by itself.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',', default_value = "2")]
     expected_order: Vec<Order>,
-    /// Half the width that the interval of the order may have.
+    /// How far the observed order may be from the expected one.
     #[arg(long, value_name = "W", value_parser = positive, default_value_t = TOLERANCE)]
     tolerance: f64,
     /// Write convergence.svg, .csv and .json there.
@@ -80,12 +83,13 @@ impl Judge {
 
     fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
         let text = read::text(table, Kind::Errors)?;
-        let measured = table::read(table, &text, &self.orders())?;
+        let (measured, notes) = table::read(table, &text, &self.orders())?;
         let source = foreign::path(table);
         let input =
             Input { field: None, rigid: None, window: None, set: Vec::new(), hash: digest([text]) };
         let provenance = this_command("judge", input);
-        self.tell(&Judgements::of(source.clone(), measured, provenance).context(source)?)
+        let report = Judgements::of(source.clone(), measured, provenance).context(source)?;
+        self.tell(&Judgements { notes, ..report })
     }
 
     /// Prints a report, and writes it where that is asked for.

@@ -50,6 +50,8 @@ pub struct Norm {
     pub errors: Vec<Option<f64>>,
     /// Below this an error in each run may be nothing but round-off; 0 where that is not known.
     pub floors: Vec<f64>,
+    /// Half a unit of the last digit that was printed of the errors; 0 if they were not rounded.
+    pub rounding: f64,
     /// Whether every error is known to be nothing but round-off.
     pub is_exact: bool,
 }
@@ -130,6 +132,7 @@ impl Measured {
             length: self.length(refined, run),
             error,
             is_noise: error.is_some_and(|error| error < floor),
+            rounding: norm.rounding,
         }))
         .exact(norm.is_exact)
     }

@@ -31,25 +31,81 @@ const NORMS: [(&str, &[&str]); 4] = [
 /// Words that tell nothing.
 const FILLERS: [&str; 7] = ["error", "errors", "err", "e", "norm", "of", "in"];
 
-/// Columns that stand in tables of errors and are none, as in the CSV file of `mms study`.
-const OTHERS: [&str; 16] = [
+/// Words that say that a column is no error, wherever they stand in its name: orders, and what a run took.
+const NO_ERRORS: [&str; 24] = [
+    "order",
+    "orders",
+    "rate",
+    "rates",
+    "eoc",
+    "roc",
+    "slope",
+    "ratio",
+    "cpu",
+    "gpu",
+    "wall",
+    "walltime",
+    "runtime",
+    "elapsed",
+    "timing",
+    "duration",
+    "seconds",
+    "sec",
+    "secs",
+    "minutes",
+    "hours",
+    "memory",
+    "iterations",
+    "iters",
+];
+
+/// Words that say so at the head of a name: what is counted and numbered, and times.
+const COUNTS: [&str; 41] = [
     "cells",
+    "cell",
     "n",
     "nx",
+    "ny",
+    "nz",
+    "ncells",
+    "nel",
+    "nelem",
+    "nnodes",
     "elements",
+    "elems",
+    "element",
+    "dof",
     "dofs",
+    "ndof",
     "ndofs",
+    "nodes",
+    "vertices",
+    "points",
+    "npoints",
     "particles",
+    "np",
     "steps",
+    "nsteps",
     "level",
-    "order",
-    "rate",
-    "eoc",
-    "seconds",
+    "lvl",
+    "levels",
+    "refinement",
+    "refinements",
+    "cycle",
+    "mesh",
+    "grid",
+    "run",
+    "its",
+    "id",
+    "index",
+    "unnamed",
+    "number",
     "time",
     "failure",
-    "run",
 ];
+
+/// Words before what is counted.
+const ARTICLES: [&str; 5] = ["num", "no", "number", "total", "solve"];
 
 impl Column {
     /// By the name of a column.
@@ -67,7 +123,10 @@ impl Column {
         let joined = joined.replace("h_1", "h1");
         let words: Vec<&str> =
             joined.split(|c: char| !c.is_alphanumeric()).filter(|it| !it.is_empty()).collect();
-        if words.first().is_some_and(|word| OTHERS.contains(word)) {
+        let is_article = |word: &&&str| words.len() > 1 && ARTICLES.contains(*word);
+        let head = words.iter().find(|word| !is_article(word) && !FILLERS.contains(*word));
+        let is_count = head.is_some_and(|word| COUNTS.contains(word));
+        if words.is_empty() || is_count || words.iter().any(|word| NO_ERRORS.contains(word)) {
             return Column::Other;
         }
         let norm_of = |word: &str| NORMS.iter().find(|(_, all)| all.contains(&word)).map(|it| it.0);
@@ -118,7 +177,26 @@ mod tests {
         assert_eq!(Column::named("cell_size"), Column::CellSize);
         assert_eq!(Column::named("DT"), Column::TimeStep);
         assert_eq!(Column::named("round_off"), Column::Floor);
-        for name in ["order_l2", "cells", "particles", "seconds", "failure", "N"] {
+        for name in [
+            "order_l2",
+            "L2 rate",
+            "H1_eoc",
+            "cells",
+            "number of cells",
+            "# elements",
+            "particles",
+            "total dofs",
+            "N",
+            "seconds",
+            "time",
+            "solve time (s)",
+            "CPU [s]",
+            "Newton iterations",
+            "failure",
+            "",
+            "Unnamed: 0",
+            "#",
+        ] {
             assert_eq!(Column::named(name), Column::Other, "{name}");
         }
     }

@@ -122,14 +122,15 @@ struct Table {
     rows: Vec<Vec<Cell>>,
 }
 
-/// Reads the table that a file holds.
+/// Reads the table that a file holds, and names the columns that are no errors.
 ///
 /// # Errors
-/// What is no such table, and where.
-pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<Measured> {
+/// It is no such table, with the place.
+pub fn read(path: &Path, text: &str, orders: &Orders) -> anyhow::Result<(Measured, Vec<String>)> {
     let table = Table::parse(foreign::path(path), text)?;
     orders.hold(&table.header)?;
-    Ok(Measured { runs: table.runs()?, quantities: table.quantities(orders)? })
+    let measured = Measured { runs: table.runs()?, quantities: table.quantities(orders)? };
+    Ok((measured, table.left_out()))
 }
 
 impl Table {
@@ -230,6 +231,7 @@ impl Table {
                 expected: orders.of(&cell.text, quantity, norm),
                 errors: self.errors(column)?,
                 floors: self.floors()?,
+                rounding: self.rounding(column),
                 favoured: None,
                 is_exact: false,
             };
@@ -248,6 +250,24 @@ impl Table {
             _ => self.number(cell, "an error", "0 or above", |it| it >= 0.0).map(Some),
         };
         self.column(column).into_iter().flatten().map(error).collect()
+    }
+
+    /// Half a unit of the last digit of the longest number of a column: others may have lost zeros at their ends. Whole
+    /// numbers are exact.
+    fn rounding(&self, column: &Column) -> f64 {
+        let places = self.column(column).into_iter().flatten().map(|cell| places(&cell.text));
+        places.max().filter(|it| *it != 0).map_or(0.0, |places| 0.5 * 10f64.powi(-places))
+    }
+
+    /// A sentence about the columns that are no errors.
+    fn left_out(&self) -> Vec<String> {
+        let columns = self.header.iter().zip(&self.columns);
+        let others = columns.filter(|(cell, it)| **it == Column::Other && !cell.text.is_empty());
+        let names: Vec<_> = others.map(|(cell, _)| format!("`{}`", shown(&cell.text))).collect();
+        let sentence = || {
+            format!("left out, for their names say that they are no errors: {}", names.join(", "))
+        };
+        (!names.is_empty()).then(sentence).into_iter().collect()
     }
 
     fn floors(&self) -> anyhow::Result<Vec<f64>> {
@@ -274,6 +294,15 @@ impl Table {
             anyhow!("{place}: `{text}`: expected {what}, a finite number {range}")
         })
     }
+}
+
+/// The place of the last digit of a number, counted from the point: 4 of `1.2e-3`.
+fn places(text: &str) -> i32 {
+    let lower = text.to_lowercase();
+    let (mantissa, exponent) = lower.split_once('e').unwrap_or((&lower, "0"));
+    let places = mantissa.split_once('.').map_or(0, |(_, places)| places.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    i32::try_from(places).unwrap_or(i32::MAX).saturating_sub(exponent)
 }
 
 /// What stands between fields: what the first line that is no comment has first of these; else blanks.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_convergence::{Basis, Finding, Judgement, Kind, Level, Verdict};
+use mms_convergence::{Basis, Finding, Judgement, Kind, Level, RULE, Verdict};
 use mms_spec::foreign::{Foreign, shown};
 use serde_json::{Map, Value, json};
 
@@ -160,6 +160,7 @@ impl Judgements {
             let (count, all) = (passed.count(), self.judged.len());
             parts.push(format!("{}: {count} of {all} quantities pass", self.verdict()));
         }
+        parts.push(format!("by rule {RULE} of docs/guide/judging.md"));
         parts.extend(self.exclusions.as_ref().map(Exclusions::text));
         parts.join("\n\n")
     }
@@ -233,6 +234,8 @@ impl Judgements {
             "order_interval": finding.and_then(interval),
             "quantities": quantities,
             "verdict": verdict.to_string(),
+            "rule": RULE,
+            "notes": self.notes,
         });
         if let Value::Object(document) = &mut document {
             document.extend(self.more.clone());
@@ -389,7 +392,6 @@ fn more(field: &Foreign, files: &[String], measurement: &Measurement) -> Map<Str
         "files": files,
         "times": measurement.times,
         "samplings": samplings.map(|(name, it)| (name.to_owned(), it)).collect::<Map<_, _>>(),
-        "notes": measurement.notes,
         "warnings": measurement.warnings,
     });
     let mut document = if let Value::Object(document) = document { document } else { Map::new() };
@@ -452,6 +454,7 @@ fn finding(finding: &Finding) -> Map<String, Value> {
     let basis = finding.estimate.map(|it| match it.basis {
         Basis::Scatter => "scatter",
         Basis::Drift => "drift",
+        Basis::Digits => "digits",
         Basis::Nothing => "nothing",
     });
     let term = finding.term.map(|term| {
@@ -477,6 +480,11 @@ fn finding(finding: &Finding) -> Map<String, Value> {
         "order_interval": interval(finding),
         "interval_from": basis,
         "decided_by": finding.lengths,
+        "lower_order": finding.share.map(|it| json!({
+            "order": it.order,
+            "share": it.share,
+            "share_interval": it.interval(),
+        })),
         "second_term": term,
         "limit": limit,
     });

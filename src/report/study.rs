@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use comfy_table::Table;
-use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, Verdict, is_near};
+use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
 use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
 use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
 use mms_spec::foreign::Foreign;
@@ -284,6 +284,7 @@ impl Study {
             "order_interval": self.order_interval(),
             "norm": self.judgement.deciding().norm,
             "norms": norms_judged(&self.judgement),
+            "rule": RULE,
             "error_constant": self.error_constant,
             "expected_error_constant": self.expected_error_constant,
             "fit": self.fit.map(|fit| json!({

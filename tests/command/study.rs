@@ -32,6 +32,7 @@ fn the_document_has_the_promised_keys_in_their_order() {
             "order_interval",
             "norm",
             "norms",
+            "rule",
             "error_constant",
             "expected_error_constant",
             "fit",

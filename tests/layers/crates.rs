@@ -136,7 +136,7 @@ pub const CRATES: &[Crate] = &[
         layers: &[
             "sequence student verdict",
             "least order",
-            "grid limit term",
+            "grid limit share term",
             "finding",
             "judgement",
             "words",

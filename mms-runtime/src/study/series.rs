@@ -77,6 +77,7 @@ impl Series {
             length: point.length,
             error: point.errors.as_ref().map(norm),
             is_noise: point.is_noise(),
+            rounding: 0.0,
         }))
     }
 

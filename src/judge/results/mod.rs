@@ -282,6 +282,7 @@ fn quantity(
             favoured,
             errors: measures.iter().map(|it| Some(it.error)).collect(),
             floors: measures.iter().map(|it| it.floor).collect(),
+            rounding: 0.0,
             // What a solver was given at the start shows nothing of it.
             is_exact: !is_start && errors.iter().all(|it| it.is_exact()),
         }

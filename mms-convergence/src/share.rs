@@ -1,0 +1,82 @@
+//! The share that a term of lower order has of the finest error: e = C h^p + D h^q + E h^(p+1) with q < p.
+
+use crate::least::solve;
+use crate::sequence::Level;
+
+/// The scatter of the errors of right methods, relative to them. It counts as much as one more level does.
+const USUAL_SCATTER: f64 = 0.025;
+
+/// Half the interval of a share, in standard deviations. With the tolerance that is usual, it lets 95 % of right methods
+/// pass on five levels that scatter by 3 %, and 6 % of those with a fifth of the finest error of first order.
+const REACH: f64 = 0.75;
+
+/// The term h^(p+1) may make up this much of the coarsest error, beside the others, on levels that are asymptotic.
+const ASYMPTOTIC: f64 = 0.5;
+
+/// The share of a term of lower order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// q.
+    pub order: f64,
+    /// D h^q over the error on the finest level; negative if it takes away from it.
+    pub share: f64,
+    /// Half its interval.
+    pub reach: f64,
+    /// The order of all three terms together on the finest level.
+    pub total_order: f64,
+    /// Whether printed digits make it more uncertain than the scatter does.
+    pub is_rounded: bool,
+    /// Whether the term h^(p+1) is more than half of the two others on the coarsest level.
+    pub is_coarse: bool,
+}
+
+/// The order of the term below that of order p.
+pub(crate) fn lower(p: f64) -> f64 {
+    if p > 0.0 { (p - 1.0).max(0.0) } else { p - 1.0 }
+}
+
+/// The scatter that printed digits make, whose error is uniform; relative to the errors.
+pub(crate) fn rounding(levels: &[Level]) -> f64 {
+    let sum: f64 = levels.iter().map(|level| level.rounding.powi(2) / 3.0).sum();
+    (sum / levels.len() as f64).sqrt()
+}
+
+impl Share {
+    /// From where to where it may be.
+    pub fn interval(&self) -> [f64; 2] {
+        [self.share - self.reach, self.share + self.reach]
+    }
+
+    /// By how much, from where to where, it lowers the order on the finest level below p.
+    pub fn lowers(&self, p: f64) -> [f64; 2] {
+        self.interval().map(|share| (p - self.order) * share)
+    }
+
+    /// Fits three levels or more, each error relative to itself; `None` if they do not determine the terms.
+    ///
+    /// The scatter is that about the fit, with one level of the usual scatter, and that of printed digits.
+    pub(crate) fn of(levels: &[Level], p: f64, q: f64) -> Option<Self> {
+        let (coarsest, finest) = (levels.first()?, levels.last()?);
+        let row = |level: &Level| {
+            let (x, e) = (level.length / finest.length, level.error() / finest.error());
+            let [main, low, high] = [p, q, p + 1.0].map(|power| x.powf(power) / e);
+            // The first unknown is the sum of the terms on the finest level, so that the others over it are shares.
+            ([main, low - main, high - main], 1.0)
+        };
+        let found = solve(&levels.iter().map(row).collect::<Vec<_>>())?;
+        let [total, low, high] = found.unknowns;
+        let (share, higher) = (low / total, high / total);
+        let scatter = (USUAL_SCATTER.powi(2) + found.left) / (levels.len() - 2) as f64;
+        let digits = rounding(levels).powi(2);
+        let deviation = |which| found.deviation(which, scatter + digits) / total;
+        let reach = REACH * deviation(1);
+        let x = coarsest.length / finest.length;
+        let others = (1.0 - share - higher).abs() * x.powf(p) + share.abs() * x.powf(q);
+        let least = (higher.abs() - 2.0 * deviation(2)) * x.powf(p + 1.0);
+        let is_coarse = least > ASYMPTOTIC * others;
+        let total_order = p - (p - q) * share + higher;
+        let is_rounded = digits > scatter;
+        let found = Self { order: q, share, reach, total_order, is_rounded, is_coarse };
+        (total > 0.0 && reach.is_finite()).then_some(found)
+    }
+}
