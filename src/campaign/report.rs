@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
+use anyhow::Context as _;
 use mms_convergence::Verdict;
-use mms_spec::foreign::{one_line, shown};
+use mms_spec::foreign::{self, one_line, shown};
 use serde_json::{Value, json};
 
 use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
 use super::work::Outcome;
 use crate::provenance::Provenance;
+use crate::report::file::refuse_link;
 use crate::report::{Judgements, Together, duration, plain, pretty, to_the_right, write_files};
 
 /// A campaign that was carried out, or what was asked for of it.
@@ -99,7 +101,10 @@ impl Report<'_> {
         let mut paths = write_files(folder, "campaign", [("json", pretty(&self.document())?)])?;
         for judged in &self.studies {
             if let Some(judgements) = &judged.judgements {
-                paths.extend(judgements.write_parts(&folder.join(&judged.planned.study.name))?);
+                let own = folder.join(&judged.planned.study.name);
+                let cannot = || format!("cannot write to `{}`", foreign::path(&own));
+                refuse_link(&own, "folder").with_context(cannot)?;
+                paths.extend(judgements.write_parts(&own)?);
             }
         }
         Ok(paths)

@@ -9,12 +9,13 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use mms_codegen::selection::{Freeze, Selection};
 use mms_emit::{Bundle, Subject, TARGETS, Target};
-use mms_spec::foreign::Foreign;
+use mms_spec::foreign::{self, Foreign};
 use serde_json::{Value, json};
 
 use self::folder::{State, compare, write};
 use super::{Outcome, print, print_json, say};
 use crate::gallery::FIELDS;
+use crate::report::file::refuse_link;
 use crate::session::input::{Input, Variant, quantities, settings};
 use crate::shell::{command, quoted, words};
 
@@ -34,7 +35,8 @@ pub struct Emit {
     /// The language.
     #[arg(long, value_name = "NAME", default_value = "rust-mms-math", value_parser = targets())]
     target: String,
-    /// The folder for the files; without it the source goes to stdout, where it is one file.
+    /// The folder for the files; without it the source goes to stdout, where it is one file. Links in it are not written
+    /// through.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Quantities, separated by commas; without it all of them, the domain and the material.
@@ -92,10 +94,7 @@ impl Emit {
         let mut outcome = Outcome::AsExpected;
         for name in names {
             let (name, bundle) = emitted(name)?;
-            let folder = self
-                .output
-                .as_ref()
-                .map(|it| if self.all { it.join(name.raw()) } else { it.clone() });
+            let folder = self.output.as_ref().map(|it| self.folder(it, name.raw())).transpose()?;
             let delivered = match folder {
                 None => self.printed(&bundle)?,
                 Some(folder) if self.check => compared(&folder, &bundle)?,
@@ -119,6 +118,17 @@ impl Emit {
             say(format_args!("write them anew: {}", command_without_check()));
         }
         Ok(outcome)
+    }
+
+    /// The folder for the files of a field. Below one that was named, a link leads to what nobody named.
+    fn folder(&self, named: &Path, field: &str) -> anyhow::Result<PathBuf> {
+        if !self.all {
+            return Ok(named.to_owned());
+        }
+        let folder = named.join(field);
+        let cannot = || format!("cannot write to `{}`", foreign::path(&folder));
+        refuse_link(&folder, "folder").with_context(cannot)?;
+        Ok(folder)
     }
 
     /// What goes to stdout: the one file that a solver needs.

@@ -80,7 +80,7 @@ pub struct State {
     set: Vec<String>,
     #[command(flatten)]
     variant: Variant,
-    /// The file to write: .csv, .vtu or .npz. A table holds all times; of the others there is a file for each time, numbered,
+    /// The file to write: .csv, .vtu or .npz; no link. A table holds all times; of the others there is a file for each time, numbered,
     /// and of VTK a list of them (.pvd).
     #[arg(long, short, value_name = "FILE")]
     output: Target,

@@ -68,14 +68,22 @@ pub(crate) fn write_own_with(
     write: impl FnOnce(&mut File) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     match fs::symlink_metadata(path) {
-        Ok(found) if !found.is_file() => {
-            let what = read::what(found.file_type());
-            anyhow::bail!(
-                "it is {what}, which is not written to: remove it, or name another folder"
-            )
-        }
+        Ok(found) if !found.is_file() => Err(not_written_to(&found, "folder")),
         _ => write_with(path, write),
     }
+}
+
+/// Refuses a link, whose user named the link and not what it leads to; `other` says what to name in its place.
+pub(crate) fn refuse_link(path: &Path, other: &str) -> anyhow::Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(found) if found.is_symlink() => Err(not_written_to(&found, other)),
+        _ => Ok(()),
+    }
+}
+
+fn not_written_to(found: &Metadata, other: &str) -> anyhow::Error {
+    let what = read::what(found.file_type());
+    anyhow::anyhow!("it is {what}, which is not written to: remove it, or name another {other}")
 }
 
 /// The same, of a file that must not be there yet: an error of the kind `AlreadyExists` if it is.
@@ -187,8 +195,8 @@ fn create(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Removes a part that no process has locked; whether it did.
-fn remove_stale(path: &Path) -> io::Result<bool> {
+/// Removes a file that no process has locked; whether it did.
+pub(crate) fn remove_stale(path: &Path) -> io::Result<bool> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => return Ok(false),
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
@@ -211,14 +219,14 @@ fn remove_stale(path: &Path) -> io::Result<bool> {
 
 /// Whether a name is still that of a file.
 #[cfg(unix)]
-fn leads_to(path: &Path, file: &File) -> bool {
+pub(crate) fn leads_to(path: &Path, file: &File) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     let place = |found: io::Result<Metadata>| found.map(|it| (it.dev(), it.ino())).ok();
     place(file.metadata()).is_some_and(|own| place(fs::symlink_metadata(path)) == Some(own))
 }
 
 #[cfg(not(unix))]
-fn leads_to(_: &Path, _: &File) -> bool {
+pub(crate) fn leads_to(_: &Path, _: &File) -> bool {
     true
 }
 

@@ -15,7 +15,8 @@ use serde_json::Value;
 use super::domain::Domain;
 use super::points::Points;
 use super::{Names, Wanted};
-use crate::report::{pretty, write_whole, write_with};
+use crate::report::file::refuse_link;
+use crate::report::{pretty, write_with};
 use crate::session::exact::Exact;
 use crate::vtk;
 
@@ -92,7 +93,7 @@ impl Target {
         }
     }
 
-    /// Writes the states of all times: a table as one file, others as one for each time, and a list of those in VTK. What is
+    /// Writes the states of all times, not through links: a table as one file, others as one for each time, and a list of those in VTK. What is
     /// known of the field stands in them, and of a table, which has no place for it, in a file beside it. Returns the files,
     /// the one to open first.
     ///
@@ -130,11 +131,9 @@ impl Target {
             times.push((frame.state.time, name));
         }
         if self.format == Format::Vtu {
+            let list = vtk::list(&times);
             let path = self.path.with_extension("pvd");
-            let shown = foreign::path(&path);
-            write_whole(&path, &vtk::list(&times))
-                .with_context(|| format!("cannot write `{shown}`"))?;
-            written.insert(0, shown);
+            written.insert(0, self.one(&path, |out| Ok(out.write_all(list.as_bytes())?))?);
         }
         Ok(written)
     }
@@ -153,10 +152,12 @@ impl Target {
         write: impl FnOnce(&mut BufWriter<&mut File>) -> anyhow::Result<()>,
     ) -> anyhow::Result<String> {
         let shown = foreign::path(path);
-        let written = write_with(path, |file| {
-            let mut out = BufWriter::new(file);
-            write(&mut out)?;
-            Ok(out.flush()?)
+        let written = refuse_link(path, "file").and_then(|()| {
+            write_with(path, |file| {
+                let mut out = BufWriter::new(file);
+                write(&mut out)?;
+                Ok(out.flush()?)
+            })
         });
         written.with_context(|| format!("cannot write `{shown}`"))?;
         Ok(shown)

@@ -75,6 +75,34 @@ fn what_is_no_plain_file_is_written_to() {
     assert_eq!(found.lines().count(), printed.lines().count());
 }
 
+/// Who names a link for a state does not name what is behind it, nor what the files beside it lead to.
+#[test]
+fn states_are_not_written_through_links() {
+    let all = [
+        ("--time 0 -o out.csv", "out.csv"),
+        ("--time 0 -o out.csv", "out.csv.json"),
+        ("--time 0 -o out.vtu", "out.vtu"),
+        ("--time 0,0.01 -o out.vtu", "out_0001.vtu"),
+        ("--time 0,0.01 -o out.vtu", "out.pvd"),
+        ("--time 0 -o out.npz", "out.npz"),
+    ];
+    for (options, name) in all {
+        let folder = Folder::new();
+        folder.write("mine", "mine");
+        for target in ["mine", "nowhere"] {
+            symlink(target, folder.path(name)).expect("a link");
+            let run = folder.mms(&format!("state bar_1d --cells 4 {options}")).exits(2);
+            run.complains(&format!("cannot write `{name}`: it is a link, which is not written to"));
+            run.complains("remove it, or name another file");
+            assert_eq!(folder.read("mine"), "mine", "{name}");
+            assert!(!folder.path("nowhere").exists(), "{name}");
+            fs::remove_file(folder.path(name)).expect("the link is still there");
+        }
+        folder.mms(&format!("state bar_1d --cells 4 {options}")).exits(0);
+        assert!(folder.path(name).is_file(), "{name}");
+    }
+}
+
 /// Who names a folder does not name what a link in it leads to.
 #[test]
 fn a_link_in_a_folder_of_results_is_not_written_through() {
@@ -95,6 +123,13 @@ fn a_link_in_a_folder_of_results_is_not_written_through() {
         fs::remove_file(folder.path("out").join(name)).expect("the link is still there");
         folder.mms(arguments).exits(0);
     }
+    // Nor is a folder in it.
+    fs::create_dir_all(folder.path("elsewhere")).expect("a folder");
+    symlink("../elsewhere", folder.path("out/axis_aligned_1d")).expect("a link");
+    let run = folder.mms("emit --all --target c -o out").exits(2);
+    run.complains("cannot write to `out/axis_aligned_1d`")
+        .complains("it is a link, which is not written to");
+    assert_eq!(fs::read_dir(folder.path("elsewhere")).expect("a folder").count(), 0);
     // Nor is a FIFO, which may have no reader.
     let fifo = folder.path("out/report.html");
     assert!(Command::new("mkfifo").arg(fifo).status().expect("mkfifo").success());
