@@ -7,7 +7,8 @@
 //! at all, and is trusted only if its checksum, its key and its name agree. Opening a store checks every file in it:
 //! one that is cut off, changed, of another format, or not what its name says is renamed to `.aside1` and so on, said
 //! to be, and neither read again nor deleted. Processes may share a folder: each locks a file beside a result while it
-//! computes it. Locks end with their process, however that ends; others make what is left and then wait.
+//! computes it. Locks end with their process, however that ends; others make what is left and then wait. The next process
+//! that opens the store removes the files of such locks.
 
 use std::fs::{self, File};
 use std::io;
@@ -24,6 +25,7 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::read::{self, Kind, Unread};
+use crate::report::file::{leads_to, remove_stale};
 use crate::report::write_own;
 
 /// What the first key of every file says.
@@ -83,8 +85,12 @@ impl Store {
         let entries = fs::read_dir(folder).with_context(|| format!("cannot read `{shown}`"))?;
         for entry in entries {
             let path = entry.with_context(|| format!("cannot read `{shown}`"))?.path();
-            let is_result = path.extension().is_some_and(|extension| extension == "json");
-            if !is_result || path.is_dir() {
+            let ends = |with: &str| path.extension().is_some_and(|extension| extension == with);
+            if ends("lock") {
+                // Left by a process that was killed. Where it cannot be removed, it is in nobody's way.
+                let _ = remove_stale(&path);
+            }
+            if !ends("json") || path.is_dir() {
                 continue;
             }
             // What has been renamed is said even if the next file cannot be read.
@@ -129,17 +135,8 @@ impl Store {
     /// A file that cannot be made or locked.
     pub fn claim(&self, key: &impl Serialize, wait: bool) -> anyhow::Result<Option<Claim>> {
         let path = self.path(&serde_json::to_string(key)?, "lock");
-        let lock = || {
-            if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-                return Err(io::Error::other("it is no plain file: remove it"));
-            }
-            let lock = File::options().create(true).append(true).open(&path)?;
-            match if wait { lock.lock() } else { lock.try_lock().map_err(io::Error::from) } {
-                Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(None),
-                locked => locked.map(|()| Some(lock)),
-            }
-        };
-        let lock = lock().with_context(|| format!("cannot lock `{}`", foreign::path(&path)))?;
+        let lock = lock(&path, wait);
+        let lock = lock.with_context(|| format!("cannot lock `{}`", foreign::path(&path)))?;
         Ok(lock.map(|lock| Claim { _lock: lock, path }))
     }
 
@@ -188,6 +185,24 @@ impl Store {
             return Err("it is the result of something else".into());
         }
         serde_json::from_str(envelope.result.get()).map_err(|error| format!("no result: {error}"))
+    }
+}
+
+/// Makes and locks a file; nothing, if another process has locked it and this one is not to wait.
+fn lock(path: &Path, wait: bool) -> io::Result<Option<File>> {
+    loop {
+        if fs::symlink_metadata(path).is_ok_and(|found| !found.is_file()) {
+            return Err(io::Error::other("it is no plain file: remove it"));
+        }
+        let lock = File::options().create(true).append(true).open(path)?;
+        match if wait { lock.lock() } else { lock.try_lock().map_err(io::Error::from) } {
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => return Ok(None),
+            locked => locked?,
+        }
+        // Whoever had locked the file may have removed it, and a third process may have made another one.
+        if leads_to(path, &lock) {
+            return Ok(Some(lock));
+        }
     }
 }
 
@@ -391,6 +406,40 @@ mod tests {
         drop(claim);
         assert!(store.claim(&"three", true).unwrap().is_some());
         assert!(names(folder.path()).iter().all(|name| name.ends_with(".json")));
+    }
+
+    #[test]
+    fn locks_that_nobody_holds_are_removed_and_others_stay() {
+        let (folder, store) = store();
+        let claim = store.claim(&"three", false).unwrap().expect("nobody has it");
+        fs::write(folder.path().join("killed.lock"), "").unwrap();
+        let locks = || names(folder.path()).into_iter().filter(|name| name.ends_with(".lock"));
+        assert_eq!(locks().count(), 2);
+        Store::open(folder.path()).unwrap();
+        assert_eq!(locks().count(), 1);
+        assert!(store.claim(&"three", false).unwrap().is_none());
+        drop(claim);
+        assert_eq!(locks().count(), 0);
+    }
+
+    /// Of a claim that is given up again and again, one process at a time has the right.
+    #[test]
+    fn a_lock_of_a_removed_file_is_no_claim() {
+        let (_folder, store) = store();
+        let holders = AtomicUsize::new(0);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..200 {
+                        let claim = store.claim(&"three", true).unwrap().expect("it waits");
+                        assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0);
+                        std::thread::yield_now();
+                        holders.fetch_sub(1, Ordering::SeqCst);
+                        drop(claim);
+                    }
+                });
+            }
+        });
     }
 
     /// The vectors of the algorithm's authors, but for the byte that ends a text here.
