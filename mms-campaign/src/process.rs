@@ -1,24 +1,22 @@
 //! One run of a solver: a process in a folder of its own, with a limit of time.
 //!
-//! What it prints goes to files. The file of stdout is locked, and the lock belongs to whoever has the file open: to this
-//! process, to the solver and to what that has started. So a folder in which something still writes, left of a process
-//! that was killed, is never taken for another run.
+//! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends, by whatever. A folder whose
+//! supervisor was killed itself is never used again: something may still write there.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Read as _, Seek as _, SeekFrom};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The file with what a run prints.
-pub const STDOUT: &str = "stdout.txt";
-
-/// The file with what it says of itself.
-pub const STDERR: &str = "stderr.txt";
+use crate::printed::last_lines;
+use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, alone};
 
 /// What is run, and how.
 pub struct Order<'a> {
+    /// The program that supervises if its first argument is [`WORD`].
+    pub supervisor: &'a Path,
     /// The program, and its arguments.
     pub words: &'a [String],
     /// Where.
@@ -29,26 +27,17 @@ pub struct Order<'a> {
     pub limit: Duration,
 }
 
-/// How a run ended.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Ended {
-    /// As it should.
-    Well,
-    /// Otherwise, and how.
-    Badly(String),
-    /// Somebody wanted it to end.
-    Interrupted,
-}
-
 /// A folder that nobody else writes to.
 pub struct Folder {
     /// Where it is.
     pub path: PathBuf,
-    stdout: File,
+    /// Locked, and shared with the supervisor of a run.
+    running: File,
 }
 
 impl Folder {
-    /// The first of the folders `1`, `2`, .. below another one in which no process is at work; emptied.
+    /// The first of the folders `1`, `2`, .. below another one in which nothing can be at work; emptied. A supervisor that
+    /// is about to end a run there is waited for. Only one caller at a time may ask for folders below the same one.
     ///
     /// # Errors
     /// It cannot be made or emptied.
@@ -56,38 +45,29 @@ impl Folder {
         for number in 1.. {
             let path = parent.join(number.to_string());
             fs::create_dir_all(&path)?;
-            let stdout = File::options().create(true).append(true).open(path.join(STDOUT))?;
-            match stdout.try_lock() {
-                Ok(()) => {}
-                Err(TryLockError::WouldBlock) => continue,
-                Err(TryLockError::Error(error)) => return Err(error),
+            let running = File::options().create(true).append(true).open(path.join(RUNNING))?;
+            if is_locked(&running)? && running.metadata()?.len() == 0 {
+                empty(&path)?;
+                return Ok(Folder { path, running });
             }
-            empty(&path)?;
-            stdout.set_len(0)?;
-            return Ok(Folder { path, stdout });
         }
         Err(io::ErrorKind::AlreadyExists.into())
     }
 
-    /// Runs something; what it prints is kept here.
+    /// Runs something; what it prints is kept here. If `stop` asks for it, the run is ended.
     ///
     /// # Errors
-    /// The files for it cannot be written, or nothing can be said of the process.
-    pub fn run(&self, order: &Order<'_>, stop: &dyn Fn() -> bool) -> io::Result<Ended> {
-        let [program, arguments @ ..] = order.words else {
-            return Ok(Ended::Badly("no command".into()));
-        };
-        let mut command = Command::new(named(program, order.directory));
-        command.args(arguments).current_dir(order.directory).stdin(Stdio::null());
+    /// Nothing can be said of the supervisor.
+    pub fn run(&self, order: &Order<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
+        let mut command = Command::new(order.supervisor);
+        command.arg(WORD).arg(&self.path).arg(order.directory);
+        command.arg(order.limit.as_secs_f64().to_string()).args(order.words);
         command.envs(order.variables.iter().map(|(name, value)| (name, value)));
-        command.stdout(self.stdout.try_clone()?).stderr(File::create(self.path.join(STDERR))?);
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(self.running.try_clone()?);
         alone(&mut command);
         match command.spawn() {
-            Ok(child) => wait(child, order.limit, stop),
-            Err(error) => Ok(Ended::Badly(format!(
-                "`{program}` cannot be started in `{}`: {error}",
-                order.directory.display()
-            ))),
+            Ok(supervisor) => followed(supervisor, stop),
+            Err(error) => Ok(Report::badly(format!("its supervisor cannot be started: {error}"))),
         }
     }
 
@@ -99,17 +79,58 @@ impl Folder {
     }
 }
 
-/// A program that is named by a path has it from the folder that it is run in; another one is looked for.
-fn named(program: &str, directory: &Path) -> PathBuf {
-    let path = Path::new(program);
-    if path.components().count() > 1 { directory.join(path) } else { path.to_owned() }
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if self.running.metadata().is_ok_and(|it| it.len() == 0) {
+            let _ = fs::remove_file(self.path.join(RUNNING));
+        }
+    }
 }
 
-/// Removes all of a folder but the file of stdout.
+/// What a supervisor says in the end. Without its stdin it ends the run.
+fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report> {
+    let (mut stdin, mut pause) = (supervisor.stdin.take(), PAUSES[0]);
+    let status = loop {
+        if let Some(status) = supervisor.try_wait()? {
+            break status;
+        }
+        if stop() {
+            stdin = None;
+        }
+        sleep(pause);
+        pause = (pause * 2).min(PAUSES[1]);
+    };
+    drop(stdin);
+    let mut told = String::new();
+    if let Some(mut stdout) = supervisor.stdout {
+        stdout.read_to_string(&mut told)?;
+    }
+    Ok(Report::parse(&told).unwrap_or_else(|| {
+        Report::badly(format!("its supervisor ended first: {status}; the run may go on"))
+    }))
+}
+
+/// How long a supervisor whose campaign has ended is waited for.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Whether a file could be locked, now or soon.
+fn is_locked(file: &File) -> io::Result<bool> {
+    let started = Instant::now();
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(true),
+            Err(TryLockError::WouldBlock) if started.elapsed() < PATIENCE => sleep(PAUSES[1]),
+            Err(TryLockError::WouldBlock) => return Ok(false),
+            Err(TryLockError::Error(error)) => return Err(error),
+        }
+    }
+}
+
+/// Removes all of a folder but the file that is locked.
 fn empty(folder: &Path) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;
-        if entry.file_name() == STDOUT {
+        if entry.file_name() == RUNNING {
             continue;
         }
         match entry.file_type()?.is_dir() {
@@ -118,98 +139,4 @@ fn empty(folder: &Path) -> io::Result<()> {
         }
     }
     Ok(())
-}
-
-/// How often it is looked whether a run has ended, at most and at least.
-const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(50)];
-
-/// How long a process has to end by itself when it is asked to.
-const GRACE: Duration = Duration::from_secs(2);
-
-fn wait(mut child: Child, limit: Duration, stop: &dyn Fn() -> bool) -> io::Result<Ended> {
-    let (started, mut pause) = (Instant::now(), PAUSES[0]);
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(ended(status));
-        }
-        if stop() {
-            end(&mut child)?;
-            return Ok(Ended::Interrupted);
-        }
-        let left = limit.saturating_sub(started.elapsed());
-        if left.is_zero() {
-            end(&mut child)?;
-            return Ok(Ended::Badly(format!(
-                "stopped after {} s, its limit (`time_limit`)",
-                limit.as_secs_f64()
-            )));
-        }
-        sleep(pause.min(left));
-        pause = (pause * 2).min(PAUSES[1]);
-    }
-}
-
-fn ended(status: ExitStatus) -> Ended {
-    if status.success() {
-        return Ended::Well;
-    }
-    Ended::Badly(match status.code() {
-        Some(code) => format!("it ended with exit code {code}"),
-        None => format!("it was ended: {status}"),
-    })
-}
-
-/// Ends a process and what it has started: first it is asked to, as programs that have started others need it.
-fn end(child: &mut Child) -> io::Result<()> {
-    signal(child, false);
-    let asked = Instant::now();
-    while asked.elapsed() < GRACE && child.try_wait()?.is_none() {
-        sleep(PAUSES[1]);
-    }
-    signal(child, true);
-    child.wait().map(drop)
-}
-
-/// Puts a process into a group of its own.
-#[cfg(unix)]
-fn alone(command: &mut Command) {
-    use std::os::unix::process::CommandExt as _;
-    command.process_group(0);
-}
-
-#[cfg(not(unix))]
-fn alone(_: &mut Command) {}
-
-/// Asks the group of a process to end, or ends it.
-#[cfg(unix)]
-fn signal(child: &mut Child, at_once: bool) {
-    use nix::sys::signal::{Signal, killpg};
-    let signal = if at_once { Signal::SIGKILL } else { Signal::SIGTERM };
-    if let Ok(group) = i32::try_from(child.id()) {
-        // Who has ended already needs no signal.
-        let _ = killpg(nix::unistd::Pid::from_raw(group), signal);
-    }
-}
-
-#[cfg(not(unix))]
-fn signal(child: &mut Child, _: bool) {
-    let _ = child.kill();
-}
-
-/// So much of the end of a file is looked at.
-const BYTES: u64 = 4096;
-
-/// So many lines of it are told.
-const LINES: usize = 8;
-
-fn last_lines(path: &Path) -> io::Result<Vec<String>> {
-    let mut file = File::open(path)?;
-    let length = file.metadata()?.len();
-    file.seek(SeekFrom::Start(length.saturating_sub(BYTES)))?;
-    let mut bytes = Vec::new();
-    file.take(BYTES).read_to_end(&mut bytes)?;
-    let text = String::from_utf8_lossy(&bytes).into_owned();
-    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
-    let first = lines.len().saturating_sub(LINES);
-    Ok(lines[first..].iter().map(|line| (*line).to_owned()).collect())
 }

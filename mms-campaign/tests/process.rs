@@ -8,13 +8,15 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use mms_campaign::process::{Ended, Folder, Order, STDERR, STDOUT};
+use mms_campaign::printed::{HEAD, TAIL};
+use mms_campaign::process::{Folder, Order};
+use mms_campaign::supervisor::{Ended, RUNNING, Report, STDERR, STDOUT};
 
-/// Runs a script of the shell, which is the program here.
-fn run_with(folder: &Folder, script: &str, limit: f64, stop: &dyn Fn() -> bool) -> Ended {
-    let words = ["sh", "-c", script, "name", "it's \"$HOME\" *"].map(str::to_owned);
+/// Runs a command in its folder.
+fn run_words(folder: &Folder, words: &[String], limit: f64, stop: &dyn Fn() -> bool) -> Report {
     let order = Order {
-        words: &words,
+        supervisor: Path::new(env!("CARGO_BIN_EXE_supervise")),
+        words,
         directory: &folder.path,
         variables: &[("OMP_NUM_THREADS", "3".to_owned())],
         limit: Duration::from_secs_f64(limit),
@@ -22,8 +24,17 @@ fn run_with(folder: &Folder, script: &str, limit: f64, stop: &dyn Fn() -> bool) 
     folder.run(&order, stop).expect("it is run")
 }
 
+/// Runs a script of the shell, which is the program here.
+fn run_with(folder: &Folder, script: &str, limit: f64, stop: &dyn Fn() -> bool) -> Report {
+    let words = ["sh", "-c", script, "name", "it's \"$HOME\" *"].map(str::to_owned);
+    run_words(folder, &words, limit, stop)
+}
+
+/// How a script ends that leaves nothing behind.
 fn run(folder: &Folder, script: &str) -> Ended {
-    run_with(folder, script, 20.0, &|| false)
+    let report = run_with(folder, script, 20.0, &|| false);
+    assert_eq!(report.left_behind, [""; 0], "{script}");
+    report.ended
 }
 
 fn text(folder: &Folder, name: &str) -> String {
@@ -59,14 +70,13 @@ fn a_run_that_fails_says_how() {
     assert_eq!(folder.last_words(), ["2", "3", "4", "5", "6", "7", "8", "9"]);
     assert!(badly("echo only; kill -SEGV $$").contains("signal: 11"));
     assert_eq!(folder.last_words().last().map(String::as_str), Some("only"));
-    let words = ["./no such program".to_owned()];
-    let limit = Duration::from_secs(1);
-    let order = Order { words: &words, directory: &folder.path, variables: &[], limit };
-    match folder.run(&order, &|| false).unwrap() {
-        Ended::Badly(how) => {
-            assert!(how.starts_with("`./no such program` cannot be started"), "{how}")
+    for words in [vec!["./no such program".to_owned()], vec!["no such program".to_owned()]] {
+        match run_words(&folder, &words, 20.0, &|| false).ended {
+            Ended::Badly(how) => {
+                assert!(how.starts_with(&format!("`{}` cannot be started", words[0])), "{how}")
+            }
+            other => panic!("{other:?}"),
         }
-        other => panic!("{other:?}"),
     }
 }
 
@@ -81,21 +91,25 @@ fn is_there(number: &str) -> bool {
     !state.trim().is_empty() && !state.trim().starts_with('Z')
 }
 
+/// Waits until there is no process of this number.
+fn assert_gone(number: &str) {
+    // The system may take a moment.
+    let gone = (0..200).any(|_| {
+        std::thread::sleep(Duration::from_millis(20));
+        !is_there(number.trim())
+    });
+    assert!(gone, "{number} is still there");
+}
+
 #[test]
 fn one_that_takes_too_long_is_ended_with_all_that_it_started() {
     let parent = tempfile::tempdir().unwrap();
     let folder = Folder::free(parent.path()).unwrap();
     let started = Instant::now();
-    let ended = run_with(&folder, STUBBORN, 0.3, &|| false);
+    let ended = run_with(&folder, STUBBORN, 0.3, &|| false).ended;
     assert_eq!(ended, Ended::Badly("stopped after 0.3 s, its limit (`time_limit`)".into()));
     assert!(started.elapsed() < Duration::from_secs(15));
-    let child = text(&folder, STDOUT);
-    // The system may take a moment.
-    let gone = (0..100).any(|_| {
-        std::thread::sleep(Duration::from_millis(20));
-        !is_there(child.trim())
-    });
-    assert!(gone, "{child} is still there");
+    assert_gone(&text(&folder, STDOUT));
 }
 
 #[test]
@@ -104,7 +118,39 @@ fn somebody_may_interrupt() {
     let folder = Folder::free(parent.path()).unwrap();
     let asked = AtomicUsize::new(0);
     let stop = || asked.fetch_add(1, Ordering::Relaxed) > 3;
-    assert_eq!(run_with(&folder, "sleep 60", 50.0, &stop), Ended::Interrupted);
+    assert_eq!(run_with(&folder, "sleep 60", 50.0, &stop).ended, Ended::Interrupted);
+}
+
+/// In a session of its own, without a parent and without a file of the run.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_process_that_is_left_behind_is_ended_and_named() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = Folder::free(parent.path()).unwrap();
+    let script = "(env -i setsid sleep 60 > /dev/null 2>&1 < /dev/null & echo $! > left) &
+        until [ -s left ]; do sleep 0.01; done; echo done";
+    let report = run_with(&folder, script, 20.0, &|| false);
+    assert_eq!((report.ended, report.left_behind), (Ended::Well, vec!["sleep".to_owned()]));
+    assert_gone(&text(&folder, "left"));
+    assert_eq!(text(&folder, STDOUT), "done\n");
+    // One that ends soon is a helper.
+    assert_eq!(run(&folder, "sleep 0.1 & exit 0"), Ended::Well);
+}
+
+#[test]
+fn what_is_printed_has_a_bound_and_its_end_is_kept() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = Folder::free(parent.path()).unwrap();
+    let surplus = 1_000_000;
+    let count = HEAD as usize + TAIL + surplus;
+    let script = format!("echo first; head -c {count} /dev/zero; echo; echo last");
+    assert_eq!(run(&folder, &script), Ended::Well);
+    let printed = fs::read(folder.path.join(STDOUT)).unwrap();
+    let note = format!("\n[{} bytes are left out here]\n", surplus + "first\n\nlast\n".len());
+    assert_eq!(printed.len(), HEAD as usize + TAIL + note.len());
+    assert!(printed.starts_with(b"first\n\0") && printed.ends_with(b"\0\nlast\n"));
+    assert_eq!(&printed[HEAD as usize..HEAD as usize + note.len()], note.as_bytes());
+    assert_eq!(folder.last_words().last().map(String::as_str), Some("last"));
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -116,23 +162,43 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
-fn a_folder_is_emptied_and_one_in_which_something_writes_is_left_alone() {
+fn a_folder_is_emptied_for_the_next_run() {
     let parent = tempfile::tempdir().unwrap();
     let first = Folder::free(parent.path()).unwrap();
     fs::create_dir(first.path.join("output")).unwrap();
     fs::write(first.path.join("output/old.csv"), "old").unwrap();
-    // What the first process has started goes on when that has ended.
-    assert_eq!(run(&first, "(sleep 1; echo late) & echo early"), Ended::Well);
+    assert_eq!(run(&first, "echo early"), Ended::Well);
+    assert_eq!(names(&first.path), ["output", RUNNING, STDERR, STDOUT]);
     drop(first);
-    let second = Folder::free(parent.path()).unwrap();
-    assert_eq!(second.path, parent.path().join("2"));
     assert_eq!(names(&parent.path().join("1")), ["output", STDERR, STDOUT]);
-    drop(second);
-    let free = (0..100).any(|_| {
-        std::thread::sleep(Duration::from_millis(50));
-        Folder::free(parent.path()).unwrap().path.ends_with("1")
-    });
-    assert!(free, "the first folder is never free again");
-    assert_eq!(names(&parent.path().join("1")), [STDOUT]);
-    assert_eq!(fs::read_to_string(parent.path().join("1").join(STDOUT)).unwrap(), "");
+    let second = Folder::free(parent.path()).unwrap();
+    assert_eq!(
+        (second.path.clone(), names(&second.path)),
+        (parent.path().join("1"), vec![RUNNING.to_owned()])
+    );
+}
+
+/// Whoever kills the supervisor leaves a run that nobody ends: its folder is not used again.
+#[test]
+fn a_folder_in_which_something_may_still_write_is_left_alone() {
+    let parent = tempfile::tempdir().unwrap();
+    let first = Folder::free(parent.path()).unwrap();
+    let report =
+        run_with(&first, "kill -KILL $PPID; echo $$ > own; exec sleep 60", 20.0, &|| false);
+    match &report.ended {
+        Ended::Badly(how) => assert!(how.contains("signal: 9"), "{how}"),
+        other => panic!("{other:?}"),
+    }
+    let own = first.path.join("own");
+    while fs::read_to_string(&own).unwrap_or_default().is_empty() {
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    drop(first);
+    for _ in 0..2 {
+        let second = Folder::free(parent.path()).unwrap();
+        assert_eq!(second.path, parent.path().join("2"));
+    }
+    assert!(own.is_file());
+    let number = fs::read_to_string(own).unwrap();
+    assert!(Command::new("kill").arg(number.trim()).status().expect("kill").success());
 }

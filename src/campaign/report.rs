@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::judged::Judged;
 use super::plan::{Job, Plan, Planned};
-use super::work::Outcome;
+use super::work::{Finished, Outcome, left_behind_too};
 use crate::provenance::Provenance;
 use crate::report::file::refuse_link;
 use crate::report::{Judgements, Together, duration, plain, pretty, to_the_right, write_files};
@@ -119,8 +119,9 @@ impl Judged<'_> {
 
     fn parts(&self) -> Vec<String> {
         let mut parts = Vec::new();
-        let failed = self.planned.jobs.iter().zip(&self.outcomes);
-        parts.extend(failed.filter_map(|(job, outcome)| failure(job, outcome)));
+        let runs = self.planned.jobs.iter().zip(&self.outcomes);
+        parts.extend(runs.clone().filter_map(|(job, outcome)| failure(job, outcome)));
+        parts.extend(runs.filter_map(|(job, outcome)| left_behind(job, outcome)));
         parts.extend(self.mistake.as_ref().map(|it| format!("{}: {it}", self.name())));
         parts.extend(
             self.judgements.as_ref().map(|it| format!("{}\n{}", self.heading(), it.table())),
@@ -181,11 +182,24 @@ fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
     ))
 }
 
+/// The processes that a run left behind.
+fn left_behind(job: &Job, outcome: &Outcome) -> Option<String> {
+    let Outcome::Finished(Finished { left_behind, .. }) = outcome else { return None };
+    let names: Vec<_> = left_behind.iter().map(|name| shown(name)).collect();
+    (!names.is_empty()).then(|| {
+        let name = shown(&job.name);
+        format!("{name} left processes behind, which were ended: {}", names.join(", "))
+    })
+}
+
 /// A run that ended, in a line.
 pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
     let name = shown(&job.name);
     match outcome {
-        Outcome::Finished(it) if is_new => format!("{name}: done in {}", duration(it.seconds)),
+        Outcome::Finished(it) if is_new => {
+            let behind = left_behind_too(&it.left_behind);
+            format!("{name}: done in {}{behind}", duration(it.seconds))
+        }
         Outcome::Finished(_) => format!("{name}: was done before"),
         Outcome::Failed { reason, .. } => format!("{name}: {reason}"),
         Outcome::Interrupted => format!("{name}: interrupted"),
@@ -193,12 +207,16 @@ pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
 }
 
 fn run(job: &Job, outcome: &Outcome) -> Value {
-    let (status, reason, last_words, folder, seconds) = match outcome {
-        Outcome::Finished(it) => ("done", None, None, Some(&it.folder), Some(it.seconds)),
+    let (status, reason, last_words, folder) = match outcome {
+        Outcome::Finished(it) => ("done", None, None, Some(&it.folder)),
         Outcome::Failed { reason, last_words, folder } => {
-            ("failed", Some(reason), Some(last_words), Some(folder), None)
+            ("failed", Some(reason), Some(last_words), Some(folder))
         }
-        Outcome::Interrupted => ("interrupted", None, None, None, None),
+        Outcome::Interrupted => ("interrupted", None, None, None),
+    };
+    let (seconds, left_behind) = match outcome {
+        Outcome::Finished(it) => (Some(it.seconds), Some(&it.left_behind)),
+        _ => (None, None),
     };
     json!({
         "level": job.level,
@@ -211,5 +229,6 @@ fn run(job: &Job, outcome: &Outcome) -> Value {
         "last_words": last_words,
         "folder": folder,
         "seconds": seconds,
+        "left_behind": left_behind,
     })
 }

@@ -7,7 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use anyhow::{Context as _, anyhow};
-use mms_campaign::process::{Ended, Folder, Order};
+use mms_campaign::process::{Folder, Order};
+use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
 use mms_runtime::Division;
@@ -35,6 +36,8 @@ pub struct Finished {
     pub seconds: f64,
     /// Its results, each with how many bytes it has.
     pub results: Vec<(String, u64)>,
+    /// The names of processes that it left behind, which were ended.
+    pub left_behind: Vec<String>,
 }
 
 /// What came of a run.
@@ -170,13 +173,15 @@ impl<'a> Work<'a> {
             return Ok(failed(format!("it was not started: {error:#}")));
         }
         let started = Instant::now();
-        let ended = self.start(planned, job, &paths, &folder)?;
+        let Report { ended, left_behind } = self.start(planned, job, &paths, &folder)?;
         let seconds = started.elapsed().as_secs_f64();
         Ok(match ended {
             Ended::Interrupted => Outcome::Interrupted,
-            Ended::Badly(reason) => failed(reason),
+            Ended::Badly(reason) => failed(reason + &left_behind_too(&left_behind)),
             Ended::Well => match self.results(planned, job, &paths, &folder.path) {
-                Ok(results) => Outcome::Finished(Finished { folder: own, seconds, results }),
+                Ok(results) => {
+                    Outcome::Finished(Finished { folder: own, seconds, results, left_behind })
+                }
                 Err(error) => failed(format!("it ended well, but {error:#}")),
             },
         })
@@ -189,13 +194,14 @@ impl<'a> Work<'a> {
         job: &Job,
         paths: &Paths,
         folder: &Folder,
-    ) -> anyhow::Result<Ended> {
+    ) -> anyhow::Result<Report> {
         let solver = &self.plan.campaign.solver;
         let words: Vec<String> =
             solver.run.iter().map(|word| planned.fill(word, job, paths)).collect();
         let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
         write_own(&folder.path.join("command.txt"), &(line + "\n"))?;
         let order = Order {
+            supervisor: &this_program()?,
             words: &words,
             directory: &self.directory(planned, job, paths),
             variables: &[("OMP_NUM_THREADS", solver.threads.to_string())],
@@ -319,6 +325,24 @@ impl<'a> Work<'a> {
         let paths = self.paths(&self.parent(planned, job)?.join("1"))?;
         let words = self.plan.campaign.solver.run.iter();
         Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
+    }
+}
+
+/// This program, which supervises runs; also where its file has been replaced.
+fn this_program() -> anyhow::Result<PathBuf> {
+    let own = Path::new("/proc/self/exe");
+    match own.exists() {
+        true => Ok(own.to_owned()),
+        false => std::env::current_exe().context("cannot find this program"),
+    }
+}
+
+/// That processes were left behind, at the end of a sentence.
+pub fn left_behind_too(names: &[String]) -> String {
+    let shown: Vec<_> = names.iter().map(|name| foreign::shown(name)).collect();
+    match shown.is_empty() {
+        true => String::new(),
+        false => format!("; it left processes behind, which were ended: {}", shown.join(", ")),
     }
 }
 

@@ -2,7 +2,8 @@
 //! where it goes on from.
 //!
 //! What an observer cannot do stops the run, with exit code 3. Files appear under their names when they are whole.
-//! The first Ctrl-C ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the process.
+//! The first Ctrl-C, or Ctrl-\, ends the step, keeps a checkpoint and stops with exit code 3; the second one ends the
+//! process.
 
 use std::io::Read;
 use std::path::PathBuf;
@@ -10,30 +11,34 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Context as _;
+use mms_campaign::supervisor::signals;
 use mms_runtime::study::{Checkpoint, Frame, Observer, Record};
+use signal_hook::flag::{register, register_conditional_shutdown};
 
 use crate::checkpoint::{Found, Keeper};
 use crate::history::History;
 use crate::session::progress::OfRun;
 use crate::vtk::Writer;
 
-/// What a process ends with whom a second signal does not let wait: 128 and the number of SIGINT.
+/// The exit code of a process that a second signal ends: 128 and the number of SIGINT.
 const KILLED: i32 = 130;
 
 /// Whether somebody wants the run to stop.
 pub struct Interrupted(Arc<AtomicBool>);
 
 impl Interrupted {
-    /// Waits for Ctrl-C, or a request to terminate; a second one ends the process at once.
+    /// Waits for Ctrl-C, Ctrl-\, or another request to terminate; a second one ends the process at once.
+    ///
+    /// # Errors
+    /// The system cannot tell this process of signals.
     pub fn listen() -> anyhow::Result<Self> {
         let flag = Arc::new(AtomicBool::new(false));
-        let seen = flag.clone();
-        ctrlc::set_handler(move || {
-            if seen.swap(true, Ordering::Relaxed) {
-                std::process::exit(KILLED);
-            }
-        })
-        .context("cannot wait for Ctrl-C")?;
+        for signal in signals() {
+            // In this order, so that the first signal ends nothing.
+            register_conditional_shutdown(signal, KILLED, flag.clone())
+                .and_then(|_| register(signal, flag.clone()))
+                .context("cannot wait for Ctrl-C")?;
+        }
         Ok(Interrupted(flag))
     }
 

@@ -41,6 +41,7 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use mms_campaign::supervisor;
 use mms_runtime::math::dispatch::{Instructions, LIMIT};
 use mms_spec::foreign;
 
@@ -102,8 +103,11 @@ enum Outcome {
     RunFailed,
 }
 
-/// Runs the command line of this process.
+/// Runs the command line of this process, or supervises a run of a campaign.
 pub fn run() -> ExitCode {
+    if let Some(arguments) = supervisor::asked(std::env::args_os()) {
+        return supervisor::run(&arguments);
+    }
     let outcome = answer().unwrap_or_else(|error| {
         let style = anstyle::AnsiColor::Red.on_default().bold();
         let error = foreign::lines(&format!("{error:#}"));

@@ -410,30 +410,63 @@ fn start(folder: &Folder) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts")
 }
 
-/// Killed at many moments, as nobody can prepare for; the same command goes on, and one run at most is lost each time.
+/// A document without what is different each time.
+fn timeless(document: &Value) -> Value {
+    match document {
+        Value::Object(map) => {
+            let kept =
+                map.iter().filter(|(key, _)| !matches!(key.as_str(), "seconds" | "provenance"));
+            Value::Object(kept.map(|(key, value)| (key.clone(), timeless(value))).collect())
+        }
+        Value::Array(items) => items.iter().map(timeless).collect(),
+        other => other.clone(),
+    }
+}
+
+/// Killed at many moments, as nobody can prepare for; the same command goes on, one run at most is lost each time, and the
+/// document is that of a campaign that ran through, in folders of the same names.
 #[test]
-fn killed_anywhere_it_loses_one_run_at_most() {
-    let folder = folder(
-        "2 0 0 0.05",
-        "[[study]]\nfield = \"bar_1d\"\ncells = [4, 8, 12, 16, 20, 24, 28, 32]\n",
-    );
-    let mut kills = 0;
-    for at in 0..sampled_count(50, 5) as u64 {
+fn killed_anywhere_it_loses_one_run_at_most_and_ends_with_the_same_document() {
+    const CELLS: [usize; 8] = [4, 8, 12, 16, 20, 24, 28, 32];
+    let study = format!("[[study]]\nfield = \"bar_1d\"\ncells = {CELLS:?}\n");
+    let folder = folder("2 0 0 0.05", &study);
+    let document = || timeless(&campaign(&folder, &["--json"]).exits(0).json());
+    let undisturbed = document();
+    assert_eq!(undisturbed["studies"][0]["verdict"], "pass");
+    // Ends a campaign that was killed so often, and removes it.
+    let end = |kills: usize| {
+        assert_eq!(document(), undisturbed);
+        let made = runs(&folder);
+        assert!(made.len() <= CELLS.len() + kills, "{made:?}");
+        assert!(CELLS.iter().all(|cells| made.contains(cells)), "{made:?}");
+        let store = folder.path("target/mms/campaign/c");
+        for entry in fs::read_dir(&store).expect("a store") {
+            let path = entry.expect("an entry").path();
+            assert!(path.is_dir() || path.extension().is_some_and(|it| it == "json"), "{path:?}");
+        }
+        campaign(&folder, &[]).exits(0);
+        assert_eq!(runs(&folder), made, "nothing is left to be done");
+        fs::remove_dir_all(store).expect("it is removed");
+        fs::remove_file(folder.path(&format!("{ODD}/log.txt"))).expect("it is removed");
+    };
+    end(0);
+    let (mut kills, mut wait) = (0, 0);
+    for _ in 0..sampled_count(50, 5) {
         let mut child = start(&folder);
-        sleep(Duration::from_millis(40 + at * 37 % 160));
+        wait = (wait + 37) % 160;
+        sleep(Duration::from_millis(wait));
+        // One that has come to its end makes room for the next.
+        if child.try_wait().expect("a child").is_some() {
+            end(kills);
+            kills = 0;
+            child = start(&folder);
+            sleep(Duration::from_millis(wait));
+        }
         signal(&child, "-KILL");
         child.wait().expect("it ends");
         kills += 1;
     }
-    let run = campaign(&folder, &["--json"]).exits(0).json();
-    assert_eq!(run["studies"][0]["verdict"], "pass");
-    let made = runs(&folder);
-    assert!(made.len() <= 8 + kills, "{made:?}");
-    for cells in [4, 8, 12, 16, 20, 24, 28, 32] {
-        assert!(made.contains(&cells), "{made:?}");
-    }
-    campaign(&folder, &[]).exits(0);
-    assert_eq!(runs(&folder), made, "nothing is left to be done");
+    end(kills);
 }
 
 #[test]

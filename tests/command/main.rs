@@ -3,6 +3,7 @@
 mod accuracy;
 mod bound;
 mod campaign;
+mod campaign_runs;
 mod check;
 mod checkpoint;
 mod diagnose;

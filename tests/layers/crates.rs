@@ -171,7 +171,7 @@ pub const CRATES: &[Crate] = &[
     Crate {
         name: "mms-campaign",
         knows: &["mms-spec"],
-        layers: &["cover process table template", "can", "file"],
+        layers: &["cover descendants printed table template", "can supervisor", "file process"],
     },
     Crate {
         name: "mms-runtime",

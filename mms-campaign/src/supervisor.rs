@@ -1,0 +1,313 @@
+//! The supervisor of a run: a process between a campaign and the program that it runs.
+//!
+//! It starts the program, keeps what that prints, and ends it with all that it has started: when the program has ended,
+//! when its time is over, when a signal asks for it, and when its own stdin ends, which is a pipe from the campaign. So
+//! a run ends with its campaign, however that ends. Its stderr is the file [`RUNNING`] of the run, whose lock it shares:
+//! it writes there before the program starts, and empties the file when nothing of the run is left. Its stdout is a
+//! [`Report`].
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{self, Read, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitCode, ExitStatus, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::{sleep, spawn};
+use std::time::{Duration, Instant};
+
+use crate::descendants::{Process, adopt, living, release, signal};
+use crate::printed;
+
+/// The first argument that makes a supervisor of a program.
+pub const WORD: &str = "supervise-run";
+
+/// The file that is locked and not empty while anything of a run may be at work.
+pub const RUNNING: &str = "running";
+
+/// The file with what a run prints.
+pub const STDOUT: &str = "stdout.txt";
+
+/// The file with what a run says of itself.
+pub const STDERR: &str = "stderr.txt";
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// As it should.
+    Well,
+    /// Otherwise, and how.
+    Badly(String),
+    /// Somebody wanted it to end.
+    Interrupted,
+}
+
+/// What a supervisor says of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// How it ended.
+    pub ended: Ended,
+    /// The names of processes that were still at work when its program had ended, and were ended.
+    pub left_behind: Vec<String>,
+}
+
+impl Report {
+    /// A run that ended badly.
+    pub fn badly(how: impl Into<String>) -> Self {
+        Report { ended: Ended::Badly(how.into()), left_behind: Vec::new() }
+    }
+
+    /// Lines for a pipe.
+    fn lines(&self) -> String {
+        let ended = match &self.ended {
+            Ended::Well => "well".to_owned(),
+            Ended::Interrupted => "interrupted".to_owned(),
+            Ended::Badly(how) => format!("badly {}", how.replace('\n', " ")),
+        };
+        let names = self.left_behind.iter().map(|name| format!("{name}\n"));
+        format!("{ended}\n{}", names.collect::<String>())
+    }
+
+    /// Reads such lines; none, if they are no whole report.
+    pub fn parse(text: &str) -> Option<Self> {
+        let mut lines = text.strip_suffix('\n')?.split('\n');
+        let ended = match lines.next()?.split_once(' ') {
+            Some(("badly", how)) => Ended::Badly(how.to_owned()),
+            None if text.starts_with("well\n") => Ended::Well,
+            None if text.starts_with("interrupted\n") => Ended::Interrupted,
+            _ => return None,
+        };
+        Some(Report { ended, left_behind: lines.map(str::to_owned).collect() })
+    }
+}
+
+/// The arguments of a supervisor, if these make one of a program.
+pub fn asked(arguments: impl IntoIterator<Item = OsString>) -> Option<Vec<OsString>> {
+    let mut arguments = arguments.into_iter().skip(1);
+    (arguments.next()? == WORD).then(|| arguments.collect())
+}
+
+/// Supervises a run: the arguments are its folder, its working directory, its limit in seconds, its program and the
+/// arguments of that.
+pub fn run(arguments: &[OsString]) -> ExitCode {
+    let [folder, directory, limit, words @ ..] = arguments else { return ExitCode::from(2) };
+    let seconds = limit.to_str().and_then(|it| it.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
+    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    let run = Run { folder: Path::new(folder), directory: Path::new(directory), words, limit };
+    let told = run.supervised().map(|report| report.lines());
+    match told.and_then(|lines| io::stdout().write_all(lines.as_bytes())) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
+/// How often it is looked whether something has ended, at most and at least.
+pub const PAUSES: [Duration; 2] = [Duration::from_millis(1), Duration::from_millis(50)];
+
+/// How long processes have to end by themselves when they are asked to.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// How long helpers of a program that has ended have to end as well, before they count as left behind.
+const HELPERS: Duration = Duration::from_secs(1);
+
+/// How long the system has to end processes that were killed.
+const KILLED: Duration = Duration::from_secs(5);
+
+/// How long the last words of a run may be on their way.
+const LAST_WORDS: Duration = Duration::from_secs(1);
+
+/// What is run, and how.
+struct Run<'a> {
+    folder: &'a Path,
+    directory: &'a Path,
+    words: &'a [OsString],
+    limit: Duration,
+}
+
+impl Run<'_> {
+    fn supervised(&self) -> io::Result<Report> {
+        let stop = stop()?;
+        adopt();
+        let mut running = running()?;
+        writeln!(running, "process {} supervises what is at work here", std::process::id())?;
+        let [program, arguments @ ..] = self.words else { return Ok(Report::badly("no command")) };
+        let mut command = Command::new(named(program, self.directory));
+        command.args(arguments).current_dir(self.directory).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        alone(&mut command);
+        let (report, is_over) = match command.spawn() {
+            Ok(child) => self.followed(child, &stop)?,
+            Err(error) => {
+                let [program, directory] = [Path::new(program), self.directory].map(Path::display);
+                let how = format!("`{program}` cannot be started in `{directory}`: {error}");
+                (Report::badly(how), true)
+            }
+        };
+        if is_over {
+            running.set_len(0)?;
+        }
+        Ok(report)
+    }
+
+    /// Waits for a program, and ends what is left of its run. Whether nothing is left.
+    fn followed(&self, mut child: Child, stop: &AtomicBool) -> io::Result<(Report, bool)> {
+        let printed = self.printed(&mut child);
+        let mut ended = self.ended(&mut child, stop)?;
+        let mut left_behind = Vec::new();
+        if child.try_wait()?.is_some() {
+            left_behind = left(&mut child, HELPERS, false)?;
+        }
+        let staying = end(&mut child)?;
+        let started = Instant::now();
+        for file in printed {
+            let _ = file.recv_timeout(LAST_WORDS.saturating_sub(started.elapsed()));
+        }
+        if !staying.is_empty() {
+            let names: Vec<String> = staying.iter().map(Process::to_string).collect();
+            ended = Ended::Badly(format!(
+                "it left processes that cannot be ended: {}",
+                names.join(", ")
+            ));
+        }
+        let left_behind = left_behind.into_iter().map(|it| it.name).collect();
+        Ok((Report { ended, left_behind }, staying.is_empty()))
+    }
+
+    /// Keeps what a program prints; each file says when it is complete.
+    fn printed(&self, child: &mut Child) -> Vec<Receiver<()>> {
+        let keep = |from: Option<Box<dyn Read + Send>>, name: &str| {
+            let (sender, receiver) = channel();
+            let path = self.folder.join(name);
+            spawn(move || {
+                let _ = from.map(|from| printed::keep(from, &path));
+                let _ = sender.send(());
+            });
+            receiver
+        };
+        let stdout = child.stdout.take().map(|it| Box::new(it) as Box<dyn Read + Send>);
+        let stderr = child.stderr.take().map(|it| Box::new(it) as Box<dyn Read + Send>);
+        vec![keep(stdout, STDOUT), keep(stderr, STDERR)]
+    }
+
+    /// How a program ends, or why it has to.
+    fn ended(&self, child: &mut Child, stop: &AtomicBool) -> io::Result<Ended> {
+        let (started, mut pause) = (Instant::now(), PAUSES[0]);
+        loop {
+            if let Some(status) = child.try_wait()? {
+                return Ok(of(status));
+            }
+            if stop.load(Ordering::Relaxed) {
+                return Ok(Ended::Interrupted);
+            }
+            let left = self.limit.saturating_sub(started.elapsed());
+            if left.is_zero() {
+                let seconds = self.limit.as_secs_f64();
+                let how = format!("stopped after {seconds} s, its limit (`time_limit`)");
+                return Ok(Ended::Badly(how));
+            }
+            release(child.id());
+            sleep(pause.min(left));
+            pause = (pause * 2).min(PAUSES[1]);
+        }
+    }
+}
+
+fn of(status: ExitStatus) -> Ended {
+    if status.success() {
+        return Ended::Well;
+    }
+    Ended::Badly(match status.code() {
+        Some(code) => format!("it ended with exit code {code}"),
+        None => format!("it was ended: {status}"),
+    })
+}
+
+/// Ends all processes of a run: first they are asked to, as programs that have started others need it. Returns those that
+/// cannot be ended.
+fn end(child: &mut Child) -> io::Result<Vec<Process>> {
+    signal(&living(child.id()), false);
+    if !left(child, GRACE, false)?.is_empty() {
+        left(child, KILLED, true)?;
+    }
+    #[cfg(not(unix))]
+    if child.try_wait()?.is_none() {
+        child.kill()?;
+        child.wait()?;
+    }
+    Ok(living(child.id()))
+}
+
+/// The processes of a run that are left after a while, or sooner if there are none. They may be killed meanwhile.
+fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Process>> {
+    let (started, mut pause) = (Instant::now(), PAUSES[0]);
+    loop {
+        child.try_wait()?;
+        release(child.id());
+        let all = living(child.id());
+        if all.is_empty() || started.elapsed() >= patience {
+            return Ok(all);
+        }
+        if kill {
+            signal(&all, true);
+        }
+        sleep(pause);
+        pause = (pause * 2).min(PAUSES[1]);
+    }
+}
+
+/// A program that is named by a path has it from the folder that it is run in; another one is looked for.
+fn named(program: &OsString, directory: &Path) -> PathBuf {
+    let path = Path::new(program);
+    if path.components().count() > 1 { directory.join(path) } else { path.to_owned() }
+}
+
+/// Becomes true when the campaign ends, or when a signal asks for it.
+fn stop() -> io::Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in signals() {
+        signal_hook::flag::register(signal, stop.clone())?;
+    }
+    let seen = stop.clone();
+    spawn(move || {
+        let _ = io::copy(&mut io::stdin(), &mut io::sink());
+        seen.store(true, Ordering::Relaxed);
+    });
+    Ok(stop)
+}
+
+/// The signals that ask a process to end: of Ctrl-C, of Ctrl-\, of `kill`, and of a terminal that is closed unless `nohup`
+/// had it ignored.
+pub fn signals() -> impl Iterator<Item = i32> {
+    #[cfg(unix)]
+    let more = Some(signal_hook::consts::SIGHUP).filter(|signal| !is_ignored(*signal));
+    #[cfg(not(unix))]
+    let more = None;
+    signal_hook::consts::TERM_SIGNALS.iter().copied().chain(more)
+}
+
+/// Whether this process ignores a signal, as Linux has it.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok());
+    ignored.is_some_and(|signals| signals & (1 << (signal - 1)) != 0)
+}
+
+/// The file that says whether something of a run may be at work: it is the stderr of a supervisor.
+fn running() -> io::Result<File> {
+    #[cfg(unix)]
+    let file = std::os::fd::AsFd::as_fd(&io::stderr()).try_clone_to_owned()?;
+    #[cfg(not(unix))]
+    let file = std::os::windows::io::AsHandle::as_handle(&io::stderr()).try_clone_to_owned()?;
+    Ok(file.into())
+}
+
+/// Puts a process into a group of its own, which Ctrl-C at a terminal does not reach.
+pub fn alone(command: &mut Command) {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    #[cfg(not(unix))]
+    let _ = command;
+}

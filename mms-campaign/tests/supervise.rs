@@ -1,0 +1,10 @@
+//! A supervisor, as `mms` is one.
+
+use std::process::ExitCode;
+
+use mms_campaign::supervisor;
+
+fn main() -> ExitCode {
+    let arguments = supervisor::asked(std::env::args_os()).unwrap_or_default();
+    supervisor::run(&arguments)
+}
