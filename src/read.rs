@@ -26,8 +26,6 @@ pub enum Kind {
     Study,
     /// How a solver is run.
     Campaign,
-    /// A program, or what it is given.
-    Program,
     /// A table of errors.
     Errors,
     /// What a solver wrote.
@@ -51,7 +49,6 @@ impl Kind {
             Kind::Field => "a field or material file",
             Kind::Study => "a study file",
             Kind::Campaign => "a campaign file",
-            Kind::Program => "a program or its input",
             Kind::Errors => "a table of errors",
             Kind::Results => "a file of results",
             Kind::Result => "a result",
@@ -66,7 +63,7 @@ impl Kind {
     pub fn most(self) -> u64 {
         match self {
             Kind::Field | Kind::Study | Kind::Campaign | Kind::Errors => MAX_FILE as u64,
-            Kind::Result | Kind::Stored | Kind::States | Kind::Program => 16 << 20,
+            Kind::Result | Kind::Stored | Kind::States => 16 << 20,
             Kind::State | Kind::Object => 256 << 20,
             Kind::Results => 8 << 30,
         }
@@ -82,7 +79,6 @@ impl Kind {
             Kind::Campaign => {
                 "is it the file that was meant? it has [solver] and a [[study]] for each field"
             }
-            Kind::Program => "it is told from others by when it was written",
             Kind::Errors => "is it the file that was meant? it has a row for each run",
             Kind::Results => "write fewer times to a file, or fewer quantities",
             Kind::Result => "write fewer things to one document, as with `--quantity` or `--row`",

@@ -114,6 +114,14 @@ impl Store {
         self.read(&self.path(&key, "json"), Some(&key))
     }
 
+    /// Sets the result of a key aside, for a reason that is said.
+    ///
+    /// # Errors
+    /// A file that cannot be renamed.
+    pub fn distrust(&self, key: &impl Serialize, reason: &str) -> anyhow::Result<String> {
+        set_aside(&self.path(&serde_json::to_string(key)?, "json"), reason)
+    }
+
     /// Stores the result of a key.
     ///
     /// # Errors
@@ -280,16 +288,39 @@ pub fn program() -> anyhow::Result<String> {
 }
 
 /// 128 bits of texts one after the other, in hexadecimal.
+pub fn digest<const N: usize>(texts: [impl AsRef<[u8]>; N]) -> String {
+    let mut digest = Digest::default();
+    for text in texts {
+        digest.add(text.as_ref());
+        digest.add(&[0xff]);
+    }
+    digest.text()
+}
+
+/// 128 bits of what is added, piece by piece.
 ///
 /// Fowler, Noll, Vo, Eastlake, "The FNV non-cryptographic hash algorithm", FNV-1a. It finds accidents, not
 /// attacks.
-pub fn digest<const N: usize>(texts: [impl AsRef<[u8]>; N]) -> String {
-    const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
-    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
-    let step = |hash: u128, byte: u8| (hash ^ u128::from(byte)).wrapping_mul(PRIME);
-    let separated = |text: &[u8]| text.iter().copied().chain([0xff]).collect::<Vec<_>>();
-    let bytes = texts.iter().flat_map(|text| separated(text.as_ref()));
-    format!("{:032x}", bytes.fold(OFFSET, step))
+pub struct Digest(u128);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Digest(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d)
+    }
+}
+
+impl Digest {
+    /// Adds a piece.
+    pub fn add(&mut self, bytes: &[u8]) {
+        const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+        let step = |hash: u128, byte: &u8| (hash ^ u128::from(*byte)).wrapping_mul(PRIME);
+        self.0 = bytes.iter().fold(self.0, step);
+    }
+
+    /// The digest, in hexadecimal.
+    pub fn text(&self) -> String {
+        format!("{:032x}", self.0)
+    }
 }
 
 #[cfg(test)]

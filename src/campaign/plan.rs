@@ -1,5 +1,6 @@
 //! The runs of a campaign.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
@@ -15,14 +16,16 @@ use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
 use serde::Serialize;
 
+use super::dependencies::{self, Dependencies, Dependency, UNKNOWN};
+use super::digests::Digests;
+use super::sources;
+
 use crate::judge::results::weight;
 use crate::judge::table::{Order, Orders};
-use crate::read::{self, Kind};
 use crate::session::input::{Input, Variant, quantities};
 use crate::session::method::hold_division;
 use crate::session::stability::sound;
 use crate::state::points::PER_CELL;
-use crate::store::digest;
 
 /// A campaign, ready to be run.
 pub struct Plan {
@@ -34,6 +37,8 @@ pub struct Plan {
     pub target: Option<&'static Target>,
     /// The studies that were asked for.
     pub studies: Vec<Planned>,
+    /// The digests of the files that runs depend on.
+    pub digests: Digests,
 }
 
 /// A study, with what its words mean.
@@ -87,6 +92,8 @@ pub struct Job {
     pub steps: u64,
     /// What its result depends on.
     pub key: Key,
+    /// The files among that.
+    pub dependencies: Vec<Dependency>,
 }
 
 /// Everything that the result of a run depends on.
@@ -102,8 +109,10 @@ pub struct Key {
     pub directory: String,
     /// Which files are its results.
     pub output: String,
-    /// Digests of the files that words of the command name, and of those that the file lists.
-    pub files: Vec<(String, String)>,
+    /// Digests of the files that the command starts or names, and of those that the file lists.
+    pub files: BTreeMap<String, String>,
+    /// The folder of the file, where something may be started that has no digest.
+    pub folder: Option<String>,
     /// The language that the field is written in.
     pub emit: Option<&'static str>,
     /// The exact state that it starts from, where it gets one.
@@ -159,7 +168,8 @@ impl Plan {
         hold_only(&campaign, only)?;
         let here = folder_of(path)?;
         let target = target(&campaign)?;
-        let sources = sources(&campaign, &here)?;
+        let digests = Digests::default();
+        let sources = sources(&campaign, &here, &digests)?;
         let mut studies = Vec::new();
         for study in &campaign.studies {
             let is_asked = |level: &usize| {
@@ -167,12 +177,13 @@ impl Plan {
             };
             let levels: Vec<usize> = (1..=study.levels()).filter(is_asked).collect();
             if !levels.is_empty() {
+                let (campaign, here) = (&campaign, here.as_path());
                 let setting =
-                    Setting { campaign: &campaign, here: &here, target, sources: &sources };
+                    Setting { campaign, here, target, sources: &sources, digests: &digests };
                 studies.push(setting.planned(study, &levels)?);
             }
         }
-        Ok(Plan { campaign, here, target, studies })
+        Ok(Plan { campaign, here, target, studies, digests })
     }
 }
 
@@ -218,22 +229,13 @@ fn target(campaign: &Campaign) -> anyhow::Result<Option<&'static Target>> {
     })
 }
 
-/// The files that results depend on besides, each with a digest of what is in it.
-fn sources(campaign: &Campaign, here: &Path) -> anyhow::Result<Vec<(String, String)>> {
+/// The files that the campaign file lists.
+fn sources(campaign: &Campaign, here: &Path, digests: &Digests) -> anyhow::Result<Vec<Dependency>> {
     let mut all = Vec::new();
     for word in &campaign.solver.sources {
-        let missing = |why: &str| campaign.mistake(word.span, format!("`sources`: {why}"), "this");
-        let pattern = Path::new(&glob::Pattern::escape(&text(here)?)).join(&word.value);
-        let found = glob::glob(&text(&pattern)?).map_err(|error| missing(error.msg))?;
-        let files = found.filter_map(Result::ok).filter_map(|path| {
-            let digest = content(&path)?;
-            Some((path.strip_prefix(here).unwrap_or(&path).to_string_lossy().into_owned(), digest))
-        });
-        let before = all.len();
-        all.extend(files);
-        if all.len() == before {
-            return Err(missing("there is no such file").into());
-        }
+        let found = sources::files(here, &word.value)
+            .map_err(|why| campaign.mistake(word.span, format!("`sources`: {why}"), "this"))?;
+        all.extend(found.iter().filter_map(|path| Dependency::new(path, here, digests)));
     }
     Ok(all)
 }
@@ -243,7 +245,8 @@ struct Setting<'a> {
     campaign: &'a Campaign,
     here: &'a Path,
     target: Option<&'static Target>,
-    sources: &'a [(String, String)],
+    sources: &'a [Dependency],
+    digests: &'a Digests,
 }
 
 impl Setting<'_> {
@@ -354,7 +357,8 @@ impl Place<'_> {
             command: Vec::new(),
             directory: String::new(),
             output: String::new(),
-            files: Vec::new(),
+            files: BTreeMap::new(),
+            folder: None,
             emit: self.setting.target.map(|target| target.name),
             state: self
                 .setting
@@ -365,7 +369,8 @@ impl Place<'_> {
             field: self.input.compiled.input_hash(),
             set: study.set.clone(),
         };
-        let job = Job { name, level, cells, cell_size, time_step, steps, key };
+        let job =
+            Job { name, level, cells, cell_size, time_step, steps, key, dependencies: Vec::new() };
         Ok(self.with_command(job))
     }
 
@@ -397,15 +402,30 @@ impl Place<'_> {
         let command: Vec<String> = solver.run.iter().map(|word| word.fill(value)).collect();
         let directory = solver.directory.as_ref().map_or("{here}".to_owned(), |it| it.fill(value));
         let output = solver.output.fill(value);
-        let named = |word: &String| {
-            let path = here.join(word.replace("{here}", &here.to_string_lossy()));
-            Some((word.clone(), content(&path)?))
-        };
-        let named = command.iter().filter_map(named);
-        job.key.files = named.chain(self.setting.sources.iter().cloned()).collect();
+        let found = self.dependencies(&job);
+        job.key.folder = (!found.is_complete).then(|| here.to_string_lossy().into_owned());
+        job.dependencies =
+            found.files.into_values().chain(self.setting.sources.iter().cloned()).collect();
+        let digest = |it: &Dependency| (it.name.clone(), it.content.text().to_owned());
+        job.key.files = job.dependencies.iter().map(digest).collect();
         job.key.solver = solver.version.clone();
         (job.key.command, job.key.directory, job.key.output) = (command, directory, output);
         job
+    }
+
+    /// The files that the command of a run depends on.
+    fn dependencies(&self, job: &Job) -> Dependencies {
+        let Setting { campaign, here, digests, .. } = *self.setting;
+        let value = |it: Placeholder| match it {
+            Placeholder::Here => here.to_string_lossy().into_owned(),
+            it if it.is_path() => UNKNOWN.to_string(),
+            it => self.value(job, it),
+        };
+        let solver = &campaign.solver;
+        let words: Vec<String> = solver.run.iter().map(|word| word.fill(value)).collect();
+        let directory = solver.directory.as_ref().map_or(String::new(), |it| it.fill(value));
+        let directory = (!directory.contains(UNKNOWN)).then(|| here.join(directory));
+        dependencies::Place { here, directory: directory.as_deref(), digests }.dependencies(&words)
     }
 
     fn value(&self, job: &Job, placeholder: Placeholder) -> String {
@@ -474,16 +494,6 @@ impl Planned {
             Placeholder::Here => paths.here.clone(),
             other => value((&self.study, &self.input, self.per_cell), self.window, job, other),
         }
-    }
-}
-
-/// What is in a file that a word names, if it names one: a program or an input that has changed makes another run.
-fn content(path: &Path) -> Option<String> {
-    let found = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-    match read::bytes(path, Kind::Program) {
-        Ok(bytes) => Some(digest([bytes])),
-        // One that is too long is told from others by when it was written.
-        Err(_) => Some(format!("{} bytes, {:?}", found.len(), found.modified().ok())),
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
-use anyhow::{Context as _, anyhow};
+use anyhow::{Context as _, anyhow, ensure};
 use mms_campaign::process::{Folder, Order};
 use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
@@ -15,8 +15,10 @@ use mms_runtime::Division;
 use mms_spec::foreign;
 use serde::{Deserialize, Serialize};
 
+use super::digests::Content;
 use super::plan::{Job, Paths, Plan, Planned, text};
 use crate::judge::results::Results;
+use crate::read::{self, Kind};
 use crate::report::write_own;
 use crate::session::exact::Exact;
 use crate::shell::quoted;
@@ -34,8 +36,8 @@ pub struct Finished {
     pub folder: String,
     /// How long it took.
     pub seconds: f64,
-    /// Its results, each with how many bytes it has.
-    pub results: Vec<(String, u64)>,
+    /// The files of its results, each with its digest.
+    pub results: Vec<(String, String)>,
     /// The names of processes that it left behind, which were ended.
     pub left_behind: Vec<String>,
 }
@@ -110,36 +112,61 @@ impl<'a> Work<'a> {
         Ok(self.plan.studies.iter().map(|it| done.by_ref().take(it.jobs.len()).collect()).collect())
     }
 
-    /// What is stored of a run, if its results are still there.
+    /// What is stored of a run, if its results are still there. One whose results have changed is set aside.
     ///
     /// # Errors
-    /// The store cannot be read.
-    pub fn stored(&self, job: &Job) -> anyhow::Result<Option<Finished>> {
-        Ok(match self.store.load::<Finished>(&job.key)? {
-            Entry::Stored(finished) => Some(finished).filter(|it| self.is_there(it)),
-            Entry::Missing => None,
-            Entry::SetAside(what) => {
-                self.watcher.set_aside(&what);
-                None
-            }
-        })
+    /// The store cannot be read, or a file in it cannot be renamed.
+    pub fn stored(&self, planned: &Planned, job: &Job) -> anyhow::Result<Option<Finished>> {
+        let said = match self.store.load::<Finished>(&job.key)? {
+            Entry::Missing => return Ok(None),
+            Entry::SetAside(said) => said,
+            Entry::Stored(finished) => match self.fault(planned, job, &finished)? {
+                None => return Ok(Some(finished)),
+                Some(Fault::Missing) => return Ok(None),
+                Some(Fault::Changed(path)) => {
+                    let reason = format!("`{}` has changed since the run", foreign::path(&path));
+                    self.store.distrust(&job.key, &reason)?
+                }
+            },
+        };
+        self.watcher.set_aside(&said);
+        Ok(None)
     }
 
-    fn is_there(&self, finished: &Finished) -> bool {
+    /// The first thing that is wrong with the results of a run: a file is gone, another one, or more than there was.
+    fn fault(
+        &self,
+        planned: &Planned,
+        job: &Job,
+        finished: &Finished,
+    ) -> anyhow::Result<Option<Fault>> {
         let folder = self.folder.join(&finished.folder);
-        finished.results.iter().all(|(path, length)| {
-            folder.join(path).metadata().is_ok_and(|found| found.len() == *length)
+        let wrong = finished.results.iter().find_map(|(path, digest)| {
+            let path = folder.join(path);
+            match self.plan.digests.of(&path) {
+                None => Some(Fault::Missing),
+                Some(found) => (found.text() != digest).then_some(Fault::Changed(path)),
+            }
+        });
+        if wrong.is_some() {
+            return Ok(wrong);
+        }
+        let is_new =
+            |path: &PathBuf| finished.results.iter().all(|(own, _)| folder.join(own) != *path);
+        Ok(match Results::paths(&self.results_of(planned, job, finished)?) {
+            Ok(paths) => paths.into_iter().find(is_new).map(Fault::Changed),
+            Err(_) => Some(Fault::Missing),
         })
     }
 
     /// What came of a run; nothing, if another process is at it and there is to be no waiting.
     fn outcome(&self, planned: &Planned, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
-        if let Some(finished) = self.stored(job)? {
+        if let Some(finished) = self.stored(planned, job)? {
             return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
         }
         let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
         // Whoever held the claim before may have finished.
-        if let Some(finished) = self.stored(job)? {
+        if let Some(finished) = self.stored(planned, job)? {
             return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
         }
         if self.watcher.is_interrupted() {
@@ -172,13 +199,26 @@ impl<'a> Work<'a> {
         if let Err(error) = self.prepare(planned, job, &paths) {
             return Ok(failed(format!("it was not started: {error:#}")));
         }
+        let changed = || {
+            let found = job.dependencies.iter().find(|it| it.has_changed(&self.plan.digests));
+            found.map(|it| foreign::shown(&it.name))
+        };
+        if let Some(name) = changed() {
+            return Ok(failed(format!(
+                "it was not started: `{name}` has changed since the campaign began; the same command takes it as it is now"
+            )));
+        }
         let started = Instant::now();
         let Report { ended, left_behind } = self.start(planned, job, &paths, &folder)?;
         let seconds = started.elapsed().as_secs_f64();
-        Ok(match ended {
-            Ended::Interrupted => Outcome::Interrupted,
-            Ended::Badly(reason) => failed(reason + &left_behind_too(&left_behind)),
-            Ended::Well => match self.results(planned, job, &paths, &folder.path) {
+        Ok(match (ended, changed()) {
+            (Ended::Interrupted, _) => Outcome::Interrupted,
+            (Ended::Badly(reason), _) => failed(reason + &left_behind_too(&left_behind)),
+            (Ended::Well, Some(name)) => failed(format!(
+                "`{name}` changed while it ran, so nobody knows of which its results are; what a run writes belongs into \
+                 {{output}}"
+            )),
+            (Ended::Well, None) => match self.results(planned, job, &paths, &folder.path) {
                 Ok(results) => {
                     Outcome::Finished(Finished { folder: own, seconds, results, left_behind })
                 }
@@ -298,23 +338,37 @@ impl<'a> Work<'a> {
         self.given(planned, job, &paths)
     }
 
-    /// The files with the results of a run, which have to be there.
+    /// The files with the results of a run, which have to be there and whole: all that judging them would read.
     fn results(
         &self,
         planned: &Planned,
         job: &Job,
         paths: &Paths,
         folder: &Path,
-    ) -> anyhow::Result<Vec<(String, u64)>> {
-        let found = Results::paths(&self.given(planned, job, paths)?)?;
-        let file = |path: &PathBuf| {
-            let length = path
-                .metadata()
-                .with_context(|| format!("cannot look at `{}`", foreign::path(path)))?
-                .len();
-            Ok((text(path.strip_prefix(folder).unwrap_or(path))?, length))
+    ) -> anyhow::Result<Vec<(String, String)>> {
+        let found = Mutex::new(BTreeMap::new());
+        let open = |path: &Path| {
+            let bytes = read::bytes(path, Kind::Results);
+            let bytes = bytes.map_err(|error| format!("cannot read it: {error}"))?;
+            let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
+            found.insert(path.to_owned(), self.plan.digests.of(path));
+            Ok(bytes)
         };
-        found.iter().map(file).collect()
+        for path in Results::paths(&self.given(planned, job, paths)?)? {
+            ensure!(
+                path.metadata().is_ok_and(|it| it.len() > 0),
+                "`{}` is empty",
+                foreign::path(&path)
+            );
+            mms_results::read(&path, &open).map_err(|mistake| anyhow!("{mistake}"))?;
+        }
+        let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let file = |(path, content): (PathBuf, Option<Content>)| {
+            let content = content.with_context(|| read::cannot_read(&path))?;
+            let own = path.strip_prefix(folder).unwrap_or(&path);
+            Ok((text(own)?, content.text().to_owned()))
+        };
+        found.into_iter().map(file).collect()
     }
 
     /// The words of a run, in the folder that it has if it is the first.
@@ -326,6 +380,14 @@ impl<'a> Work<'a> {
         let words = self.plan.campaign.solver.run.iter();
         Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
     }
+}
+
+/// What is wrong with the results of a run.
+enum Fault {
+    /// A file is gone.
+    Missing,
+    /// A file is not what the run wrote, or not from the run.
+    Changed(PathBuf),
 }
 
 /// This program, which supervises runs; also where its file has been replaced.

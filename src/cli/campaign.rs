@@ -31,10 +31,13 @@ use crate::store::Store;
 /// {time_step}, {steps}, {start}, {end}, {output}, {emitted}, {state} and {here}; docs/guide/campaign.md has them all.
 /// Before a run `emit` writes the source of the field, and `state`, or {state}, the exact state at the start.
 ///
-/// Each run has a folder of its own in the store, with what it printed, and is kept when it has come to its end: nothing
-/// is done twice unless the command, a file that it names, the field or a version changes. Interrupted or killed, the
-/// same command goes on with what is left. A run that fails is named with the last lines that it printed, ends no other,
-/// and is tried again the next time.
+/// Each run has a folder of its own in the store, with what it printed. It is done when its command has ended well and its
+/// results can be read. No run is made twice unless something changes that it depends on: the command, the program that it
+/// starts, a file that it names or that `sources` lists, the field, a version, or the results themselves.
+///
+/// Processes that a solver leaves behind are ended and named. Ctrl-C, Ctrl-\ and whatever else ends the campaign end its
+/// runs; the same command goes on with what is left. A run that fails is named with the last lines that it printed, ends no
+/// other, and is tried again the next time.
 ///
 /// Exit codes: 0 all studies pass; 1 another verdict; 2 bad usage, or a bad file; 3 a run failed, or has no results that can be judged.
 #[derive(Args)]
@@ -191,7 +194,7 @@ impl Campaign {
         let (mut lines, mut documents) = (Vec::new(), Vec::new());
         for planned in &work.plan.studies {
             for job in &planned.jobs {
-                let is_done = work.stored(job)?.is_some();
+                let is_done = work.stored(planned, job)?.is_some();
                 if let Some((line, document)) = say_of(planned, job, is_done)? {
                     lines.push(line);
                     documents.push(document);

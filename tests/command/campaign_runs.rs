@@ -3,7 +3,7 @@
 #![cfg(unix)]
 
 use std::fs::{self, Permissions};
-use std::os::unix::fs::PermissionsExt as _;
+use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
@@ -33,6 +33,11 @@ fn program(folder: &Folder, name: &str, text: &str) {
     fs::set_permissions(folder.path(name), Permissions::from_mode(0o755)).expect("permissions");
 }
 
+/// How many runs were made.
+fn count(folder: &Folder) -> usize {
+    fs::read_to_string(folder.path("log.txt")).unwrap_or_default().lines().count()
+}
+
 /// Runs a campaign of one run, which is then done, but one mesh is not enough for a verdict.
 fn done(folder: &Folder, file: &str) -> Run {
     let path =
@@ -40,6 +45,135 @@ fn done(folder: &Folder, file: &str) -> Run {
     let run = folder.run_with(&["campaign", file, "--store", "store"], |it| it.env("PATH", path));
     run.prints("1 of 1 runs are done");
     run.exits(1)
+}
+
+#[test]
+fn a_run_is_made_again_if_what_it_starts_is_another_program() {
+    // The command, where it is run, and the file that is really run.
+    let cases = [
+        ("./solve {output}", "build", "build/solve"),
+        ("./solve {output}", "{here}/build", "build/solve"),
+        ("build/solve {output}", "", "build/solve"),
+        ("./link {output}", "", "build/solve"),
+        ("sh solve {output}", "build", "build/solve"),
+        ("env A=1 sh solve {output}", "build", "build/solve"),
+        ("sh -c './solve {output} 2> log' ", "build", "build/solve"),
+        ("sh -c 'cd build && ./solve {output}'", "", "build/solve"),
+        ("sh {here}/build/solve {output}", "{output}", "build/solve"),
+        ("own_solver {output}", "", "bin/own_solver"),
+        ("env own_solver {output}", "build", "bin/own_solver"),
+        ("./script {output}", "", "bin/own_solver"),
+    ];
+    for (run, directory, file) in cases {
+        let folder = Folder::new();
+        program(&folder, "build/solve", &solver(&folder, "one"));
+        program(&folder, "bin/own_solver", &solver(&folder, "one"));
+        program(&folder, "script", "#!/usr/bin/env own_solver\n");
+        symlink("build/solve", folder.path("link")).expect("a link");
+        // The script is its interpreter's first argument.
+        let text = match run.starts_with("./script") {
+            true => solver(&folder, "one").replace("$1", "$2"),
+            false => solver(&folder, "one"),
+        };
+        program(&folder, file, &text);
+        let more = if directory.is_empty() {
+            String::new()
+        } else {
+            format!("directory = \"{directory}\"")
+        };
+        folder.write("c.toml", &campaign(run, &more));
+        done(&folder, "c.toml");
+        done(&folder, "c.toml");
+        assert_eq!(count(&folder), 1, "{run}: nothing is done twice");
+        program(&folder, file, &text.replace("# one", "# two"));
+        done(&folder, "c.toml");
+        assert_eq!(count(&folder), 2, "{run} in {directory}: another {file}");
+    }
+}
+
+/// Two folders with one store: results are those of the solver that lies there.
+#[test]
+fn a_second_checkout_is_judged_by_its_own_solver() {
+    for (run, is_shared) in [("./solve {output}", true), ("sh -c '. $0/solve' . {output}", false)] {
+        let folder = Folder::new();
+        for (checkout, comment) in [("first", "one"), ("second", "two"), ("third", "one")] {
+            program(&folder, &format!("{checkout}/build/solve"), &solver(&folder, comment));
+            let file = format!("{checkout}/c.toml");
+            folder.write(&file, &campaign(run, "directory = \"build\""));
+            done(&folder, &file);
+        }
+        // Where nothing says what is started, each folder has results of its own.
+        assert_eq!(count(&folder), if is_shared { 2 } else { 3 }, "{run}");
+    }
+}
+
+#[test]
+fn a_solver_that_changes_while_it_runs_has_no_result() {
+    let folder = Folder::new();
+    program(&folder, "solve", &format!("{}echo '# more' >> \"$0\"\n", solver(&folder, "one")));
+    folder.write("c.toml", &campaign("./solve {output}", ""));
+    let run = folder.mms("campaign c.toml").exits(3);
+    run.prints("bar_1d/1 failed: `solve` changed while it ran").prints("0 of 1 runs are done");
+}
+
+#[test]
+fn sources_have_a_bound() {
+    let folder = Folder::new();
+    folder.write("c.toml", &campaign("./solve {output}", "sources = [\"/**/*\"]"));
+    let run = folder.mms("campaign c.toml --dry-run").exits(2);
+    run.complains("c.toml:4:12").complains("name a folder nearer to the sources, as in");
+}
+
+#[test]
+fn empty_and_cut_results_are_not_done() {
+    for (first, why) in [
+        (": > \"$2/u.vtu\"", "u.vtu` is empty"),
+        ("head -c 3000 \"$1\" > \"$2/u.vtu\"", "it ended well, but "),
+        ("echo > \"$2/u.vtu\"", "it ended well, but "),
+    ] {
+        let folder = Folder::new();
+        let rest = "if [ -e once ]; then cp \"$1\" \"$2/u.vtu\"; else touch once; CUT; fi";
+        folder.write("solve.sh", &format!("echo run >> log.txt\n{}\n", rest.replace("CUT", first)));
+        let text = campaign("sh solve.sh {state} {output}", "");
+        folder.write("c.toml", &text.replace("u.csv", "u.vtu"));
+        let run = folder.mms("campaign c.toml --store store").exits(3);
+        run.prints("0 of 1 runs are done").prints(why);
+        done(&folder, "c.toml");
+        done(&folder, "c.toml");
+        assert_eq!(count(&folder), 2, "{first}");
+    }
+}
+
+#[test]
+fn a_result_that_was_changed_after_its_run_is_noticed() {
+    let folder = Folder::new();
+    program(&folder, "solve", &solver(&folder, "one"));
+    folder.write("c.toml", &campaign("./solve {output}", ""));
+    done(&folder, "c.toml");
+    let result = result(&folder, "u.csv");
+    let text = fs::read_to_string(&result).expect("a result");
+    // As long as before.
+    fs::write(&result, text.replace("0.15", "0.16")).expect("written");
+    let run = done(&folder, "c.toml");
+    run.complains("is not trusted: `")
+        .complains("output/u.csv` has changed since the run; it is now `");
+    assert_eq!((count(&folder), fs::read_to_string(&result).expect("a result")), (2, text));
+    // A folder with results may have more than there was.
+    folder.write("c.toml", &campaign("./solve {output}", "").replace("/u.csv", ""));
+    done(&folder, "c.toml");
+    done(&folder, "c.toml");
+    assert_eq!(count(&folder), 3);
+    let second = result_folders(&folder).into_iter().find(|it| !result.starts_with(it));
+    fs::write(second.expect("a folder").join("v.csv"), "X,u\n0.5,0.15\n").expect("written");
+    done(&folder, "c.toml").complains("output/v.csv` has changed since the run");
+    assert_eq!(count(&folder), 4);
+}
+
+/// The folders of results below the store.
+fn result_folders(folder: &Folder) -> Vec<PathBuf> {
+    let found = Command::new("find").arg(folder.path("store")).args(["-name", "output"]).output();
+    let found = String::from_utf8(found.expect("find").stdout).expect("UTF-8");
+    found.lines().map(PathBuf::from).collect()
 }
 
 /// The one file of this name below the store.

@@ -1,0 +1,97 @@
+//! Digests of files, each computed once unless the file changes.
+
+use std::collections::BTreeMap;
+use std::fs::Metadata;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
+
+use crate::read;
+use crate::store::Digest;
+
+/// The most bytes that a file may have for its digest: 1 GiB takes some seconds.
+pub const MOST: u64 = 1 << 30;
+
+/// What tells the content of a file from another one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// The digest of its bytes.
+    Digest(String),
+    /// Its length and when it was changed, where it cannot be read or is too long.
+    Dated(String),
+}
+
+impl Content {
+    /// The text for keys.
+    pub fn text(&self) -> &str {
+        match self {
+            Content::Digest(text) | Content::Dated(text) => text,
+        }
+    }
+}
+
+/// What changes whenever the content of a file does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Stamp {
+    length: u64,
+    modified: Option<SystemTime>,
+    /// The number of the file and when the system changed anything of it, which no program can set.
+    inode: (u64, u64, i64, i64),
+}
+
+impl Stamp {
+    fn of(found: &Metadata) -> Self {
+        #[cfg(unix)]
+        let inode = {
+            use std::os::unix::fs::MetadataExt as _;
+            (found.dev(), found.ino(), found.ctime(), found.ctime_nsec())
+        };
+        #[cfg(not(unix))]
+        let inode = (0, 0, 0, 0);
+        Stamp { length: found.len(), modified: found.modified().ok(), inode }
+    }
+}
+
+/// The digests that are known.
+#[derive(Default)]
+pub struct Digests(Mutex<BTreeMap<PathBuf, (Stamp, Content)>>);
+
+impl Digests {
+    /// What is in a plain file; nothing, if it is none.
+    pub fn of(&self, path: &Path) -> Option<Content> {
+        let found = path.metadata().ok().filter(Metadata::is_file)?;
+        let stamp = Stamp::of(&found);
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        match known.get(path) {
+            Some((then, content)) if *then == stamp => Some(content.clone()),
+            _ => {
+                let content = digest(path, found.len()).map_or_else(
+                    || Content::Dated(format!("{} bytes, {:?}", stamp.length, stamp.modified)),
+                    Content::Digest,
+                );
+                known.insert(path.to_owned(), (stamp, content.clone()));
+                Some(content)
+            }
+        }
+    }
+}
+
+/// The digest of a file of this length. Of an empty one nothing is read: in `/proc` such files may wait for ever.
+fn digest(path: &Path, length: u64) -> Option<String> {
+    let mut digest = Digest::default();
+    if length > MOST {
+        return None;
+    }
+    if length > 0 {
+        let mut file = read::open(path).ok()?.take(MOST);
+        let mut buffer = vec![0; 1 << 16];
+        loop {
+            match file.read(&mut buffer).ok()? {
+                0 => break,
+                count => digest.add(&buffer[..count]),
+            }
+        }
+    }
+    Some(digest.text())
+}
