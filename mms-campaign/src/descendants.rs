@@ -5,13 +5,15 @@
 
 use std::fmt;
 
-/// A process, or a process group.
+/// A process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Process {
-    /// The number of the process; that of a group is negative, as `kill` takes it.
+    /// Its number.
     pub number: i32,
     /// Its name, as the system has it.
     pub name: String,
+    /// Its process group, if all of that are descendants as well.
+    pub group: Option<i32>,
 }
 
 impl fmt::Display for Process {
@@ -29,28 +31,41 @@ pub fn adopt() {
     }
 }
 
-/// Releases adopted processes that have ended; not the child of this number, which has its own waiter.
+/// Releases adopted processes that have ended; not the child of this number, which has its own waiter. Whether any child
+/// remains: no list of processes is as sure, for they may come and go while it is made.
 #[cfg(target_os = "linux")]
-pub fn release(child: u32) {
+pub fn remain(child: u32) -> bool {
     use nix::sys::wait::{Id, WaitPidFlag, waitid, waitpid};
     let look = WaitPidFlag::WEXITED | WaitPidFlag::WNOHANG | WaitPidFlag::WNOWAIT;
-    while let Some(ended) = waitid(Id::All, look).ok().and_then(|status| status.pid()) {
-        if ended.as_raw() == child as i32 || waitpid(ended, Some(WaitPidFlag::WNOHANG)).is_err() {
-            break;
+    loop {
+        let Ok(status) = waitid(Id::All, look) else { return false };
+        match status.pid() {
+            Some(ended) if ended.as_raw() != child as i32 => {
+                let _ = waitpid(ended, Some(WaitPidFlag::WNOHANG));
+            }
+            _ => return true,
         }
     }
 }
 
-#[cfg(not(target_os = "linux"))]
-pub fn release(_: u32) {}
+#[cfg(all(unix, not(target_os = "linux")))]
+pub fn remain(child: u32) -> bool {
+    nix::sys::signal::kill(pid(-(child as i32)), None).is_ok()
+}
 
-/// The living descendants of this process; `group` is the process group of the run.
+#[cfg(not(unix))]
+pub fn remain(_: u32) -> bool {
+    false
+}
+
+/// The living descendants of this process, as far as they can be seen. The process group of the run has the number of
+/// its first process.
 #[cfg(unix)]
-pub fn living(group: u32) -> Vec<Process> {
-    descendants().unwrap_or_else(|| {
-        let group = Process { number: -(group as i32), name: "its process group".to_owned() };
-        let is_there = nix::sys::signal::kill(nix::unistd::Pid::from_raw(group.number), None);
-        is_there.map(|()| group).into_iter().collect()
+pub fn living(first: u32) -> Vec<Process> {
+    let first = first as i32;
+    descendants(first).unwrap_or_else(|| {
+        let group = Some(first);
+        vec![Process { number: first, name: "its process group".to_owned(), group }]
     })
 }
 
@@ -61,45 +76,72 @@ pub fn living(_: u32) -> Vec<Process> {
 
 /// The descendants of this process, as `/proc` has them.
 #[cfg(unix)]
-fn descendants() -> Option<Vec<Process>> {
+fn descendants(first: i32) -> Option<Vec<Process>> {
     let own = i32::try_from(std::process::id()).ok()?;
     let entries = std::fs::read_dir("/proc").ok()?.flatten();
     let lines = entries.filter_map(|it| std::fs::read_to_string(it.path().join("stat")).ok());
-    let all: Vec<(Process, i32)> = lines.filter_map(|line| parsed(&line)).collect();
-    all.iter().find(|(process, _)| process.number == own)?;
+    let all: Vec<Row> = lines.filter_map(|line| Row::parse(&line)).collect();
+    let session = all.iter().find(|row| row.number == own)?.session;
     let mut found: Vec<Process> = Vec::new();
     let mut parents = vec![own];
     while let Some(parent) = parents.pop() {
-        let children = all.iter().filter(|(_, of)| *of == parent).map(|(it, _)| it);
-        parents.extend(children.clone().map(|it| it.number));
-        found.extend(children.cloned());
+        for row in all.iter().filter(|row| row.parent == parent) {
+            parents.push(row.number);
+            // In this session others may have joined a group.
+            let is_ours = row.session != session || row.group == first;
+            let group = is_ours.then_some(row.group);
+            found.push(Process { number: row.number, name: row.name.clone(), group });
+        }
     }
     Some(found)
 }
 
-/// A living process and the number of its parent, from a line such as `12 (name) S 11 ..`.
+/// A living process, as `/proc` has it.
 #[cfg(unix)]
-fn parsed(stat: &str) -> Option<(Process, i32)> {
-    // A name may hold blanks and brackets.
-    let (head, rest) = stat.rsplit_once(')')?;
-    let (number, name) = head.split_once(" (")?;
-    let mut rest = rest.split_whitespace();
-    let state = rest.next()?;
-    let parent = rest.next()?.parse().ok()?;
-    let process = Process { number: number.parse().ok()?, name: name.replace('\n', " ") };
-    (!matches!(state, "Z" | "X")).then_some((process, parent))
+struct Row {
+    number: i32,
+    name: String,
+    parent: i32,
+    group: i32,
+    session: i32,
 }
 
-/// Asks processes to end, or ends them.
+#[cfg(unix)]
+impl Row {
+    /// Reads a line such as `12 (name) S 11 12 10 ..`.
+    fn parse(line: &str) -> Option<Self> {
+        // A name may hold blanks and brackets.
+        let (head, rest) = line.rsplit_once(')')?;
+        let (number, name) = head.split_once(" (")?;
+        let mut rest = rest.split_whitespace();
+        let state = rest.next()?;
+        let mut next = || rest.next()?.parse::<i32>().ok();
+        let (parent, group, session) = (next()?, next()?, next()?);
+        let (number, name) = (number.parse().ok()?, name.replace('\n', " "));
+        (!matches!(state, "Z" | "X")).then_some(Row { number, name, parent, group, session })
+    }
+}
+
+/// Asks processes to end, or ends them; with their groups, as one that forks may be gone when its signal arrives.
 #[cfg(unix)]
 pub fn signal(processes: &[Process], at_once: bool) {
     use nix::sys::signal::{Signal, kill};
     let signal = if at_once { Signal::SIGKILL } else { Signal::SIGTERM };
-    for process in processes {
-        // It may have ended since.
-        let _ = kill(nix::unistd::Pid::from_raw(process.number), signal);
+    let mut groups: Vec<i32> = processes.iter().filter_map(|it| it.group).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    for group in groups {
+        let _ = kill(pid(-group), signal);
+    }
+    for process in processes.iter().filter(|it| it.group.is_none()) {
+        let _ = kill(pid(process.number), signal);
     }
 }
 
 #[cfg(not(unix))]
 pub fn signal(_: &[Process], _: bool) {}
+
+#[cfg(unix)]
+fn pid(number: i32) -> nix::unistd::Pid {
+    nix::unistd::Pid::from_raw(number)
+}

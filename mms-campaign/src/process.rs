@@ -1,6 +1,6 @@
 //! One run of a solver: a process in a folder of its own, with a limit of time.
 //!
-//! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends, by whatever. A folder whose
+//! The run has a [`supervisor`](crate::supervisor), which ends it when the campaign ends, however that does. A folder whose
 //! supervisor was killed itself is never used again: something may still write there.
 
 use std::fs::{self, File, TryLockError};
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use crate::printed::last_lines;
 use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, alone};
 
-/// What is run, and how.
+/// A program to run, its surroundings and its limit.
 pub struct Order<'a> {
     /// The program that supervises if its first argument is [`WORD`].
     pub supervisor: &'a Path,
@@ -87,7 +87,7 @@ impl Drop for Folder {
     }
 }
 
-/// What a supervisor says in the end. Without its stdin it ends the run.
+/// Waits for the report of a supervisor. Without its stdin that ends the run.
 fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report> {
     let (mut stdin, mut pause) = (supervisor.stdin.take(), PAUSES[0]);
     let status = loop {
@@ -111,7 +111,7 @@ fn followed(mut supervisor: Child, stop: &dyn Fn() -> bool) -> io::Result<Report
 }
 
 /// How long a supervisor whose campaign has ended is waited for.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Whether a file could be locked, now or soon.
 fn is_locked(file: &File) -> io::Result<bool> {

@@ -17,7 +17,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::{sleep, spawn};
 use std::time::{Duration, Instant};
 
-use crate::descendants::{Process, adopt, living, release, signal};
+use crate::descendants::{Process, adopt, living, remain, signal};
 use crate::printed;
 
 /// The first argument that makes a supervisor of a program.
@@ -43,7 +43,7 @@ pub enum Ended {
     Interrupted,
 }
 
-/// What a supervisor says of a run.
+/// The report of a supervisor on a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     /// How it ended.
@@ -117,7 +117,10 @@ const KILLED: Duration = Duration::from_secs(5);
 /// How long the last words of a run may be on their way.
 const LAST_WORDS: Duration = Duration::from_secs(1);
 
-/// What is run, and how.
+/// The most processes that are named.
+const MOST_NAMES: usize = 16;
+
+/// A program to run, its folders and its limit.
 struct Run<'a> {
     folder: &'a Path,
     directory: &'a Path,
@@ -127,11 +130,11 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn supervised(&self) -> io::Result<Report> {
+        let [program, arguments @ ..] = self.words else { return Ok(Report::badly("no command")) };
         let stop = stop()?;
         adopt();
         let mut running = running()?;
-        writeln!(running, "process {} supervises what is at work here", std::process::id())?;
-        let [program, arguments @ ..] = self.words else { return Ok(Report::badly("no command")) };
+        writeln!(running, "process {} supervises a run here", std::process::id())?;
         let mut command = Command::new(named(program, self.directory));
         command.args(arguments).current_dir(self.directory).stdin(Stdio::null());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -164,13 +167,17 @@ impl Run<'_> {
             let _ = file.recv_timeout(LAST_WORDS.saturating_sub(started.elapsed()));
         }
         if !staying.is_empty() {
-            let names: Vec<String> = staying.iter().map(Process::to_string).collect();
+            let names = staying.iter().take(MOST_NAMES).map(Process::to_string);
+            let names: Vec<String> = names.collect();
             ended = Ended::Badly(format!(
                 "it left processes that cannot be ended: {}",
                 names.join(", ")
             ));
         }
-        let left_behind = left_behind.into_iter().map(|it| it.name).collect();
+        let others = left_behind.len().saturating_sub(MOST_NAMES);
+        let mut left_behind: Vec<String> =
+            left_behind.into_iter().take(MOST_NAMES).map(|it| it.name).collect();
+        left_behind.extend((others > 0).then(|| format!("{others} others")));
         Ok((Report { ended, left_behind }, staying.is_empty()))
     }
 
@@ -195,7 +202,7 @@ impl Run<'_> {
         let (started, mut pause) = (Instant::now(), PAUSES[0]);
         loop {
             if let Some(status) = child.try_wait()? {
-                return Ok(of(status));
+                return Ok(ended_with(status));
             }
             if stop.load(Ordering::Relaxed) {
                 return Ok(Ended::Interrupted);
@@ -206,14 +213,15 @@ impl Run<'_> {
                 let how = format!("stopped after {seconds} s, its limit (`time_limit`)");
                 return Ok(Ended::Badly(how));
             }
-            release(child.id());
+            remain(child.id());
             sleep(pause.min(left));
             pause = (pause * 2).min(PAUSES[1]);
         }
     }
 }
 
-fn of(status: ExitStatus) -> Ended {
+/// How a program with this status ended.
+fn ended_with(status: ExitStatus) -> Ended {
     if status.success() {
         return Ended::Well;
     }
@@ -227,29 +235,26 @@ fn of(status: ExitStatus) -> Ended {
 /// cannot be ended.
 fn end(child: &mut Child) -> io::Result<Vec<Process>> {
     signal(&living(child.id()), false);
-    if !left(child, GRACE, false)?.is_empty() {
-        left(child, KILLED, true)?;
-    }
-    #[cfg(not(unix))]
-    if child.try_wait()?.is_none() {
-        child.kill()?;
-        child.wait()?;
-    }
-    Ok(living(child.id()))
+    let staying = left(child, GRACE, false)?;
+    if staying.is_empty() { Ok(staying) } else { left(child, KILLED, true) }
 }
 
 /// The processes of a run that are left after a while, or sooner if there are none. They may be killed meanwhile.
 fn left(child: &mut Child, patience: Duration, kill: bool) -> io::Result<Vec<Process>> {
     let (started, mut pause) = (Instant::now(), PAUSES[0]);
     loop {
-        child.try_wait()?;
-        release(child.id());
-        let all = living(child.id());
-        if all.is_empty() || started.elapsed() >= patience {
-            return Ok(all);
-        }
         if kill {
-            signal(&all, true);
+            signal(&living(child.id()), true);
+            #[cfg(not(unix))]
+            let _ = child.kill();
+        }
+        if child.try_wait()?.is_some() && !remain(child.id()) {
+            return Ok(Vec::new());
+        }
+        if started.elapsed() >= patience {
+            let all = living(child.id());
+            let unseen = || Process { number: 0, name: "one that is not seen".into(), group: None };
+            return Ok(if all.is_empty() { vec![unseen()] } else { all });
         }
         sleep(pause);
         pause = (pause * 2).min(PAUSES[1]);
@@ -262,7 +267,7 @@ fn named(program: &OsString, directory: &Path) -> PathBuf {
     if path.components().count() > 1 { directory.join(path) } else { path.to_owned() }
 }
 
-/// Becomes true when the campaign ends, or when a signal asks for it.
+/// A flag that becomes true when the campaign ends, or when a signal asks for it.
 fn stop() -> io::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in signals() {

@@ -17,7 +17,7 @@ pub struct Dependency {
     pub name: String,
     /// Where it is.
     pub path: PathBuf,
-    /// What tells its content from another one.
+    /// Its content.
     pub content: Content,
 }
 
@@ -230,13 +230,13 @@ fn pieces(word: &str) -> Vec<&str> {
 
 /// A path whose first part is `~`, `$NAME` or `${NAME}`, as a shell would have it.
 fn expanded(path: &str) -> String {
-    let (first, rest) = path.split_once('/').unwrap_or((path, ""));
+    let (first, rest) = path.split_at(path.find('/').unwrap_or(path.len()));
     let name = match first {
         "~" => Some("HOME"),
         _ => first.strip_prefix('$').map(|name| name.trim_matches(['{', '}'])),
     };
     match name.and_then(|name| std::env::var(name).ok()) {
-        Some(value) => format!("{value}/{rest}"),
+        Some(value) => value + rest,
         None => path.to_owned(),
     }
 }
@@ -270,6 +270,7 @@ mod tests {
         for text in ["$PATH/x/y", "${PATH}/x/y"] {
             assert_eq!(expanded(text), format!("{value}/x/y"));
         }
+        assert_eq!(expanded("$PATH"), value);
         for text in ["x/$PATH", "$NO_SUCH_VARIABLE/x", "$1", "~else/x", ""] {
             assert_eq!(expanded(text), text);
         }

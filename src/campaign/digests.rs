@@ -13,7 +13,7 @@ use crate::store::Digest;
 /// The most bytes that a file may have for its digest: 1 GiB takes some seconds.
 pub const MOST: u64 = 1 << 30;
 
-/// What tells the content of a file from another one.
+/// The content of a file, as far as it is compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
     /// The digest of its bytes.
@@ -31,7 +31,7 @@ impl Content {
     }
 }
 
-/// What changes whenever the content of a file does.
+/// Attributes of a file that change whenever its content does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Stamp {
     length: u64,
@@ -58,22 +58,20 @@ impl Stamp {
 pub struct Digests(Mutex<BTreeMap<PathBuf, (Stamp, Content)>>);
 
 impl Digests {
-    /// What is in a plain file; nothing, if it is none.
+    /// The content of a plain file; nothing, if it is none.
     pub fn of(&self, path: &Path) -> Option<Content> {
         let found = path.metadata().ok().filter(Metadata::is_file)?;
         let stamp = Stamp::of(&found);
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        match known.get(path) {
-            Some((then, content)) if *then == stamp => Some(content.clone()),
-            _ => {
-                let content = digest(path, found.len()).map_or_else(
-                    || Content::Dated(format!("{} bytes, {:?}", stamp.length, stamp.modified)),
-                    Content::Digest,
-                );
-                known.insert(path.to_owned(), (stamp, content.clone()));
-                Some(content)
-            }
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((then, content)) = known().get(path)
+            && *then == stamp
+        {
+            return Some(content.clone());
         }
+        let dated = || Content::Dated(format!("{} bytes, {:?}", stamp.length, stamp.modified));
+        let content = digest(path, found.len()).map_or_else(dated, Content::Digest);
+        known().insert(path.to_owned(), (stamp, content.clone()));
+        Some(content)
     }
 }
 

@@ -133,7 +133,7 @@ impl<'a> Work<'a> {
         Ok(None)
     }
 
-    /// The first thing that is wrong with the results of a run: a file is gone, another one, or more than there was.
+    /// The first fault of the results of a run: a file is gone, another one, or more than there was.
     fn fault(
         &self,
         planned: &Planned,
@@ -382,7 +382,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// What is wrong with the results of a run.
+/// A fault of the results of a run.
 enum Fault {
     /// A file is gone.
     Missing,
@@ -399,7 +399,7 @@ fn this_program() -> anyhow::Result<PathBuf> {
     }
 }
 
-/// That processes were left behind, at the end of a sentence.
+/// The end of a sentence that names the processes a run left behind; empty, if there are none.
 pub fn left_behind_too(names: &[String]) -> String {
     let shown: Vec<_> = names.iter().map(|name| foreign::shown(name)).collect();
     match shown.is_empty() {
