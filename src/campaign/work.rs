@@ -1,6 +1,7 @@
 //! Makes the runs of a campaign that the store does not hold.
 
 use std::collections::BTreeMap;
+use std::io::{Read as _, Seek as _, SeekFrom};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::digests::Content;
 use super::plan::{Job, Paths, Plan, Planned, text};
 use crate::judge::results::Results;
-use crate::read::{self, Kind};
+use crate::read::{self, Kind, Unread};
 use crate::report::write_own;
 use crate::session::exact::Exact;
 use crate::shell::quoted;
@@ -109,7 +110,50 @@ impl<'a> Work<'a> {
         let done =
             side_by_side(&all, jobs, |(planned, job), wait| self.outcome(planned, job, wait))?;
         let mut done = done.into_iter();
-        Ok(self.plan.studies.iter().map(|it| done.by_ref().take(it.jobs.len()).collect()).collect())
+        let of_study = |planned: &Planned| {
+            let outcomes = done.by_ref().take(planned.jobs.len()).collect();
+            self.without_cut_tables(planned, outcomes)
+        };
+        self.plan.studies.iter().map(of_study).collect()
+    }
+
+    /// Takes back runs with a table that ends within a line, if tables of other levels end with a line: the same program
+    /// wrote all of them.
+    fn without_cut_tables(
+        &self,
+        planned: &Planned,
+        outcomes: Vec<Outcome>,
+    ) -> anyhow::Result<Vec<Outcome>> {
+        let cut: Vec<Option<PathBuf>> = outcomes.iter().map(|it| self.cut_table(it)).collect();
+        let is_whole = |(outcome, cut): (&Outcome, &Option<PathBuf>)| {
+            matches!(outcome, Outcome::Finished(_)) && cut.is_none()
+        };
+        if !outcomes.iter().zip(&cut).any(is_whole) {
+            return Ok(outcomes);
+        }
+        let runs = planned.jobs.iter().zip(outcomes).zip(cut);
+        let kept = runs.map(|((job, outcome), cut)| match (outcome, cut) {
+            (Outcome::Finished(Finished { folder, .. }), Some(path)) => {
+                let path = foreign::path(&path);
+                let reason =
+                    format!("`{path}` ends within a line, and those of other levels do not");
+                self.watcher.set_aside(&self.store.distrust(&job.key, &reason)?);
+                let reason = format!("it ended well, but {reason}: it is cut");
+                Ok(Outcome::Failed { reason, last_words: Vec::new(), folder })
+            }
+            (outcome, _) => Ok(outcome),
+        });
+        kept.collect()
+    }
+
+    /// A table of the results of a run that ends within a line.
+    fn cut_table(&self, outcome: &Outcome) -> Option<PathBuf> {
+        let Outcome::Finished(finished) = outcome else { return None };
+        let paths = finished.results.iter().map(|(path, _)| Path::new(path));
+        let mut tables = paths
+            .filter(|path| path.extension().is_some_and(|end| end == "csv" || end == "tsv"))
+            .map(|path| self.folder.join(&finished.folder).join(path));
+        tables.find(|path| last_byte(path).is_ok_and(|byte| byte != b'\n'))
     }
 
     /// What is stored of a run, if its results are still there. One whose results have changed is set aside.
@@ -380,6 +424,14 @@ impl<'a> Work<'a> {
         let words = self.plan.campaign.solver.run.iter();
         Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
     }
+}
+
+fn last_byte(path: &Path) -> Result<u8, Unread> {
+    let mut file = read::open(path)?;
+    let mut byte = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut byte)?;
+    Ok(byte[0])
 }
 
 /// A fault of the results of a run.

@@ -144,6 +144,33 @@ fn empty_and_cut_results_are_not_done() {
     }
 }
 
+/// What is left of a table is a table; but one program ends all of its tables alike.
+#[test]
+fn a_table_that_is_cut_within_a_line_is_not_done() {
+    for (end, first, second) in [("\\n", 3, 0), ("", 0, 0)] {
+        let folder = Folder::new();
+        let rows = "for (i = 0; i < n; i++) { X = (i + 0.5)/n; printf \"\\n%.9f,%.9f\", X, 0.2*X*(2 - X) + 0.1/n^2 }";
+        let awk = format!(
+            "awk -v n=$2 'BEGIN {{ printf \"X,u\"; {rows}; printf \"{end}\" }}' > \"$1/u.csv\"\n"
+        );
+        let cut =
+            "if [ $2 = 32 ] && [ ! -e once ]; then touch once; truncate -s CUT \"$1/u.csv\"; fi\n";
+        // Without the break at the end nobody can tell, and nothing is cut.
+        let cut = if end.is_empty() { "" } else { &cut.replace("CUT", "-5") };
+        folder.write("solve.sh", &format!("echo run >> log.txt\n{awk}{cut}"));
+        let text = campaign("sh solve.sh {output} {cells}", "").replace("[8]", "[8, 16, 32]");
+        folder.write("c.toml", &text);
+        let run = folder.mms("campaign c.toml --store store").exits(first);
+        if first == 3 {
+            run.prints("u.csv` ends within a line, and those of other levels do not: it is cut");
+            run.prints("bar_1d/3 failed").prints("2 of 3 runs are done");
+        }
+        let run = folder.mms("campaign c.toml --store store").exits(second);
+        run.prints("3 of 3 runs are done; 1 of 1 studies pass");
+        assert_eq!(count(&folder), if first == 3 { 4 } else { 3 });
+    }
+}
+
 #[test]
 fn a_result_that_was_changed_after_its_run_is_noticed() {
     let folder = Folder::new();
