@@ -8,11 +8,11 @@ use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::Snapshot;
-use mms_results::motion::resolve;
-use mms_results::names::{Mapping, Meaning, Role, Values, recognise};
+use mms_results::motion::{Motion, resolve};
+use mms_results::names::{Mapping, Meaning, Role, Values, recognise, wanted};
 use mms_results::norm::Mesh;
 
-use crate::judge::results::{Results, placed};
+use crate::judge::results::{Results, placed, room};
 use crate::session::exact::Exact;
 
 /// How results are read.
@@ -38,6 +38,15 @@ pub enum Alone {
     Stress,
     /// DDSDDE.
     Tangent,
+}
+
+/// Reads what was named, as far as diagnosis knows it; in so many MB of memory, or in what is free.
+///
+/// # Errors
+/// As of [`Results::find`].
+pub fn find(given: &str, map: &[Mapping], memory: Option<u64>) -> anyhow::Result<Results> {
+    let (room, advice) = room(memory);
+    Results::find(given, &wanted(map, &|_| true).within(room, advice))
 }
 
 /// Reads files: from coarse to fine.
@@ -66,8 +75,14 @@ pub fn read(
     Ok(Evidence::Results(levels))
 }
 
-fn meanings(snapshot: &Snapshot, reading: &Reading<'_>) -> anyhow::Result<Vec<Meaning>> {
-    recognise(snapshot, reading.map, &|_| true).map_err(placed)
+fn meanings(
+    snapshot: &Snapshot,
+    reading: &Reading<'_>,
+    dimension: usize,
+) -> anyhow::Result<Vec<Meaning>> {
+    let mut found = recognise(snapshot, reading.map, &|_| true).map_err(placed)?;
+    found.retain(|meaning| !meaning.is_other_scalar(dimension));
+    Ok(found)
 }
 
 fn values<'a>(
@@ -112,7 +127,7 @@ fn law(
     reading: &Reading<'_>,
     exact: &Exact,
 ) -> anyhow::Result<Evidence> {
-    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
     let h = gradient(&meanings, snapshot, dimension)?;
     let h =
         h.with_context(|| format!("{}: no F: name its columns with `--map F=..`", snapshot.path))?;
@@ -173,7 +188,7 @@ fn state(
 ) -> anyhow::Result<Option<Evidence>> {
     let Some(results) = all.last() else { return Ok(None) };
     let Some(snapshot) = results.snapshots.first() else { return Ok(None) };
-    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
+    let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
     let residual = if reading.is_nodal { Computed::NodalResidual } else { Computed::Residual };
     let kinds = [(Role::Residual, residual), (Role::Acceleration, Computed::Acceleration)];
     let asked = if reading.is_nodal { &kinds[..1] } else { &kinds[..] };
@@ -182,10 +197,9 @@ fn state(
         if role == Role::Residual {
             found.numbers.to_mut().iter_mut().for_each(|it| *it *= reading.residual_sign);
         }
-        let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
-            .map_err(placed)?;
-        let reference = motion.reference.numbers.into_owned();
         let time = time(snapshot, reading, 0)?;
+        let motion = motion(snapshot, &meanings, time, exact)?;
+        let reference = motion.reference.numbers.into_owned();
         let u = motion.displacement.map(|it| it.numbers);
         let right = exact.values(mms_spec::quantity::Quantity::Displacement, time, &reference)?;
         let is_at_exact = u.is_none_or(|u| is_near(&u, &right));
@@ -214,6 +228,18 @@ fn state(
         return Ok(Some(Evidence::State { response, cell_size }));
     }
     Ok(None)
+}
+
+/// X and u of a snapshot at a time.
+fn motion<'a>(
+    snapshot: &'a Snapshot,
+    meanings: &[Meaning],
+    time: f64,
+    exact: &Exact,
+) -> anyhow::Result<Motion<'a>> {
+    let outside = |point: &[f64]| exact.body.distance(point);
+    let mut back = exact.back(time, snapshot.rows());
+    resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
 }
 
 /// A state is the exact one within this part of it: rounding of a file, and no error of a method.
@@ -245,9 +271,10 @@ fn level(
 ) -> anyhow::Result<Level> {
     let mut level = Level::default();
     for (at, snapshot) in results.snapshots.iter().enumerate() {
-        let (dimension, meanings) = (exact.dimension, meanings(snapshot, reading)?);
-        let outside = |point: &[f64]| exact.body.distance(point);
-        let motion = resolve(snapshot, &meanings, dimension, &outside).map_err(placed)?;
+        let (dimension, meanings) =
+            (exact.dimension, meanings(snapshot, reading, exact.dimension)?);
+        let time = time(snapshot, reading, at)?;
+        let motion = motion(snapshot, &meanings, time, exact)?;
         let reference = motion.reference.numbers.into_owned();
         let mesh = Mesh { cells: &snapshot.cells, points: &reference, dimension };
         level.cell_size = size(given, &mesh, exact);
@@ -262,7 +289,7 @@ fn level(
             "{}: nothing to diagnose; expected u, v, F, accelerations or residuals; name them with `--map u=..`",
             snapshot.path
         );
-        level.snapshots.push(Instant { time: time(snapshot, reading, at)?, reference, values });
+        level.snapshots.push(Instant { time, reference, values });
     }
     ensure!(!level.snapshots.is_empty(), "`{}`: no results", results.name);
     Ok(level)

@@ -99,6 +99,8 @@ pub enum Unread {
     NotPlain(&'static str),
     /// It is longer than a file of its kind may be.
     TooLong(Kind),
+    /// It has more bytes than there is memory.
+    NoRoom([u64; 2]),
 }
 
 impl std::error::Error for Unread {}
@@ -108,6 +110,12 @@ impl fmt::Display for Unread {
         match self {
             Unread::Failed(error) => write!(f, "{error}"),
             Unread::NotPlain(what) => write!(f, "it is {what}, and only plain files are read"),
+            Unread::NoRoom([length, room]) => write!(
+                f,
+                "it has {} MB, and there are {} MB of memory to read it in",
+                length / 1_000_000,
+                room / 1_000_000
+            ),
             Unread::TooLong(kind) => write!(
                 f,
                 "it has more than {} bytes, the most that {} may have: {}",
@@ -202,6 +210,15 @@ fn lost(path: &Path, error: io::Error) -> Unread {
 /// All bytes of a file of some kind.
 pub fn bytes(path: &Path, kind: Kind) -> Result<Vec<u8>, Unread> {
     all(open(path)?, kind)
+}
+
+/// The same, if they are no more than that.
+pub fn bytes_within(path: &Path, kind: Kind, room: u64) -> Result<Vec<u8>, Unread> {
+    let file = open(path)?;
+    match file.metadata()?.len() {
+        length if length > room => Err(Unread::NoRoom([length, room])),
+        _ => all(file, kind),
+    }
 }
 
 fn all(file: File, kind: Kind) -> Result<Vec<u8>, Unread> {

@@ -1,25 +1,37 @@
 //! Arbitrary bytes as a file of results: reading them ends, with results or with a mistake, and so does what is made of
-//! them, and their comparison with themselves. The seeds are the files in `mms-results/tests/data`.
+//! them, and their comparison with themselves. Their number decides which arrays are wanted, and how much memory there is.
+//! The seeds are the files in `mms-results/tests/data`.
 
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use mms_results::motion::{hold_distinct, resolve};
-use mms_results::names::recognise;
+use mms_results::names::{Role, everything, recognise, wanted};
 use mms_results::norm::Mesh;
 use mms_results::pairing::{cells, points};
 use mms_results::{Contents, parse};
 
+/// Bytes of memory where it is scarce.
+const SCARCE: u64 = 1 << 12;
+
 fuzz_target!(|bytes: &[u8]| {
-    let Ok(Contents::Snapshots(found)) = parse(bytes) else { return };
+    let wants = |role: Role| bytes.len() % 2 == 0 || role == Role::Displacement;
+    let read = match bytes.len() % 3 {
+        0 => everything(&[]),
+        1 => wanted(&[], &wants),
+        _ => wanted(&[], &wants).within(SCARCE, ""),
+    };
+    let Ok(Contents::Snapshots(found)) = parse(bytes, &read) else { return };
     for snapshot in &found {
-        if let Ok(meanings) = recognise(snapshot, &[], &|_| true)
-            && let Ok(motion) = resolve(snapshot, &meanings, 2, &|_| 0.0)
-        {
-            let _ = hold_distinct(snapshot, &motion.reference);
-            let places = &motion.reference.numbers;
-            let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };
-            let _ = (mesh.sizes(), mesh.middles(), mesh.volumes());
+        if let Ok(meanings) = recognise(snapshot, &[], &wants) {
+            let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
+            for back in [None, Some(&mut half as _)] {
+                let Ok(motion) = resolve(snapshot, &meanings, 2, &|_| 0.0, back) else { continue };
+                let _ = hold_distinct(snapshot, &motion.reference);
+                let places = &motion.reference.numbers;
+                let mesh = Mesh { cells: &snapshot.cells, points: places, dimension: 2 };
+                let _ = (mesh.sizes(), mesh.middles(), mesh.volumes());
+            }
         }
     }
     let twice: Vec<_> = found.iter().take(1).cycle().take(2).cloned().collect();

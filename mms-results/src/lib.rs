@@ -10,6 +10,7 @@
 
 pub mod cell;
 pub mod comparison;
+mod meaning;
 mod mistake;
 pub mod motion;
 pub mod names;
@@ -18,6 +19,7 @@ pub mod pairing;
 mod read;
 mod role;
 mod snapshot;
+pub mod wanted;
 pub mod write;
 
 pub use mistake::Mistake;

@@ -1,6 +1,7 @@
 //! X and u of points: two of X, x and u give the third.
 
-use crate::names::{Meaning, Role, Values, here};
+use crate::meaning::here;
+use crate::names::{Meaning, Role, Values};
 use crate::{Mistake, Snapshot, Stored};
 
 /// How many bits of a digest tell it from most others.
@@ -15,44 +16,70 @@ pub struct Motion<'a> {
     pub displacement: Option<Values<'a>>,
     /// How X was found.
     pub how: String,
+    /// Whether the exact motion told X: then x and u tell nothing of a solver.
+    pub is_inverse: bool,
 }
 
 /// How far a point is outside the body; 0 within it.
 pub type Outside<'a> = &'a dyn Fn(&[f64]) -> f64;
 
+/// X of what is at x, each coordinate of which may be off by so much; none if no point of the body is there.
+pub type Back<'a> = &'a mut dyn FnMut(&[f64], f64) -> Result<Option<Vec<f64>>, String>;
+
 /// Finds X and u. Points that may be X or x are both in turn: the one reading with which they lie in the body is taken.
+/// Where x is known without u, `back` finds X by the inverse of the exact motion; without `back` points alone are X.
 ///
 /// # Errors
-/// Too little for X; points with which both readings lie in the body; a point outside the body by more than its
-/// rounding; two points in one place, if there are no cells.
+/// Too little for X; points with which both readings lie in the body; an x that contradicts X and u; a point outside the
+/// body by more than its rounding.
 pub fn resolve<'a>(
     snapshot: &'a Snapshot,
     meanings: &[Meaning],
     dimension: usize,
     outside: Outside<'_>,
+    back: Option<Back<'_>>,
 ) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
     let values =
         |role: Role| of(role).map(|meaning| meaning.values(snapshot, dimension)).transpose();
-    let known = Known {
+    let mut known = Known {
+        snapshot,
+        place_name: of(Role::Place).map(|it| it.mapping(snapshot, dimension)).unwrap_or_default(),
         reference: values(Role::Reference)?,
         position: values(Role::Position)?,
         place: values(Role::Place)?,
         displacement: values(Role::Displacement)?.filter(|it| !it.is_of_cells),
     };
     known.hold_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
-    let motion = known.motion(outside).map_err(|mistake| mistake.of(&snapshot.path))?;
-    hold_inside(snapshot, &motion, outside)?;
+    let given = (known.reference.take(), known.displacement.take());
+    let motion =
+        known.motion(given, outside, back).map_err(|mistake| mistake.of(&snapshot.path))?;
+    known.hold_agreement(&motion)?;
+    if !motion.is_inverse {
+        hold_inside(snapshot, &motion, outside)?;
+    }
     Ok(motion)
 }
 
 /// What is known of the points.
 struct Known<'a> {
+    snapshot: &'a Snapshot,
+    /// What `--map` takes to name the places.
+    place_name: String,
     reference: Option<Values<'a>>,
     position: Option<Values<'a>>,
     place: Option<Values<'a>>,
     displacement: Option<Values<'a>>,
 }
+
+/// How many roundings x may differ by from X + u: of each, and as many where digits are cut off.
+const ROUNDINGS: f64 = 4.0;
+
+/// What part of x they may differ by besides: a solver adds up both step by step, in single precision perhaps.
+const STEPS: f64 = 1e-6;
+
+/// At how many points it is tried whether a point of the body is there.
+const TRIED: usize = 64;
 
 impl<'a> Known<'a> {
     fn hold_rows(&self) -> Result<(), Mistake> {
@@ -77,34 +104,172 @@ impl<'a> Known<'a> {
         }
     }
 
-    fn motion(self, outside: Outside<'_>) -> Result<Motion<'a>, Mistake> {
-        let Known { reference, position, place, displacement } = self;
-        match (reference, position, place, displacement) {
+    /// X and u, of X and u as they are given.
+    fn motion(
+        &self,
+        (reference, displacement): (Option<Values<'a>>, Option<Values<'a>>),
+        outside: Outside<'_>,
+        back: Option<Back<'_>>,
+    ) -> Result<Motion<'a>, Mistake> {
+        match (reference, &self.position, &self.place, displacement) {
             (Some(x), _, _, Some(u)) => Ok(motion(x, Some(u), "X as given")),
             (Some(x), Some(present), _, None) => {
-                let u = difference(&present, &x);
+                let u = difference(present, &x);
                 Ok(motion(x, Some(u), "X as given, u = x - X"))
             }
-            (Some(x), None, Some(place), None) if is_moved(&place, &x) => {
-                let u = difference(&place, &x);
+            (Some(x), None, Some(place), None) if is_moved(place, &x) => {
+                let u = difference(place, &x);
                 Ok(motion(x, Some(u), "X as given, points taken as x, u = x - X"))
             }
             (Some(x), None, _, None) => Ok(motion(x, None, "X as given")),
             (None, Some(present), _, Some(u)) => {
-                let x = difference(&present, &u);
+                let x = difference(present, &u);
                 Ok(motion(x, Some(u), "X = x - u"))
             }
-            (None, None, Some(place), Some(u)) => tried(place, u, outside),
-            (None, None, Some(place), None) => Ok(motion(place, None, "points taken as X")),
-            (None, ..) => Err(Mistake::new(
+            (None, None, Some(place), Some(u)) => self.tried(place.clone(), u, outside),
+            (None, Some(present), _, None) => match back {
+                Some(back) => {
+                    self.inverse(present, back, "X of x by the inverse of the exact motion")
+                }
+                None => Err(Mistake::new(
+                    "X is not known: give it, or x and u; name them with `--map X=..`",
+                )),
+            },
+            (None, None, Some(place), None) => match back {
+                Some(back) => self.alone(place, outside, back),
+                None => Ok(motion(place.clone(), None, "points taken as X")),
+            },
+            (None, None, None, _) => Err(Mistake::new(
                 "X is not known: give it, or x and u; name them with `--map X=..`",
             )),
         }
     }
+
+    /// X of points at x, by the inverse of the exact motion.
+    fn inverse(
+        &self,
+        present: &Values<'a>,
+        back: Back<'_>,
+        how: &str,
+    ) -> Result<Motion<'a>, Mistake> {
+        let mut numbers = Vec::with_capacity(present.numbers.len());
+        for (row, x) in present.numbers.chunks_exact(present.components).enumerate() {
+            let wrong = |what: String| {
+                here(self.snapshot, row, format!("x = {x:?}: {what}; give X, or u beside x"))
+            };
+            let found = back(x, present.rounding).map_err(wrong)?;
+            numbers.extend(found.ok_or_else(|| wrong("no point of the body is there".into()))?);
+        }
+        let reference = Values { numbers: numbers.into(), ..*present };
+        Ok(Motion { is_inverse: true, ..motion(reference, None, how) })
+    }
+
+    /// Points that may be X or x, without u.
+    fn alone(
+        &self,
+        place: &Values<'a>,
+        outside: Outside<'_>,
+        back: Back<'_>,
+    ) -> Result<Motion<'a>, Mistake> {
+        if stray(place, outside).is_some() {
+            let how = "points taken as x, X by the inverse of the exact motion: as X, some would lie outside the body";
+            return self.inverse(place, back, how);
+        }
+        let points = place.numbers.chunks_exact(place.components);
+        let step = points.len().div_ceil(TRIED);
+        let mut has_moved = false;
+        for x in points.step_by(step) {
+            // What is not decided may be there.
+            let Ok(found) = back(x, place.rounding) else { continue };
+            let Some(reference) = found else {
+                let how = "points taken as X: as x, some would be where no point of the body is";
+                return Ok(motion(place.clone(), None, how));
+            };
+            let far = reference.iter().zip(x).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            has_moved |= far > ROUNDINGS * place.rounding + STEPS * largest(x);
+        }
+        match has_moved {
+            true => Err(self.unclear()),
+            false => Ok(motion(place.clone(), None, "points taken as X: u is 0")),
+        }
+    }
+
+    fn unclear(&self) -> Mistake {
+        let name = &self.place_name;
+        Mistake::new(format!(
+            "points (`{name}`) may be X or x, and lie in the body with both readings: say which with `--map X={name}` or \
+             `--map x={name}`"
+        ))
+    }
+
+    /// Points that may be X or x, with u.
+    fn tried(
+        &self,
+        place: Values<'a>,
+        u: Values<'a>,
+        outside: Outside<'_>,
+    ) -> Result<Motion<'a>, Mistake> {
+        let back = difference(&place, &u);
+        match (stray(&place, outside), stray(&back, outside)) {
+            (None, Some(_)) => Ok(motion(
+                place,
+                Some(u),
+                "points taken as X: as x, some would lie outside the body",
+            )),
+            (Some(_), None) => Ok(motion(
+                back,
+                Some(u),
+                "points taken as x, X = x - u: as X, some would lie outside the body",
+            )),
+            (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
+                Ok(motion(place, Some(u), "points taken as X: u is 0"))
+            }
+            (None, None) => Err(self.unclear()),
+            (Some((at, far)), Some((other, away))) => Err(Mistake::new(format!(
+                "points lie outside the body with both readings: point {at} by {far:e} as X, point {other} by {away:e} \
+                 as x; is it another field, or another unit?"
+            ))),
+        }
+    }
+
+    /// Refuses an x that is not X + u, and places that are neither X nor that.
+    fn hold_agreement(&self, motion: &Motion<'_>) -> Result<(), Mistake> {
+        let Some(u) = &motion.displacement else { return Ok(()) };
+        if self.position.is_none() && self.place.is_none() {
+            return Ok(());
+        }
+        let reference = &motion.reference;
+        let present: Vec<f64> =
+            reference.numbers.iter().zip(u.numbers.iter()).map(|(x, u)| x + u).collect();
+        let differs = |given: &Values<'_>, from: &[f64]| {
+            let rounding = given.rounding + reference.rounding + u.rounding;
+            let most = ROUNDINGS * rounding + STEPS * largest(from);
+            given.numbers.iter().zip(from).position(|(a, b)| (a - b).abs() > most)
+        };
+        let of_position = self.position.as_ref().and_then(|it| Some((it, differs(it, &present)?)));
+        let of_place = self.place.as_ref().and_then(|it| {
+            differs(it, &reference.numbers)?;
+            Some((it, differs(it, &present)?))
+        });
+        let Some((given, at)) = of_position.or(of_place) else { return Ok(()) };
+        let row = at / given.components;
+        let point =
+            |numbers: &'_ [f64]| numbers[row * given.components..][..given.components].to_vec();
+        let what = format!(
+            "x = {:?} contradicts X + u = {:?}: correct the one that is wrong, or leave it out of the file",
+            point(&given.numbers),
+            point(&present)
+        );
+        Err(here(self.snapshot, row, what))
+    }
 }
 
 fn motion<'a>(reference: Values<'a>, displacement: Option<Values<'a>>, how: &str) -> Motion<'a> {
-    Motion { reference, displacement, how: how.into() }
+    Motion { reference, displacement, how: how.into(), is_inverse: false }
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()))
 }
 
 /// One position less another, with the roundings of both.
@@ -126,36 +291,6 @@ fn stray(reference: &Values<'_>, outside: Outside<'_>) -> Option<(usize, f64)> {
     // Each coordinate may be off by its rounding, and the exact bound by some of its own.
     let most = 4.0 * reference.rounding;
     points.map(|(at, point)| (at, outside(point))).find(|(_, distance)| *distance > most)
-}
-
-/// Points that may be X or x, with u.
-fn tried<'a>(
-    place: Values<'a>,
-    u: Values<'a>,
-    outside: Outside<'_>,
-) -> Result<Motion<'a>, Mistake> {
-    let back = difference(&place, &u);
-    match (stray(&place, outside), stray(&back, outside)) {
-        (None, Some(_)) => {
-            Ok(motion(place, Some(u), "points taken as X: as x, some would lie outside the body"))
-        }
-        (Some(_), None) => Ok(motion(
-            back,
-            Some(u),
-            "points taken as x, X = x - u: as X, some would lie outside the body",
-        )),
-        (None, None) if u.numbers.iter().all(|it| *it == 0.0) => {
-            Ok(motion(place, Some(u), "points taken as X: u is 0"))
-        }
-        (None, None) => Err(Mistake::new(
-            "points may be X or x, and lie in the body with both readings: say which with `--map X=points` or \
-             `--map x=points`",
-        )),
-        (Some((at, far)), Some((other, away))) => Err(Mistake::new(format!(
-            "points lie outside the body with both readings: point {at} by {far:e} as X, point {other} by {away:e} \
-             as x; is it another field, or another unit?"
-        ))),
-    }
 }
 
 fn hold_inside(

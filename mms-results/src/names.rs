@@ -1,11 +1,11 @@
 //! What the names of arrays mean: names that codes use, and those that a user maps.
 
-use std::borrow::Cow;
-
-use crate::norm::largest_if_finite;
+use crate::meaning::{Column, Part, Place, array};
 use crate::role::plain;
-use crate::{Array, Mistake, Snapshot, Stored};
+use crate::wanted::{Need, Wanted};
+use crate::{Array, Mistake, Snapshot};
 
+pub use crate::meaning::{Meaning, Values};
 pub use crate::role::{Form, Role};
 
 /// Names that may mean two quantities.
@@ -28,45 +28,6 @@ const FACES: [&str; 10] = [
     "theta_min",
     "theta_max",
 ];
-
-/// Which numbers of a quantity a column has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Part {
-    /// The one of that position, of all that there are.
-    Nth(usize),
-    /// A row and a column.
-    Entry(usize, usize),
-}
-
-/// Where an array of a snapshot is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
-    /// The places of its points.
-    Grid,
-    /// Among the arrays of points.
-    Points(usize),
-    /// Among those of cells.
-    Cells(usize),
-}
-
-/// A column of numbers: of an array one component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Column {
-    place: Place,
-    component: usize,
-}
-
-/// What a quantity is made of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Meaning {
-    /// The quantity.
-    pub role: Role,
-    /// Its name in the file.
-    pub source: String,
-    /// The face that the name speaks of: a traction is that of a face.
-    pub face: Option<&'static str>,
-    columns: Vec<(Part, Column)>,
-}
 
 /// What the name of an array says.
 struct Understood {
@@ -109,29 +70,60 @@ impl std::str::FromStr for Mapping {
     }
 }
 
-/// Numbers of a quantity: so many for each point or cell.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Values<'a> {
-    /// All numbers, those of a point or cell together: of an array that has no others they are not copied.
-    pub numbers: Cow<'a, [f64]>,
-    /// Numbers of a point or cell.
-    pub components: usize,
-    /// How far one may be from what was computed, for how it was stored.
-    pub rounding: f64,
-    /// How it was stored.
-    pub stored: Stored,
-    /// Whether they are of cells.
-    pub is_of_cells: bool,
+/// What to read of files in which these roles are looked for, and those of `map`.
+pub fn wanted<'a>(map: &'a [Mapping], wants: &'a dyn Fn(Role) -> bool) -> Wanted<'a> {
+    Wanted::new(move |name| {
+        let roles = meant(name);
+        match is_mapped_by(map, name) || roles.iter().any(|role| wants(*role)) {
+            true => Need::Must,
+            false if roles.is_empty() => Need::No,
+            false => Need::Sound,
+        }
+    })
 }
 
-impl Values<'_> {
-    /// The same, which outlive the snapshot.
-    pub fn into_owned(self) -> Values<'static> {
-        Values { numbers: Cow::Owned(self.numbers.into_owned()), ..self }
+/// Reads all that files hold.
+pub fn everything(map: &[Mapping]) -> Wanted<'_> {
+    Wanted::new(move |name| match is_mapped_by(map, name) || !meant(name).is_empty() {
+        true => Need::Must,
+        false => Need::Numbers,
+    })
+}
+
+/// Whether a user maps an array of this name, or a component of it.
+fn is_mapped_by(map: &[Mapping], name: &str) -> bool {
+    let stem = stem(name);
+    let is_it = |column: &String| {
+        let bare = column.strip_prefix("cells:").unwrap_or(column);
+        let whole = bare.rsplit_once(':').map_or(bare, |(whole, _)| whole);
+        column == name || [bare, whole].contains(&name) || bare == stem
+    };
+    map.iter().flat_map(|mapping| &mapping.columns).any(is_it)
+}
+
+/// The roles that an array of this name may have.
+fn meant(name: &str) -> Vec<Role> {
+    let stem = stem(name);
+    let unclear = UNCLEAR.iter().filter(|(word, _)| *word == plain(stem));
+    let mut roles: Vec<Role> = unclear.flat_map(|(_, roles)| *roles).collect();
+    roles.extend(Role::called(name));
+    roles.extend(Role::called(stem));
+    match name {
+        "X" | "Y" | "Z" => roles.push(Role::Reference),
+        "x" | "y" | "z" => roles.push(Role::Place),
+        _ if name.starts_with("traction_") => roles.push(Role::Traction),
+        _ => {}
     }
+    roles
 }
 
-/// Says what arrays of a snapshot mean; those with names that are not known are left out.
+/// A name without what says which component it is.
+fn stem(name: &str) -> &str {
+    split(name).map_or(name, |(base, _)| base)
+}
+
+/// Says what arrays of a snapshot mean; those with names that are not known are left out, and those that have a part of
+/// their name in common with what is mapped.
 ///
 /// # Errors
 /// A name that may mean two quantities, of those that `wants` takes; two arrays that may be the same quantity; a
@@ -148,30 +140,61 @@ pub fn recognise(
     let is_mapped = |role: Role| map.iter().any(|mapping| mapping.role == role);
     let taken: Vec<Place> =
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
+    let group = |place: Place, array: &Array| match understand(place, array) {
+        Some(it) => it.source,
+        None => stem(&array.name).to_owned(),
+    };
+    let settled: Vec<String> = taken.iter().map(|it| group(*it, array(snapshot, *it))).collect();
     for (place, array) in arrays(snapshot).filter(|(place, _)| !taken.contains(place)) {
-        hold_clear(&array.name, wants).map_err(|mistake| mistake.of(&snapshot.path))?;
+        if array.components == 1 && settled.contains(&group(place, array)) {
+            continue;
+        }
+        hold_clear(&array.name, &|role| wants(role) && !is_mapped(role))
+            .map_err(|mistake| mistake.of(&snapshot.path))?;
         let Some(understood) = understand(place, array) else { continue };
-        let Understood { role, part, source, face } = understood;
-        if is_mapped(role) || !wants(role) {
+        if is_mapped(understood.role) || !wants(understood.role) {
             continue;
         }
         let column = |component| Column { place, component };
-        let columns: Vec<_> = match part {
+        let columns: Vec<_> = match understood.part {
             Some(part) => vec![(part, column(0))],
             None => (0..array.components).map(|it| (Part::Nth(it), column(it))).collect(),
         };
-        let same = |it: &&mut Meaning| it.role == role && it.source == source && part.is_some();
-        match found.iter_mut().find(same) {
-            Some(meaning) => meaning.columns.extend(columns),
-            None => found.push(Meaning { role, source, face, columns }),
-        }
+        add(&mut found, understood, columns, array).map_err(|it| it.of(&snapshot.path))?;
     }
-    hold_single(&found).map_err(|mistake| mistake.of(&snapshot.path))?;
     Ok(found)
 }
 
+/// Adds an array to what was found, or to the components of what it is one of.
+///
+/// # Errors
+/// Two arrays for one quantity, or for one component of it.
+fn add(
+    found: &mut Vec<Meaning>,
+    understood: Understood,
+    columns: Vec<(Part, Column)>,
+    array: &Array,
+) -> Result<(), Mistake> {
+    let Understood { role, part, source, face } = understood;
+    let Some(known) = found.iter_mut().find(|it| it.role == role && it.face == face) else {
+        found.push(Meaning { role, source, face, columns, is_listed: false });
+        return Ok(());
+    };
+    let is_component = part.is_some() && known.source == source;
+    if is_component && !known.columns.iter().any(|(it, _)| Some(*it) == part) {
+        known.columns.extend(columns);
+        return Ok(());
+    }
+    let (role, symbol) = (role.name(), role.symbol());
+    let other = if is_component { &array.name } else { &source };
+    Err(Mistake::new(format!(
+        "both `{}` and `{other}` may be {role}: say which with `--map {symbol}=NAME`; an array of cells is `cells:NAME`",
+        known.source
+    )))
+}
+
 /// All arrays, with the places of points first.
-fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> {
+fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> + Clone {
     let grid = snapshot.points.iter().map(|array| (Place::Grid, array));
     let points =
         snapshot.of_points.iter().enumerate().map(|(at, array)| (Place::Points(at), array));
@@ -179,18 +202,29 @@ fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> {
     grid.chain(points).chain(cells)
 }
 
+/// How many names a message lists.
+const MOST_LISTED: usize = 30;
+
 /// The names of all arrays.
 pub fn all_names(snapshot: &Snapshot) -> String {
-    let names: Vec<_> = arrays(snapshot).map(|(_, array)| format!("`{}`", array.name)).collect();
-    if names.is_empty() { "no arrays".into() } else { names.join(", ") }
+    let names = arrays(snapshot).map(|(_, array)| &array.name).chain(&snapshot.unread);
+    let listed: Vec<_> = names.clone().take(MOST_LISTED).map(|it| format!("`{it}`")).collect();
+    match names.count() {
+        0 => "no arrays".into(),
+        count if count > listed.len() => {
+            format!("{} and {} others", listed.join(", "), count - listed.len())
+        }
+        _ => listed.join(", "),
+    }
 }
 
 fn hold_clear(name: &str, wants: &dyn Fn(Role) -> bool) -> Result<(), Mistake> {
-    let stem = split(name).map_or(name, |(base, _)| base);
-    let meant = UNCLEAR.iter().find(|(word, _)| *word == plain(stem));
+    let stem = stem(name);
+    let plain = plain(stem);
+    let meant = UNCLEAR.iter().find(|(word, _)| *word == plain);
     match meant {
         Some((_, [a, b])) if wants(*a) || wants(*b) => Err(Mistake::new(format!(
-            "`{name}` may be {} or {}: say which with `--map {}={name}` or `--map {}={name}`",
+            "`{name}` may be {} or {}: say which with `--map {}={stem}` or `--map {}={stem}`",
             a.name(),
             b.name(),
             a.symbol(),
@@ -200,25 +234,9 @@ fn hold_clear(name: &str, wants: &dyn Fn(Role) -> bool) -> Result<(), Mistake> {
     }
 }
 
-/// Refuses two arrays for one quantity.
-fn hold_single(found: &[Meaning]) -> Result<(), Mistake> {
-    for (at, meaning) in found.iter().enumerate() {
-        let is_same = |it: &&Meaning| it.role == meaning.role && it.face == meaning.face;
-        if let Some(other) = found[..at].iter().find(is_same) {
-            let (role, symbol) = (meaning.role.name(), meaning.role.symbol());
-            return Err(Mistake::new(format!(
-                "both `{}` and `{}` may be {role}: say which with `--map {symbol}=NAME`; an array of cells is `cells:NAME`",
-                other.source, meaning.source
-            )));
-        }
-    }
-    Ok(())
-}
-
 /// What an array is, which part of it, and under which name.
 fn understand(place: Place, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
-    let role = |name: &str| Role::ALL.iter().copied().find(|role| role.is_called(name));
     match (place, name) {
         // So the project's own runs call x.
         (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
@@ -235,14 +253,14 @@ fn understand(place: Place, array: &Array) -> Option<Understood> {
         }
         _ => {}
     }
-    if let Some(role) = role(name) {
+    if let Some(role) = Role::called(name) {
         return Some(Understood::new(role, None, name));
     }
     if let Some(found) = on_face(array) {
         return Some(found);
     }
     let (base, part) = split(name).filter(|_| array.components == 1)?;
-    let role = role(base).filter(|role| role.form() != Form::Scalar)?;
+    let role = Role::called(base).filter(|role| role.form() != Form::Scalar)?;
     // x0 may be the first coordinate, or where x was.
     let is_coordinate = base.len() == 1 && matches!(role, Role::Place | Role::Reference);
     (!is_coordinate || name.len() > 2).then(|| Understood::new(role, Some(part), base))
@@ -295,22 +313,39 @@ fn split(name: &str) -> Option<(&str, Part)> {
 /// Whether this may be the name of a matrix.
 fn has_entries(name: &str) -> bool {
     let is_matrix = |role: &Role| !matches!(role.form(), Form::Scalar | Form::Vector);
-    Role::ALL.iter().any(|role| is_matrix(role) && role.is_called(name))
+    Role::called(name).as_ref().is_some_and(is_matrix)
         || UNCLEAR.iter().any(|(word, _)| *word == plain(name))
 }
 
 /// What a user says a quantity is.
 fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
-    let columns = mapping.columns.iter().map(|name| columns(snapshot, name));
-    let columns: Vec<_> =
-        columns.collect::<Result<Vec<_>, _>>().map_err(|mistake| mistake.of(&snapshot.path))?;
-    let columns = columns.into_iter().flatten().enumerate();
-    Ok(Meaning {
-        role: mapping.role,
-        source: mapping.columns.join(","),
-        face: None,
-        columns: columns.map(|(at, column)| (Part::Nth(at), column)).collect(),
-    })
+    let Mapping { role, columns: names } = mapping;
+    let columns = match components(snapshot, names) {
+        Some(columns) => columns,
+        None => {
+            let columns = names.iter().map(|name| columns(snapshot, name));
+            let columns = columns.collect::<Result<Vec<_>, _>>();
+            let columns = columns.map_err(|mistake| mistake.of(&snapshot.path))?;
+            let columns = columns.into_iter().flatten().enumerate();
+            columns.map(|(at, column)| (Part::Nth(at), column)).collect()
+        }
+    };
+    let is_listed = names.len() > 1;
+    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, is_listed })
+}
+
+/// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.
+fn components(snapshot: &Snapshot, names: &[String]) -> Option<Vec<(Part, Column)>> {
+    let [name] = names else { return None };
+    if arrays(snapshot).any(|(_, array)| array.name == *name) {
+        return None;
+    }
+    let part = |(place, array): (Place, &Array)| {
+        let (base, part) = split(&array.name).filter(|_| array.components == 1)?;
+        (base == name).then_some((part, Column { place, component: 0 }))
+    };
+    let found: Vec<_> = arrays(snapshot).filter_map(part).collect();
+    (!found.is_empty()).then_some(found)
 }
 
 /// The columns of an array, or one of them.
@@ -338,201 +373,4 @@ fn columns(snapshot: &Snapshot, name: &str) -> Result<Vec<Column>, Mistake> {
         Mistake::new(format!("`--map`: no array `{name}`; the file has {}", all_names(snapshot)))
     });
     Ok(vec![one?])
-}
-
-impl Meaning {
-    /// How many dimensions a vector of as many columns has.
-    pub fn dimension(&self) -> usize {
-        self.columns.len().clamp(1, 3)
-    }
-
-    /// Its numbers in so many dimensions. What is more than that must be 0 in vectors, and is left out in tensors.
-    ///
-    /// # Errors
-    /// Too few numbers, or too many; one that is not finite, by its place.
-    pub fn values<'a>(
-        &self,
-        snapshot: &'a Snapshot,
-        dimension: usize,
-    ) -> Result<Values<'a>, Mistake> {
-        let columns = self.wanted(dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
-        let of = |column: &Column| array(snapshot, column.place);
-        let rows = of(&columns[0]).rows();
-        if let Some(other) = columns.iter().map(of).find(|other| other.rows() != rows) {
-            let what =
-                format!("`{}` has {rows} rows, and `{}` {}", self.source, other.name, other.rows());
-            return Err(Mistake::new(what).of(&snapshot.path));
-        }
-        self.hold_flat(snapshot, dimension)?;
-        let numbers = gathered(snapshot, &columns, rows);
-        let largest = largest_if_finite(&numbers).map_err(|at| {
-            let row = at / columns.len();
-            let what = format!("{} is {}; expected a finite number", self.source, numbers[at]);
-            here(snapshot, row, what)
-        })?;
-        let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
-        let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
-        Ok(Values {
-            components: columns.len(),
-            rounding: stored.rounding(largest),
-            stored,
-            is_of_cells: matches!(columns[0].place, Place::Cells(_)),
-            numbers,
-        })
-    }
-
-    /// The columns that a field of that dimension has.
-    fn wanted(&self, dimension: usize) -> Result<Vec<Column>, Mistake> {
-        let pairs = || pairs_of((0..dimension).collect());
-        let found = match self.role.form() {
-            Form::Scalar => vec![self.columns.first().filter(|_| self.columns.len() == 1)],
-            Form::Vector => (0..dimension).map(|axis| self.nth(axis)).collect(),
-            Form::Tensor => pairs().map(|(i, j)| self.entry(i, j)).collect(),
-            Form::Symmetric => {
-                pairs().map(|(i, j)| self.entry(i, j).or_else(|| self.entry(j, i))).collect()
-            }
-            Form::Voigt => {
-                pairs_of(self.in_dimension(dimension)).map(|(i, j)| self.entry(i, j)).collect()
-            }
-        };
-        let found: Option<Vec<Column>> = found.into_iter().map(|it| it.map(|it| it.1)).collect();
-        found.ok_or_else(|| self.misfit(dimension))
-    }
-
-    /// The rows of a matrix over Voigt's components that a field of that dimension has: in a plane all but 33.
-    fn in_dimension(&self, dimension: usize) -> Vec<usize> {
-        match (dimension, self.columns.len()) {
-            (2, 16) => vec![0, 1, 3],
-            _ => (0..dimension * (dimension + 1) / 2).collect(),
-        }
-    }
-
-    /// Whether the numbers of axes, rows and columns in names are counted from 1 on.
-    fn least_number(&self) -> usize {
-        let is_named = |part: &Part| matches!(part, Part::Entry(..));
-        let least = |(part, _): &(Part, Column)| match *part {
-            Part::Nth(at) => at,
-            Part::Entry(i, j) => i.min(j),
-        };
-        let (least, most) = (
-            self.columns.iter().map(least).min().unwrap_or(0),
-            self.columns
-                .iter()
-                .map(|(part, _)| match *part {
-                    Part::Nth(at) => at,
-                    Part::Entry(i, j) => i.max(j),
-                })
-                .max()
-                .unwrap_or(0),
-        );
-        let any = self.columns.iter().any(|(part, _)| is_named(part));
-        usize::from(least == 1 && (any || most <= self.columns.len()))
-    }
-
-    fn nth(&self, at: usize) -> Option<&(Part, Column)> {
-        self.columns.iter().find(|(part, _)| *part == Part::Nth(at + self.least_number()))
-    }
-
-    /// The entry of a matrix: by its name, or from as many as a square matrix has, row by row.
-    fn entry(&self, row: usize, column: usize) -> Option<&(Part, Column)> {
-        let from = self.least_number();
-        let named = |part: &Part| *part == Part::Entry(row + from, column + from);
-        let by_name = self.columns.iter().find(|(part, _)| named(part));
-        let largest = if self.role.form() == Form::Voigt { 6 } else { 3 };
-        let size = (1..=largest).find(|size| size * size == self.columns.len());
-        by_name
-            .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
-    }
-
-    fn misfit(&self, dimension: usize) -> Mistake {
-        let (symbol, source, found) = (self.role.symbol(), &self.source, self.columns.len());
-        let expected = match self.role.form() {
-            Form::Scalar => 1,
-            Form::Vector => dimension,
-            Form::Tensor | Form::Symmetric => dimension * dimension,
-            Form::Voigt => (dimension * (dimension + 1) / 2).pow(2),
-        };
-        let advice = match (self.role.form(), found) {
-            (Form::Tensor | Form::Symmetric, 3 | 4 | 6) => format!(
-                "; is it in the order of Voigt? then name its entries row by row, as in `--map {symbol}={source}:0,{source}:3,..`"
-            ),
-            _ => format!("; name them with `--map {symbol}=..`"),
-        };
-        Mistake::new(format!(
-            "`{source}`, read as {}, has {found} component(s), and of {dimension} dimension(s) {expected} are expected{advice}",
-            self.role.name()
-        ))
-    }
-
-    /// Refuses a vector with more than the field's components, unless they are 0 throughout.
-    fn hold_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
-        let from = self.least_number();
-        let is_beyond = |part: &Part| matches!(part, Part::Nth(at) if *at >= dimension + from);
-        let beyond = self.columns.iter().filter(|(part, _)| is_beyond(part));
-        if self.role.form() != Form::Vector {
-            return Ok(());
-        }
-        for (_, column) in beyond {
-            let array = array(snapshot, column.place);
-            let numbers = array.values.iter().skip(column.component).step_by(array.components);
-            if let Some((row, value)) = numbers.enumerate().find(|(_, value)| **value != 0.0) {
-                let what = format!(
-                    "`{}` has a component of {value} beyond the {dimension} of the field; expected 0",
-                    self.source
-                );
-                return Err(here(snapshot, row, what));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Rows and columns of a square matrix, row by row.
-fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {
-    let columns = rows.clone();
-    rows.into_iter().flat_map(move |i| columns.clone().into_iter().map(move |j| (i, j)))
-}
-
-/// The numbers of some columns, those of a row together.
-fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Column], rows: usize) -> Cow<'a, [f64]> {
-    let first = array(snapshot, columns[0].place);
-    let is_next = |(at, column): (usize, &Column)| {
-        column.place == columns[0].place && column.component == columns[0].component + at
-    };
-    // Most often they stand side by side, with no others or with a third coordinate behind them.
-    if columns.iter().enumerate().all(is_next) {
-        if columns.len() == first.components {
-            return Cow::Borrowed(&first.values);
-        }
-        let (start, count) = (columns[0].component, columns.len());
-        let mut numbers = Vec::with_capacity(rows * count);
-        let each = first.values.chunks_exact(first.components);
-        each.for_each(|row| numbers.extend_from_slice(&row[start..start + count]));
-        return numbers.into();
-    }
-    let mut numbers = vec![0.0; rows * columns.len()];
-    for (at, column) in columns.iter().enumerate() {
-        let array = array(snapshot, column.place);
-        let own = array.values.chunks_exact(array.components).map(|row| row[column.component]);
-        let to = numbers.chunks_exact_mut(columns.len());
-        to.zip(own).for_each(|(to, number)| to[at] = number);
-    }
-    numbers.into()
-}
-
-fn array(snapshot: &Snapshot, place: Place) -> &Array {
-    match place {
-        Place::Points(at) => &snapshot.of_points[at],
-        Place::Cells(at) => &snapshot.of_cells[at],
-        Place::Grid => {
-            snapshot.points.as_ref().expect("a meaning is of the snapshot that it was found in")
-        }
-    }
-}
-
-/// A mistake at a point.
-pub(crate) fn here(snapshot: &Snapshot, row: usize, what: String) -> Mistake {
-    let line = snapshot.lines.get(row).copied();
-    let what = if line.is_some() { what } else { format!("point {row}: {what}") };
-    Mistake { path: snapshot.path.clone(), line, what }
 }

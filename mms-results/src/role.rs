@@ -89,16 +89,21 @@ roles! {
 impl Role {
     /// The role of an identifier, a symbol, or what codes call it.
     pub fn from_name(name: &str) -> Option<Role> {
-        let all = || Role::ALL.iter().copied();
-        let exact = all().find(|role| role.name() == name || role.symbol() == name);
-        exact.or_else(|| all().find(|role| role.is_called(name)))
+        let exact =
+            Role::ALL.iter().copied().find(|role| role.name() == name || role.symbol() == name);
+        exact.or_else(|| Role::called(name))
     }
 
-    pub(crate) fn is_called(self, name: &str) -> bool {
+    /// The role of what codes call it.
+    pub(crate) fn called(name: &str) -> Option<Role> {
         let plain = plain(name);
-        self.words().contains(&name)
-            || plain.len() > 1
-                && (self.words().contains(&&*plain) || self::plain(self.name()) == plain)
+        let is_plain = |role: &Role| {
+            role.words().contains(&&*plain)
+                || role.name().bytes().filter(|it| *it != b'_').eq(plain.bytes())
+        };
+        let is_it =
+            |role: &&Role| role.words().contains(&name) || plain.len() > 1 && is_plain(role);
+        Role::ALL.iter().find(is_it).copied()
     }
 }
 

@@ -165,6 +165,8 @@ pub struct Snapshot {
     pub of_cells: Vec<Array>,
     /// The lines on which the points stand; none in files without lines.
     pub lines: Vec<usize>,
+    /// The names of arrays that were not read.
+    pub unread: Vec<String>,
 }
 
 impl Snapshot {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mms_results::cell::Shape;
 use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Mapping, Role, recognise};
+use mms_results::names::{Mapping, Role, everything, recognise};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
 
@@ -12,12 +12,13 @@ fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
 }
 
-fn open(path: &Path) -> Result<Vec<u8>, String> {
+fn open(path: &Path, _: u64) -> Result<Vec<u8>, String> {
     std::fs::read(path).map_err(|error| error.to_string())
 }
 
 fn one(name: &str) -> Snapshot {
-    let mut found = read(&data(name), &open).unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
+    let mut found = read(&data(name), &open, &everything(&[]))
+        .unwrap_or_else(|mistake| panic!("{name}: {mistake}"));
     assert_eq!(found.len(), 1, "{name}");
     found.remove(0)
 }
@@ -40,7 +41,7 @@ fn outside(point: &[f64]) -> f64 {
 fn motion<'a>(snapshot: &'a Snapshot, map: &[&str]) -> Result<Motion<'a>, Mistake> {
     let map: Vec<Mapping> = map.iter().map(|it| it.parse().unwrap()).collect();
     let found = recognise(snapshot, &map, &|_| true)?;
-    resolve(snapshot, &found, 2, &outside)
+    resolve(snapshot, &found, 2, &outside, None)
 }
 
 fn reference(point: usize) -> [f64; 2] {
@@ -135,12 +136,12 @@ fn nodes_are_where_vtk_has_them() {
 }
 
 fn refused(text: &str) -> String {
-    parse(text.as_bytes()).unwrap_err().of("file").to_string()
+    parse(text.as_bytes(), &everything(&[])).unwrap_err().of("file").to_string()
 }
 
 #[test]
 fn what_is_not_read_is_named() {
-    let said = read(&data("meshio_lzma.vtu"), &open).unwrap_err().to_string();
+    let said = read(&data("meshio_lzma.vtu"), &open, &everything(&[])).unwrap_err().to_string();
     assert!(said.contains("vtkLZMADataCompressor"), "{said}");
     for (text, word) in [
         ("", "empty"),
@@ -162,13 +163,15 @@ fn what_is_not_read_is_named() {
         let said = refused(text);
         assert!(said.contains(word), "{text}: {said}");
     }
-    let hdf = parse(b"\x89HDF\r\n\x1a\n").unwrap_err();
+    let hdf = parse(b"\x89HDF\r\n\x1a\n", &everything(&[])).unwrap_err();
     assert!(hdf.what.contains("HDF5"));
-    assert!(parse(b"\xff\xfe\x00").unwrap_err().what.contains("neither text nor"));
+    assert!(
+        parse(b"\xff\xfe\x00", &everything(&[])).unwrap_err().what.contains("neither text nor")
+    );
 }
 
 fn table(text: &str) -> Snapshot {
-    match parse(text.as_bytes()).unwrap() {
+    match parse(text.as_bytes(), &everything(&[])).unwrap() {
         Contents::Snapshots(mut found) => found.remove(0),
         other => panic!("{other:?}"),
     }
@@ -217,9 +220,7 @@ fn two_of_three_give_the_third() {
     assert_eq!(fixed, Ok((vec![0.25, 0.5], vec![0.5, 0.25])));
     let either = ("x,y,ux,uy", "0.5,0.5,0.25,0.25");
     assert!(
-        read_as(either.0, either.1, &[])
-            .unwrap_err()
-            .contains("`--map X=points` or `--map x=points`")
+        read_as(either.0, either.1, &[]).unwrap_err().contains("`--map X=x,y` or `--map x=x,y`")
     );
     let [mapped, other] =
         ["X=x,y", "x=x,y"].map(|map| read_as(either.0, either.1, &[map]).unwrap().0);
@@ -274,7 +275,9 @@ fn mistakes_name_their_lines() {
 #[test]
 fn times_of_a_table_are_snapshots() {
     let text = "t,X,Y,ux,uy\n0.5,0,0,1,2\n0.25,0,0,3,4\n0.5,1,0,5,6\n";
-    let Contents::Snapshots(found) = parse(text.as_bytes()).unwrap() else { panic!() };
+    let Contents::Snapshots(found) = parse(text.as_bytes(), &everything(&[])).unwrap() else {
+        panic!()
+    };
     let times: Vec<_> = found.iter().map(|it| it.time.unwrap().value).collect();
     assert_eq!(times, [0.25, 0.5]);
     assert_eq!(
@@ -288,16 +291,23 @@ fn a_list_of_times_reads_its_files() {
     let list = r#"<VTKFile type="Collection"><Collection>
         <DataSet timestep="0.5" file="vtk_single.vtu"/><DataSet timestep="0.125" file="vtk.vtp"/>
         </Collection></VTKFile>"#;
-    let open = |path: &Path| if path.ends_with("list.pvd") { Ok(list.into()) } else { open(path) };
-    let found = read(&data("list.pvd"), &open).unwrap();
+    let open = |path: &Path, room: u64| {
+        if path.ends_with("list.pvd") { Ok(list.into()) } else { open(path, room) }
+    };
+    let found = read(&data("list.pvd"), &open, &everything(&[])).unwrap();
     let times: Vec<_> = found.iter().map(|it| it.time.unwrap().value).collect();
     assert_eq!(times, [0.125, 0.5]);
     assert!(found[0].path.ends_with("vtk.vtp"));
     let itself = list.replace("vtk.vtp", "list.pvd");
-    let open = |path: &Path| {
-        if path.ends_with("list.pvd") { Ok(itself.clone().into()) } else { open(path) }
+    let open = |path: &Path, room: u64| {
+        if path.ends_with("list.pvd") { Ok(itself.clone().into()) } else { open(path, room) }
     };
-    assert!(read(&data("list.pvd"), &open).unwrap_err().what.contains("one mesh at one time"));
+    assert!(
+        read(&data("list.pvd"), &open, &everything(&[]))
+            .unwrap_err()
+            .what
+            .contains("one mesh at one time")
+    );
     let twice = list.replace("vtk.vtp", "vtk_single.vtu");
     assert!(refused(&twice).contains("file:2: the file `vtk_single.vtu` is listed twice"));
 }
@@ -318,7 +328,7 @@ fn sizes_that_are_claimed_are_not_believed() {
          NumberOfComponents=\"3\" format=\"binary\">////////////////</DataArray></Points></Piece></PolyData></VTKFile>"
             .to_owned(),
     ] {
-        assert!(parse(text.as_bytes()).is_err(), "{text}");
+        assert!(parse(text.as_bytes(), &everything(&[])).is_err(), "{text}");
     }
     let npy = |shape: &str| {
         let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
@@ -326,7 +336,7 @@ fn sizes_that_are_claimed_are_not_believed() {
         bytes.extend((header.len() as u16).to_le_bytes());
         bytes.extend(header.as_bytes());
         bytes.extend([0; 8]);
-        parse(&bytes)
+        parse(&bytes, &everything(&[]))
     };
     assert!(npy("(1,)").is_ok());
     for shape in [
@@ -343,9 +353,9 @@ fn sizes_that_are_claimed_are_not_believed() {
 #[test]
 fn deep_and_wide_xml_ends_soon() {
     let deep = "<a>".repeat(200_000);
-    assert!(parse(deep.as_bytes()).is_err());
+    assert!(parse(deep.as_bytes(), &everything(&[])).is_err());
     let closed = format!("{deep}{}", "</a>".repeat(200_000));
-    assert!(parse(closed.as_bytes()).is_err());
+    assert!(parse(closed.as_bytes(), &everything(&[])).is_err());
     let attributes: String = (0..200_000).map(|at| format!(" a{at}=\"\"")).collect();
     assert!(refused(&format!("<a{attributes}/>")).contains("a tag of more than"));
     assert!(refused("<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").contains("not XML"));
@@ -353,11 +363,11 @@ fn deep_and_wide_xml_ends_soon() {
 
 /// Whatever stands in a file, reading it ends, with results or with a mistake, and so does what is made of them.
 fn survive(bytes: &[u8]) {
-    let Ok(Contents::Snapshots(found)) = parse(bytes) else { return };
+    let Ok(Contents::Snapshots(found)) = parse(bytes, &everything(&[])) else { return };
     for snapshot in found {
         let Ok(meanings) = recognise(&snapshot, &[], &|_| true) else { continue };
         for dimension in 1..=3 {
-            let _ = resolve(&snapshot, &meanings, dimension, &outside);
+            let _ = resolve(&snapshot, &meanings, dimension, &outside, None);
             for meaning in &meanings {
                 let _ = meaning.values(&snapshot, dimension);
             }

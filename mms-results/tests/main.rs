@@ -4,4 +4,5 @@ mod files;
 mod memory;
 mod norms;
 mod pairing;
+mod tables;
 mod write;

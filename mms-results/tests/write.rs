@@ -1,6 +1,6 @@
 //! What is written is read back to the bit, by readers that are held to files of meshio, VTK and NumPy (`files.rs`).
 
-use mms_results::names::{Role, recognise};
+use mms_results::names::{Role, everything, recognise};
 use mms_results::write::{Column, Fact, Mesh, Shape, State, Value, csv, npz, vtu};
 use mms_results::{Cells, Contents, Snapshot, Stored, parse};
 
@@ -37,7 +37,7 @@ const SYMBOLS: [&str; 3] = ["X", "u", "F"];
 const NAMES: [&str; 3] = ["reference_position", "displacement", "deformation_gradient"];
 
 fn snapshots(bytes: &[u8]) -> Vec<Snapshot> {
-    match parse(bytes).unwrap() {
+    match parse(bytes, &everything(&[])).unwrap() {
         Contents::Snapshots(snapshots) => snapshots,
         other => panic!("{other:?}"),
     }

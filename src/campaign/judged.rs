@@ -77,10 +77,10 @@ fn measured(
     files: &[String],
 ) -> anyhow::Result<Measurement> {
     let Planned { study, options, .. } = planned;
+    let (map, wanted, weight) = (&options.map, &options.quantities, options.weight);
+    let reading = Reading { map, wanted, weight, memory: None };
     let all: Vec<Results> =
-        files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
-    let reading =
-        Reading { map: &options.map, wanted: &options.quantities, weight: options.weight };
+        files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();
     // One file without a time is of the end.
     let is_end = |it: &Results| matches!(it.snapshots.as_slice(), [Snapshot { time: None, .. }]);

@@ -12,13 +12,14 @@ use mms_campaign::process::{Folder, Order};
 use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
+use mms_results::wanted::{self, Need};
 use mms_runtime::Division;
 use mms_spec::foreign;
 use serde::{Deserialize, Serialize};
 
 use super::digests::Content;
 use super::plan::{Job, Paths, Plan, Planned, text};
-use crate::judge::results::Results;
+use crate::judge::results::{Results, placed, room};
 use crate::read::{self, Kind, Unread};
 use crate::report::write_own;
 use crate::session::exact::Exact;
@@ -391,8 +392,8 @@ impl<'a> Work<'a> {
         folder: &Path,
     ) -> anyhow::Result<Vec<(String, String)>> {
         let found = Mutex::new(BTreeMap::new());
-        let open = |path: &Path| {
-            let bytes = read::bytes(path, Kind::Results);
+        let open = |path: &Path, room: u64| {
+            let bytes = read::bytes_within(path, Kind::Results, room);
             let bytes = bytes.map_err(|error| format!("cannot read it: {error}"))?;
             let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
             found.insert(path.to_owned(), self.plan.digests.of(path));
@@ -404,7 +405,9 @@ impl<'a> Work<'a> {
                 "`{}` is empty",
                 foreign::path(&path)
             );
-            mms_results::read(&path, &open).map_err(|mistake| anyhow!("{mistake}"))?;
+            let (bytes, advice) = room(None);
+            let wanted = wanted::Wanted::new(|_| Need::Numbers).within(bytes, advice);
+            mms_results::read(&path, &open, &wanted).map_err(placed)?;
         }
         let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
         let file = |(path, content): (PathBuf, Option<Content>)| {

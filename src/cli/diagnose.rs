@@ -12,8 +12,7 @@ use mms_diagnosis::scene::{self, Solver};
 use mms_results::names::Mapping;
 
 use super::{Outcome, hold_output, print, print_json, say, this_command};
-use crate::diagnose::{Alone, Reading, read};
-use crate::judge::results::Results;
+use crate::diagnose::{Alone, Reading, find, read};
 use crate::report::{Diagnosed, Hypotheses};
 use crate::session::exact::Exact;
 use crate::session::input::{Input, Variant};
@@ -51,6 +50,9 @@ pub struct Diagnose {
     /// A quantity, and the columns that it is in, as for `mms judge`. May be repeated.
     #[arg(long, value_name = "QUANTITY=COLUMN,..")]
     map: Vec<Mapping>,
+    /// The memory that reading a file may take, in MB; without it what is free.
+    #[arg(long, value_name = "MB")]
+    max_memory: Option<u64>,
     /// h of the FILEs, in their order.
     #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = positive)]
     h: Vec<f64>,
@@ -157,8 +159,8 @@ impl Diagnose {
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
-        let all =
-            self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
+        let all = self.files.iter().map(|file| find(file, &self.map, self.max_memory));
+        let all = all.collect::<anyhow::Result<_>>()?;
         let reading = Reading {
             map: &self.map,
             times: &self.time,

@@ -38,7 +38,7 @@ pub(crate) fn with_baseline(title: &str, all: &[Compared], verdict: Verdict) -> 
 
 /// How far two results differ.
 pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
-    let Same { differences: all, alone, paired } = same;
+    let Same { differences: all, alone, paired, .. } = same;
     let mut table = plain(["array", "time", "largest", "relative", "where"]);
     for it in all {
         table.add_row([
@@ -53,6 +53,9 @@ pub(crate) fn differences(a: &str, b: &str, same: &Same) -> (String, Value) {
         format!("{} and {}\npoints are paired {}\n\n{table}", shown(a), shown(b), shown(paired));
     if !alone.is_empty() {
         text += &format!("\n\nin one of them alone: {}", shown(&alone.join(", ")));
+    }
+    if !same.is_finite() {
+        text += "\n\nsome of these numbers are not finite: a run has failed";
     }
     let document = all.iter().map(|it| {
         json!({

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use dashu_ratio::RBig;
+use mms_analysis::present::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
@@ -19,6 +20,9 @@ use super::plane::{Beyond, NEEDED, SPACE, nine};
 
 /// What part of the time window two times may differ by that are one: sums of time steps round.
 pub const SAME: f64 = 1e-9;
+
+/// What part of the distance of points one may be beyond the body.
+const BEYOND: f64 = 1.0 / 32.0;
 
 /// A field with numbers for its parameters.
 pub struct Exact {
@@ -79,6 +83,26 @@ impl Exact {
     /// The edge of a cube (square, length) that each of so many points has of the body.
     pub fn spacing(&self, points: usize) -> f64 {
         (self.body.measure() / points as f64).powf(1.0 / self.dimension as f64)
+    }
+
+    /// X of what is at x at a time, by the inverse of the motion: none if no point of the body is there. Of so many points,
+    /// one may be beyond the body by a small part of their distance, and is on its boundary then.
+    pub fn back(
+        &self,
+        time: f64,
+        points: usize,
+    ) -> impl FnMut(&[f64], f64) -> Result<Option<Vec<f64>>, String> + '_ {
+        let near = self.spacing(points.max(1)) * BEYOND;
+        let mut inverse = None;
+        move |x, rounding| {
+            let inverse: &mut Inverse<'_> =
+                inverse.get_or_insert_with(|| Inverse::new(&self.input.compiled, &self.set, time));
+            match inverse.reference(x, rounding.max(near)) {
+                Ok(found) => Ok(Some(found)),
+                Err(Unplaced::Outside) => Ok(None),
+                Err(why) => Err(says(&why)),
+            }
+        }
     }
 
     /// Its name and its title, for a person.
@@ -220,6 +244,19 @@ impl Exact {
             Entry::Vacant(place) => place.insert(prepared(&self.input, &self.parameters, output)?),
         };
         Ok(prepared.values(components, time, self.dimension, places, processors()))
+    }
+}
+
+/// Why X of a place is not known.
+pub fn says(why: &Unplaced) -> String {
+    match why {
+        Unplaced::Outside => "no point of the body is there at that time".into(),
+        Unplaced::Several([one, other]) => format!(
+            "two points of the body are there, X = {one:?} and X = {other:?}: the motion passes through itself"
+        ),
+        Unplaced::Undecided(near) => format!(
+            "it is not decided whether a point near X = {near:?} is there, for bounds of the motion are too wide"
+        ),
     }
 }
 

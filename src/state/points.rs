@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use anyhow::{bail, ensure};
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_results::motion::resolve;
-use mms_results::names::{Mapping, Role, Values, recognise};
+use mms_results::names::{Mapping, Role, Values, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
 use mms_runtime::{Division, Setup};
@@ -13,7 +13,8 @@ use mms_spec::Face;
 use mms_spec::foreign::shown;
 
 use crate::judge::results::{Results, placed};
-use crate::session::exact::Exact;
+use crate::session::exact::{Exact, says};
+use crate::session::method::memory;
 
 /// Particles in each direction of a cell where nothing is said.
 pub const PER_CELL: Division = Division::Uniform(2);
@@ -99,9 +100,9 @@ impl Points {
         dimension: usize,
         outside: &dyn Fn(&[f64]) -> f64,
     ) -> anyhow::Result<Self> {
-        let mut snapshot = one(path)?;
+        let mut snapshot = one(path, map)?;
         let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
-        let motion = resolve(&snapshot, &meanings, dimension, outside).map_err(placed)?;
+        let motion = resolve(&snapshot, &meanings, dimension, outside, None).map_err(placed)?;
         let how = format!("`{}`: {}", shown(path), motion.how);
         let rounding = motion.reference.rounding;
         let reference = motion.reference.numbers.into_owned();
@@ -122,7 +123,7 @@ impl Places {
     /// # Errors
     /// What is wrong with the file.
     pub fn of_file(path: &str, map: &[Mapping], dimension: usize) -> anyhow::Result<Self> {
-        let snapshot = one(path)?;
+        let snapshot = one(path, map)?;
         let meanings = recognise(&snapshot, map, &is_place).map_err(placed)?;
         let named = |role| meanings.iter().find(move |it| it.role == role);
         let roles = [Role::Position, Role::Place, Role::Reference];
@@ -168,25 +169,17 @@ impl Places {
 }
 
 fn unplaced(x: &[f64], time: f64, why: &Unplaced) -> String {
-    let here = format!("x = {x:?}, t = {time:?}");
-    match why {
-        Unplaced::Outside => format!(
-            "{here}: no point of the body is there at that time; is it a reference position? then leave out `--at-present`"
-        ),
-        Unplaced::Several([one, other]) => format!(
-            "{here}: two points of the body are there, X = {one:?} and X = {other:?}: the motion passes through itself; \
-             give X"
-        ),
-        Unplaced::Undecided(near) => format!(
-            "{here}: it is not decided whether a point near X = {near:?} is there, for bounds of the motion are too wide; \
-             give X"
-        ),
-    }
+    let advice = match why {
+        Unplaced::Outside => "is it a reference position? then leave out `--at-present`",
+        Unplaced::Several(_) | Unplaced::Undecided(_) => "give X",
+    };
+    format!("x = {x:?}, t = {time:?}: {}; {advice}", says(why))
 }
 
 /// The one result of a file.
-fn one(path: &str) -> anyhow::Result<Snapshot> {
-    let mut found = Results::find(path)?.snapshots;
+fn one(path: &str, map: &[Mapping]) -> anyhow::Result<Snapshot> {
+    let wanted = everything(map).within(memory(), "name a file of fewer points");
+    let mut found = Results::find(path, &wanted)?.snapshots;
     ensure!(
         found.len() == 1,
         "`{}`: results at {} times; expected points, which are the same at all times: name a file of one time",

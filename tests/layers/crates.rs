@@ -161,9 +161,10 @@ pub const CRATES: &[Crate] = &[
         name: "mms-results",
         knows: &[],
         layers: &[
-            "cell mistake role snapshot",
+            "cell mistake role snapshot wanted",
             "norm",
-            "comparison names",
+            "comparison meaning",
+            "names",
             "motion read write",
             "pairing",
         ],

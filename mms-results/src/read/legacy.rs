@@ -4,6 +4,7 @@ use super::numbers::{Kind, Order, count, positions};
 use super::table::is_time;
 use super::text::{Style, number, settle};
 use crate::snapshot::Section;
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored, Time};
 
 /// A place in a file.
@@ -11,6 +12,7 @@ struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
     is_binary: bool,
+    wanted: &'a Wanted<'a>,
 }
 
 /// What was found so far.
@@ -31,8 +33,8 @@ enum Of {
 }
 
 /// Reads a file of one grid.
-pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
-    let mut cursor = Cursor { bytes, at: 0, is_binary: false };
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
+    let mut cursor = Cursor { bytes, at: 0, is_binary: false, wanted };
     cursor.line();
     cursor.line();
     cursor.is_binary = match cursor.line().trim_ascii() {
@@ -109,6 +111,8 @@ impl<'a> Cursor<'a> {
         kind: Kind,
     ) -> Result<Array, Mistake> {
         let numbers = count(rows, components.max(1), kind)?;
+        // No number has fewer bytes than one, and one that parts it from the next.
+        self.wanted.take(&format!("`{name}`"), numbers.min(self.rest().len()))?;
         let (values, stored) = match self.is_binary {
             true => (self.binary(numbers, kind)?, kind.stored()),
             false => self.ascii(numbers, kind)?,
@@ -117,12 +121,25 @@ impl<'a> Cursor<'a> {
     }
 
     fn binary(&mut self, numbers: usize, kind: Kind) -> Result<Vec<f64>, Mistake> {
+        Ok(kind.read(self.bytes_of(numbers, kind)?, Order::Big))
+    }
+
+    fn bytes_of(&mut self, numbers: usize, kind: Kind) -> Result<&'a [u8], Mistake> {
         self.line();
         let bytes = self.rest().get(..numbers * kind.bytes());
         let bytes =
             bytes.ok_or_else(|| Mistake::new("the file ends within an array: it was cut off"))?;
         self.at += bytes.len();
-        Ok(kind.read(bytes, Order::Big))
+        Ok(bytes)
+    }
+
+    /// Passes over an array that is not read.
+    fn pass(&mut self, rows: usize, components: usize, kind: Kind) -> Result<(), Mistake> {
+        let numbers = count(rows, components.max(1), kind)?;
+        match self.is_binary {
+            true => self.bytes_of(numbers, kind).map(drop),
+            false => (0..numbers).try_for_each(|_| self.needed("a number").map(drop)),
+        }
     }
 
     fn ascii(&mut self, numbers: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
@@ -281,7 +298,7 @@ impl Found {
             "LOOKUP_TABLE" => {
                 let rows = cursor.integer()?;
                 let kind = if cursor.is_binary { Kind::Unsigned(1) } else { Kind::Float(4) };
-                return cursor.array("", rows, 4, kind).map(drop);
+                return cursor.pass(rows, 4, kind);
             }
             "SCALARS" => 1,
             "VECTORS" | "NORMALS" => 3,
@@ -295,6 +312,11 @@ impl Found {
         let of = self
             .of
             .ok_or_else(|| Mistake::new("expected POINT_DATA or CELL_DATA before numbers"))?;
+        if !cursor.wanted.reads(&name) {
+            cursor.pass(self.rows(of), components, kind)?;
+            self.snapshot.unread.push(name);
+            return Ok(());
+        }
         let array = cursor.array(&name, self.rows(of), components, kind)?;
         self.add(of, array, kind);
         Ok(())
@@ -324,10 +346,22 @@ impl Found {
                 name = cursor.needed("a name")?;
             }
             let (components, rows) = (cursor.integer()?, cursor.integer()?);
+            let is_read = match of {
+                Of::Whole => is_time(name),
+                Of::Points | Of::Cells => cursor.wanted.reads(name),
+            };
             if cursor.passes_words(components.saturating_mul(rows))? {
+                if of != Of::Whole && cursor.wanted.need(name) == Need::Must {
+                    return Err(Mistake::new(format!("`{name}`: expected numbers, found words")));
+                }
                 continue;
             }
             let kind = cursor.kind()?;
+            if !is_read {
+                cursor.pass(rows, components, kind)?;
+                self.snapshot.unread.push(name.to_owned());
+                continue;
+            }
             let array = cursor.array(name, rows, components, kind)?;
             if of != Of::Whole && array.rows() != self.rows(of) {
                 return Err(Mistake::new(format!(

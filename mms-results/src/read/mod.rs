@@ -11,7 +11,11 @@ mod xml;
 
 use std::path::Path;
 
+use crate::wanted::Wanted;
 use crate::{Mistake, Snapshot, Time};
+
+/// How files are opened, and what is read of them.
+type Opened<'a> = (Open<'a>, &'a Wanted<'a>);
 
 /// What was found in a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,11 +42,11 @@ const FOREIGN: &[(&[u8], &str)] = &[
     (b"$MeshFormat", "Gmsh is not read; convert it to VTK, as with `meshio convert`"),
 ];
 
-/// Reads bytes, whatever they are.
+/// Reads what is wanted of bytes, whatever they are.
 ///
 /// # Errors
 /// What is wrong with them, or what they are that is not read.
-pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     if let Some((_, what)) = FOREIGN.iter().find(|(start, _)| bytes.starts_with(start)) {
         return Err(Mistake::new(*what));
     }
@@ -50,22 +54,23 @@ pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
     match start {
         [] => Err(Mistake::new("the file is empty")),
-        _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes).map(one),
-        _ if bytes.starts_with(b"PK") => npz::parse(bytes).map(one),
-        _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes).map(one),
-        [b'<', ..] => xml::parse(bytes),
-        _ => table::parse(bytes).map(Contents::Snapshots),
+        _ if bytes.starts_with(npy::MAGIC) => npy::parse(bytes, wanted).map(one),
+        _ if bytes.starts_with(b"PK") => npz::parse(bytes, wanted).map(one),
+        _ if start.starts_with(b"# vtk DataFile") => legacy::parse(bytes, wanted).map(one),
+        [b'<', ..] => xml::parse(bytes, wanted),
+        _ => table::parse(bytes, wanted).map(Contents::Snapshots),
     }
 }
 
-/// Opens a file, or says why it cannot be.
-pub type Open<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, String>;
+/// Opens a file that takes so many bytes of memory at most, or says why it cannot.
+pub type Open<'a> = &'a dyn Fn(&Path, u64) -> Result<Vec<u8>, String>;
 
-/// Reads a file, and those that it lists.
+/// Reads what is wanted of a file, and of those that it lists.
 ///
 /// # Errors
 /// What is wrong, with the file and the line.
-pub fn read(path: &Path, open: Open<'_>) -> Result<Vec<Snapshot>, Mistake> {
+pub fn read(path: &Path, open: Open<'_>, wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
+    let open = (open, wanted);
     let name = path.to_string_lossy();
     let beside = |file: &str| path.with_file_name(file);
     let found = match contents(path, open)? {
@@ -80,14 +85,16 @@ pub fn read(path: &Path, open: Open<'_>) -> Result<Vec<Snapshot>, Mistake> {
     Ok(found)
 }
 
-fn contents(path: &Path, open: Open<'_>) -> Result<Contents, Mistake> {
+fn contents(path: &Path, open: Opened<'_>) -> Result<Contents, Mistake> {
     let name = path.to_string_lossy();
-    let bytes = open(path).map_err(|what| Mistake::new(what).of(&name))?;
-    parse(&bytes).map_err(|mistake| mistake.of(&name))
+    let (open, wanted) = open;
+    let bytes = open(path, wanted.room()).map_err(|what| Mistake::new(what).of(&name))?;
+    let found = wanted.beside(bytes.len(), || parse(&bytes, wanted));
+    found.map_err(|mistake| mistake.of(&name))
 }
 
 /// The one snapshot of a file that a list names: lists of lists end with the pieces of a time.
-fn listed(path: &Path, open: Open<'_>) -> Result<Snapshot, Mistake> {
+fn listed(path: &Path, open: Opened<'_>) -> Result<Snapshot, Mistake> {
     let snapshots = match contents(path, open)? {
         Contents::Snapshots(snapshots) => snapshots,
         Contents::Pieces(files) => {
@@ -106,7 +113,7 @@ fn listed(path: &Path, open: Open<'_>) -> Result<Snapshot, Mistake> {
 fn pieces(
     files: &[String],
     beside: &dyn Fn(&str) -> std::path::PathBuf,
-    open: Open<'_>,
+    open: Opened<'_>,
 ) -> Result<Snapshot, Mistake> {
     let piece = |file: &String| match contents(&beside(file), open)? {
         Contents::Snapshots(snapshots) => Snapshot::join(snapshots),
@@ -118,7 +125,7 @@ fn pieces(
 fn times(
     files: &[(Time, String)],
     beside: &dyn Fn(&str) -> std::path::PathBuf,
-    open: Open<'_>,
+    open: Opened<'_>,
 ) -> Result<Vec<Snapshot>, Mistake> {
     let mut found: Vec<Snapshot> = Vec::new();
     for (time, file) in files {

@@ -1,21 +1,51 @@
 //! An array of NumPy: "NEP 1, a simple file format for NumPy arrays".
 
 use super::numbers::{Kind, Order, count};
+use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
 /// How a file begins.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// What the header says.
-struct Header {
+pub struct Head {
+    /// Its own bytes, with what comes before it.
+    bytes: usize,
     kind: Kind,
     order: Order,
     is_fortran: bool,
     shape: Vec<usize>,
+    /// How many numbers there are.
+    numbers: usize,
+}
+
+impl Head {
+    /// Reads the header at the front of these bytes.
+    pub fn of(bytes: &[u8]) -> Result<Self, Mistake> {
+        let (text, data) =
+            split(bytes).ok_or_else(|| Mistake::new("the file ends within its header"))?;
+        let (kind, order, is_fortran, shape) = header(text)?;
+        let rows = shape.first().copied().unwrap_or(1);
+        let axes = shape.iter().skip(1).try_fold(1, |all: usize, &axis| all.checked_mul(axis));
+        let axes = axes.ok_or_else(|| Mistake::new("no array is as large as it says"))?;
+        let numbers = count(rows, axes, kind)?;
+        Ok(Head { bytes: bytes.len() - data.len(), kind, order, is_fortran, shape, numbers })
+    }
+
+    /// How many bytes the array has, with its header.
+    pub fn length(&self) -> u64 {
+        self.bytes as u64 + (self.numbers * self.kind.bytes()) as u64
+    }
+
+    /// How many numbers it has.
+    pub fn numbers(&self) -> usize {
+        self.numbers
+    }
 }
 
 /// Reads a file of one array, which is called `array`.
-pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
+    wanted.take("`array`", bytes.len() / 8)?;
     let array = array("array", bytes)?;
     Ok(Snapshot { of_points: vec![array], ..Snapshot::default() })
 }
@@ -24,29 +54,18 @@ pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
 pub fn array(name: &str, bytes: &[u8]) -> Result<Array, Mistake> {
     let wrong =
         |mistake: Mistake| Mistake { what: format!("`{name}`: {}", mistake.what), ..mistake };
-    let (text, data) =
-        split(bytes).ok_or_else(|| wrong(Mistake::new("the file ends within its header")))?;
-    let header = header(text).map_err(wrong)?;
-    let rows = header.shape.first().copied().unwrap_or(1);
-    let components =
-        header.shape.iter().skip(1).try_fold(1, |all: usize, &axis| all.checked_mul(axis));
-    let components =
-        components.ok_or_else(|| wrong(Mistake::new("no array is as large as it says")))?;
-    let numbers = count(rows, components, header.kind).map_err(wrong)?;
-    if data.len() != numbers * header.kind.bytes() {
-        let what = format!(
-            "{} bytes of numbers, and its shape needs {}",
-            data.len(),
-            numbers * header.kind.bytes()
-        );
+    let head = Head::of(bytes).map_err(wrong)?;
+    let (data, needed) = (&bytes[head.bytes..], head.numbers * head.kind.bytes());
+    if data.len() != needed {
+        let what = format!("{} bytes of numbers, and its shape needs {needed}", data.len());
         return Err(wrong(Mistake::new(what)));
     }
-    let mut values = header.kind.read(data, header.order);
-    if header.is_fortran {
-        values = by_rows(&values, &header.shape);
+    let mut values = head.kind.read(data, head.order);
+    if head.is_fortran {
+        values = by_rows(&values, &head.shape);
     }
-    let stored = header.kind.stored();
-    Ok(Array { name: name.to_owned(), components: components.max(1), values, stored })
+    let components = head.shape.iter().skip(1).product::<usize>().max(1);
+    Ok(Array { name: name.to_owned(), components, values, stored: head.kind.stored() })
 }
 
 /// Whether an array holds words, as bytes or in Unicode.
@@ -81,7 +100,8 @@ fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
         .ok_or_else(|| Mistake::new(format!("its header has no `{key}`")))
 }
 
-fn header(text: &str) -> Result<Header, Mistake> {
+/// The type of numbers, their order, whether the first axis runs fastest, and the shape.
+fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
     let described = behind(text, "descr")?;
     let name = described.strip_prefix('\'').and_then(|it| it.split_once('\'')).map(|it| it.0);
     let name = name.ok_or_else(|| {
@@ -107,12 +127,8 @@ fn header(text: &str) -> Result<Header, Mistake> {
     };
     let shape = shape.ok_or_else(|| Mistake::new("its header has no shape in parentheses"))?;
     let shape = shape.split(',').filter(|it| !it.trim().is_empty()).map(axis);
-    Ok(Header {
-        kind,
-        order,
-        is_fortran: behind(text, "fortran_order")?.starts_with("True"),
-        shape: shape.collect::<Result<_, _>>()?,
-    })
+    let is_fortran = behind(text, "fortran_order")?.starts_with("True");
+    Ok((kind, order, is_fortran, shape.collect::<Result<_, _>>()?))
 }
 
 /// Numbers whose first axis runs fastest, as numbers whose last axis does.

@@ -1,20 +1,36 @@
 //! Arrays of NumPy in one file, as `numpy.savez` writes them.
 
-use rawzip::{CompressionMethod, ZipArchive};
+use miniz_oxide::inflate::decompress_to_vec_with_limit;
+use rawzip::{CompressionMethod, ZipArchive, crc32};
 
 use super::npy;
 use super::table::is_time;
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
 /// What deflate makes of a byte at most.
 const RATIO: u64 = 1032;
 
+/// More bytes than the header of an array that is read has.
+const HEAD: usize = 1 << 16;
+
 fn broken(error: rawzip::Error) -> Mistake {
     Mistake::new(format!("not a file of `numpy.savez`: {error}"))
 }
 
-/// Reads all arrays of a file; those of words are left out.
-pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
+/// An array in the archive.
+struct Entry<'a> {
+    name: &'a str,
+    data: &'a [u8],
+    method: CompressionMethod,
+    /// Its bytes when it is unpacked.
+    length: u64,
+    /// Their checksum.
+    crc: u32,
+}
+
+/// Reads the arrays that are wanted. The time is one of them.
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let archive = ZipArchive::from_slice(bytes).map_err(broken)?;
     let mut entries = archive.entries();
     let mut snapshot = Snapshot::default();
@@ -31,26 +47,65 @@ pub fn parse(bytes: &[u8]) -> Result<Snapshot, Mistake> {
         if taken > bytes.len() {
             return Err(Mistake::new("two arrays have the same bytes"));
         }
-        let read = |bytes: &[u8]| match npy::are_words(bytes) {
-            true => Ok(None),
-            false => npy::array(name, bytes).map(Some),
-        };
-        let array = match entry.compression_method() {
-            CompressionMethod::STORE => read(found.data()),
-            CompressionMethod::DEFLATE => {
-                read(&inflate(name, found.data(), entry.uncompressed_size_hint())?)
-            }
-            other => Err(Mistake::new(format!("`{name}`: compression {other:?} is not read"))),
-        }?;
-        array.into_iter().for_each(|array| snapshot.take(array));
+        if !is_time(name) && !wanted.reads(name) {
+            snapshot.unread.push(name.to_owned());
+            continue;
+        }
+        let (method, length, crc) =
+            (entry.compression_method(), entry.uncompressed_size_hint(), entry.crc32());
+        match (Entry { name, data: found.data(), method, length, crc }).array(wanted)? {
+            Some(array) => snapshot.take(array),
+            None => snapshot.unread.push(name.to_owned()),
+        }
     }
     Ok(snapshot)
 }
 
-fn inflate(name: &str, data: &[u8], length: u64) -> Result<Vec<u8>, Mistake> {
-    let most = length.min(RATIO * data.len() as u64) as usize;
-    let bytes = miniz_oxide::inflate::decompress_to_vec_with_limit(data, most);
-    bytes.map_err(|error| Mistake::new(format!("`{name}`: not what its header says: {error}")))
+impl Entry<'_> {
+    /// The array; none if it holds words and need not hold numbers.
+    fn array(&self, wanted: &Wanted<'_>) -> Result<Option<Array>, Mistake> {
+        let head;
+        let head = match self.method {
+            CompressionMethod::STORE => self.data,
+            CompressionMethod::DEFLATE => {
+                head = decompress_to_vec_with_limit(self.data, HEAD)
+                    .unwrap_or_else(|error| error.output);
+                &head
+            }
+            other => return Err(self.wrong(format!("compression {other:?} is not read"))),
+        };
+        if npy::are_words(head) && wanted.need(self.name) != Need::Must {
+            return Ok(None);
+        }
+        // Nothing is unpacked beyond what the header of the array declares.
+        let head = npy::Head::of(head).map_err(|mistake| self.wrong(mistake.what))?;
+        let declared = head.length();
+        let most = RATIO * self.data.len() as u64;
+        if declared != self.length || self.method == CompressionMethod::DEFLATE && declared > most {
+            let found = self.length.min(most);
+            return Err(self.wrong(format!("{found} bytes, and its shape needs {declared}")));
+        }
+        wanted.take(&format!("`{}`", self.name), head.numbers())?;
+        let unpacked;
+        let bytes = match self.method {
+            CompressionMethod::STORE => self.data,
+            _ => {
+                unpacked = decompress_to_vec_with_limit(self.data, declared as usize)
+                    .map_err(|error| self.wrong(format!("not what its header says: {error}")))?;
+                &unpacked
+            }
+        };
+        if crc32(bytes) != self.crc {
+            let what =
+                "its checksum (CRC-32) is another: the file is damaged, write or copy it again";
+            return Err(self.wrong(what));
+        }
+        npy::array(self.name, bytes).map(Some)
+    }
+
+    fn wrong(&self, what: impl std::fmt::Display) -> Mistake {
+        Mistake::new(format!("`{}`: {what}", self.name))
+    }
 }
 
 impl Snapshot {

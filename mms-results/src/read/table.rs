@@ -1,34 +1,39 @@
 //! Tables: a header with names, and a line of numbers for each point.
 
-use csv::{ByteRecord, ReaderBuilder, Trim};
+use std::collections::BTreeSet;
 
 use super::text::{Style, number, settle};
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
 /// At how many times a table may be.
 const MOST_TIMES: usize = 10_000;
+
+/// How many columns a table may have.
+const MOST_COLUMNS: usize = 1_000_000;
 
 /// What a column of times may be called.
 const TIMES: [&str; 4] = ["time", "t", "timevalue", "time_value"];
 
 /// Whether a column or an array of this name holds times.
 pub fn is_time(name: &str) -> bool {
-    TIMES.contains(&name.to_ascii_lowercase().as_str())
+    TIMES.iter().any(|time| name.eq_ignore_ascii_case(time))
 }
 
 /// A table as it stands there.
 struct Table {
     columns: Vec<Array>,
-    styles: Vec<Style>,
     lines: Vec<usize>,
+    unread: Vec<String>,
 }
 
-/// Reads a table whose columns are separated by commas, tabs, semicolons or spaces.
-pub fn parse(bytes: &[u8]) -> Result<Vec<Snapshot>, Mistake> {
+/// A line that is neither empty nor a comment, or the header.
+type Line<'a> = (usize, &'a str);
+
+/// Reads a table whose columns are separated by commas, tabs, semicolons or blanks.
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let text = std::str::from_utf8(bytes).map_err(|error| not_text(bytes, error.valid_up_to()))?;
-    let text = text.trim_start_matches('\u{feff}');
-    let table = read(text)?;
-    by_time(table)
+    by_time(read(text.trim_start_matches('\u{feff}'), wanted)?)
 }
 
 fn not_text(bytes: &[u8], at: usize) -> Mistake {
@@ -38,143 +43,270 @@ fn not_text(bytes: &[u8], at: usize) -> Mistake {
     Mistake::at(line, what)
 }
 
-fn read(text: &str) -> Result<Table, Mistake> {
-    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
-    let mut reader = ReaderBuilder::new()
-        .delimiter(delimiter(first))
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let mut record = ByteRecord::new();
-    let mut place = Lines { text, line: 1, at: 0 };
-    let mut table: Option<(Table, Vec<bool>)> = None;
-    while reader.read_byte_record(&mut record).map_err(|error| Mistake::new(error.to_string()))? {
-        let line = place.of(record.position().map_or(0, |at| at.byte()) as usize);
-        match &mut table {
-            None => table = Some((header(&record, line)?, Vec::new())),
-            Some((table, numeric)) => table.push(&record, line, numeric)?,
-        }
+fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
+    let lines = text.lines().enumerate().map(|(at, line)| (at + 1, line));
+    let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
+    let mut comment = None;
+    while let Some(line) = lines.next_if(|(_, line)| is_comment(line)) {
+        comment = Some(line);
     }
-    let (mut table, numeric) = table.ok_or_else(|| Mistake::new("the file is empty"))?;
-    if table.lines.is_empty() {
+    let first = lines.peek().copied();
+    let header = header(comment, first)?;
+    if Some(header.line) == first.map(|(line, _)| line) {
+        lines.next();
+    }
+    let mut rows = lines.filter(|(_, line)| !is_comment(line)).peekable();
+    let Some(&(_, first)) = rows.peek() else {
         return Err(Mistake::new("a header, and no line of numbers after it"));
+    };
+    let mut columns = header.columns(fields(first, header.separator).count(), wanted)?;
+    let read = columns.all.iter().filter(|it| it.is_stored()).count();
+    wanted.take("the table", read * memchr::memchr_iter(b'\n', text.as_bytes()).count())?;
+    let mut lines = Vec::new();
+    for (line, text) in rows {
+        columns.push(line, text, header.separator)?;
+        lines.push(line);
     }
-    table.settle(&numeric);
-    Ok(table)
+    Ok(columns.table(lines))
 }
 
-/// Counts lines from one record to the next.
-struct Lines<'a> {
-    text: &'a str,
-    line: usize,
-    at: usize,
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with(['#', '%'])
 }
 
-impl Lines<'_> {
-    /// The line of the record behind the last one; empty lines before it are passed over.
-    fn of(&mut self, start: usize) -> usize {
-        let rest = &self.text.as_bytes()[start..];
-        let empty = rest.iter().take_while(|byte| byte.is_ascii_whitespace()).count();
-        let passed = &self.text.as_bytes()[self.at..start + empty];
-        self.line += memchr::memchr_iter(b'\n', passed).count();
-        self.at = start + empty;
-        self.line
-    }
+/// What stands between the columns of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Separator {
+    Mark(u8),
+    Blanks,
 }
 
-/// What separates columns, as the header shows it.
-fn delimiter(header: &str) -> u8 {
-    let separators = [b'\t', b',', b';'];
-    let found = separators.into_iter().find(|it| header.as_bytes().contains(it));
-    found.unwrap_or(if header.trim_matches(['#', ' ']).contains(' ') { b' ' } else { b',' })
-}
-
-fn field(record: &ByteRecord, column: usize) -> &str {
-    std::str::from_utf8(&record[column]).unwrap_or("")
-}
-
-/// The names of the columns. A `#` before them is no name.
-fn header(record: &ByteRecord, line: usize) -> Result<Table, Mistake> {
-    let mut names: Vec<String> =
-        (0..record.len()).map(|column| field(record, column).trim().to_owned()).collect();
-    names[0] = names[0].trim_start_matches('#').trim().to_owned();
-    if names.len() > 1 && names[0].is_empty() {
-        names.remove(0);
-    }
-    if names.iter().all(|name| number(name).is_some()) {
-        let what = "expected names of columns, as in `X,u`, and found numbers; add a header";
-        return Err(Mistake::at(line, what));
-    }
-    for (column, name) in names.iter().enumerate() {
-        if names[..column].contains(name) && !name.is_empty() {
-            return Err(Mistake::at(line, format!("two columns are called `{name}`")));
+impl Separator {
+    /// The one that a header shows.
+    fn of(header: &str) -> Self {
+        let marks = [b'\t', b',', b';'];
+        match marks.into_iter().find(|it| header.as_bytes().contains(it)) {
+            Some(mark) => Separator::Mark(mark),
+            None => Separator::Blanks,
         }
     }
-    let styles = vec![Style::default(); names.len()];
-    let column =
-        |name| Array { name, components: 1, values: Vec::new(), stored: crate::Stored::Double };
-    Ok(Table { columns: names.into_iter().map(column).collect(), styles, lines: Vec::new() })
 }
 
-/// Whether a word is a number as a program shows it, as in `np.float64(0.5)`: who wrote it meant a number.
-fn is_wrapped(text: &str) -> bool {
-    let inner = text.trim().strip_suffix(')').and_then(|it| it.split_once('('));
-    inner.is_some_and(|(_, inner)| number(inner).is_some())
+/// The fields of a line, without the blanks around them. In quotes a separator is none.
+fn fields(line: &str, separator: Separator) -> impl Iterator<Item = &str> {
+    let mut rest = Some(line);
+    std::iter::from_fn(move || {
+        let mut text = rest?;
+        if separator == Separator::Blanks {
+            text = text.trim_ascii_start();
+            if text.is_empty() {
+                return None;
+            }
+        }
+        let quoted = text.trim_ascii_start().strip_prefix('"').and_then(|it| it.split_once('"'));
+        let (field, behind) = match quoted {
+            Some((field, behind)) => (Some(field), behind),
+            None => (None, text),
+        };
+        let end = match separator {
+            Separator::Mark(mark) => memchr::memchr(mark, behind.as_bytes()),
+            Separator::Blanks => behind.bytes().position(|byte| byte.is_ascii_whitespace()),
+        };
+        let (own, after) = match end {
+            Some(end) => (&behind[..end], Some(&behind[end + 1..])),
+            None => (behind, None),
+        };
+        rest = after;
+        Some(field.unwrap_or(own).trim())
+    })
 }
 
-impl Table {
-    /// Adds a line. Columns that begin with a word are left out, and are no longer `numeric`.
-    fn push(
-        &mut self,
-        record: &ByteRecord,
-        line: usize,
-        numeric: &mut Vec<bool>,
-    ) -> Result<(), Mistake> {
-        let (found, columns) = (record.len(), self.columns.len());
-        if found != columns {
+/// The names of columns.
+struct Header<'a> {
+    line: usize,
+    text: &'a str,
+    separator: Separator,
+}
+
+impl<'a> Header<'a> {
+    /// A line as a header. A `#` before it is no name.
+    fn of((line, text): Line<'a>) -> Self {
+        let text = if is_comment(text) {
+            let marks = |it: char| it == '#' || it == '%';
+            text.trim_start().trim_start_matches(marks)
+        } else {
+            text
+        };
+        Header { line, text, separator: Separator::of(text) }
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'a str> {
+        fields(self.text, self.separator)
+    }
+
+    /// Whether a row of so many fields may stand under it: its first name may be empty for a `#` alone.
+    fn fits(&self, fields: usize) -> bool {
+        let names = self.names().take(MOST_COLUMNS).count();
+        names == fields || names == fields + 1 && self.names().next() == Some("")
+    }
+
+    /// The columns under it, of which the first row has so many.
+    fn columns(&self, fields: usize, wanted: &Wanted<'_>) -> Result<Columns, Mistake> {
+        let mut names = self.names();
+        let mut count = self.names().count();
+        if count > MOST_COLUMNS {
+            let what = format!("{count} columns; expected {MOST_COLUMNS} at most");
+            return Err(Mistake::at(self.line, what));
+        }
+        if count == fields + 1 && self.names().next() == Some("") {
+            names.next();
+            count -= 1;
+        }
+        let mut seen = BTreeSet::new();
+        let (mut all, mut unread) = (Vec::new(), Vec::new());
+        // No name is no quantity: programs write indices so.
+        for (at, name) in names.enumerate().filter(|(_, name)| !name.is_empty()) {
+            if !seen.insert(name) {
+                let what = format!("two columns are called `{name}`");
+                return Err(Mistake::at(self.line, what));
+            }
+            match if is_time(name) { Need::Must } else { wanted.need(name) } {
+                Need::No => unread.push(name.to_owned()),
+                need => all.push(Column::new(at, name, need)),
+            }
+        }
+        Ok(Columns { count, all, unread })
+    }
+}
+
+/// The header: the first line, or the last comment before it if the first line has numbers and the comment as many names.
+fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Header<'a>, Mistake> {
+    let Some(first) = first else {
+        return match comment {
+            Some(comment) => Ok(Header::of(comment)),
+            None => Err(Mistake::new("the file is empty")),
+        };
+    };
+    let is_number = |text: &str| number(text).is_some();
+    if let Some(comment) = comment.map(Header::of) {
+        let has_numbers = fields(first.1, comment.separator).any(is_number);
+        let found = fields(first.1, comment.separator).count();
+        if has_numbers && comment.fits(found) && !comment.names().any(is_number) {
+            return Ok(comment);
+        }
+    }
+    let header = Header::of(first);
+    if header.names().all(is_number) {
+        let what = "expected names of columns, as in `X,u`, and found numbers; add a header";
+        return Err(Mistake::at(header.line, what));
+    }
+    Ok(header)
+}
+
+/// The columns that are looked at, of all that there are.
+struct Columns {
+    count: usize,
+    all: Vec<Column>,
+    unread: Vec<String>,
+}
+
+impl Columns {
+    /// Adds a line.
+    fn push(&mut self, line: usize, text: &str, separator: Separator) -> Result<(), Mistake> {
+        let mut columns = self.all.iter_mut().peekable();
+        let (mut found, mut wrong) = (0, None);
+        for text in fields(text, separator) {
+            if let Some(column) = columns.next_if(|it| it.at == found) {
+                wrong = wrong.or(column.see(line, text).err());
+            }
+            found += 1;
+        }
+        if found != self.count {
             let what = format!(
-                "{found} columns, and {columns} names in the header; separate columns by one comma, tab, semicolon \
-                 or space"
+                "{found} columns, and {} names in the header; separate columns by one comma, tab or semicolon, or by \
+                 blanks",
+                self.count
             );
             return Err(Mistake::at(line, what));
         }
-        if numeric.is_empty() {
-            *numeric = (0..columns)
-                .map(|at| number(field(record, at)).is_some() || is_wrapped(field(record, at)))
-                .collect();
-        }
-        for column in (0..columns).filter(|&column| numeric[column]) {
-            let text = field(record, column);
-            let value = number(text).ok_or_else(|| {
-                let name = &self.columns[column].name;
-                Mistake::at(line, format!("column `{name}`: expected a number, found `{text}`"))
-            })?;
-            self.styles[column].see(text);
-            self.columns[column].values.push(value);
-        }
-        self.lines.push(line);
-        Ok(())
+        wrong.map_or(Ok(()), Err)
     }
 
-    fn settle(&mut self, numeric: &[bool]) {
-        let columns = std::mem::take(&mut self.columns).into_iter().zip(&self.styles).zip(numeric);
-        let columns = columns.filter(|(_, numeric)| **numeric);
-        self.columns =
-            columns.map(|((array, style), _)| Array { stored: style.stored(), ..array }).collect();
-        let single = vec![false; self.columns.len()];
-        settle(&mut self.columns.iter_mut().collect::<Vec<_>>(), &single);
+    fn table(self, lines: Vec<usize>) -> Table {
+        let Columns { all, mut unread, .. } = self;
+        let (read, rest): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|it| it.is_stored() && it.word.is_none());
+        unread.extend(rest.into_iter().map(|it| it.name));
+        let array = |Column { name, values, style, .. }| {
+            let style: Style = style;
+            Array { name, components: 1, values, stored: style.stored() }
+        };
+        let mut columns: Vec<Array> = read.into_iter().map(array).collect();
+        let single = vec![false; columns.len()];
+        settle(&mut columns.iter_mut().collect::<Vec<_>>(), &single);
+        Table { columns, lines, unread }
+    }
+}
+
+/// A column that is looked at.
+struct Column {
+    /// Its place among all.
+    at: usize,
+    name: String,
+    need: Need,
+    values: Vec<f64>,
+    style: Style,
+    has_numbers: bool,
+    /// The first word in it, and its line.
+    word: Option<(usize, String)>,
+}
+
+impl Column {
+    fn new(at: usize, name: &str, need: Need) -> Self {
+        let (values, style) = (Vec::new(), Style::default());
+        Column { at, name: name.into(), need, values, style, has_numbers: false, word: None }
+    }
+
+    fn is_stored(&self) -> bool {
+        self.need != Need::Sound
+    }
+
+    /// Looks at one more field.
+    ///
+    /// # Errors
+    /// A word where numbers must be, or are.
+    fn see(&mut self, line: usize, text: &str) -> Result<(), Mistake> {
+        match number(text) {
+            Some(value) => {
+                self.has_numbers = true;
+                if self.is_stored() && self.word.is_none() {
+                    self.style.see(text);
+                    self.values.push(value);
+                }
+            }
+            None if self.word.is_none() => self.word = Some((line, text.to_owned())),
+            None => {}
+        }
+        match &self.word {
+            Some((line, word)) if self.has_numbers || self.need == Need::Must => {
+                Err(self.expected_number(*line, word))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn expected_number(&self, line: usize, word: &str) -> Mistake {
+        let found = if word.is_empty() { "nothing".into() } else { format!("`{word}`") };
+        let what = format!("column `{}`: expected a number, found {found}", self.name);
+        Mistake::at(line, what)
     }
 }
 
 /// A table as the snapshots of its times.
 fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
     let Some(column) = table.columns.iter().position(|column| is_time(&column.name)) else {
-        return Ok(vec![Snapshot {
-            of_points: table.columns,
-            lines: table.lines,
-            ..Snapshot::default()
-        }]);
+        let Table { columns: of_points, lines, unread } = table;
+        return Ok(vec![Snapshot { of_points, lines, unread, ..Snapshot::default() }]);
     };
     let times = table.columns.remove(column);
     let mut rows: Vec<usize> = (0..table.lines.len()).collect();
@@ -189,7 +321,27 @@ fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
         );
         return Err(Mistake::new(what));
     }
+    hold_whole(&groups, &table.lines)?;
     Ok(groups.into_iter().map(|rows| at_time(&table, &times, rows)).collect())
+}
+
+/// Refuses a table whose last time has fewer rows than each other one: it was cut off.
+fn hold_whole(groups: &[&[usize]], lines: &[usize]) -> Result<(), Mistake> {
+    let last = groups.iter().position(|rows| rows.last() == Some(&(lines.len() - 1)));
+    let others = |last: usize| {
+        groups.iter().enumerate().filter(move |(at, _)| *at != last).map(|(_, rows)| rows.len())
+    };
+    let Some((last, each)) = last.and_then(|last| Some((last, others(last).next()?))) else {
+        return Ok(());
+    };
+    let found = groups[last].len();
+    if found >= each || others(last).any(|other| other != each) {
+        return Ok(());
+    }
+    let what = format!(
+        "the table ends after {found} points of a time, and every other time has {each}: was it cut off? write it again"
+    );
+    Err(Mistake::at(lines[lines.len() - 1], what))
 }
 
 fn at_time(table: &Table, times: &Array, rows: &[usize]) -> Snapshot {
@@ -202,6 +354,7 @@ fn at_time(table: &Table, times: &Array, rows: &[usize]) -> Snapshot {
         time: Some(Time { value, rounding: times.stored.rounding(value) }),
         of_points: table.columns.iter().map(part).collect(),
         lines: rows.iter().map(|&row| table.lines[row]).collect(),
+        unread: table.unread.clone(),
         ..Snapshot::default()
     }
 }

@@ -10,6 +10,7 @@ use super::table::is_time;
 use super::text::{Style, number, settle};
 use super::{Contents, MOST_FILES};
 use crate::snapshot::Section;
+use crate::wanted::{Need, Wanted};
 use crate::{Array, Cells, Mistake, Snapshot, Stored, Time};
 
 /// How many elements a file may have: its numbers are none.
@@ -24,6 +25,7 @@ struct Format<'a> {
     header: Kind,
     is_compressed: bool,
     appended: Option<Encoded<'a>>,
+    wanted: &'a Wanted<'a>,
 }
 
 /// Arrays of a file, and of each whether it is declared to be in single precision.
@@ -31,14 +33,15 @@ struct Format<'a> {
 struct Arrays {
     all: Vec<Array>,
     single: Vec<bool>,
+    unread: Vec<String>,
 }
 
 /// Reads a file: its grid, or the list of its files.
-pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
+pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
     let (text, appended) = split(bytes);
     let text = match appended {
-        Some(_) => [text, b"</VTKFile>"].concat(),
-        None => text.to_vec(),
+        Some(_) => Cow::Owned([text, b"</VTKFile>"].concat()),
+        None => Cow::Borrowed(text),
     };
     let text = std::str::from_utf8(&text).map_err(|_| Mistake::new("expected XML in UTF-8"))?;
     let text = text.trim_start_matches('\u{feff}').trim_start();
@@ -54,7 +57,7 @@ pub fn parse(bytes: &[u8]) -> Result<Contents, Mistake> {
         };
         return Err(Mistake::new(what));
     }
-    contents(root, &Format::of(root, appended)?)
+    contents(root, &Format::of(root, appended, wanted)?)
 }
 
 /// The XML of a file, and what stands behind it in bytes, after the tag of its element.
@@ -104,7 +107,11 @@ fn tag(text: &[u8]) -> Option<usize> {
 }
 
 impl<'a> Format<'a> {
-    fn of(root: Node<'_, '_>, appended: Option<[&'a [u8]; 2]>) -> Result<Self, Mistake> {
+    fn of(
+        root: Node<'_, '_>,
+        appended: Option<[&'a [u8]; 2]>,
+        wanted: &'a Wanted<'a>,
+    ) -> Result<Self, Mistake> {
         let order = match root.attribute("byte_order") {
             Some("BigEndian") => Order::Big,
             _ => Order::Little,
@@ -131,7 +138,7 @@ impl<'a> Format<'a> {
             Some(_) => Encoded::Base64(letters(data), Vec::new()),
             None => Encoded::Raw(data),
         });
-        Ok(Format { order, header, is_compressed, appended })
+        Ok(Format { order, header, is_compressed, appended, wanted })
     }
 }
 
@@ -245,7 +252,7 @@ fn time_of(data: Node<'_, '_>, format: &Format<'_>) -> Result<Option<Time>, Mist
         return Ok(None);
     };
     let mut arrays = Arrays::default();
-    arrays.read(node, None, format)?;
+    arrays.read(node, Some(1), format)?;
     arrays.settle();
     let found = arrays.all.first().filter(|array| array.values.len() == 1);
     let array = found.ok_or_else(|| at(node, "expected one time"))?;
@@ -267,10 +274,10 @@ fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> 
     let of_points = arrays.all.len();
     arrays.section(piece, "CellData", cells.len(), format)?;
     arrays.settle();
-    let mut all = arrays.all;
+    let Arrays { mut all, unread, .. } = arrays;
     let of_cells = all.split_off(of_points);
     let of_points = all.split_off(has_points);
-    Ok(Snapshot { points: all.pop(), cells, of_points, of_cells, ..Snapshot::default() })
+    Ok(Snapshot { points: all.pop(), cells, of_points, of_cells, unread, ..Snapshot::default() })
 }
 
 /// An attribute that is a number; 0 where there is none.
@@ -280,11 +287,16 @@ fn attribute(node: Node<'_, '_>, name: &str) -> Result<usize, Mistake> {
     text.parse().map_err(|_| wrong())
 }
 
+/// How many there are, as an attribute declares it, if it does.
+fn declared(node: Node<'_, '_>, name: &str) -> Result<Option<usize>, Mistake> {
+    node.attribute(name).map(|_| attribute(node, name)).transpose()
+}
+
 fn cells(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Cells, Mistake> {
     if let Some(node) = child(piece, "Cells") {
-        let (ends, points) =
-            (integers(node, "offsets", format)?, integers(node, "connectivity", format)?);
-        let types = integers(node, "types", format)?.into_iter();
+        let count = declared(piece, "NumberOfCells")?;
+        let (ends, points) = lists(node, count, format)?;
+        let types = integers(node, "types", count, format)?.into_iter();
         let kind = |kind: usize| {
             u8::try_from(kind).map_err(|_| at(node, format!("no type of cells: {kind}")))
         };
@@ -293,19 +305,36 @@ fn cells(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Cells, Mistake> {
     let mut cells = Cells::default();
     for section in Section::ALL {
         let Some(node) = child(piece, section.name()) else { continue };
-        let (ends, points) =
-            (integers(node, "offsets", format)?, integers(node, "connectivity", format)?);
+        let count = declared(piece, &format!("NumberOf{}", section.name()))?;
+        let (ends, points) = lists(node, count, format)?;
         cells.add(section, &ends, points);
     }
     Ok(cells)
 }
 
+/// Where so many cells end, and their points: as many as the last end says.
+fn lists(
+    node: Node<'_, '_>,
+    count: Option<usize>,
+    format: &Format<'_>,
+) -> Result<(Vec<usize>, Vec<usize>), Mistake> {
+    let ends = integers(node, "offsets", count, format)?;
+    let points = ends.last().copied().unwrap_or(0);
+    let points = integers(node, "connectivity", Some(points), format)?;
+    Ok((ends, points))
+}
+
 /// The array of that name as positions; none where it is not there.
-fn integers(node: Node<'_, '_>, name: &str, format: &Format<'_>) -> Result<Vec<usize>, Mistake> {
+fn integers(
+    node: Node<'_, '_>,
+    name: &str,
+    count: Option<usize>,
+    format: &Format<'_>,
+) -> Result<Vec<usize>, Mistake> {
     let named = |it: &Node<'_, '_>| it.attribute("Name") == Some(name);
     let Some(node) = node.children().find(named) else { return Ok(Vec::new()) };
     let mut arrays = Arrays::default();
-    arrays.read(node, None, format)?;
+    arrays.read(node, count, format)?;
     let values = arrays.all.pop().map(|array| array.values).unwrap_or_default();
     positions(values).map_err(|mistake| at(node, mistake.what))
 }
@@ -320,11 +349,23 @@ impl Arrays {
         format: &Format<'_>,
     ) -> Result<(), Mistake> {
         let Some(section) = child(piece, name) else { return Ok(()) };
-        let mut nodes = section.children().filter(|it| it.has_tag_name("DataArray"));
-        nodes.try_for_each(|node| self.read(node, Some(rows), format))
+        let is_array = |it: &Node<'_, '_>| it.has_tag_name("DataArray") || it.has_tag_name("Array");
+        for node in section.children().filter(is_array) {
+            let name = node.attribute("Name").unwrap_or("");
+            match (format.wanted.need(name), node.attribute("type")) {
+                (Need::Must, Some("String")) => {
+                    return Err(at(node, format!("`{name}`: expected numbers, found words")));
+                }
+                (Need::No | Need::Sound, _) | (_, Some("String")) => {
+                    self.unread.push(name.to_owned());
+                }
+                _ => self.read(node, Some(rows), format)?,
+            }
+        }
+        Ok(())
     }
 
-    /// Reads an array; one of words is left out.
+    /// Reads an array.
     fn read(
         &mut self,
         node: Node<'_, '_>,
@@ -332,16 +373,15 @@ impl Arrays {
         format: &Format<'_>,
     ) -> Result<(), Mistake> {
         let kind = node.attribute("type").unwrap_or("");
-        if kind == "String" {
-            return Ok(());
-        }
         let kind = Kind::of_xml(kind).ok_or_else(|| {
             at(node, format!("type `{kind}`: expected one such as Float64 or Int32"))
         })?;
         let components = attribute(node, "NumberOfComponents")?.max(1);
         let expected = rows.map(|rows| count(rows, components, kind)).transpose()?;
+        let name = node.attribute("Name").unwrap_or("").to_owned();
+        let format = &Declared { format, name: &name, numbers: expected };
         let found = match node.attribute("format") {
-            None | Some("ascii") => ascii(node, kind),
+            None | Some("ascii") => format.ascii(node, kind),
             Some("binary") => {
                 let text = node.text().unwrap_or("").as_bytes();
                 let clean: Vec<u8>;
@@ -360,7 +400,6 @@ impl Arrays {
                 Err(Mistake::new(format!("format `{other}`: expected ascii, binary or appended")))
             }
         };
-        let name = node.attribute("Name").unwrap_or("").to_owned();
         let (values, stored) =
             found.map_err(|mistake| at(node, format!("`{name}`: {}", mistake.what)))?;
         if expected.is_some_and(|expected| expected != values.len())
@@ -383,22 +422,35 @@ impl Arrays {
     }
 }
 
-/// The numbers of an array in text.
-fn ascii(node: Node<'_, '_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
-    let mut style = Style::default();
-    let value = |text: &str| {
-        style.see(text);
-        number(text).ok_or_else(|| Mistake::new(format!("expected a number, found `{text}`")))
-    };
-    let values = node.text().unwrap_or("").split_ascii_whitespace().map(value);
-    let values = values.collect::<Result<Vec<_>, _>>()?;
-    Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
+/// An array of which it is known, as a rule, how many numbers it has.
+struct Declared<'a> {
+    format: &'a Format<'a>,
+    name: &'a str,
+    numbers: Option<usize>,
 }
 
-impl Format<'_> {
+impl Declared<'_> {
+    /// Takes room for the array.
+    fn take(&self, numbers: usize) -> Result<(), Mistake> {
+        self.format.wanted.take(&format!("`{}`", self.name), numbers)
+    }
+
+    /// The numbers of an array in text.
+    fn ascii(&self, node: Node<'_, '_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+        let text = node.text().unwrap_or("");
+        self.take(self.numbers.unwrap_or(usize::MAX).min(text.len() / 2))?;
+        let mut style = Style::default();
+        let value = |text: &str| {
+            style.see(text);
+            number(text).ok_or_else(|| Mistake::new(format!("expected a number, found `{text}`")))
+        };
+        let values = text.split_ascii_whitespace().map(value).collect::<Result<Vec<_>, _>>()?;
+        Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
+    }
+
     fn appended_at(&self, offset: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
         let beyond = || Mistake::new(format!("offset {offset}: beyond the appended data"));
-        let encoded = match self.appended.as_ref().ok_or_else(beyond)? {
+        let encoded = match self.format.appended.as_ref().ok_or_else(beyond)? {
             Encoded::Raw(bytes) => Encoded::Raw(bytes.get(offset..).ok_or_else(beyond)?),
             Encoded::Base64(text, _) => {
                 Encoded::Base64(text.get(offset..).ok_or_else(beyond)?, Vec::new())
@@ -408,28 +460,42 @@ impl Format<'_> {
     }
 
     fn decode(&self, mut encoded: Encoded<'_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
-        let bytes = match self.is_compressed {
-            true => Cow::Owned(self.inflate(&mut encoded)?),
+        let format = self.format;
+        let bytes = match format.is_compressed {
+            true => Cow::Owned(self.inflate(&mut encoded, kind)?),
             false => {
-                let length = encoded.integer(self.header, self.order)?;
+                let length = encoded.integer(format.header, format.order)?;
+                self.hold(length, kind)?;
                 encoded.take(length)?
             }
         };
         if bytes.len() % kind.bytes() != 0 {
             return Err(Mistake::new("its length is not that of whole numbers"));
         }
-        Ok((kind.read(&bytes, self.order), kind.stored()))
+        Ok((kind.read(&bytes, format.order), kind.stored()))
+    }
+
+    /// Refuses so many bytes where another number of them is declared, or where there is no room for them.
+    fn hold(&self, bytes: usize, kind: Kind) -> Result<(), Mistake> {
+        if let Some(expected) = self.numbers.map(|numbers| numbers.saturating_mul(kind.bytes()))
+            && bytes != expected
+        {
+            return Err(Mistake::new(format!("{bytes} bytes of numbers, and expected {expected}")));
+        }
+        self.take(bytes / kind.bytes())
     }
 
     /// Blocks of bytes, each compressed for itself: how many, their length, that of the last if it is another, and the
     /// lengths to which they were compressed.
-    fn inflate(&self, encoded: &mut Encoded<'_>) -> Result<Vec<u8>, Mistake> {
-        let blocks = encoded.integer(self.header, self.order)?;
-        let [length, last] =
-            [encoded.integer(self.header, self.order)?, encoded.integer(self.header, self.order)?];
-        let table = encoded.take(blocks.saturating_mul(self.header.bytes()))?;
+    fn inflate(&self, encoded: &mut Encoded<'_>, kind: Kind) -> Result<Vec<u8>, Mistake> {
+        let Format { header, order, .. } = *self.format;
+        let mut integer = || encoded.integer(header, order);
+        let [blocks, length, last] = [integer()?, integer()?, integer()?];
+        let before = if last > 0 { blocks.saturating_sub(1) } else { blocks };
+        self.hold(before.saturating_mul(length).saturating_add(last), kind)?;
+        let table = encoded.take(blocks.saturating_mul(header.bytes()))?;
         let mut bytes = Vec::new();
-        for (block, compressed) in self.header.read(&table, self.order).into_iter().enumerate() {
+        for (block, compressed) in header.read(&table, order).into_iter().enumerate() {
             let compressed = encoded.take(compressed as usize)?;
             let length = if block + 1 == blocks && last > 0 { last } else { length };
             let block =

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_convergence::Verdict;
-use mms_results::names::{Mapping, Role};
+use mms_results::names::{Mapping, Role, everything};
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
 
 use super::super::{Outcome, say, this_command};
 use super::Judge;
 use crate::judge::results::{
-    Baseline, Comparison, Measurement, Reading, Results, measure, same, weight,
+    Baseline, Comparison, Measurement, Reading, Results, measure, room, same, weight,
 };
 use crate::judge::table::Orders;
 use crate::read::{self, Kind};
@@ -44,6 +44,9 @@ pub struct Options {
     /// Take means by this column: volume or mass.
     #[arg(long, value_name = "NAME", value_parser = weight)]
     weight: Option<Role>,
+    /// The memory that reading a file may take, in MB; without it what is free.
+    #[arg(long, value_name = "MB")]
+    max_memory: Option<u64>,
     /// Results of one of the FILEs' meshes, computed with a smaller tolerance of the solver. The difference is its iterative
     /// error; levels whose error is not a hundred times larger are left out of the verdict.
     #[arg(long, value_name = "FILE", requires = "field")]
@@ -92,10 +95,15 @@ impl Judge {
             [] => Vec::new(),
             names => evaluated(names)?,
         };
+        let reading = Reading {
+            map: &options.map,
+            wanted: &wanted,
+            weight: options.weight,
+            memory: options.max_memory,
+        };
         let all =
-            self.files.iter().map(|file| Results::find(file)).collect::<anyhow::Result<_>>()?;
-        let reading = Reading { map: &options.map, wanted: &wanted, weight: options.weight };
-        let tighter = options.tighter.as_deref().map(Results::find).transpose()?;
+            self.files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
+        let tighter = options.tighter.as_deref().map(|it| reading.find(it)).transpose()?;
         let comparison = Comparison {
             sizes: &options.h,
             times: &options.time,
@@ -124,8 +132,11 @@ impl Judge {
     /// Compares two results.
     pub(super) fn same(&self) -> anyhow::Result<Outcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
-        let found = same(&Results::find(a)?, &Results::find(b)?, &self.results.map)?;
+        let (room, advice) = room(self.results.max_memory);
+        let find =
+            |given| Results::find(given, &everything(&self.results.map).within(room, advice));
+        let found = same(&find(a)?, &find(b)?, &self.results.map)?;
         self.show(differences(a, b, &found))?;
-        Ok(Outcome::AsExpected)
+        Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })
     }
 }

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
+use mms_results::wanted::Wanted;
 use mms_results::{Mistake, Snapshot};
 use mms_spec::foreign;
 
 use crate::read::{self, Kind, cannot_read};
+use crate::session::method::memory;
 
 /// How files of results end, where a folder has others too.
 const ENDS: [&str; 9] = ["pvtu", "pvtp", "vtu", "vtp", "vtk", "npz", "npy", "csv", "tsv"];
@@ -33,21 +35,28 @@ impl Results {
         }
     }
 
-    /// Reads what was named.
+    /// Reads what is wanted of what was named.
     ///
     /// # Errors
-    /// Nothing there, or what is wrong with a file, and where.
-    pub fn find(given: &str) -> anyhow::Result<Results> {
+    /// Nothing there, or what is wrong with a file, and where; more than there is memory for.
+    pub fn find(given: &str, wanted: &Wanted<'_>) -> anyhow::Result<Results> {
         let mut snapshots = Vec::new();
         for path in paths(given)? {
-            let open = |path: &Path| {
-                read::bytes(path, Kind::Results).map_err(|error| format!("cannot read it: {error}"))
+            let open = |path: &Path, room: u64| {
+                read::bytes_within(path, Kind::Results, room)
+                    .map_err(|error| format!("cannot read it: {error}"))
             };
-            snapshots.extend(mms_results::read(&path, &open).map_err(placed)?);
+            snapshots.extend(mms_results::read(&path, &open, wanted).map_err(placed)?);
         }
         snapshots.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
         Ok(Results { name: given.to_owned(), snapshots })
     }
+}
+
+/// The memory that reading may take: so many MB, or what is free; and what to do where that is too little.
+pub fn room(most: Option<u64>) -> (u64, &'static str) {
+    let bytes = most.map_or_else(memory, |most| most.saturating_mul(1_000_000));
+    (bytes, "read fewer quantities with `--quantity`, or allow more with `--max-memory MB`")
 }
 
 fn moment(snapshot: &Snapshot) -> f64 {

@@ -1,13 +1,13 @@
 //! The errors of one snapshot.
 
 use anyhow::{anyhow, bail};
-use mms_results::motion::{hold_distinct, resolve};
-use mms_results::names::{Form, Mapping, Meaning, Role, Values, recognise};
+use mms_results::motion::{Motion, hold_distinct, resolve};
+use mms_results::names::{Form, Mapping, Meaning, Role, Values, recognise, wanted};
 use mms_results::norm::Mesh;
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
-use super::files::placed;
+use super::files::{Results, placed, room};
 use super::taken::Taken;
 use crate::session::exact::Exact;
 
@@ -99,6 +99,8 @@ pub struct Reading<'a> {
     pub wanted: &'a [Quantity],
     /// Weights of points.
     pub weight: Option<Role>,
+    /// The memory that reading a file may take, in MB; without it what is free.
+    pub memory: Option<u64>,
 }
 
 /// What was found in a snapshot.
@@ -113,8 +115,8 @@ pub struct Found {
     pub unknown: Option<u8>,
     /// How X was found.
     pub how: String,
-    /// Quantities that are there and cannot be judged.
-    pub passed_over: Vec<&'static str>,
+    /// Quantities that are there and cannot be judged, and arrays that are something else than their name says.
+    pub passed_over: Vec<String>,
 }
 
 /// What means may be taken by.
@@ -145,6 +147,16 @@ fn values<'a>(
 }
 
 impl Reading<'_> {
+    /// Reads what was named, as far as it is needed.
+    ///
+    /// # Errors
+    /// As of [`Results::find`].
+    pub fn find(&self, given: &str) -> anyhow::Result<Results> {
+        let (room, advice) = room(self.memory);
+        let wants = |role: Role| self.wants(role);
+        Results::find(given, &wanted(self.map, &wants).within(room, advice))
+    }
+
     /// Whether an array of that meaning is needed.
     fn wants(&self, role: Role) -> bool {
         let is_place =
@@ -170,8 +182,11 @@ impl Reading<'_> {
     ) -> anyhow::Result<Found> {
         let dimension = exact.dimension;
         let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
-        let motion = resolve(snapshot, &meanings, dimension, &|point| exact.body.distance(point))
-            .map_err(placed)?;
+        let outside = |point: &[f64]| exact.body.distance(point);
+        let motion = {
+            let mut back = exact.back(time, snapshot.rows());
+            resolve(snapshot, &meanings, dimension, &outside, Some(&mut back)).map_err(placed)?
+        };
         let cells = &snapshot.cells;
         let mesh = Mesh { cells, points: &motion.reference.numbers, dimension };
         let sizes = mesh.sizes();
@@ -194,14 +209,19 @@ impl Reading<'_> {
         if let Some(u) = motion.displacement.as_ref().filter(|_| self.wants_u()) {
             errors.push(taken.errors(Quantity::Displacement, u, weights)?);
         }
-        for meaning in meanings.iter().filter(|it| self.is_judged(it.role)) {
+        for meaning in meanings.iter().filter(|it| self.is_judged(it, &motion)) {
+            if self.is_something_else(meaning, dimension) {
+                let name = meaning.role.name();
+                passed_over.push(format!("{} (one number, and no {name})", meaning.source));
+                continue;
+            }
             // One after the other: all of them at once would take as much memory as the file.
             match quantity(meaning.role) {
                 Some(quantity) => {
                     let values = values(meaning, snapshot, taken.exact)?;
                     errors.push(taken.errors(quantity, &values, weights)?);
                 }
-                None => passed_over.push(meaning.role.name()),
+                None => passed_over.push(meaning.role.name().into()),
             }
         }
         errors.extend(taken.tractions(&meanings)?);
@@ -221,10 +241,17 @@ impl Reading<'_> {
     ) -> anyhow::Result<Vec<(Quantity, Values<'b>)>> {
         let meanings = recognise(snapshot, self.map, &|role| self.wants(role)).map_err(placed)?;
         let outside = |point: &[f64]| exact.body.distance(point);
-        let motion = resolve(snapshot, &meanings, exact.dimension, &outside).map_err(placed)?;
+        let time = snapshot.time.map_or(exact.window[0], |time| time.value);
+        let mut back = exact.back(time, snapshot.rows());
+        let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
+            .map_err(placed)?;
+        let judged = meanings.iter().filter(|it| {
+            self.is_judged(it, &motion) && !self.is_something_else(it, exact.dimension)
+        });
+        let judged: Vec<&Meaning> = judged.collect();
         let u = motion.displacement.filter(|_| self.wants_u());
         let mut all: Vec<_> = u.map(|u| (Quantity::Displacement, u)).into_iter().collect();
-        for meaning in meanings.iter().filter(|it| self.is_judged(it.role)) {
+        for meaning in judged {
             let Some(quantity) = quantity(meaning.role) else { continue };
             all.push((quantity, values(meaning, snapshot, exact)?));
         }
@@ -235,13 +262,19 @@ impl Reading<'_> {
         self.wanted.is_empty() || self.wanted.contains(&Quantity::Displacement)
     }
 
-    /// Whether an array of that meaning is judged by itself: u is as it was found, x where it is asked for, and tractions
-    /// are of faces.
-    fn is_judged(&self, role: Role) -> bool {
-        match role {
-            Role::Reference | Role::Place | Role::Displacement | Role::Volume | Role::Mass => false,
+    /// Whether an array is not the quantity that its name says: one number, and not asked for.
+    fn is_something_else(&self, meaning: &Meaning, dimension: usize) -> bool {
+        meaning.is_other_scalar(dimension) && self.wanted.is_empty()
+    }
+
+    /// Whether an array of that meaning is judged by itself: u if it is of cells, and else as it was found; x where it is asked
+    /// for; tractions are of faces.
+    fn is_judged(&self, meaning: &Meaning, motion: &Motion<'_>) -> bool {
+        match meaning.role {
+            Role::Displacement => motion.displacement.is_none() && self.wants_u(),
+            Role::Reference | Role::Place | Role::Volume | Role::Mass => false,
             Role::Traction | Role::Normal => false,
-            Role::Position => self.wanted.contains(&Quantity::Position),
+            Role::Position => !motion.is_inverse && self.wanted.contains(&Quantity::Position),
             _ => true,
         }
     }

@@ -1,5 +1,7 @@
 //! Two results of one run: how far they differ, and where. Points may stand in another order.
 
+use std::collections::BTreeMap;
+
 use anyhow::{bail, ensure};
 use mms_results::names::Mapping;
 use mms_results::pairing::{self, By, Pairs};
@@ -38,6 +40,8 @@ pub struct Same {
     pub alone: Vec<String>,
     /// How points were paired.
     pub paired: String,
+    /// The positions of the differences, by their names.
+    known: BTreeMap<String, usize>,
 }
 
 /// Compares two results, point by point.
@@ -69,12 +73,17 @@ pub fn same(a: &Results, b: &Results, map: &[Mapping]) -> anyhow::Result<Same> {
 }
 
 impl Same {
+    /// Whether all numbers that were compared are finite.
+    pub fn is_finite(&self) -> bool {
+        self.differences.iter().all(|it| it.largest.is_finite())
+    }
+
     fn compare(&mut self, one: &Snapshot, other: &Snapshot, map: &[Mapping]) -> anyhow::Result<()> {
-        let named =
-            |snapshot: &'_ Snapshot, name: &str| arrays(snapshot).any(|(it, _)| it.name == name);
-        for (from, to) in [(one, other), (other, one)] {
-            let missing = arrays(from).filter(|(it, _)| !named(to, &it.name));
-            self.alone.extend(missing.map(|(it, _)| it.name.clone()));
+        let [of_one, of_other] = [one, other].map(|it| arrays(it).collect::<Arrays<'_>>());
+        for (from, to) in [(&of_one, &of_other), (&of_other, &of_one)] {
+            let has = |name: &str| [true, false].iter().any(|of| to.contains_key(&(name, *of)));
+            let missing = from.keys().filter(|(name, _)| !has(name));
+            self.alone.extend(missing.map(|(name, _)| (*name).to_owned()));
         }
         let (points, by) = pairing::points(one, other, map).map_err(placed)?;
         let cells = pairing::cells(one, other, &points).map_err(placed)?;
@@ -83,10 +92,8 @@ impl Same {
             By::Place => "by X".into(),
             By::Order => "in the order of the files, for neither numbers nor X tell".into(),
         };
-        for (array, is_of_points) in arrays(one) {
-            let second =
-                arrays(other).find(|(it, of)| it.name == array.name && *of == is_of_points);
-            let Some((second, _)) = second else { continue };
+        for (key, array) in arrays(one) {
+            let (Some(&second), is_of_points) = (of_other.get(&key), key.1) else { continue };
             let (of_all, pairs) = match is_of_points {
                 true => ([one, other].map(Snapshot::rows), &points),
                 false => ([one, other].map(|it| it.cells.len()), &cells),
@@ -126,10 +133,13 @@ impl Same {
 
     /// Keeps the larger difference of each array; what is no number is the largest.
     fn keep(&mut self, one: Difference) {
-        match self.differences.iter_mut().find(|it| it.name == one.name) {
-            None => self.differences.push(one),
+        match self.known.get(&one.name).map(|&at| &mut self.differences[at]) {
             Some(most) if one.largest > most.largest || one.largest.is_nan() => *most = one,
             Some(_) => {}
+            None => {
+                self.known.insert(one.name.clone(), self.differences.len());
+                self.differences.push(one);
+            }
         }
     }
 }
@@ -141,7 +151,7 @@ fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
     for [a, b] in pairs.iter() {
         let numbers = one.values[a * size..][..size].iter().zip(&other.values[b * size..][..size]);
         for (x, y) in numbers {
-            let far = if x == y { 0.0 } else { (x - y).abs() };
+            let far = if x == y && x.is_finite() { 0.0 } else { (x - y).abs() };
             // What is no number differs most of all.
             if far > most.1 || far.is_nan() && !most.1.is_nan() {
                 most = (a, far);
@@ -151,8 +161,12 @@ fn farthest(one: &Array, other: &Array, pairs: &Pairs) -> (usize, f64) {
     most
 }
 
-/// All arrays, and whether they are of points.
-fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (&Array, bool)> {
+/// Arrays by their names, and whether they are of points.
+type Arrays<'a> = BTreeMap<(&'a str, bool), &'a Array>;
+
+/// All arrays.
+fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = ((&str, bool), &Array)> {
     let points = snapshot.points.iter().chain(&snapshot.of_points).map(|array| (array, true));
-    points.chain(snapshot.of_cells.iter().map(|array| (array, false)))
+    let all = points.chain(snapshot.of_cells.iter().map(|array| (array, false)));
+    all.map(|(array, is_of_points)| ((array.name.as_str(), is_of_points), array))
 }

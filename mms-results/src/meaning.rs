@@ -1,0 +1,342 @@
+//! What a quantity is made of: columns of arrays, and the numbers in them.
+
+use std::borrow::Cow;
+
+use crate::norm::largest_if_finite;
+use crate::role::{Form, Role};
+use crate::{Array, Mistake, Snapshot, Stored};
+
+/// What part of the largest number two entries of a symmetric tensor may differ by.
+const SYMMETRIC: f64 = 1e-5;
+
+/// Which numbers of a quantity a column has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Part {
+    /// The one of that position, of all that there are.
+    Nth(usize),
+    /// A row and a column.
+    Entry(usize, usize),
+}
+
+/// Where an array of a snapshot is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// The places of its points.
+    Grid,
+    /// Among the arrays of points.
+    Points(usize),
+    /// Among those of cells.
+    Cells(usize),
+}
+
+/// A column of numbers: of an array one component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Column {
+    pub place: Place,
+    pub component: usize,
+}
+
+/// What a quantity is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meaning {
+    /// The quantity.
+    pub role: Role,
+    /// Its name in the file.
+    pub source: String,
+    /// The face that the name speaks of: a traction is that of a face.
+    pub face: Option<&'static str>,
+    /// Its columns, each with the part that it is.
+    pub(crate) columns: Vec<(Part, Column)>,
+    /// Whether a user has named its columns one by one.
+    pub(crate) is_listed: bool,
+}
+
+/// Numbers of a quantity: so many for each point or cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values<'a> {
+    /// All numbers, those of a point or cell together: of an array that has no others they are not copied.
+    pub numbers: Cow<'a, [f64]>,
+    /// Numbers of a point or cell.
+    pub components: usize,
+    /// How far one may be from what was computed, for how it was stored.
+    pub rounding: f64,
+    /// How it was stored.
+    pub stored: Stored,
+    /// Whether they are of cells.
+    pub is_of_cells: bool,
+}
+
+impl Values<'_> {
+    /// The same, which outlive the snapshot.
+    pub fn into_owned(self) -> Values<'static> {
+        Values { numbers: Cow::Owned(self.numbers.into_owned()), ..self }
+    }
+}
+
+impl Meaning {
+    /// What `--map` takes to name it.
+    pub(crate) fn mapping(&self, snapshot: &Snapshot, dimension: usize) -> String {
+        match self.columns.first() {
+            Some((_, first)) if self.is_one_array() => name(snapshot, first.place).to_owned(),
+            _ => self.listed(snapshot, 0..dimension),
+        }
+    }
+
+    /// What `--map` takes to name its numbers of these positions one by one.
+    fn listed(&self, snapshot: &Snapshot, order: impl IntoIterator<Item = usize>) -> String {
+        let column = |(_, column): &(Part, Column)| {
+            let name = name(snapshot, column.place);
+            if self.is_one_array() { format!("{name}:{}", column.component) } else { name.into() }
+        };
+        let named = order.into_iter().filter_map(|at| self.nth(at)).map(column);
+        named.collect::<Vec<_>>().join(",")
+    }
+
+    /// Whether all of it is in one array.
+    fn is_one_array(&self) -> bool {
+        self.columns.windows(2).all(|pair| pair[0].1.place == pair[1].1.place)
+    }
+
+    /// Whether it is one number with a name of one letter that is a vector or a tensor here: Young's modulus may be called E
+    /// as well as a strain. u and positions are never taken for something else.
+    pub fn is_other_scalar(&self, dimension: usize) -> bool {
+        let is_needed = matches!(
+            self.role,
+            Role::Reference | Role::Position | Role::Place | Role::Displacement
+        );
+        let is_one = self.columns.len() == 1 && self.source.len() == 1 && !self.is_listed;
+        is_one && dimension > 1 && self.role.form() != Form::Scalar && !is_needed
+    }
+
+    /// How many dimensions a vector of as many columns has.
+    pub fn dimension(&self) -> usize {
+        self.columns.len().clamp(1, 3)
+    }
+
+    /// Its numbers in so many dimensions. What is more than that must be 0 in vectors, and is left out in tensors.
+    ///
+    /// # Errors
+    /// Too few numbers, or too many; one that is not finite, by its place.
+    pub fn values<'a>(
+        &self,
+        snapshot: &'a Snapshot,
+        dimension: usize,
+    ) -> Result<Values<'a>, Mistake> {
+        let columns = self.wanted(dimension).map_err(|mistake| mistake.of(&snapshot.path))?;
+        let of = |column: &Column| array(snapshot, column.place);
+        let rows = of(&columns[0]).rows();
+        if let Some(other) = columns.iter().map(of).find(|other| other.rows() != rows) {
+            let what =
+                format!("`{}` has {rows} rows, and `{}` {}", self.source, other.name, other.rows());
+            return Err(Mistake::new(what).of(&snapshot.path));
+        }
+        self.hold_flat(snapshot, dimension)?;
+        let numbers = gathered(snapshot, &columns, rows);
+        self.hold_rows(snapshot, &numbers, dimension)
+            .map_err(|mistake| mistake.of(&snapshot.path))?;
+        let largest = largest_if_finite(&numbers).map_err(|at| {
+            let row = at / columns.len();
+            let what = format!("{} is {}; expected a finite number", self.source, numbers[at]);
+            here(snapshot, row, what)
+        })?;
+        let stored = columns.iter().map(|it| of(it).stored).reduce(Stored::coarser);
+        let stored = stored.unwrap_or(Stored::Double).at_first(&numbers);
+        Ok(Values {
+            components: columns.len(),
+            rounding: stored.rounding(largest),
+            stored,
+            is_of_cells: matches!(columns[0].place, Place::Cells(_)),
+            numbers,
+        })
+    }
+
+    /// The columns that a field of that dimension has.
+    fn wanted(&self, dimension: usize) -> Result<Vec<Column>, Mistake> {
+        let pairs = || pairs_of((0..dimension).collect());
+        let found = match self.role.form() {
+            Form::Scalar => vec![self.columns.first().filter(|_| self.columns.len() == 1)],
+            Form::Vector => (0..dimension).map(|axis| self.nth(axis)).collect(),
+            Form::Tensor => pairs().map(|(i, j)| self.entry(i, j)).collect(),
+            Form::Symmetric => {
+                pairs().map(|(i, j)| self.entry(i, j).or_else(|| self.entry(j, i))).collect()
+            }
+            Form::Voigt => {
+                pairs_of(self.in_dimension(dimension)).map(|(i, j)| self.entry(i, j)).collect()
+            }
+        };
+        let found: Option<Vec<Column>> = found.into_iter().map(|it| it.map(|it| it.1)).collect();
+        found.ok_or_else(|| self.misfit(dimension))
+    }
+
+    /// The rows of a matrix over Voigt's components that a field of that dimension has: in a plane all but 33.
+    fn in_dimension(&self, dimension: usize) -> Vec<usize> {
+        match (dimension, self.columns.len()) {
+            (2, 16) => vec![0, 1, 3],
+            _ => (0..dimension * (dimension + 1) / 2).collect(),
+        }
+    }
+
+    /// Whether the numbers of axes, rows and columns in names are counted from 1 on.
+    fn least_number(&self) -> usize {
+        let is_named = |part: &Part| matches!(part, Part::Entry(..));
+        let least = |(part, _): &(Part, Column)| match *part {
+            Part::Nth(at) => at,
+            Part::Entry(i, j) => i.min(j),
+        };
+        let (least, most) = (
+            self.columns.iter().map(least).min().unwrap_or(0),
+            self.columns
+                .iter()
+                .map(|(part, _)| match *part {
+                    Part::Nth(at) => at,
+                    Part::Entry(i, j) => i.max(j),
+                })
+                .max()
+                .unwrap_or(0),
+        );
+        let any = self.columns.iter().any(|(part, _)| is_named(part));
+        usize::from(least == 1 && (any || most <= self.columns.len()))
+    }
+
+    fn nth(&self, at: usize) -> Option<&(Part, Column)> {
+        self.columns.iter().find(|(part, _)| *part == Part::Nth(at + self.least_number()))
+    }
+
+    /// The entry of a matrix: by its name, or from as many as a square matrix has, row by row.
+    fn entry(&self, row: usize, column: usize) -> Option<&(Part, Column)> {
+        let from = self.least_number();
+        let named = |part: &Part| *part == Part::Entry(row + from, column + from);
+        let by_name = self.columns.iter().find(|(part, _)| named(part));
+        let largest = if self.role.form() == Form::Voigt { 6 } else { 3 };
+        let size = (1..=largest).find(|size| size * size == self.columns.len());
+        by_name
+            .or_else(|| self.nth(row * size.filter(|&size| row < size && column < size)? + column))
+    }
+
+    fn misfit(&self, dimension: usize) -> Mistake {
+        let (symbol, source, found) = (self.role.symbol(), &self.source, self.columns.len());
+        let expected = match self.role.form() {
+            Form::Scalar => 1,
+            Form::Vector => dimension,
+            Form::Tensor | Form::Symmetric => dimension * dimension,
+            Form::Voigt => (dimension * (dimension + 1) / 2).pow(2),
+        };
+        let advice = match (self.role.form(), found) {
+            (Form::Tensor | Form::Symmetric, 3 | 4 | 6) => format!(
+                "; is it in the order of Voigt? then name its entries row by row, as in `--map {symbol}={source}:0,{source}:3,..`"
+            ),
+            _ => format!("; name them with `--map {symbol}=..`"),
+        };
+        Mistake::new(format!(
+            "`{source}`, read as {}, has {found} component(s), and of {dimension} dimension(s) {expected} are expected{advice}",
+            self.role.name()
+        ))
+    }
+
+    /// Refuses four numbers of a symmetric tensor in a plane that cannot be 11, 12, 21, 22, for 12 is not 21; or that are no
+    /// likelier to be these than 11, 22, 33, 12.
+    fn hold_rows(
+        &self,
+        snapshot: &Snapshot,
+        numbers: &[f64],
+        dimension: usize,
+    ) -> Result<(), Mistake> {
+        let has_names = self.columns.iter().any(|(part, _)| matches!(part, Part::Entry(..)));
+        let is_four = self.columns.len() == 4 && dimension == 2 && !self.is_listed && !has_names;
+        if self.role.form() != Form::Symmetric || !is_four {
+            return Ok(());
+        }
+        let largest = numbers.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+        let points = || numbers.as_chunks::<4>().0.iter();
+        let is_symmetric = points().all(|it| (it[1] - it[2]).abs() <= SYMMETRIC * largest);
+        let has_shear = points().any(|it| it[1] != 0.0);
+        let has_last = points().any(|it| it[3] != 0.0);
+        if is_symmetric && (has_last || !has_shear) {
+            return Ok(());
+        }
+        let (symbol, source) = (self.role.symbol(), &self.source);
+        Err(Mistake::new(format!(
+            "`{source}` has four components: in which order? If they are 11, 22, 33, 12, say `--map {symbol}={}`; if 11, \
+             12, 21, 22, say `--map {symbol}={}`",
+            self.listed(snapshot, [0, 3, 3, 1]),
+            self.listed(snapshot, [0, 1, 2, 3]),
+        )))
+    }
+
+    /// Refuses a vector with more than the field's components, unless they are 0 throughout.
+    fn hold_flat(&self, snapshot: &Snapshot, dimension: usize) -> Result<(), Mistake> {
+        let from = self.least_number();
+        let is_beyond = |part: &Part| matches!(part, Part::Nth(at) if *at >= dimension + from);
+        let beyond = self.columns.iter().filter(|(part, _)| is_beyond(part));
+        if self.role.form() != Form::Vector {
+            return Ok(());
+        }
+        for (_, column) in beyond {
+            let array = array(snapshot, column.place);
+            let numbers = array.values.iter().skip(column.component).step_by(array.components);
+            if let Some((row, value)) = numbers.enumerate().find(|(_, value)| **value != 0.0) {
+                let what = format!(
+                    "`{}` has a component of {value} beyond the {dimension} of the field; expected 0",
+                    self.source
+                );
+                return Err(here(snapshot, row, what));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Rows and columns of a square matrix, row by row.
+fn pairs_of(rows: Vec<usize>) -> impl Iterator<Item = (usize, usize)> {
+    let columns = rows.clone();
+    rows.into_iter().flat_map(move |i| columns.clone().into_iter().map(move |j| (i, j)))
+}
+
+/// The numbers of some columns, those of a row together.
+fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Column], rows: usize) -> Cow<'a, [f64]> {
+    let first = array(snapshot, columns[0].place);
+    let is_next = |(at, column): (usize, &Column)| {
+        column.place == columns[0].place && column.component == columns[0].component + at
+    };
+    // Most often they stand side by side, with no others or with a third coordinate behind them.
+    if columns.iter().enumerate().all(is_next) {
+        if columns.len() == first.components {
+            return Cow::Borrowed(&first.values);
+        }
+        let (start, count) = (columns[0].component, columns.len());
+        let mut numbers = Vec::with_capacity(rows * count);
+        let each = first.values.chunks_exact(first.components);
+        each.for_each(|row| numbers.extend_from_slice(&row[start..start + count]));
+        return numbers.into();
+    }
+    let mut numbers = vec![0.0; rows * columns.len()];
+    for (at, column) in columns.iter().enumerate() {
+        let array = array(snapshot, column.place);
+        let own = array.values.chunks_exact(array.components).map(|row| row[column.component]);
+        let to = numbers.chunks_exact_mut(columns.len());
+        to.zip(own).for_each(|(to, number)| to[at] = number);
+    }
+    numbers.into()
+}
+
+pub(crate) fn array(snapshot: &Snapshot, place: Place) -> &Array {
+    match place {
+        Place::Points(at) => &snapshot.of_points[at],
+        Place::Cells(at) => &snapshot.of_cells[at],
+        Place::Grid => {
+            snapshot.points.as_ref().expect("a meaning is of the snapshot that it was found in")
+        }
+    }
+}
+
+/// The name of an array, as `--map` takes it.
+fn name(snapshot: &Snapshot, place: Place) -> &str {
+    if place == Place::Grid { "points" } else { &array(snapshot, place).name }
+}
+
+/// A mistake at a point.
+pub(crate) fn here(snapshot: &Snapshot, row: usize, what: String) -> Mistake {
+    let line = snapshot.lines.get(row).copied();
+    let what = if line.is_some() { what } else { format!("point {row}: {what}") };
+    Mistake { path: snapshot.path.clone(), line, what }
+}

@@ -1,0 +1,93 @@
+//! Which arrays of a file are read, and how much memory they may take.
+
+use std::cell::Cell;
+
+use crate::Mistake;
+
+/// Whether an array is read, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// It is left out, whatever it holds.
+    No,
+    /// It is left out. A word among numbers of a table is a mistake all the same.
+    Sound,
+    /// It is read if it holds numbers, and left out if it holds words alone.
+    Numbers,
+    /// It is read, and must hold numbers.
+    Must,
+}
+
+/// What is read of files, and the memory for it.
+pub struct Wanted<'a> {
+    need: Box<dyn Fn(&str) -> Need + 'a>,
+    /// Bytes that are left.
+    room: Cell<u64>,
+    /// What to do where they are too few.
+    advice: &'static str,
+}
+
+impl<'a> Wanted<'a> {
+    /// Reads arrays by their names, in any memory.
+    pub fn new(need: impl Fn(&str) -> Need + 'a) -> Self {
+        Wanted { need: Box::new(need), room: Cell::new(u64::MAX), advice: "" }
+    }
+
+    /// The same, in so many bytes; and what to do if they are too few.
+    pub fn within(self, bytes: u64, advice: &'static str) -> Self {
+        Wanted { room: Cell::new(bytes), advice, ..self }
+    }
+
+    /// How many bytes are left.
+    pub fn room(&self) -> u64 {
+        self.room.get()
+    }
+
+    /// Whether an array of this name is needed.
+    pub(crate) fn need(&self, name: &str) -> Need {
+        (self.need)(name)
+    }
+
+    /// Whether an array of this name is read.
+    pub(crate) fn reads(&self, name: &str) -> bool {
+        matches!(self.need(name), Need::Numbers | Need::Must)
+    }
+
+    /// Takes room for an array, and holds as much again, in which it is decoded.
+    ///
+    /// # Errors
+    /// There is not as much.
+    pub(crate) fn take(&self, what: &str, numbers: usize) -> Result<(), Mistake> {
+        let bytes = (numbers as u64).saturating_mul(8);
+        let needed = bytes.saturating_mul(2);
+        self.hold(what, needed)?;
+        self.room.set(self.room.get() - bytes);
+        Ok(())
+    }
+
+    /// Refuses what takes more bytes than are left.
+    fn hold(&self, what: &str, needed: u64) -> Result<(), Mistake> {
+        let room = self.room.get();
+        if needed <= room {
+            return Ok(());
+        }
+        let [needed, room] = [needed, room].map(|bytes| bytes / 1_000_000);
+        Err(Mistake::new(format!(
+            "{what} takes {needed} MB of memory to read, and there are {room} MB: {}",
+            self.advice
+        )))
+    }
+
+    /// Makes something while so many bytes of a file are in memory.
+    pub(crate) fn beside<T>(
+        &self,
+        bytes: usize,
+        make: impl FnOnce() -> Result<T, Mistake>,
+    ) -> Result<T, Mistake> {
+        let bytes = bytes as u64;
+        self.hold("the file", bytes)?;
+        self.room.set(self.room.get() - bytes);
+        let made = make();
+        self.room.set(self.room.get() + bytes);
+        made
+    }
+}

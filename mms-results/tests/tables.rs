@@ -1,0 +1,217 @@
+//! Tables as programs write them: indices, comments, columns of words, and what their columns mean together.
+
+use mms_results::motion::{Motion, resolve};
+use mms_results::names::{Mapping, Role, everything, recognise, wanted};
+use mms_results::wanted::Wanted;
+use mms_results::{Contents, Mistake, Snapshot, parse};
+
+/// The one snapshot of a table, or what is wrong with it, with its line.
+fn read(text: &str, wanted: &Wanted<'_>) -> Result<Snapshot, String> {
+    match parse(text.as_bytes(), wanted).map_err(|mistake| mistake.of("file").to_string())? {
+        Contents::Snapshots(mut found) => Ok(Snapshot { path: "file".into(), ..found.remove(0) }),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn maps(map: &[&str]) -> Vec<Mapping> {
+    map.iter().map(|it| it.parse().unwrap()).collect()
+}
+
+fn names(snapshot: &Snapshot) -> Vec<&str> {
+    snapshot.of_points.iter().map(|array| array.name.as_str()).collect()
+}
+
+#[test]
+fn indices_and_comments_of_programs_are_passed_over() {
+    let rows = "0.25,0.5,1,2\n0.75,0.5,3,4\n";
+    let indexed = "0,0.25,0.5,1,2\n1,0.75,0.5,3,4\n";
+    let blanks = rows.replace(',', "   ");
+    for text in [
+        format!("X,Y,ux,uy\n{rows}"),
+        format!(",X,Y,ux,uy\n{indexed}"),
+        format!("\"\",\"X\",\"Y\",\"ux\",\"uy\"\n{indexed}"),
+        format!("\tX\tY\tux\tuy\n{}", indexed.replace(',', "\t")),
+        format!(";X;Y;ux;uy\n{}", indexed.replace(',', ";")),
+        format!("# run 3, of today\n\n# X,Y,ux,uy\n{rows}"),
+        format!("# run 3\nX,Y,ux,uy\n# half\n{rows}"),
+        format!("% run\n% X  Y  ux  uy\n{blanks}"),
+        format!("#,X,Y,ux,uy\n{rows}"),
+        format!("#,X,Y,ux,uy\n{indexed}"),
+        format!("  X   Y  ux uy\n  {blanks}"),
+        format!("X,Y,ux,uy,\n{}", rows.replace('\n', ",\n")),
+        format!("Index,Material,X,Y,ux,uy\n{}", indexed.replace(",0.", ",steel,0.")),
+    ] {
+        let text = text.replace("steel,0.5", "0.5");
+        let snapshot =
+            read(&text, &wanted(&[], &|_| true)).unwrap_or_else(|it| panic!("{text}: {it}"));
+        assert_eq!(names(&snapshot), ["X", "Y", "ux", "uy"], "{text}");
+        assert_eq!(snapshot.of_points[0].values, [0.25, 0.75], "{text}");
+        assert_eq!(snapshot.of_points[3].values, [2.0, 4.0], "{text}");
+        let line = text.lines().position(|line| line.contains("0.75")).unwrap() + 1;
+        assert_eq!(snapshot.lines[1], line, "{text}");
+    }
+}
+
+#[test]
+fn no_column_of_a_known_name_vanishes() {
+    let u_alone = |role: Role| role == Role::Displacement;
+    for (text, said) in [
+        ("X,u,v\n0,N/A,1\n1,2,3\n", "file:2: column `u`: expected a number, found `N/A`"),
+        ("X,u,v\n0,,1\n1,2,3\n", "file:2: column `u`: expected a number, found nothing"),
+        ("X,u,v\n0,1,1\n1,-,3\n", "file:3: column `u`: expected a number, found `-`"),
+        ("X,u,v\n0,--,1\n1,--,3\n", "file:2: column `u`: expected a number, found `--`"),
+        // It is not asked for, but it holds numbers, and the name is known.
+        ("X,u,v\n0,1,n/a\n1,2,3\n", "file:2: column `v`: expected a number, found `n/a`"),
+        ("X,u,sigma_xx\n0,1,5\n1,2,*\n", "file:3: column `sigma_xx`: expected a number, found `*`"),
+        ("t,X,u\n0,0,1\nnow,0,1\n", "file:3: column `t`: expected a number, found `now`"),
+    ] {
+        assert_eq!(read(text, &wanted(&[], &u_alone)).unwrap_err(), said);
+    }
+    let map = maps(&["u=shift"]);
+    let of_map = read("X,shift\n0,1\n1,?\n", &wanted(&map, &|_| false)).unwrap_err();
+    assert_eq!(of_map, "file:3: column `shift`: expected a number, found `?`");
+    // Words alone are left out where nobody asks for them, and so is what has no known name.
+    let rest = "X,u,v,name\n0,1,left,a\n1,2,right,7\n";
+    let read_of = |wanted: &Wanted<'_>| read(rest, wanted).map(|it| (names(&it).len(), it.unread));
+    assert_eq!(
+        read_of(&wanted(&[], &u_alone)),
+        Ok((1, vec!["name".into(), "X".into(), "v".into()]))
+    );
+    assert!(read_of(&everything(&[])).unwrap_err().contains("column `v`"));
+}
+
+#[test]
+fn a_table_that_ends_within_a_time_is_refused() {
+    let row = |time: usize, point: usize| format!("{time},{point},0\n");
+    let whole: String = (0..3).flat_map(|time| (0..4).map(move |point| row(time, point))).collect();
+    let text = format!("t,X,u\n{whole}");
+    assert!(read(&text, &everything(&[])).is_ok());
+    for cut in [1, 3] {
+        let lines: Vec<&str> = text.lines().collect();
+        let said = read(&lines[..lines.len() - cut].join("\n"), &everything(&[])).unwrap_err();
+        let expected = format!("file:{}: the table ends after {} points", 13 - cut, 4 - cut);
+        assert!(said.starts_with(&expected), "{said}");
+    }
+    // Particles that leave are gone for good.
+    let fewer = "t,X,u\n0,0,0\n0,1,0\n0,2,0\n1,0,0\n1,1,0\n2,0,0\n";
+    assert!(read(fewer, &everything(&[])).is_ok());
+}
+
+fn found<'a>(
+    snapshot: &'a Snapshot,
+    map: &[&str],
+    back: Option<mms_results::motion::Back<'_>>,
+) -> Result<Motion<'a>, Mistake> {
+    let meanings = recognise(snapshot, &maps(map), &|_| true)?;
+    let outside =
+        |point: &[f64]| point.iter().fold(0.0, |most, x| f64::max(most, (x - 1.0).max(-x)));
+    resolve(snapshot, &meanings, 2, &outside, back)
+}
+
+#[test]
+fn an_x_that_contradicts_u_is_refused_by_its_line() {
+    let header = "X,Y,current_position_x,current_position_y,ux,uy,digits";
+    let text = |x: &str| {
+        format!("{header}\n0,0,0.1,0,0.1,0,0.12345678901234567\n0.5,0.5,{x},0.25,-0.25,0\n")
+    };
+    let motion = |text: &str| {
+        let snapshot = read(text, &everything(&[])).unwrap();
+        found(&snapshot, &[], None).map(|it| it.how).map_err(|it| it.to_string())
+    };
+    assert_eq!(motion(&text("0.75,0.25")), Ok("X as given".into()));
+    let said = motion(&text("0.75,0.2501")).unwrap_err();
+    assert!(
+        said.starts_with("file:3: x = [0.75, 0.2501] contradicts X + u = [0.75, 0.25]"),
+        "{said}"
+    );
+    // Points are X or x.
+    let points = |x: &str| text(x).replace("current_position_x,current_position_y", "x,y");
+    assert!(motion(&points("0.75,0.25")).is_ok());
+    assert!(motion(&points("0.75,0.75")).unwrap_err().starts_with("file:3: x = [0.75, 0.75]"));
+    let still = "X,Y,x,y,ux,uy\n0,0,0,0,0.1,0\n0.5,0.5,0.5,0.5,0.25,-0.25\n";
+    assert!(motion(still).is_ok());
+}
+
+#[test]
+fn x_without_u_is_x_by_the_inverse_motion_or_asked() {
+    // x = X/2.
+    let mut back = |x: &[f64], _: f64| {
+        let reference: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
+        Ok(reference.iter().all(|it| (0.0..=1.0).contains(it)).then_some(reference))
+    };
+    let snapshot = |text: &str| read(text, &everything(&[])).unwrap();
+    let both = snapshot("x,y,vx,vy\n0.25,0.125,0,0\n0.5,0.25,0,0\n");
+    let asked = found(&both, &[], Some(&mut back)).unwrap_err().what;
+    assert!(asked.contains("`--map X=x,y` or `--map x=x,y`"), "{asked}");
+    let motion = found(&both, &["x=x,y"], Some(&mut back)).unwrap();
+    assert_eq!(*motion.reference.numbers, [0.5, 0.25, 1.0, 0.5]);
+    assert!(motion.displacement.is_none() && motion.how.contains("inverse"));
+    let motion = found(&both, &["X=x,y"], Some(&mut back)).unwrap();
+    assert_eq!(*motion.reference.numbers, [0.25, 0.125, 0.5, 0.25]);
+    // No point of the body is at x = 0.75.
+    let fixed = snapshot("x,y,vx,vy\n0.25,0.125,0,0\n0.75,0.25,0,0\n");
+    let motion = found(&fixed, &[], Some(&mut back)).unwrap();
+    assert!(motion.how.starts_with("points taken as X: as x"), "{}", motion.how);
+    let said = found(&fixed, &["x=x,y"], Some(&mut back)).unwrap_err().to_string();
+    assert!(said.starts_with("file:3: x = [0.75, 0.25]: no point of the body is there"), "{said}");
+}
+
+#[test]
+fn advice_on_names_leads_to_what_it_says() {
+    let text = "disp_x,disp_y,id,stress_xx,stress_xy,stress_yy,stress_zz,x,y,z\n0,0,7,1,2,3,4,0.5,0.25,0\n";
+    let snapshot = read(text, &everything(&[])).unwrap();
+    let asked = |map: &[&str]| found(&snapshot, map, None).map(|_| ()).unwrap_err().what;
+    assert!(asked(&[]).contains("`--map sigma=stress` or `--map P=stress`"));
+    for sigma in ["sigma=stress", "sigma=stress_xx,stress_xy,stress_xy,stress_yy"] {
+        let map = maps(&[sigma, "X=x,y"]);
+        let meanings = recognise(&snapshot, &map, &|_| true).unwrap();
+        let stress = meanings.iter().find(|it| it.role == Role::CauchyStress).unwrap();
+        assert_eq!(*stress.values(&snapshot, 2).unwrap().numbers, [1.0, 2.0, 2.0, 3.0]);
+        assert!(found(&snapshot, &[sigma, "X=x,y"], None).is_ok());
+    }
+    let twice = read("X,Y,ux,u_x,uy\n0,0,0,0,0\n", &everything(&[])).unwrap();
+    assert!(found(&twice, &[], None).unwrap_err().what.contains("both `u` and `u_x`"));
+    let many: String = (0..1000).map(|at| format!(",n{at}")).collect();
+    let row = ",0".repeat(1000);
+    let wide = read(&format!("X{many}\n0{row}\n"), &wanted(&[], &|_| true)).unwrap();
+    let said = found(&wide, &["u=w"], None).unwrap_err().what;
+    assert!(said.ends_with("`n28` and 971 others"), "{said}");
+}
+
+#[test]
+fn four_components_of_a_symmetric_tensor_are_asked_for_unless_they_are_rows() {
+    let read_as = |numbers: &str, map: &[&str]| {
+        let text = format!("sigma:0,sigma:1,sigma:2,sigma:3\n{numbers}\n");
+        let snapshot = read(&text, &everything(&[])).unwrap();
+        let meanings = recognise(&snapshot, &maps(map), &|_| true).unwrap();
+        meanings[0].values(&snapshot, 2).map(|it| it.numbers.to_vec()).map_err(|it| it.what)
+    };
+    assert_eq!(read_as("1,2,2,3", &[]), Ok(vec![1.0, 2.0, 2.0, 3.0]));
+    // 12 is not 21; and 11, 22 = 33 without shear is likelier than a stress 22 of 0 everywhere.
+    for numbers in ["1,2,3,4", "5,2,2,0"] {
+        let said = read_as(numbers, &[]).unwrap_err();
+        assert!(said.contains("`--map sigma=sigma:0,sigma:3,sigma:3,sigma:1`"), "{said}");
+    }
+    let voigt = read_as("1,2,3,4", &["sigma=sigma:0,sigma:3,sigma:3,sigma:1"]);
+    assert_eq!(voigt, Ok(vec![1.0, 4.0, 4.0, 2.0]));
+    let rows = read_as("1,2,3,4", &["sigma=sigma:0,sigma:1,sigma:2,sigma:3"]);
+    assert_eq!(rows, Ok(vec![1.0, 2.0, 3.0, 4.0]));
+}
+
+/// A header and rows of so many columns take time and memory that grow with them alone: these would take minutes otherwise.
+#[test]
+fn wide_tables_are_read_in_linear_time() {
+    let names: String = (0..200_000).map(|at| format!("n{at},")).collect();
+    let text = format!("{names}X\n{}1\n", "0,".repeat(200_000));
+    assert_eq!(names_of(&text, &wanted(&[], &|_| true)), 1);
+    assert_eq!(names_of(&text, &everything(&[])), 200_001);
+    let commas = ",".repeat(4 << 20);
+    let said = read(&format!("X,u\n{commas}\n"), &everything(&[])).unwrap_err();
+    assert!(said.starts_with("file:2: 4194305 columns, and 2 names in the header"), "{said}");
+    let said = read(&format!("{commas}\n0\n"), &everything(&[])).unwrap_err();
+    assert!(said.contains("4194305 columns; expected 1000000 at most"), "{said}");
+}
+
+fn names_of(text: &str, wanted: &Wanted<'_>) -> usize {
+    names(&read(text, wanted).unwrap()).len()
+}

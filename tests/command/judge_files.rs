@@ -1,0 +1,112 @@
+//! `mms judge FIELD FILE..`: files of results as other programs write them. Those in `data/` were made by NumPy and VTK.
+
+use super::mms::{Folder, Run};
+
+const WAVE: &str = "judge travelling_wave_2d --time 0.0158";
+
+/// A file of `data/`.
+fn data(name: &str) -> String {
+    let path = format!("{}/tests/command/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("a file of the tests")
+}
+
+fn with(names: &[&str]) -> Folder {
+    let folder = Folder::new();
+    names.iter().for_each(|name| folder.write(name, &data(name)));
+    folder
+}
+
+fn passes(run: Run) -> Run {
+    let run = run.exits(0);
+    run.prints("pass: observed order 2.0");
+    run
+}
+
+#[test]
+fn each_advice_on_names_leads_to_a_verdict() {
+    let folder = with(&["moose_4.csv", "moose_8.csv"]);
+    let judge = |rest: &str| folder.mms(&format!("{WAVE} moose_4.csv moose_8.csv {rest}"));
+    judge("").exits(2).complains("`--map sigma=stress` or `--map P=stress`");
+    judge("--map sigma=stress").exits(2).complains("`--map X=x,y` or `--map x=x,y`");
+    passes(judge("--map sigma=stress --map X=x,y")).prints("pass: 2 of 2 quantities pass");
+    let named =
+        "--map sigma=stress_xx,stress_xy,stress_xy,stress_yy --quantity u,sigma --map X=x,y";
+    passes(judge(named)).prints("pass: 2 of 2 quantities pass");
+}
+
+#[test]
+fn four_components_in_the_order_of_voigt_are_asked_for() {
+    let folder = with(&["voigt4_4.vtu", "voigt4_8.vtu"]);
+    let judge = |rest: &str| {
+        let options = "--quantity u,sigma --map X=points";
+        folder.mms(&format!("{WAVE} voigt4_4.vtu voigt4_8.vtu {options} {rest}"))
+    };
+    let order = "--map sigma=sigma:0,sigma:3,sigma:3,sigma:1";
+    judge("").exits(2).complains(order);
+    judge(order).exits(0).prints("pass: 2 of 2 quantities pass");
+}
+
+#[test]
+fn moved_points_without_u_are_asked_for_and_found_by_the_inverse_motion() {
+    let folder = with(&["moved_4.csv", "moved_8.csv"]);
+    let judge = |rest: &str| {
+        folder.mms(&format!("judge axis_aligned_2d moved_4.csv moved_8.csv --time 0.02 {rest}"))
+    };
+    judge("").exits(2).complains("`--map X=x,y` or `--map x=x,y`");
+    let run = passes(judge("--map x=x,y"));
+    run.prints("X: X of x by the inverse of the exact motion");
+    // x was used to find X, and shows nothing.
+    assert!(!run.stdout.contains("displacement\n"), "{run}");
+    judge("--map x=x,y --quantity x").exits(2).complains("no quantity that can be judged");
+}
+
+#[test]
+fn numbers_that_are_missing_or_contradict_each_other_are_no_pass() {
+    let folder = Folder::new();
+    let points = |count: usize| (0..count).map(move |at| (at as f64 + 0.5) / count as f64);
+    let write = |name: &str, count: usize, row: &dyn Fn(usize, f64) -> String| {
+        let rows: String = points(count).enumerate().map(|(at, x)| row(at, x)).collect();
+        folder.write(name, &format!("X,u,x,v\n{rows}"));
+    };
+    write("first.csv", 8, &|at, x| format!("{x},{},{x},0\n", if at == 0 { "N/A" } else { "0.05" }));
+    let judge = |name: &str| folder.mms(&format!("judge bar_1d {name} --time 0.01"));
+    let said = "first.csv:2: column `u`: expected a number, found `N/A`";
+    judge("first.csv").exits(2).complains(said);
+    write("x.csv", 8, &|_, x| format!("{x},0.125,{},0\n", x + 0.0625));
+    judge("x.csv").exits(2).complains("x.csv:2: x = [0.125] contradicts X + u = [0.1875]");
+    write("nan.csv", 8, &|at, x| format!("{x},{},{x},0\n", if at == 3 { "nan" } else { "0" }));
+    let same = folder.mms("judge --same nan.csv nan.csv").exits(1);
+    same.prints("nan.csv:5").prints("not finite");
+    write("word.csv", 8, &|at, x| format!("{x},{},{x},0\n", if at == 3 { "-" } else { "0" }));
+    folder.mms("judge --same word.csv word.csv").exits(2).complains("word.csv:5: column `u`");
+}
+
+#[test]
+fn indices_comments_and_moduli_are_passed_over() {
+    let folder = with(&["moose_4.csv", "moose_8.csv"]);
+    for cells in [4, 8] {
+        let text = folder.read(&format!("moose_{cells}.csv"));
+        let rows = text.lines().skip(1).enumerate().map(|(at, line)| {
+            let all: Vec<&str> = line.split(',').collect();
+            format!("{at},{},{},{},{},1e6\n", all[7], all[8], all[0], all[1])
+        });
+        let rows: String = rows.collect();
+        folder.write(&format!("{cells}.csv"), &format!("# of run 3\n# ,X,Y,ux,uy,E\n{rows}"));
+    }
+    let run = passes(folder.mms(&format!("{WAVE} 4.csv 8.csv")));
+    run.prints("found and not judged: E (one number, and no green_lagrange)");
+    folder.mms(&format!("{WAVE} 4.csv 8.csv --quantity E")).exits(2).complains("`E`, read as");
+}
+
+#[test]
+fn files_that_take_more_memory_than_they_may_are_refused_before_they_are_read() {
+    let folder = with(&["moose_8.csv"]);
+    let judge = |most: &str| {
+        folder.mms(&format!("{WAVE} moose_8.csv --map X=x,y --quantity u --max-memory {most}"))
+    };
+    judge("0")
+        .exits(2)
+        .complains("moose_8.csv: cannot read it: it has 0 MB, and there are 0 MB of memory");
+    // One mesh has no order.
+    judge("100").exits(1).prints("norms of u");
+}
