@@ -126,13 +126,13 @@ pub fn blanked(text: &str) -> String {
     escaped(text, |_| " ".to_owned()).trim_end().into()
 }
 
-/// A text for a document of HTML or XML, markup and all, without what these forbid and what changes the direction of
-/// writing beyond its element.
+/// A text for a document of HTML or XML, markup and all, without what these forbid, what ends a line in a script, and what
+/// changes the direction of writing beyond its element.
 pub fn markup(text: &str) -> String {
     let is_forbidden = |c: char| {
         let is_control = c.is_control() && !matches!(c, '\n' | '\t');
         let is_nothing = c as u32 & 0xfffe == 0xfffe || ('\u{fdd0}'..='\u{fdef}').contains(&c);
-        is_control || is_nothing || turns(c)
+        is_control || is_nothing || is_line_end(c) || turns(c)
     };
     text.chars().filter(|&c| !is_forbidden(c)).collect()
 }
@@ -151,11 +151,16 @@ fn turns(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// Whether a character ends a line or a paragraph, and is none of those that a text has for that.
+fn is_line_end(c: char) -> bool {
+    matches!(c, '\u{2028}' | '\u{2029}')
+}
+
 /// Whether a character is seen as itself, and does nothing else.
 fn is_visible(c: char) -> bool {
     match c {
         ' '..='~' => true,
-        '\u{2028}' | '\u{2029}' => false,
+        _ if is_line_end(c) => false,
         _ if c.is_control() => false,
         _ if c.is_whitespace() => true,
         // Alone, or first in a text, a mark that joins the letter before it is escaped as well.
@@ -209,7 +214,7 @@ mod tests {
         assert_eq!(blanked("a\nevil()\r\u{202e}b \u{2028}"), "a evil()  b");
         assert_eq!(blanked(""), "");
         assert_eq!(
-            markup("<p>\n\t\u{1b}[2J\u{9b}\0\u{ffff}\u{5fffe}\u{fdd0}\u{202e}</p>"),
+            markup("<p>\n\t\u{1b}[2J\u{9b}\0\u{ffff}\u{5fffe}\u{fdd0}\u{202e}\u{2028}\u{2029}</p>"),
             "<p>\n\t[2J</p>"
         );
     }

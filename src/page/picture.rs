@@ -12,6 +12,9 @@ pub const STEPS: usize = 8;
 /// The width of a picture in its own units, which are whole numbers.
 const WIDTH: f64 = 1000.0;
 
+/// A body is drawn as large as that, at least: a point has no size.
+const SMALLEST: f64 = 1e-150;
+
 /// A body at a time.
 #[derive(Clone, PartialEq)]
 pub struct Moment {
@@ -99,7 +102,7 @@ impl Window {
             }
         }
         let size = [greatest[0] - least[0], greatest[1] - least[1]];
-        let longest = size[0].max(size[1]).max(f64::MIN_POSITIVE);
+        let longest = size[0].max(size[1]).max(SMALLEST);
         let margin = 0.03 * longest;
         let scale = WIDTH / (size[0].max(0.2 * longest) + 2.0 * margin);
         Self {

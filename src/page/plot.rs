@@ -56,6 +56,13 @@ pub enum Line {
     Dashed,
 }
 
+/// Numbers that a logarithmic axis shows: beyond them, what is drawn between them would not be finite.
+const SHOWN: std::ops::RangeInclusive<f64> = 1e-150..=1e150;
+
+fn is_shown(point: &&[f64; 2]) -> bool {
+    point.iter().all(|it| SHOWN.contains(it))
+}
+
 /// Where numbers are on the picture.
 struct Frame {
     x: (f64, f64),
@@ -64,7 +71,8 @@ struct Frame {
 
 impl Frame {
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let along = |value: f64, (from, to): (f64, f64)| (value / from).ln() / (to / from).ln();
+        let along =
+            |value: f64, (from, to): (f64, f64)| (value.ln() - from.ln()) / (to.ln() - from.ln());
         let height = HEIGHT - MARGIN - BOTTOM;
         let round = |value: f64| (value * 10.0).round() / 10.0;
         [
@@ -90,7 +98,6 @@ impl Plot {
     }
 
     fn points(&self) -> impl Iterator<Item = [f64; 2]> {
-        let is_shown = |point: &&[f64; 2]| point.iter().all(|it| *it > 0.0 && it.is_finite());
         self.curves.iter().flat_map(move |curve| curve.points.iter().filter(is_shown).copied())
     }
 
@@ -107,7 +114,8 @@ impl Plot {
         };
         let rise = (to / from).powf(slope);
         let low = (least(from)).min(least(to) / rise) / 1.8;
-        Some([[from, low], [to, low], [to, low * rise]])
+        let corners = [[from, low], [to, low], [to, low * rise]];
+        corners.iter().all(|it| is_shown(&it)).then_some(corners)
     }
 
     /// The picture; nothing, if there is nothing to draw.
@@ -118,7 +126,8 @@ impl Plot {
         }
         let triangle = self.triangle();
         let floor = if self.shows_floor() { self.floor.as_slice() } else { &[] };
-        let all = || points.iter().chain(triangle.iter().flatten()).chain(floor);
+        let floor: Vec<[f64; 2]> = floor.iter().filter(is_shown).copied().collect();
+        let all = || points.iter().chain(triangle.iter().flatten()).chain(&floor);
         let frame =
             Frame { x: span(all().map(|[x, _]| *x), 1.25), y: span(all().map(|[_, y]| *y), 1.8) };
         let [title, description] = [format!("{id}-title"), format!("{id}-text")];
@@ -127,7 +136,7 @@ impl Plot {
                 title id=(title) { (self.title) }
                 desc id=(description) { (self.description) }
                 (self.mesh(&frame, &points))
-                @if !floor.is_empty() { polyline.floor points=(frame.path(floor)) {} }
+                @if !floor.is_empty() { polyline.floor points=(frame.path(&floor)) {} }
                 @if let Some(corners) = triangle {
                     polygon.slope points=(frame.path(&corners)) {}
                     @let [x, y] = frame.place([corners[1][0], (corners[1][1] * corners[2][1]).sqrt()]);
@@ -211,7 +220,6 @@ fn sample(curve: &Curve) -> Markup {
 }
 
 fn drawn(curve: &Curve, frame: &Frame) -> Markup {
-    let is_shown = |point: &&[f64; 2]| point.iter().all(|it| *it > 0.0 && it.is_finite());
     let points: Vec<_> = curve.points.iter().filter(is_shown).copied().collect();
     html! {
         g class=(class(curve)) {
@@ -311,6 +319,10 @@ mod tests {
         let drawn = plot([0.0, 1e-3, f64::NAN], 0.0).svg("p").expect("a picture").into_string();
         assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
         assert!(plot([0.0; 3], 0.0).svg("p").is_none());
+        for errors in [[1e308, 1e-308, 1e-3], [1e140, 1e-140, 1e-3], [1e-3, 1e-3, f64::INFINITY]] {
+            let drawn = plot(errors, 1e-4).svg("p").map_or(String::new(), |it| it.into_string());
+            assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+        }
     }
 
     #[test]

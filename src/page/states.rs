@@ -24,6 +24,9 @@ const PARTICLES: usize = 1000;
 /// The least error that has a colour of its own, as a share of the largest.
 const LEAST: f64 = 1e-4;
 
+/// The largest number that is drawn: a length made of such ones is finite.
+const LARGEST: f64 = 1e150;
+
 /// States of a run.
 pub struct States {
     name: String,
@@ -48,7 +51,10 @@ impl States {
         let named: Option<Vec<_>> = list
             .descendants()
             .filter(|node| node.has_tag_name("DataSet"))
-            .map(|node| Some((node.attribute("timestep")?.parse().ok()?, node.attribute("file")?)))
+            .map(|node| {
+                let time: f64 = node.attribute("timestep")?.parse().ok()?;
+                Some((time, node.attribute("file")?)).filter(|_| time.is_finite())
+            })
             .collect();
         let named: Vec<(f64, &str)> = named.context("a state without a time or a file")?;
         ensure!(!named.is_empty(), "no states in it");
@@ -118,7 +124,8 @@ fn vectors(document: &Document, name: &str) -> anyhow::Result<Vec<[f64; 3]>> {
     ensure!(is_whole, "`{name}`: not all of it is there");
     let numbers: Vec<_> =
         bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
-    ensure!(numbers.iter().all(|it| it.is_finite()), "`{name}`: not finite");
+    let is_drawn = |it: &f64| it.abs() <= LARGEST;
+    ensure!(numbers.iter().all(is_drawn), "`{name}`: not finite, or too large to be drawn");
     Ok(numbers.as_chunks::<3>().0.to_vec())
 }
 

@@ -132,6 +132,8 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
     folder.write("all/d.json", &study.replace("\"levels\"", "\"steps\""));
     folder.write("all/e.json", &study.replace("\"study\"", "\"dance\""));
     folder.write("all/f.pvd", "<VTKFile/>");
+    let timeless = "<VTKFile><DataSet timestep=\"NaN\" file=\"x.vtu\"/></VTKFile>";
+    folder.write("all/h.pvd", timeless);
     // Before a method had a form, a result did not say which one it was of.
     folder.write("all/g.json", &study.replace("\"form\": \"stable\",", ""));
     let run: Run = folder.mms("report all --output page.html");
@@ -143,6 +145,7 @@ fn what_is_no_result_is_named_and_left_where_it_is() {
         ("d.json", "not what `mms study` writes: missing field `levels`"),
         ("e.json", "nothing is known of a `dance`"),
         ("f.pvd", "no states in it"),
+        ("h.pvd", "a state without a time or a file"),
         ("g.json", "not what `mms study` writes: its method does not say its `form`"),
     ] {
         run.complains(&format!("{file}: {reason}"));
