@@ -81,7 +81,7 @@ fn meanings(
     dimension: usize,
 ) -> anyhow::Result<Vec<Meaning>> {
     let mut found = recognise(snapshot, reading.map, &|_| true).map_err(placed)?;
-    found.retain(|meaning| !meaning.is_other_scalar(dimension));
+    found.retain(|meaning| !meaning.is_other_scalar(snapshot, dimension));
     Ok(found)
 }
 

@@ -9,6 +9,9 @@ use crate::{Array, Mistake, Snapshot, Stored};
 /// What part of the largest number two entries of a symmetric tensor may differ by.
 const SYMMETRIC: f64 = 1e-5;
 
+/// A strain that is larger is none.
+const LARGEST_STRAIN: f64 = 1e3;
+
 /// Which numbers of a quantity a column has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
@@ -47,8 +50,8 @@ pub struct Meaning {
     pub face: Option<&'static str>,
     /// Its columns, each with the part that it is.
     pub(crate) columns: Vec<(Part, Column)>,
-    /// Whether a user has named its columns one by one.
-    pub(crate) is_listed: bool,
+    /// How many names a user gave for it; 0 if nobody did.
+    pub(crate) mapped: usize,
 }
 
 /// Numbers of a quantity: so many for each point or cell.
@@ -98,14 +101,23 @@ impl Meaning {
     }
 
     /// Whether it is one number with a name of one letter that is a vector or a tensor here: Young's modulus may be called E
-    /// as well as a strain. u and positions are never taken for something else.
-    pub fn is_other_scalar(&self, dimension: usize) -> bool {
+    /// as well as a strain, which no bar has of a thousand. u and positions are never taken for something else.
+    pub fn is_other_scalar(&self, snapshot: &Snapshot, dimension: usize) -> bool {
         let is_needed = matches!(
             self.role,
             Role::Reference | Role::Position | Role::Place | Role::Displacement
         );
-        let is_one = self.columns.len() == 1 && self.source.len() == 1 && !self.is_listed;
-        is_one && dimension > 1 && self.role.form() != Form::Scalar && !is_needed
+        let (&[(_, only)], 1, 0) = (self.columns.as_slice(), self.source.len(), self.mapped) else {
+            return false;
+        };
+        match dimension {
+            1 if self.role == Role::GreenLagrange => {
+                let mut numbers = array(snapshot, only.place).values.iter();
+                numbers.any(|it| it.abs() > LARGEST_STRAIN)
+            }
+            1 => false,
+            _ => self.role.form() != Form::Scalar && !is_needed,
+        }
     }
 
     /// How many dimensions a vector of as many columns has.
@@ -242,7 +254,7 @@ impl Meaning {
         dimension: usize,
     ) -> Result<(), Mistake> {
         let has_names = self.columns.iter().any(|(part, _)| matches!(part, Part::Entry(..)));
-        let is_four = self.columns.len() == 4 && dimension == 2 && !self.is_listed && !has_names;
+        let is_four = self.columns.len() == 4 && dimension == 2 && self.mapped < 2 && !has_names;
         if self.role.form() != Form::Symmetric || !is_four {
             return Ok(());
         }

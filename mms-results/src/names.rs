@@ -177,7 +177,7 @@ fn add(
 ) -> Result<(), Mistake> {
     let Understood { role, part, source, face } = understood;
     let Some(known) = found.iter_mut().find(|it| it.role == role && it.face == face) else {
-        found.push(Meaning { role, source, face, columns, is_listed: false });
+        found.push(Meaning { role, source, face, columns, mapped: 0 });
         return Ok(());
     };
     let is_component = part.is_some() && known.source == source;
@@ -330,8 +330,8 @@ fn mapped(snapshot: &Snapshot, mapping: &Mapping) -> Result<Meaning, Mistake> {
             columns.map(|(at, column)| (Part::Nth(at), column)).collect()
         }
     };
-    let is_listed = names.len() > 1;
-    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, is_listed })
+    let mapped = names.len();
+    Ok(Meaning { role: *role, source: names.join(","), face: None, columns, mapped })
 }
 
 /// The arrays whose names are one name and a component, as `stress_xx` is of `stress`, if no array has that name itself.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use mms_results::cell::Shape;
 use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Mapping, Role, everything, recognise};
+use mms_results::names::{Mapping, Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
 
@@ -363,13 +363,19 @@ fn deep_and_wide_xml_ends_soon() {
 
 /// Whatever stands in a file, reading it ends, with results or with a mistake, and so does what is made of them.
 fn survive(bytes: &[u8]) {
-    let Ok(Contents::Snapshots(found)) = parse(bytes, &everything(&[])) else { return };
-    for snapshot in found {
-        let Ok(meanings) = recognise(&snapshot, &[], &|_| true) else { continue };
-        for dimension in 1..=3 {
-            let _ = resolve(&snapshot, &meanings, dimension, &outside, None);
-            for meaning in &meanings {
-                let _ = meaning.values(&snapshot, dimension);
+    let u = |role: Role| role == Role::Displacement;
+    let ways = [everything(&[]), wanted(&[], &u), everything(&[]).within(1 << 12, "")];
+    let mut all = ways.iter().filter_map(|wanted| parse(bytes, wanted).ok());
+    while let Some(Contents::Snapshots(found)) = all.next() {
+        for snapshot in found {
+            let Ok(meanings) = recognise(&snapshot, &[], &|_| true) else { continue };
+            for dimension in 1..=3 {
+                let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
+                let _ = resolve(&snapshot, &meanings, dimension, &outside, None);
+                let _ = resolve(&snapshot, &meanings, dimension, &outside, Some(&mut half));
+                for meaning in &meanings {
+                    let _ = meaning.values(&snapshot, dimension);
+                }
             }
         }
     }

@@ -156,7 +156,7 @@ impl State {
         let dimension = exact.dimension;
         match (&self.points, &self.cells) {
             (Some(path), _) if self.at_present => {
-                Ok(Given::Present(Places::of_file(path, &self.map, dimension)?))
+                Ok(Given::Present(Box::new(Places::of_file(path, &self.map, dimension)?)))
             }
             (Some(path), _) => {
                 let outside = |point: &[f64]| exact.body.distance(point);

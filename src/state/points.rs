@@ -47,7 +47,7 @@ pub enum Given {
     /// Points, which are the same at all times.
     Reference(Points),
     /// Places x, where at each time other points are.
-    Present(Places),
+    Present(Box<Places>),
 }
 
 impl Given {

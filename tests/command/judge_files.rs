@@ -57,7 +57,8 @@ fn moved_points_without_u_are_asked_for_and_found_by_the_inverse_motion() {
     run.prints("X: X of x by the inverse of the exact motion");
     // x was used to find X, and shows nothing.
     assert!(!run.stdout.contains("displacement\n"), "{run}");
-    judge("--map x=x,y --quantity x").exits(2).complains("no quantity that can be judged");
+    judge("--map x=x,y --quantity x").exits(2).complains("no position that can be judged");
+    judge("--map x=x,y --quantity v,u").exits(2).complains("no displacement that can be judged");
 }
 
 #[test]
@@ -79,6 +80,28 @@ fn numbers_that_are_missing_or_contradict_each_other_are_no_pass() {
     same.prints("nan.csv:5").prints("not finite");
     write("word.csv", 8, &|at, x| format!("{x},{},{x},0\n", if at == 3 { "-" } else { "0" }));
     folder.mms("judge --same word.csv word.csv").exits(2).complains("word.csv:5: column `u`");
+}
+
+#[test]
+fn a_mesh_that_ends_before_the_others_is_no_evidence() {
+    let folder = Folder::new();
+    let write = |name: &str, times: &[f64]| {
+        let rows = times
+            .iter()
+            .flat_map(|t| (0..8).map(move |at| format!("{t},{},0\n", (f64::from(at) + 0.5) / 8.0)));
+        folder.write(name, &format!("t,X,u\n{}", rows.collect::<String>()));
+    };
+    write("a.csv", &[0.01, 0.02, 0.03]);
+    write("b.csv", &[0.01, 0.02]);
+    write("c.csv", &[0.01, 0.026]);
+    let judge = |rest: &str| folder.mms(&format!("judge bar_1d {rest} --h 2,1"));
+    let said =
+        "`b.csv`: its results end at t = 0.02, and those of `a.csv` at t = 0.03: did the run stop?";
+    judge("a.csv b.csv").exits(2).complains(said);
+    judge("b.csv a.csv").exits(2).complains(said);
+    judge("a.csv b.csv --time 0.01,0.02").exits(1).prints("at 2 times");
+    // Its next time would be beyond the last one of the other.
+    judge("a.csv c.csv").exits(1).prints("at t = 0.01");
 }
 
 #[test]

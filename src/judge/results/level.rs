@@ -2,7 +2,7 @@
 
 use anyhow::{anyhow, bail};
 use mms_results::motion::{Motion, hold_distinct, resolve};
-use mms_results::names::{Form, Mapping, Meaning, Role, Values, recognise, wanted};
+use mms_results::names::{Form, Mapping, Meaning, Role, Values, all_names, recognise, wanted};
 use mms_results::norm::Mesh;
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
@@ -210,7 +210,7 @@ impl Reading<'_> {
             errors.push(taken.errors(Quantity::Displacement, u, weights)?);
         }
         for meaning in meanings.iter().filter(|it| self.is_judged(it, &motion)) {
-            if self.is_something_else(meaning, dimension) {
+            if self.is_something_else(meaning, snapshot, dimension) {
                 let name = meaning.role.name();
                 passed_over.push(format!("{} (one number, and no {name})", meaning.source));
                 continue;
@@ -225,6 +225,17 @@ impl Reading<'_> {
             }
         }
         errors.extend(taken.tractions(&meanings)?);
+        let is_missing = |it: &&Quantity| errors.iter().all(|errors| errors.quantity != **it);
+        if let Some(missing) = self.wanted.iter().find(is_missing) {
+            bail!(
+                "{}: no {} that can be judged, which `--quantity` names; name its columns with `--map {}=..`; the file has \
+                 {}",
+                snapshot.path,
+                missing.name(),
+                missing.symbol(),
+                all_names(snapshot)
+            );
+        }
         let points = motion.reference.numbers.len() / dimension;
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
         Ok(Found { errors, sizes, points, unknown, how: motion.how.clone(), passed_over })
@@ -246,7 +257,7 @@ impl Reading<'_> {
         let motion = resolve(snapshot, &meanings, exact.dimension, &outside, Some(&mut back))
             .map_err(placed)?;
         let judged = meanings.iter().filter(|it| {
-            self.is_judged(it, &motion) && !self.is_something_else(it, exact.dimension)
+            self.is_judged(it, &motion) && !self.is_something_else(it, snapshot, exact.dimension)
         });
         let judged: Vec<&Meaning> = judged.collect();
         let u = motion.displacement.filter(|_| self.wants_u());
@@ -263,8 +274,8 @@ impl Reading<'_> {
     }
 
     /// Whether an array is not the quantity that its name says: one number, and not asked for.
-    fn is_something_else(&self, meaning: &Meaning, dimension: usize) -> bool {
-        meaning.is_other_scalar(dimension) && self.wanted.is_empty()
+    fn is_something_else(&self, meaning: &Meaning, snapshot: &Snapshot, dimension: usize) -> bool {
+        meaning.is_other_scalar(snapshot, dimension) && self.wanted.is_empty()
     }
 
     /// Whether an array of that meaning is judged by itself: u if it is of cells, and else as it was found; x where it is asked

@@ -25,6 +25,9 @@ pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::
         complete(results, wanted)?;
         hold_times(results, window)?;
     }
+    if wanted.is_empty() {
+        hold_ends(all, window)?;
+    }
     let span = window[1] - window[0];
     let same =
         |a: Time, b: Time| (a.value - b.value).abs() <= a.rounding + b.rounding + SAME * span;
@@ -74,6 +77,39 @@ fn complete(results: &mut Results, wanted: &[f64]) -> anyhow::Result<()> {
     }
     for (snapshot, &value) in results.snapshots.iter_mut().zip(wanted) {
         snapshot.time = Some(Time { value, rounding: 0.0 });
+    }
+    Ok(())
+}
+
+/// Refuses results that end before others do, where one step more of their own would not go beyond these: their run stopped.
+fn hold_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
+    let times = |results: &Results| -> Vec<Time> {
+        results.snapshots.iter().filter_map(|it| it.time).collect()
+    };
+    let end = |results: &Results| times(results).pop().map(|time| (time, results.name.clone()));
+    let Some((latest, other)) =
+        all.iter().filter_map(end).max_by(|(a, _), (b, _)| a.value.total_cmp(&b.value))
+    else {
+        return Ok(());
+    };
+    for results in all {
+        let times = times(results);
+        let (step, time) = match times.as_slice() {
+            [] => continue,
+            [only] => (0.0, *only),
+            [.., before, time] => (time.value - before.value, *time),
+        };
+        let most = time.rounding + latest.rounding + SAME * (last - first);
+        let missing = latest.value - time.value;
+        if missing > most && missing >= step - most {
+            bail!(
+                "`{}`: its results end at t = {:?}, and those of `{other}` at t = {:?}: did the run stop? Results of times \
+                 that all have are judged with `--time T,..`",
+                results.name,
+                time.value,
+                latest.value
+            );
+        }
     }
     Ok(())
 }
