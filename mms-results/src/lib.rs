@@ -3,18 +3,21 @@
 //! A file is known by its content: a table with a header, VTK in XML or in the legacy format, NumPy. What is read is a
 //! [`Snapshot`]: points, cells, and named arrays of numbers, each with the precision in which it was stored. [`names`]
 //! says which of them are displacement, velocity and so on; [`norm`] measures them, over points or by quadrature over
-//! [cells](cell), or [block by block](comparison) of the exact solution; [`pairing`] finds the same points in two results.
+//! [cells](cell), or [block by block](comparison) of the exact solution; [`pairing`] finds the same points in two results,
+//! [`own`] leaves out ghosts and what is there twice, and [`lattice`] finds neighbours.
 //! [`write`](mod@write) makes such files of a state that is known.
 //!
 //! Nothing here opens a file, knows a field, or decides whether an error is small.
 
 pub mod cell;
 pub mod comparison;
+pub mod lattice;
 mod meaning;
 mod mistake;
 pub mod motion;
 pub mod names;
 pub mod norm;
+pub mod own;
 pub mod pairing;
 mod read;
 mod role;

@@ -167,6 +167,15 @@ impl Tabulated {
             points: shape.quadrature().into_iter().chain(nodes).map(point).collect(),
         }
     }
+
+    /// The position of a kind of cell among those that are known, which it joins.
+    fn among(known: &mut Vec<Tabulated>, shape: &'static Shape) -> usize {
+        let found = known.iter().position(|it| it.shape.kind() == shape.kind());
+        found.unwrap_or_else(|| {
+            known.push(Tabulated::new(shape));
+            known.len() - 1
+        })
+    }
 }
 
 impl<'a> Mesh<'a> {
@@ -225,16 +234,44 @@ impl<'a> Mesh<'a> {
     /// A cell that is flat, or turned inside out.
     pub fn volumes(&self) -> Result<Vec<f64>, Mistake> {
         let mut volumes = vec![0.0; self.points.len() / self.dimension];
+        let mut tables: Vec<Tabulated> = Vec::new();
         for (cell, shape, points) in self.full() {
-            let table = Tabulated::new(shape);
+            let table = Tabulated::among(&mut tables, shape);
             let mut batch = Batch::default();
-            self.place(&mut batch, cell, &table, points, (&[], 0))?;
-            for (weight, (_, functions, _)) in batch.weights.iter().zip(&table.points) {
+            self.place(&mut batch, cell, &tables[table], points, (&[], 0))?;
+            for (weight, (_, functions, _)) in batch.weights.iter().zip(&tables[table].points) {
                 let parts = points.iter().zip(functions);
                 parts.for_each(|(&point, value)| volumes[point] += weight * value);
             }
         }
         Ok(volumes)
+    }
+
+    /// Edges of cells in a plane that no other cell has, each as X of its ends and of the node between them, if there is
+    /// one; of those with ends that are asked for. Edges are told by their ends: pieces of a mesh have points of their own.
+    pub fn free_edges(&self, is_asked: &dyn Fn([&[f64]; 2]) -> bool) -> Vec<Vec<&'a [f64]>> {
+        let mut found = Vec::new();
+        for (_, shape, points) in self.full() {
+            for ends @ [a, b] in shape.edges() {
+                let places = ends.map(|it| self.point(points[it]));
+                if is_asked(places) {
+                    let middle =
+                        [0, 1, 2].map(|at| (shape.nodes[a][at] + shape.nodes[b][at]) / 2.0);
+                    let between = shape.nodes.iter().position(|it| *it == middle);
+                    let between = between.map(|it| self.point(points[it]));
+                    found.push(places.into_iter().chain(between).collect::<Vec<_>>());
+                }
+            }
+        }
+        let key = |edge: &Vec<&[f64]>| {
+            // -0 is 0.
+            let mut ends = [edge[0], edge[1]].map(|x| [x[0], x[1]].map(|it| (it + 0.0).to_bits()));
+            ends.sort_unstable();
+            ends
+        };
+        found.sort_by_key(key);
+        let alone = found.chunk_by(|a, b| key(a) == key(b)).filter(|it| it.len() == 1);
+        alone.map(|it| it[0].clone()).collect()
     }
 
     /// The norms over the body of what its points carry: numbers of so many components.
@@ -251,11 +288,7 @@ impl<'a> Mesh<'a> {
         let mut tables: Vec<Tabulated> = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
-            let known = tables.iter().position(|it| it.shape.kind() == shape.kind());
-            let table = known.unwrap_or_else(|| {
-                tables.push(Tabulated::new(shape));
-                tables.len() - 1
-            });
+            let table = Tabulated::among(&mut tables, shape);
             self.place(&mut batch, cell, &tables[table], points, (values, components))?;
             if batch.weights.len() >= BATCH {
                 std::mem::take(&mut batch).measure(&mut sums, components, self.dimension, exact)?;

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::lattice::Lattice;
 use crate::motion::difference;
 use crate::names::{Mapping, Role, Values, recognise};
 use crate::{Array, Cells, Mistake, Snapshot};
@@ -225,8 +226,11 @@ fn by_place(a: &[f64], b: &[f64], size: usize, within: f64) -> Result<Pairs, Alo
     if a.len() == b.len() && near(a, b) {
         return Ok(Pairs::InOrder(a.len() / size));
     }
-    let lattice = Lattice::new(b, size, within.max(f64::MIN_POSITIVE));
-    let first = |point: &[f64]| lattice.first(point, &|at| near(point, &b[at * size..][..size]));
+    let lattice = Lattice::new(b, size, 2.0 * within.max(f64::MIN_POSITIVE));
+    let first = |point: &[f64]| {
+        let beside = lattice.near(point, within);
+        beside.filter(|at| near(point, &b[at * size..][..size])).min()
+    };
     let mut groups = BTreeMap::<usize, [Vec<usize>; 2]>::new();
     for (at, point) in b.chunks(size).enumerate() {
         groups.entry(first(point).unwrap_or(at)).or_default()[1].push(at);
@@ -254,48 +258,4 @@ fn listed_pairs(groups: Vec<[Vec<usize>; 2]>) -> Result<Pairs, Alone> {
     }
     all.sort_unstable();
     Ok(Pairs::Listed(all))
-}
-
-/// Points by the cell of a lattice in which they are.
-struct Lattice {
-    step: f64,
-    size: usize,
-    /// The cell of each point, sorted.
-    all: Vec<([i64; 3], usize)>,
-}
-
-impl Lattice {
-    fn new(points: &[f64], size: usize, within: f64) -> Self {
-        let mut lattice = Lattice { step: 2.0 * within, size, all: Vec::new() };
-        let cell = |(at, point): (usize, &[f64])| (lattice.cell(point), at);
-        lattice.all = points.chunks(size).enumerate().map(cell).collect();
-        lattice.all.sort_unstable();
-        lattice
-    }
-
-    fn cell(&self, point: &[f64]) -> [i64; 3] {
-        let mut cell = [0; 3];
-        // What is beyond the range of integers is in the last cell.
-        cell.iter_mut().zip(point).for_each(|(to, x)| *to = (x / self.step).floor() as i64);
-        cell
-    }
-
-    /// The first point that is near, of those in the cell of a point and in the cells beside it.
-    fn first(&self, point: &[f64], is_near: &dyn Fn(usize) -> bool) -> Option<usize> {
-        let middle = self.cell(point);
-        let beside = (0..3_usize.pow(self.size as u32)).map(|mut index| {
-            let mut cell = middle;
-            for axis in &mut cell[..self.size] {
-                *axis = axis.saturating_add((index % 3) as i64 - 1);
-                index /= 3;
-            }
-            cell
-        });
-        let in_cell = |cell: [i64; 3]| {
-            let start = self.all.partition_point(|(it, _)| *it < cell);
-            let own = self.all[start..].iter().take_while(|(it, _)| *it == cell);
-            own.map(|(_, at)| *at).find(|&at| is_near(at))
-        };
-        beside.filter_map(in_cell).min()
-    }
 }

@@ -202,15 +202,34 @@ impl Snapshot {
         Ok(whole)
     }
 
-    fn append(&mut self, piece: Snapshot) -> Result<(), Mistake> {
+    fn append(&mut self, mut piece: Snapshot) -> Result<(), Mistake> {
         let before = self.points.as_ref().map_or(0, Array::rows);
         let connected = self.cells.points.len();
+        let own = [self.rows(), self.cells.len()];
+        let more = [piece.rows(), piece.cells.len()];
+        mark_none(&mut self.of_points, &piece.of_points, own[0]);
+        mark_none(&mut piece.of_points, &self.of_points, more[0]);
+        mark_none(&mut self.of_cells, &piece.of_cells, own[1]);
+        mark_none(&mut piece.of_cells, &self.of_cells, more[1]);
         self.cells.points.extend(piece.cells.points.iter().map(|point| point + before));
         self.cells.ends.extend(piece.cells.ends.iter().map(|end| end + connected));
         self.cells.types.extend(piece.cells.types);
         append(self.points.as_mut_slice(), piece.points.into_iter().collect())?;
         append(&mut self.of_points, piece.of_points)?;
         append(&mut self.of_cells, piece.of_cells)
+    }
+}
+
+/// The arrays by which VTK marks ghosts, the present one and the older one.
+pub(crate) const GHOSTS: [&str; 2] = ["vtkGhostType", "vtkGhostLevels"];
+
+/// Adds the marks of ghosts that another piece has: a piece without them has no ghosts.
+fn mark_none(arrays: &mut Vec<Array>, of_other: &[Array], rows: usize) {
+    for (at, marks) in of_other.iter().enumerate().filter(|(_, it)| GHOSTS.contains(&&*it.name)) {
+        if arrays.iter().all(|it| it.name != marks.name) {
+            let none = Array { values: vec![0.0; rows], ..marks.clone_without_values() };
+            arrays.insert(at.min(arrays.len()), none);
+        }
     }
 }
 

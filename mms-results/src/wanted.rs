@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use crate::Mistake;
+use crate::snapshot::GHOSTS;
 
 /// Whether an array is read, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,9 +43,9 @@ impl<'a> Wanted<'a> {
         self.room.get()
     }
 
-    /// Whether an array of this name is needed.
+    /// Whether an array of this name is needed. Marks of ghosts always are: without them ghosts would count.
     pub(crate) fn need(&self, name: &str) -> Need {
-        (self.need)(name)
+        if GHOSTS.contains(&name) { Need::Must } else { (self.need)(name) }
     }
 
     /// Whether an array of this name is read.

@@ -161,8 +161,8 @@ pub const CRATES: &[Crate] = &[
         name: "mms-results",
         knows: &[],
         layers: &[
-            "cell mistake role snapshot wanted",
-            "norm",
+            "cell lattice mistake role snapshot",
+            "norm own wanted",
             "comparison meaning",
             "names",
             "motion read write",
