@@ -15,6 +15,8 @@ pub const CONSTANT_TOLERANCE: f64 = 0.01;
 /// The outcome of a study; the worse, the later.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
+    /// What was compared shows nothing of the solver.
+    NoEvidence,
     /// Every error is round-off: there is no order to observe, and nothing left of the error.
     Exact,
     /// The levels show the expected order.
@@ -35,6 +37,7 @@ impl Verdict {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Verdict::NoEvidence => "no evidence",
             Verdict::Exact => "exact to round-off",
             Verdict::Pass => "pass",
             Verdict::NotAsymptotic => "not asymptotic",

@@ -78,7 +78,7 @@ fn measured(
 ) -> anyhow::Result<Measurement> {
     let Planned { study, options, .. } = planned;
     let (map, wanted, weight) = (&options.map, &options.quantities, options.weight);
-    let reading = Reading { map, wanted, weight, memory: None };
+    let reading = Reading { map, wanted, weight, memory: None, is_part: false };
     let all: Vec<Results> =
         files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
     let h: Vec<f64> = jobs.iter().map(|job| planned.size(job)).collect();

@@ -160,7 +160,8 @@ impl Diagnose {
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
         let all = self.files.iter().map(|file| find(file, &self.map, self.max_memory));
-        let all = all.collect::<anyhow::Result<_>>()?;
+        let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
+        all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
         let reading = Reading {
             map: &self.map,
             times: &self.time,

@@ -33,14 +33,16 @@ use crate::store::digest;
 /// pass: the order is the expected one within --tolerance. Of three levels and more C h^p + D h^(p-1) + E h^(p+1) is fitted: the
 /// share of D in the finest error, with its uncertainty, is the tolerance at most. fail: the order is lower. not
 /// asymptotic: the levels do not tell, or the order is higher. Two levels are held to their order alone. exact to
-/// round-off: no error of results is more than rounding makes, in files with the digits of single precision at least.
+/// round-off: no error of results is more than rounding makes, in files with the digits of single precision at least. no
+/// evidence: a solver is given all values that were compared, at the start, on its walls or as loads, or points leave part
+/// of the body empty.
 ///
 /// The digits of a table count: an order from 1.2e-3 and 3.1e-4 is known to 0.1.
 ///
 /// Beside a pass of u, v or F stands what it excludes: the mistakes that `mms diagnose` knows, by what they add to a run of this
 /// project's own solver, over the finest error.
 ///
-/// Exit codes: 0 pass, or exact to round-off; 1 another verdict; 2 bad usage, or a bad table.
+/// Exit codes: 0 pass, or exact to round-off; 1 fail, or not asymptotic; 2 no evidence, bad usage, or a bad file.
 #[derive(Args)]
 pub struct Judge {
     /// A gallery name, or a path to a TOML file.
@@ -101,10 +103,7 @@ impl Judge {
                 print(&format!("\nwrote {}", written.join(", ")))?;
             }
         }
-        Ok(match report.verdict() {
-            Verdict::Pass | Verdict::Exact => Outcome::AsExpected,
-            Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
-        })
+        Ok(outcome(report.verdict()))
     }
 
     /// Prints a text, or the document that says the same.
@@ -114,5 +113,14 @@ impl Judge {
 
     fn orders(&self) -> Orders {
         Orders::new(&self.expected_order, self.tolerance)
+    }
+}
+
+/// What a verdict ends the command with.
+fn outcome(verdict: Verdict) -> Outcome {
+    match verdict {
+        Verdict::Pass | Verdict::Exact => Outcome::AsExpected,
+        Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
+        Verdict::NoEvidence => Outcome::BadInput,
     }
 }

@@ -97,7 +97,7 @@ enum Outcome {
     AsExpected,
     /// A claim, check or order failed.
     Refuted,
-    /// The input is wrong; the messages have been printed.
+    /// The input is wrong, or shows nothing; the messages have been printed.
     BadInput,
     /// A run could not be started or ended early.
     RunFailed,

@@ -91,6 +91,29 @@ pub struct Judged {
     pub is_favoured: bool,
     /// Space and time in one formula, in each norm, of a grid of h and dt.
     pub fits: Vec<Option<Fit>>,
+    /// Why it is no evidence, where that is so.
+    pub objection: Option<Objection>,
+}
+
+/// Why results show nothing, or do not show that a solver is right.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objection {
+    /// In a sentence.
+    pub why: String,
+    /// Whether they show no mistake either.
+    pub is_to_all: bool,
+}
+
+impl Judged {
+    /// Takes back what an objection is to.
+    pub fn object(&mut self, objection: Option<&Objection>) {
+        let verdict = self.judgement.verdict();
+        self.objection = objection.filter(|it| it.is_to_all || verdict.is_good()).cloned();
+        if self.objection.is_some() {
+            let findings = self.judgement.norms.iter_mut().map(|it| &mut it.finding);
+            findings.for_each(|it| it.verdict = Verdict::NoEvidence);
+        }
+    }
 }
 
 /// How many runs a grid of h and dt takes: four unknowns, and three more to tell how well they fit.
@@ -146,7 +169,7 @@ impl Measured {
             let pairs = self.runs.iter().map(|it| [it.cell_size, it.time_step.unwrap_or(f64::NAN)]);
             let pairs: Vec<_> = pairs.collect();
             let judgement = Judgement::of_fits(&pairs, fitted)?;
-            return Some(Judged { judgement, is_favoured: false, fits });
+            return Some(Judged { judgement, is_favoured: false, fits, objection: None });
         }
         let sequences: Vec<_> =
             quantity.norms.iter().map(|norm| self.sequence(refined, norm)).collect();
@@ -159,7 +182,7 @@ impl Measured {
         let may_be = quantity.norms.iter().any(|norm| norm.favoured.is_some());
         let is_favoured = may_be && favoured.verdict() == Verdict::Pass;
         let judgement = if is_favoured { favoured } else { judged(&|norm| norm.expected[0])? };
-        Some(Judged { judgement, is_favoured, fits: Vec::new() })
+        Some(Judged { judgement, is_favoured, fits: Vec::new(), objection: None })
     }
 
     /// h, dt and e of each run; of one that stopped no number, so that nothing fits.

@@ -26,6 +26,8 @@ pub struct Judgements {
     pub judged: Vec<Judged>,
     /// How the errors were measured, in sentences.
     pub notes: Vec<String>,
+    /// What part of the body results cover, where a part was enough.
+    pub part: Option<String>,
     /// What a pass excludes, of results.
     pub exclusions: Option<Exclusions>,
     /// What the document has besides.
@@ -67,6 +69,7 @@ impl Judgements {
             judged,
             measured,
             notes: Vec::new(),
+            part: None,
             exclusions: None,
             more: Map::new(),
             provenance,
@@ -85,13 +88,14 @@ impl Judgements {
         provenance: Provenance,
     ) -> anyhow::Result<Self> {
         let more = more(&exact.input().name, files, &measurement);
-        let Measurement { measured, times, notes, .. } = measurement;
-        let report = Self::of(exact.title(), measured, provenance)?;
+        let Measurement { measured, times, notes, objection, part, .. } = measurement;
+        let mut report = Self::of(exact.title(), measured, provenance)?;
+        report.judged.iter_mut().for_each(|judged| judged.object(objection.as_ref()));
         let exclusions = match report.verdict().is_good() {
             true => exclusions(exact, &report.measured, times, time_step)?,
             false => None,
         };
-        Ok(Self { notes, exclusions, more, ..report })
+        Ok(Self { notes, exclusions, part, more, ..report })
     }
 
     /// The quantity that decides, its position and the verdict.
@@ -179,6 +183,10 @@ impl Judgements {
             )
         }));
         lines.extend(fits);
+        lines.extend(judged.objection.as_ref().map(|it| it.why.clone()));
+        lines.extend(
+            self.part.as_ref().map(|part| format!("this is of a part of the body: {part}")),
+        );
         lines
     }
 

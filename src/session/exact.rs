@@ -10,8 +10,8 @@ use mms_mechanics::extent::Extent;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
-use mms_spec::Face;
 use mms_spec::quantity::{Quantity, Shape};
+use mms_spec::{Claim, Face};
 use mms_symbolic::sorted::SortedMap;
 
 use super::input::Input;
@@ -220,9 +220,7 @@ impl Exact {
 
     /// The points on each face that has such, by position; how far each coordinate may be from what was meant.
     pub fn faces(&self, points: &[f64], rounding: f64) -> Vec<(Face, Vec<usize>)> {
-        let dimension = self.dimension;
-        let size = points.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
-        let near = 4.0 * rounding + 8.0 * f64::EPSILON * size;
+        let (dimension, near) = (self.dimension, near(points, rounding));
         let on = |face: &Face| -> Vec<usize> {
             let points = points.chunks(dimension).enumerate();
             let is_on = |point: &[f64]| self.body.distance_to(*face, point) <= near;
@@ -230,6 +228,17 @@ impl Exact {
         };
         let faces = Face::of(&self.input.compiled.field.domain.body, dimension).into_iter();
         faces.map(|face| (face, on(&face))).filter(|(_, points)| !points.is_empty()).collect()
+    }
+
+    /// Whether all points lie on faces with one of these claims; how far each coordinate may be from what was meant.
+    pub fn are_on(&self, claims: &[Claim], points: &[f64], rounding: f64) -> bool {
+        let near = near(points, rounding);
+        let boundary = self.input.compiled.field.boundary.iter();
+        let faces = boundary.filter(|it| claims.contains(&it.claim.value)).map(|it| it.face.value);
+        let faces: Vec<Face> = faces.collect();
+        let is_on =
+            |point: &[f64]| faces.iter().any(|it| self.body.distance_to(*it, point) <= near);
+        points.chunks(self.dimension).all(is_on)
     }
 
     fn output(
@@ -258,6 +267,12 @@ pub fn says(why: &Unplaced) -> String {
             "it is not decided whether a point near X = {near:?} is there, for bounds of the motion are too wide"
         ),
     }
+}
+
+/// How far points may be from a face that are on it.
+fn near(points: &[f64], rounding: f64) -> f64 {
+    let size = points.iter().fold(0.0, |most: f64, it| most.max(it.abs()));
+    4.0 * rounding + 8.0 * f64::EPSILON * size
 }
 
 fn prepared(input: &Input, parameters: &[f64], output: Output) -> anyhow::Result<AtPoints> {

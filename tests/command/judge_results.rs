@@ -89,7 +89,7 @@ fn counts_of_points_give_h_and_the_verdict_its_exit_code() {
     let folder = Folder::new();
     runs(&folder);
     let run = folder.mms("judge bar_1d out8 out16 out32 --quantity u").exits(0);
-    run.prints("h: (measure of the body / points)^(1/D)").prints("X: X = x - u");
+    run.prints("h: the distance of neighbouring points").prints("X: X = x - u");
     run.prints("at 5 times").prints("pass: observed order 2.0");
     // The bar has lambda = 0.
     let document = folder.mms("judge bar_1d out8 out16 out32 --quantity u --json").json();
@@ -129,13 +129,13 @@ fn single_precision_is_seen_behind_its_digits() {
     let folder = Folder::new();
     let rows: String = (0..=4)
         .map(|at| f64::from(0.2_f32 * at as f32))
-        .fold(String::new(), |all, x| all + &format!("0,{x},0\n"));
+        .fold(String::new(), |all, x| all + &format!("0.01,{x},0\n"));
     assert!(f64::from(0.8_f32) > 0.8 && rows.contains("0.800000011920929"), "{rows}");
     folder.write("a.csv", &format!("time,X,u\n{rows}"));
     let judge = "judge bar_1d a.csv --h 1 --set length=0.8";
     folder.mms(judge).exits(1).prints("X: X as given");
     // One digit more, and it is a number of double precision beside the body.
-    folder.write("a.csv", &format!("time,X,u\n{rows}0,0.8000000119209291,0\n"));
+    folder.write("a.csv", &format!("time,X,u\n{rows}0.01,0.8000000119209291,0\n"));
     folder.mms(judge).exits(2);
 }
 

@@ -15,6 +15,7 @@ mod files;
 mod foreign;
 mod form;
 mod judge;
+mod judge_evidence;
 mod judge_files;
 mod judge_quantities;
 mod judge_results;

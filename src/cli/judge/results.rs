@@ -10,7 +10,7 @@ use mms_spec::foreign;
 use mms_spec::foreign::shown;
 
 use super::super::{Outcome, say, this_command};
-use super::Judge;
+use super::{Judge, outcome};
 use crate::judge::results::{
     Baseline, Comparison, Measurement, Reading, Results, measure, room, same, weight,
 };
@@ -31,10 +31,14 @@ pub struct Options {
     /// The quantities to judge, by name or symbol, separated by commas; without it all that are found.
     #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// h of the FILEs, in their order.
-    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = positive)]
+    /// h of the FILEs, in their order; 1/8 is a number too.
+    #[arg(long, value_name = "H,..", value_delimiter = ',', value_parser = length)]
     h: Vec<f64>,
-    /// The times to judge at; or those of the results, where files have none.
+    /// Let results cover a part of the body: a symmetric half, a line, a probe. The verdict says that they do.
+    #[arg(long, requires = "field")]
+    part: bool,
+    /// The times to judge at, also in place of those that files print with fewer digits; or those of the results, where files
+    /// have none.
     #[arg(long, value_name = "T,..", value_delimiter = ',', value_parser = finite, allow_hyphen_values = true)]
     time: Vec<f64>,
     /// Judge all nine components of tensors, of plane strain in two dimensions and of uniaxial strain in one: F_33 = 1, and
@@ -65,6 +69,14 @@ pub struct Options {
     /// order; several in one place may stand for one. Takes no FIELD.
     #[arg(long, num_args = 2, value_names = ["A", "B"], conflicts_with_all = ["field", "files", "errors"])]
     same: Vec<String>,
+}
+
+/// A length, as a number or as a fraction.
+fn length(text: &str) -> Result<f64, &'static str> {
+    match text.split_once('/') {
+        Some((above, below)) => positive(&(positive(above)? / positive(below)?).to_string()),
+        None => positive(text),
+    }
 }
 
 impl Judge {
@@ -100,6 +112,7 @@ impl Judge {
             wanted: &wanted,
             weight: options.weight,
             memory: options.max_memory,
+            is_part: options.part,
         };
         let all =
             self.files.iter().map(|file| reading.find(file)).collect::<anyhow::Result<_>>()?;
@@ -125,8 +138,10 @@ impl Judge {
         let compared = compared.with_context(|| format!("`--baseline {}`", foreign::path(path)))?;
         let verdict =
             if compared.iter().all(|it| it.is_near()) { Verdict::Pass } else { Verdict::Fail };
+        let is_no_evidence = measurement.objection.as_ref().is_some_and(|it| it.is_to_all);
+        let verdict = if is_no_evidence { Verdict::NoEvidence } else { verdict };
         self.show(with_baseline(title, &compared, verdict))?;
-        Ok(if verdict == Verdict::Pass { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(outcome(verdict))
     }
 
     /// Compares two results.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
+use mms_results::own::{self, LeftOut};
 use mms_results::wanted::Wanted;
 use mms_results::{Mistake, Snapshot};
 use mms_spec::foreign;
@@ -50,6 +51,18 @@ impl Results {
         }
         snapshots.sort_by(|a, b| moment(a).total_cmp(&moment(b)));
         Ok(Results { name: given.to_owned(), snapshots })
+    }
+
+    /// Leaves out ghosts, and cells that stand there twice; returns how many there are in the first snapshot.
+    ///
+    /// # Errors
+    /// A cell that stands there twice, with other values.
+    pub fn keep_own(&mut self) -> anyhow::Result<LeftOut> {
+        let mut all = Vec::new();
+        for snapshot in &mut self.snapshots {
+            all.push(own::keep(snapshot).map_err(placed)?);
+        }
+        Ok(all.first().copied().unwrap_or_default())
     }
 }
 

@@ -7,6 +7,7 @@ use mms_results::norm::Mesh;
 use mms_results::{Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
+use super::extent::{self, Covered};
 use super::files::{Results, placed, room};
 use super::taken::Taken;
 use crate::session::exact::Exact;
@@ -89,6 +90,10 @@ pub struct Errors {
     pub largest: f64,
     /// The root mean square of its iterative error, where that is known.
     pub iterative: Option<f64>,
+    /// What the digits of a time make of its floors, and that time.
+    pub of_time: [f64; 2],
+    /// Whether a solver is given all its values.
+    pub is_given: bool,
 }
 
 /// How snapshots are read.
@@ -101,6 +106,8 @@ pub struct Reading<'a> {
     pub weight: Option<Role>,
     /// The memory that reading a file may take, in MB; without it what is free.
     pub memory: Option<u64>,
+    /// Whether a part of the body is enough.
+    pub is_part: bool,
 }
 
 /// What was found in a snapshot.
@@ -109,8 +116,8 @@ pub struct Found {
     pub errors: Vec<Errors>,
     /// The shortest and the longest of the longest edges of cells, where there are such.
     pub sizes: Option<[f64; 2]>,
-    /// Points.
-    pub points: usize,
+    /// What part of the body is there, and how fine.
+    pub covered: Covered,
     /// The type of cells that are not known, where there are such and no others.
     pub unknown: Option<u8>,
     /// How X was found.
@@ -190,9 +197,14 @@ impl Reading<'_> {
         let cells = &snapshot.cells;
         let mesh = Mesh { cells, points: &motion.reference.numbers, dimension };
         let sizes = mesh.sizes();
-        if sizes.is_none() {
+        let rounding_of_places = motion.reference.rounding;
+        let covered = if sizes.is_some() {
+            let scope = (&*exact, self.is_part);
+            extent::of_cells(&mesh, scope, rounding_of_places, &snapshot.path)?
+        } else {
             hold_distinct(snapshot, &motion.reference).map_err(placed)?;
-        }
+            extent::of_points(mesh.points, exact, rounding_of_places)
+        };
         let mut taken = Taken {
             snapshot,
             mesh,
@@ -236,9 +248,8 @@ impl Reading<'_> {
                 all_names(snapshot)
             );
         }
-        let points = motion.reference.numbers.len() / dimension;
         let unknown = mesh.unknown().filter(|_| sizes.is_none());
-        Ok(Found { errors, sizes, points, unknown, how: motion.how.clone(), passed_over })
+        Ok(Found { errors, sizes, covered, unknown, how: motion.how.clone(), passed_over })
     }
 
     /// All quantities of a snapshot that are judged, but tractions.

@@ -7,7 +7,9 @@
 mod baseline;
 mod excluded;
 mod expected;
+mod extent;
 mod files;
+mod given;
 mod iterative;
 mod level;
 mod remarks;
@@ -28,7 +30,7 @@ pub use same::{Same, same};
 
 use self::level::{Errors, Found, Measure};
 use super::table::Orders;
-use super::{Measured, Norm, Run};
+use super::{Measured, Norm, Objection, Run};
 use crate::session::exact::Exact;
 
 /// What was measured, and what is to be said of it.
@@ -41,6 +43,10 @@ pub struct Measurement {
     pub times: Vec<f64>,
     /// Iterative errors, root mean squares, of quantities of which they are known.
     pub iterative: Vec<(&'static str, f64)>,
+    /// Why they are no evidence, where that is so.
+    pub objection: Option<Objection>,
+    /// What part of the body results cover, where a part is enough.
+    pub part: Option<String>,
     /// What was done, and why.
     pub notes: Vec<String>,
     /// What may be wrong.
@@ -64,7 +70,7 @@ const ALIKE: f64 = 1.01;
 
 /// How meshes are compared.
 pub struct Comparison<'a> {
-    /// h, in the order of the results; without them they are those of cells, or those that counts of points say.
+    /// h, in the order of the results; without them they are those of cells, or of points.
     pub sizes: &'a [f64],
     /// The times that are wanted; without them all that meshes have in common.
     pub times: &'a [f64],
@@ -89,6 +95,7 @@ pub fn measure(
     let Comparison { sizes, times, orders, has_steps, tighter } = comparison;
     let meshes = all.len();
     all.extend(tighter);
+    let own = all.iter_mut().map(Results::keep_own).collect::<anyhow::Result<Vec<_>>>()?;
     let common = times::common(&mut all, times, exact.window)?;
     let (all, tighter) = all.split_at(meshes);
     let mut levels = Vec::new();
@@ -96,26 +103,34 @@ pub fn measure(
         levels.push(level(results, snapshots, reading, exact)?);
     }
     let quantities = quantities(&levels)?;
-    let mut notes = vec![remarks::compared(&common)];
+    let mut notes = vec![remarks::compared(&common), remarks::meshes(&levels)];
     if let [tighter] = tighter {
         let (snapshots, own) = common.snapshots.split_at(meshes);
         let given = ((all, snapshots), (tighter, own[0].as_slice()));
         notes.push(iterative::raise(&mut levels, given.0, given.1, reading, exact)?);
     }
     let mut warnings = Vec::new();
-    let sizes = lengths(&levels, sizes, exact, &mut notes, &mut warnings)?;
+    let sizes = lengths(&levels, sizes, &mut notes, &mut warnings)?;
     notes.push(format!("X: {}", levels[0].found.how));
     let samplings: Vec<Sampling> = quantities.iter().map(|(_, sampling)| *sampling).collect();
     hold_evidence(&levels[0], &samplings)?;
     let orders = &expected::named(orders);
     expected::hold_orders(&quantities, orders, has_steps)?;
     notes.extend(remarks::norms(&quantities));
-    remarks::passed_over(&levels[0].found, &mut notes);
-    let is_start = exact.is_start(&common.times)?;
-    remarks::suspicions(&levels, is_start, &mut warnings);
+    notes.push(remarks::left_out(&common, &levels, &own));
+    let is_given = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_given);
+    remarks::suspicions(&levels, is_given, &mut warnings);
     let runs = sizes.iter().map(|&cell_size| Run { cell_size, time_step: None }).collect();
-    let measured: Vec<_> =
-        quantities.iter().map(|it| quantity(*it, &levels, orders, is_start)).collect();
+    let measured: Vec<_> = quantities.iter().map(|it| quantity(*it, &levels, orders)).collect();
+    let part = levels.iter().find_map(|level| {
+        level.found.covered.part.as_ref().map(|part| format!("`{}`: {part}", shown(&level.name)))
+    });
+    let objection = match &part {
+        _ if is_given => Some(given::objection()),
+        Some(part) if !reading.is_part => Some(extent::objection(part)),
+        _ => None,
+    };
+    let part = part.filter(|_| reading.is_part);
     remarks::floors(&measured, &levels, &mut notes);
     let measured = Measured { runs, quantities: measured };
     let iterative = levels[0]
@@ -123,7 +138,16 @@ pub fn measure(
         .iter()
         .filter_map(|it| Some((it.quantity.name(), it.iterative?)))
         .collect();
-    Ok(Measurement { measured, samplings, times: common.times, iterative, notes, warnings })
+    Ok(Measurement {
+        measured,
+        samplings,
+        times: common.times,
+        iterative,
+        objection,
+        part,
+        notes,
+        warnings,
+    })
 }
 
 fn level(
@@ -149,6 +173,8 @@ fn level(
                     snapshot.path
                 );
                 level.errors.iter_mut().zip(found.errors).for_each(|(most, one)| most.raise(one));
+                let part = &mut level.found.covered.part;
+                *part = part.take().or(found.covered.part);
             }
         }
     }
@@ -178,6 +204,10 @@ impl Errors {
     fn raise(&mut self, other: Errors) {
         self.largest = self.largest.max(other.largest);
         self.unit = self.unit.filter(|unit| other.unit == Some(*unit));
+        self.is_given &= other.is_given;
+        if other.of_time[0] > self.of_time[0] {
+            self.of_time = other.of_time;
+        }
         for ((_, most), (_, one)) in self.norms.iter_mut().zip(other.norms) {
             *most = Measure { error: most.error.max(one.error), floor: most.floor.max(one.floor) };
         }
@@ -224,11 +254,10 @@ fn hold_evidence(level: &Level, samplings: &[Sampling]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// h of each level, from the user, from cells or from counts.
+/// h of each level, from the user, from cells or from points.
 fn lengths(
     levels: &[Level],
     given: &[f64],
-    exact: &Exact,
     notes: &mut Vec<String>,
     warnings: &mut Vec<String>,
 ) -> anyhow::Result<Vec<f64>> {
@@ -241,9 +270,21 @@ fn lengths(
         );
         return Ok(given.to_vec());
     }
+    let covered = || levels.iter().map(|level| &level.found.covered);
     let of_cells: Option<Vec<[f64; 2]>> = levels.iter().map(|level| level.found.sizes).collect();
+    let neighbours: Option<Vec<f64>> = covered().map(|it| it.neighbour).collect();
+    let (says, sizes) = match (&of_cells, neighbours) {
+        (Some(_), _) => ("(measure of the cells / their number)^(1/D)", None),
+        (None, Some(distances)) => {
+            ("the distance of neighbouring points, for there are no cells", Some(distances))
+        }
+        (None, None) => (
+            "(measure of the body / points)^(1/D), for there are no cells; of a point on a face half is counted",
+            None,
+        ),
+    };
+    notes.push(format!("h: {says}; give others with `--h`"));
     if let Some(sizes) = of_cells {
-        notes.push("h: the longest edge of a cell, in X".into());
         let ratios: Vec<f64> = sizes.iter().map(|[least, most]| most / least).collect();
         if ratios.iter().any(|it| it / ratios[0] > ALIKE || ratios[0] / it > ALIKE) {
             let ratios: Vec<_> = ratios.iter().map(|it| format!("{it:.2}")).collect();
@@ -252,13 +293,8 @@ fn lengths(
                 ratios.join(", ")
             ));
         }
-        return Ok(sizes.into_iter().map(|[_, most]| most).collect());
     }
-    notes.push(
-        "h: (measure of the body / points)^(1/D), for there are no cells; give others with `--h`"
-            .into(),
-    );
-    Ok(levels.iter().map(|level| exact.spacing(level.found.points)).collect())
+    Ok(sizes.unwrap_or_else(|| covered().map(|it| it.size).collect()))
 }
 
 /// What is judged of a quantity.
@@ -266,7 +302,6 @@ fn quantity(
     (of, sampling): (Quantity, Sampling),
     levels: &[Level],
     orders: &Orders,
-    is_start: bool,
 ) -> super::Quantity {
     let errors: Vec<&Errors> = levels
         .iter()
@@ -283,8 +318,7 @@ fn quantity(
             errors: measures.iter().map(|it| Some(it.error)).collect(),
             floors: measures.iter().map(|it| it.floor).collect(),
             rounding: 0.0,
-            // What a solver was given at the start shows nothing of it.
-            is_exact: !is_start && errors.iter().all(|it| it.is_exact()),
+            is_exact: errors.iter().all(|it| it.is_exact()),
         }
     };
     super::Quantity {

@@ -2,17 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
 use super::Level;
 use super::iterative::HUNDRED;
-use super::level::{Errors, Found, Sampling};
+use super::level::{Errors, Sampling};
 use super::times::Common;
 
 /// The times.
 pub fn compared(common: &Common) -> String {
-    let times = match common.times.as_slice() {
+    match common.times.as_slice() {
         [only] => format!("at t = {only:?}"),
         times => format!(
             "at {} times, from {:?} to {:?}: errors are the largest over them",
@@ -20,12 +21,19 @@ pub fn compared(common: &Common) -> String {
             times[0],
             times[times.len() - 1]
         ),
-    };
-    match common.left_out {
-        0 => times,
-        1 => format!("{times}; 1 result is left out, at a time that not all have"),
-        several => format!("{times}; {several} results are left out, at times that not all have"),
     }
+}
+
+/// The meshes.
+pub fn meshes(levels: &[Level]) -> String {
+    let of = |level: &Level| {
+        let (name, covered) = (shown(&level.name), &level.found.covered);
+        match covered.cells {
+            0 => format!("`{name}` of {} points", covered.points),
+            cells => format!("`{name}` of {cells} cells"),
+        }
+    };
+    format!("meshes: {}", levels.iter().map(of).collect::<Vec<_>>().join(", "))
 }
 
 /// The norms, said once for those that are alike.
@@ -42,20 +50,37 @@ pub fn norms(quantities: &[(Quantity, Sampling)]) -> Vec<String> {
         .collect()
 }
 
-/// What was found, and is not judged.
-pub fn passed_over(found: &Found, notes: &mut Vec<String>) {
+/// What was left out, and why.
+pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
+    let mut all = Vec::new();
+    let mut count = |count: usize, one: &str, several: &str| match count {
+        0 => {}
+        1 => all.push(format!("1 {one}")),
+        _ => all.push(format!("{count} {several}")),
+    };
+    let sum = |of: fn(&LeftOut) -> usize| own.iter().map(of).sum();
+    count(
+        common.left_out,
+        "result, at a time that not all have",
+        "results, at times that not all have",
+    );
+    count(sum(|it| it.ghost_cells), "ghost cell", "ghost cells");
+    count(sum(|it| it.ghost_points), "ghost point", "ghost points");
+    count(sum(|it| it.doubled), "cell that stands there twice", "cells that stand there twice");
+    let found = &levels[0].found;
     if !found.passed_over.is_empty() {
-        notes.push(format!("found and not judged: {}", found.passed_over.join(", ")));
+        all.push(format!("found and not judged: {}", found.passed_over.join(", ")));
     }
     if let Some(kind) = found.unknown {
-        notes.push(format!(
-            "cells of type {kind} of VTK are not known, so that norms are over points"
+        all.push(format!(
+            "cells of type {kind} of VTK, which are not known: norms are over points"
         ));
     }
+    format!("left out: {}", if all.is_empty() { "nothing".into() } else { all.join("; ") })
 }
 
 /// What may be wrong with what was measured.
-pub fn suspicions(levels: &[Level], is_start: bool, warnings: &mut Vec<String>) {
+pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) {
     let mut exact = Vec::new();
     for errors in &levels[0].errors {
         let name = errors.quantity.name();
@@ -78,11 +103,10 @@ pub fn suspicions(levels: &[Level], is_start: bool, warnings: &mut Vec<String>) 
             ));
         }
     }
-    if !exact.is_empty() && is_start {
-        warnings.push(format!(
-            "exact to round-off at the start, where nothing has been computed yet: {}. Are there results of later times?",
-            exact.join(", ")
-        ));
+    if is_given {
+        let names: Vec<_> = levels[0].errors.iter().map(|it| it.quantity.name()).collect();
+        warnings
+            .push(format!("a solver is given all values that were compared: {}", names.join(", ")));
     } else if !exact.is_empty() {
         warnings.push(format!(
             "exact to round-off on every mesh: {}. Is it what the solver computed, and not the exact solution? Or does \
@@ -91,6 +115,9 @@ pub fn suspicions(levels: &[Level], is_start: bool, warnings: &mut Vec<String>) 
         ));
     }
 }
+
+/// From what part of a floor on the digits of the time are named.
+const A_PART: f64 = 0.01;
 
 /// Says which levels are at their floor.
 pub fn floors(quantities: &[crate::judge::Quantity], levels: &[Level], notes: &mut Vec<String>) {
@@ -109,7 +136,16 @@ pub fn floors(quantities: &[crate::judge::Quantity], levels: &[Level], notes: &m
                 Some(iterative) if HUNDRED * iterative >= floor => {
                     "a hundred times its iterative error".into()
                 }
-                _ => format!("which rounding of the file makes ({})", errors.stored.name()),
+                _ => {
+                    let [of_time, time] = errors.of_time;
+                    let time = (of_time > A_PART * floor)
+                        .then(|| format!(", and of its time t = {time:?}; say it with `--time`"));
+                    let stored = errors.stored.name();
+                    format!(
+                        "which rounding of the file makes ({stored}){}",
+                        time.unwrap_or_default()
+                    )
+                }
             };
             notes.push(format!(
                 "`{}`: the error of {} is at its floor of {floor:.1e}, {why}; it is left out of the verdict",

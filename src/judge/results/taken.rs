@@ -39,6 +39,10 @@ pub struct AgainstExact<'a> {
     all: Comparison<'a>,
     /// What rounding may make of an error.
     floor: f64,
+    /// What of it the digits of the time make.
+    of_time: f64,
+    /// Whether a solver is given all values.
+    is_given: bool,
 }
 
 /// Points whose exact values are there at once: threads share them, and a cache holds them.
@@ -109,7 +113,7 @@ impl Taken<'_> {
         let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
         let floor = compared.floor;
         let norms = norms.map(|(name, error)| (name, Measure { error, floor })).to_vec();
-        Ok(result(quantity, values, sampling, norms, &compared.all))
+        Ok(self.result(quantity, values, sampling, norms, compared))
     }
 
     /// The values of the cells that have the dimension of the mesh.
@@ -152,7 +156,7 @@ impl Taken<'_> {
         let norms =
             norms.into_iter().map(|(name, error)| (name, Measure { error, floor: of_norm(name) }));
         let norms = norms.collect();
-        Ok(result(quantity, values, Sampling::Cells, norms, &compared.all))
+        Ok(self.result(quantity, values, Sampling::Cells, norms, compared))
     }
 
     /// Compares values with the exact ones at places X, and finds what rounding may make of the difference: that of the values,
@@ -206,25 +210,29 @@ impl Taken<'_> {
         let size = if cancels { cancelled } else { all.largest() };
         let arithmetic = ARITHMETIC * f64::EPSILON * size;
         let floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
-        Ok(AgainstExact { all, floor: floor + of_places + of_time })
+        let is_given = self.is_given(quantity, places)?;
+        Ok(AgainstExact { all, floor: floor + of_places + of_time, of_time, is_given })
     }
-}
 
-fn result(
-    quantity: Quantity,
-    values: &Values<'_>,
-    sampling: Sampling,
-    norms: Vec<(&'static str, Measure)>,
-    compared: &Comparison<'_>,
-) -> Errors {
-    Errors {
-        quantity,
-        sampling,
-        norms,
-        unit: compared.unit(),
-        largest: compared.largest(),
-        iterative: None,
-        stored: values.stored,
+    fn result(
+        &self,
+        quantity: Quantity,
+        values: &Values<'_>,
+        sampling: Sampling,
+        norms: Vec<(&'static str, Measure)>,
+        compared: &AgainstExact<'_>,
+    ) -> Errors {
+        Errors {
+            quantity,
+            sampling,
+            norms,
+            unit: compared.all.unit(),
+            largest: compared.all.largest(),
+            iterative: None,
+            stored: values.stored,
+            of_time: [compared.of_time, self.time],
+            is_given: compared.is_given,
+        }
     }
 }
 

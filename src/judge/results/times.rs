@@ -1,7 +1,7 @@
 //! At which times levels are compared.
 
 use anyhow::bail;
-use mms_results::{Snapshot, Time};
+use mms_results::{Array, Snapshot, Stored, Time};
 
 use super::files::Results;
 use crate::session::exact::SAME;
@@ -23,6 +23,8 @@ pub struct Common {
 pub fn common(all: &mut [Results], wanted: &[f64], window: [f64; 2]) -> anyhow::Result<Common> {
     for results in all.iter_mut() {
         complete(results, wanted)?;
+        say(results, wanted);
+        hold_roundings(results);
         hold_times(results, window)?;
     }
     if wanted.is_empty() {
@@ -112,6 +114,60 @@ fn hold_ends(all: &[Results], [first, last]: [f64; 2]) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Takes a time that is wanted in place of one that a file prints with fewer digits.
+fn say(results: &mut Results, wanted: &[f64]) {
+    for &value in wanted {
+        let times = results.snapshots.iter_mut().filter_map(|it| it.time.as_mut());
+        let printed = times.filter(|it| (it.value - value).abs() <= it.rounding);
+        let distance = |time: &&mut Time| (time.value - value).abs();
+        let nearest = printed.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        nearest.into_iter().for_each(|it| *it = Time { value, rounding: 0.0 });
+    }
+}
+
+/// Lets times be exact, unless other numbers show that they were rounded: those of the file, which have no more digits
+/// than they; their own bits; or other times, from which they are as far as from each other but for their last digit.
+fn hold_roundings(results: &mut Results) {
+    let times: Vec<f64> = results.snapshots.iter().filter_map(|it| Some(it.time?.value)).collect();
+    let most = |of: &dyn Fn(f64) -> i32| times.iter().map(|it| of(*it)).max().unwrap_or(0);
+    let (digits, decimals) = (most(&|it| digits(it).0), most(&|it| digits(it).1));
+    let is_short = |array: &Array| match array.stored {
+        Stored::Digits(all) => digits >= all as i32,
+        Stored::Fixed(all) => decimals >= all as i32,
+        Stored::Single | Stored::Double | Stored::Whole => false,
+    };
+    let is_shown = is_uneven(&times, decimals)
+        || results.snapshots.iter().any(|it| {
+            let points = it.points.iter().chain(&it.of_points);
+            points.chain(&it.of_cells).any(is_short)
+        });
+    for time in results.snapshots.iter_mut().filter_map(|it| it.time.as_mut()) {
+        let is_single = Stored::Double.at_first(&[time.value]) == Stored::Single;
+        if !is_shown && !is_single {
+            time.rounding = 0.0;
+        }
+    }
+}
+
+/// How many digits a number has: all of them, and those after the point.
+fn digits(value: f64) -> (i32, i32) {
+    let text = format!("{value:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = mantissa.bytes().filter(u8::is_ascii_digit).count() as i32;
+    (digits, (digits - 1 - exponent.parse::<i32>().unwrap_or(0)).max(0))
+}
+
+/// Whether steps between times are alike but for the last digit that these have.
+fn is_uneven(times: &[f64], decimals: i32) -> bool {
+    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let unit = 0.1_f64.powi(decimals);
+    let range = |pick: fn(f64, f64) -> f64| steps.iter().copied().reduce(pick);
+    range(f64::max).zip(range(f64::min)).is_some_and(|(most, least)| {
+        let (apart, least) = ((most - least) / unit, least / unit);
+        steps.len() > 2 && least > 20.0 && apart > 0.5 && apart < 2.5
+    })
 }
 
 fn hold_times(results: &Results, [first, last]: [f64; 2]) -> anyhow::Result<()> {
