@@ -5,6 +5,7 @@ mod bound;
 mod campaign;
 mod campaign_runs;
 mod check;
+mod check_sweep;
 mod checkpoint;
 mod diagnose;
 mod documents;

@@ -39,8 +39,9 @@ pub fn spectral_radius(matrix: &[f64]) -> f64 {
     }
 }
 
-/// The same of a matrix of that order.
+/// The same of a matrix of that order at most: rows and columns of zeros add an eigenvalue of 0.
 fn radius_of<const N: usize>(matrix: &[f64]) -> f64 {
+    let order = matrix.len().isqrt();
     let mut scale = 0.0_f64;
     for entry in matrix {
         scale = scale.max(entry.abs());
@@ -49,9 +50,9 @@ fn radius_of<const N: usize>(matrix: &[f64]) -> f64 {
         return scale;
     }
     let mut power = [[0.0; N]; N];
-    for row in 0..N {
-        for column in 0..N {
-            power[row][column] = matrix[row * N + column] / scale;
+    for (row, entries) in matrix.chunks_exact(order).enumerate() {
+        for (entry, value) in power[row].iter_mut().zip(entries) {
+            *entry = value / scale;
         }
     }
     for _ in 0..SQUARINGS {
@@ -396,6 +397,24 @@ mod tests {
         for (bound, [lower, upper]) in bounds.into_iter().zip(expected) {
             assert!((bound.lower() - lower).abs() < 1e-7, "{bound:?}");
             assert!((bound.upper() - upper).abs() < 1e-7, "{bound:?}");
+        }
+    }
+
+    /// The matrix of ones has the eigenvalues 0 and its order.
+    #[test]
+    fn a_matrix_of_every_order_has_its_eigenvalues() {
+        for order in 1..=9_usize {
+            let greatest = order as f64;
+            let ones = vec![1.0; order * order];
+            let radius = spectral_radius(&ones);
+            assert!((greatest..greatest * (1.0 + 1e-8)).contains(&radius), "{order}: {radius}");
+            let bounds = eigenvalues(&exactly(&ones));
+            assert_eq!(bounds.len(), order);
+            for (place, bound) in bounds.into_iter().enumerate() {
+                let value = if place + 1 == order { greatest } else { 0.0 };
+                assert!(bound.lower() <= value && value <= bound.upper(), "{order}: {bound:?}");
+                assert!(bound.width() < 1e-7, "{order}: {bound:?}");
+            }
         }
     }
 
