@@ -10,8 +10,8 @@ use mms_codegen::certify::claims::Finding;
 use mms_codegen::certify::computed;
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
-use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::{Frame, Rates};
+use mms_codegen::certify::sign::Sign;
 use mms_codegen::{Compiled, Options, compile, compile_with};
 use mms_mechanics::Output;
 use mms_mechanics::Response;
@@ -64,7 +64,7 @@ fn of_file(name: &str) -> (Compiled, Certificate) {
 
 fn bounds(certificate: &Certificate) -> ([f64; 2], Rates) {
     match (&certificate.jacobian, certificate.rates) {
-        (Jacobian::Positive(bounds), Some(rates)) => (*bounds, rates),
+        (Sign::Positive(bounds), Some(rates)) => (*bounds, rates),
         other => panic!("{other:?}"),
     }
 }

@@ -16,6 +16,7 @@ mod pass;
 #[path = "../../tests/support/sampled.rs"]
 mod sampled;
 mod selection;
+mod solid;
 mod stable;
 #[path = "support/survive.rs"]
 mod survive;

@@ -1,7 +1,7 @@
 //! From a resolved field to every quantity.
 
 use crate::amplitude::{Amplitude, mended};
-use crate::invariant::{Kind, SUPPLIED_VOLUME};
+use crate::invariant::SUPPLIED_VOLUME;
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use crate::material::{self, Law};
 use crate::misread;
@@ -255,19 +255,4 @@ pub fn tangent(graph: &mut Graph, model: &Model) -> Result<Vec<Expr>, TooLarge> 
     let tangent = material::tangent(graph, model.energy, &model.kind, &strain);
     within_bound(graph, "tangent of the stress")?;
     Ok(tangent)
-}
-
-/// The material at F = I, in space whatever the dimension of the field is: 9 components of P and 81 of dP/dF, the last
-/// index fastest.
-pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
-    let kind = match (&model.kind, &model.fibre) {
-        (Kind::Fibrous(_), Some(fibre)) => Kind::Fibrous(fibre.clone()),
-        (kind, _) => kind.clone(),
-    };
-    let law = Law::new(graph, model.energy, &kind);
-    let undeformed = Tensor::from_fn(3, |_, _| graph.number(0));
-    let strain = Strain::new(graph, undeformed, &kind, &Relations::default());
-    let stress = law.first_piola_kirchhoff(graph, &strain);
-    let tangent = material::tangent(graph, model.energy, &kind, &strain);
-    [stress.components().to_vec(), tangent]
 }

@@ -43,6 +43,7 @@ pub mod output;
 mod place;
 mod requested;
 pub mod resolve;
+mod rest;
 pub mod rigid;
 pub mod rounding;
 pub mod sample;
@@ -50,7 +51,8 @@ pub mod simplify;
 mod small_strain;
 pub mod tensor;
 
-pub use derivation::{Derivation, Response, TooLarge, at_rest, derive, tangent};
+pub use derivation::{Derivation, Response, TooLarge, derive, tangent};
 pub use model::{Domain, Model};
 pub use output::{Bound, Output, Program};
 pub use requested::requested;
+pub use rest::{at_rest, moduli};

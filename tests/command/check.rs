@@ -67,6 +67,33 @@ fn what_is_set_is_what_is_checked() {
     folder.mms("check bar.toml --set amplitud=1").exits(2).prints("1 mistake(s)");
 }
 
+/// Of what a range allows, all must be an elastic solid.
+#[test]
+fn a_range_without_a_positive_density_or_modulus_is_refused_at_its_line() {
+    let cases = [
+        ("rho0      = { value = 1000,", "rho0      = { value = 1000, range = [-10, 1000],", "rho0"),
+        ("young     = { value = 1e6, ", "young     = { value = 1e6, range = [0, 1e6],", "mu"),
+    ];
+    for (from, to, name) in cases {
+        let folder = changed(from, to);
+        let line = BAR[..BAR.find(from).expect("a parameter")].matches('\n').count() + 1;
+        let place = format!("bar.toml:{line}:{}", to.find("range = [").expect("a range") + 10);
+        let check = folder.mms("check bar.toml").exits(1);
+        check.complains(&place).complains("positive").complains("narrow the range");
+        check.prints(&format!("{name} > 0 is REFUTED"));
+        let certificate = |command| {
+            let document = folder.mms(command).json();
+            document["files"][0]["certificate"]["solid"].clone()
+        };
+        assert_eq!(certificate("check bar.toml --json"), false);
+        folder.mms("eval bar.toml --at 1 --time 0").exits(2).complains(&place);
+        let parameter = from.split(' ').next().expect("a name");
+        let set = format!("check bar.toml --json --set {parameter}=500");
+        folder.mms(&set).exits(0);
+        assert_eq!(certificate(&set), true);
+    }
+}
+
 #[test]
 fn a_mistake_exits_2_at_its_own_line_and_column() {
     let folder = changed("cos(c*pi*t/length)", "cos(c*pi*t/lenght)");

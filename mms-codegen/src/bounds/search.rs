@@ -48,11 +48,17 @@ impl Cell {
         self.largest(|side, _| side.width())
     }
 
-    /// The variable in whose direction most changes, given by how much of it each variable makes;
-    /// the widest where none of them is finite.
+    /// The variable in whose direction most changes, given by how much of it each variable makes; the widest of those whose
+    /// changes are not finite; the widest of all where nothing changes.
     pub fn steepest(&self, changes: &[f64]) -> usize {
-        let usable = changes.iter().all(|change| change.is_finite());
-        match usable && changes.iter().any(|change| *change > 0.0) {
+        if changes.iter().any(|change| !change.is_finite()) {
+            let width = |side: &Interval, variable: usize| match changes[variable].is_finite() {
+                true => f64::NEG_INFINITY,
+                false => side.width(),
+            };
+            return self.largest(width);
+        }
+        match changes.iter().any(|change| *change > 0.0) {
             true => self.largest(|_, variable| changes[variable]),
             false => self.widest(),
         }

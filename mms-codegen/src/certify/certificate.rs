@@ -5,11 +5,12 @@ use super::claims::{self, Finding};
 use super::computed::{self, AsComputed};
 use super::ellipticity::{self, Ellipticity};
 use super::finite::{self, Finite};
-use super::jacobian::{self, Jacobian};
 use super::message;
 use super::motion::ChartMotion;
 use super::rates::{self, Frame, Rates, Searches};
 use super::reach;
+use super::sign::{Positive, Sign};
+use super::solid::{self, Part};
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::witness::Witness;
@@ -27,10 +28,11 @@ pub const CELLS: usize = 2000;
 /// How many cells a rate may take: its bound holds however many there were.
 const CELLS_OF_RATES: usize = 500;
 
-/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, the rates, bounds of
+/// What each part of a proof may take, in steps of the budget of [`mms_symbolic::work`]: the formulas, J, density and moduli, the rates, bounds of
 /// x, finite values, branches, the program in two precisions, and all claims.
 const FORMULAS: u64 = 50_000_000;
 const VOLUME: u64 = 40_000_000;
+const SOLID: u64 = 20_000_000;
 const RATES: u64 = 300_000_000;
 const REACH: u64 = 20_000_000;
 const FINITE: u64 = 60_000_000;
@@ -63,7 +65,9 @@ pub struct Certificate {
     /// Every claim of the file, in its order.
     pub claims: Vec<(BoundarySpec, Finding)>,
     /// Whether J > 0.
-    pub jacobian: Jacobian,
+    pub jacobian: Sign,
+    /// Whether the density and the moduli at F = I are positive, of those that vary.
+    pub solid: Vec<(Part, Sign)>,
     /// The operations that are not proved to stay within one analytic branch.
     pub exits: Vec<Exit>,
     /// Whether all quantities exist.
@@ -94,13 +98,17 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     // What a compilation finds is found first, so that both say the same.
     let (jacobian, mut boxes) = budget.part(&mut graph, VOLUME, "J > 0", |graph| {
         match inversion(graph, &chart, compiled) {
-            Some((witness, value)) => (Jacobian::Inverted(witness, value), 0),
-            None => jacobian::bound(&chart, &formulas, CELLS),
+            Some((witness, value)) => (Sign::Refuted(witness, value), 0),
+            None => Positive::jacobian(&chart, &formulas).bound(CELLS),
         }
     });
     let (mut rates, mut ellipticity) = (None, Ellipticity::Unproved);
     let mut least = 0.0;
-    if let Jacobian::Positive(bounds) = jacobian {
+    let (solid, cells) = budget.part(&mut graph, SOLID, "density and moduli", |graph| {
+        solid::bound(graph, &chart, compiled, CELLS)
+    });
+    boxes += cells;
+    if let Sign::Positive(bounds) = jacobian {
         let part = "stretch, rate and wave speed";
         let searches = Searches::new(&chart, &motion, bounds, CELLS_OF_RATES);
         let (stretches, (bound, cells)) = budget.part(&mut graph, RATES, part, |graph| {
@@ -128,7 +136,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     });
     boxes += cells;
     let computed = budget.part(&mut graph, COMPUTED, "what is computed", |graph| match jacobian {
-        Jacobian::Positive(bounds) if finite == Finite::Proved => {
+        Sign::Positive(bounds) if finite == Finite::Proved => {
             let known = (motion.jacobian, bounds);
             computed::bound(graph, &chart, compiled, known, OPERATIONS_AS_COMPUTED)
         }
@@ -148,6 +156,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
     Certificate {
         claims,
         jacobian,
+        solid,
         exits,
         finite,
         computed,
@@ -205,7 +214,7 @@ pub fn wave_speed(
     let chart = chart_of(&mut graph, compiled, set);
     let motion = ChartMotion::new(&mut graph, &chart, compiled);
     let formulas = Formulas::new(&mut graph, &chart, &[motion.jacobian]);
-    let (Jacobian::Positive(bounds), _) = jacobian::bound(&chart, &formulas, CELLS) else {
+    let (Sign::Positive(bounds), _) = Positive::jacobian(&chart, &formulas).bound(CELLS) else {
         return None;
     };
     let wanted = (frame, speed);
@@ -268,11 +277,11 @@ impl Certificate {
         match &self.finite {
             Finite::Proved => {}
             // Where J is not proved, neither is what it divides.
-            Finite::Unproved(..) if !matches!(self.jacobian, Jacobian::Positive(_)) => {}
+            Finite::Unproved(..) if !matches!(self.jacobian, Sign::Positive(_)) => {}
             // Nor is matter that is turned inside out a state of any material.
             Finite::Undefined(quantity, _)
-                if *quantity > Quantity::Jacobian
-                    && matches!(self.jacobian, Jacobian::Inverted(..)) => {}
+                if *quantity > Quantity::Jacobian && matches!(self.jacobian, Sign::Refuted(..)) => {
+            }
             // What a function that ends there leaves without a value is no mistake of its own.
             Finite::Undefined(_, witness)
                 if self.exits.iter().any(|it| it.is_certain && it.witness == *witness) => {}
@@ -284,18 +293,21 @@ impl Certificate {
             }
         }
         match &self.jacobian {
-            Jacobian::Positive(_) => {}
-            Jacobian::Inverted(witness, value) => {
+            Sign::Positive(_) => {}
+            Sign::Refuted(witness, value) => {
                 objections.push(message::inverted(compiled, witness, *value));
             }
-            Jacobian::Unproved(..) if matches!(self.finite, Finite::Undefined(..)) => {}
-            Jacobian::Unproved(witness, value) if value.is_infinite() => {
+            Sign::Unproved(..) if matches!(self.finite, Finite::Undefined(..)) => {}
+            Sign::Unproved(witness, value) if value.is_infinite() => {
                 objections.push(message::not_finite(compiled, Quantity::Jacobian, witness));
             }
-            Jacobian::Unproved(witness, value) => {
+            Sign::Unproved(witness, value) => {
                 objections.push(message::not_positive(compiled, witness, *value));
             }
         }
+        let parts = self.solid.iter();
+        objections
+            .extend(parts.filter_map(|(part, sign)| message::not_solid(compiled, *part, sign)));
         let [double, _] = &self.computed;
         objections.extend(message::not_computed(compiled, "f64", &double.finding));
         for (claim, finding) in &self.claims {
@@ -314,7 +326,7 @@ impl Certificate {
 }
 
 /// What contradicts a compiled field, as far as a short search finds it: a claim that does not hold
-/// at one of a few points, and J <= 0 within a few cells. It proves nothing.
+/// at one of a few points, and J, density or moduli that are not positive within a few cells. It proves nothing.
 pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     let quantities = &compiled.derived.quantities;
     let gradient = &quantities[&Quantity::DisplacementGradient];
@@ -325,6 +337,7 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     graph.work().allow(QUICK);
     let mut found = Vec::new();
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    found.extend(solid::refuted(&mut graph, &chart, compiled, QUICK_CELLS));
     if let Some((witness, value)) = inversion(&mut graph, &chart, compiled) {
         found.push(message::inverted(compiled, &witness, value));
     }
@@ -353,7 +366,10 @@ fn inversion(graph: &mut Graph, chart: &Chart, compiled: &Compiled) -> Option<(W
     let jacobian = chart.pull_back(graph, jacobian);
     let formulas = Formulas::new(graph, chart, &jacobian);
     let cells = (QUICK_OPERATIONS / formulas.size().max(1)).clamp(1, QUICK_CELLS);
-    jacobian::inversion(chart, &formulas, cells)
+    match Positive::jacobian(chart, &formulas).least(cells) {
+        (Sign::Refuted(witness, value), _) => Some((witness, value)),
+        (Sign::Positive(_) | Sign::Unproved(..), _) => None,
+    }
 }
 
 /// The field's graph, with room for proofs.

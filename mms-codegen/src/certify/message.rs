@@ -3,6 +3,8 @@
 use super::branches::Exit;
 use super::computed;
 use super::limits::Must;
+use super::sign::Sign;
+use super::solid::Part;
 use crate::bounds::chart::Chart;
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::witness::{Witness, digits};
@@ -11,6 +13,7 @@ use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Span;
 use mms_spec::{BoundarySpec, Claim};
+use mms_symbolic::expr::{Expr, Graph, Symbol};
 
 /// What the search for a parameter to blame may take, in the steps of [`mms_symbolic::work`].
 const STEPS: u64 = 20_000_000;
@@ -20,7 +23,8 @@ pub fn inverted(compiled: &Compiled, witness: &Witness, value: f64) -> Diagnosti
     let place = place(compiled, witness);
     let label = format!("J is {} at {place}", digits(value));
     let message = "the field turns matter inside out: J = det F is not positive";
-    if let Some((span, name)) = culprit(compiled, witness) {
+    let jacobian = |_: &mut Graph| Some(compiled.derived.quantities[&Quantity::Jacobian][0]);
+    if let Some((span, name)) = culprit(compiled, witness, jacobian) {
         return Diagnostic::error(span, message)
             .label(label)
             .help(format!("it is positive there for the default of `{name}`: narrow the range"));
@@ -36,6 +40,56 @@ pub fn not_positive(compiled: &Compiled, witness: &Witness, value: f64) -> Diagn
     Diagnostic::error(displacement(compiled), "J = det F is not proved to be positive")
         .label(label)
         .help("reduce the amplitude, or write u in a form that bounds itself more sharply")
+}
+
+/// The density, or a modulus at F = I, is not positive, or not proved to be; `None` where it is.
+pub fn not_solid(compiled: &Compiled, part: Part, sign: &Sign) -> Option<Diagnostic> {
+    let (is, witness, value) = match sign {
+        Sign::Positive(_) => return None,
+        Sign::Refuted(witness, value) => ("not", witness, *value),
+        Sign::Unproved(witness, value) => ("not proved to be", witness, *value),
+    };
+    let (message, help) = match part {
+        Part::Density => (
+            format!("the density is {is} positive everywhere"),
+            "the body force is per unit mass: b = a - Div P/rho0",
+        ),
+        Part::Modulus(_) => (
+            format!("the moduli at F = I are {is} positive definite within the ranges"),
+            "an isotropic solid has mu > 0 and 3 lambda + 2 mu > 0, that is young > 0 and -1 < nu < 1/2",
+        ),
+    };
+    let (name, place) = (part.name(), place(compiled, witness));
+    let label = match sign {
+        Sign::Refuted(..) => format!("{name} is {} at {place}", digits(value)),
+        _ if value.is_infinite() => format!("{name} has no bound near {place}"),
+        _ => format!("near {place}, where {name} is bounded by {}", digits(value)),
+    };
+    let formula = |graph: &mut Graph| part.formula(graph, compiled);
+    let (span, advice) = match culprit(compiled, witness, formula) {
+        Some((span, name)) => {
+            (span, format!("it is positive there for the default of `{name}`: narrow the range"))
+        }
+        None => match first_range(compiled, part) {
+            Some(span) => (span, "narrow the ranges".into()),
+            None => (
+                compiled.field.material.density.span,
+                "shrink the body, or change the formula".into(),
+            ),
+        },
+    };
+    Some(Diagnostic::error(span, message).label(label).help(advice).help(help))
+}
+
+/// The range of the first parameter that has one and that the density or a modulus depends on.
+fn first_range(compiled: &Compiled, part: Part) -> Option<Span> {
+    let mut graph = room(compiled);
+    let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
+    let formula = part.formula(&mut graph, compiled)?;
+    let formula = chart.pull_back(&mut graph, &[formula])[0];
+    let symbols = graph.symbols(formula);
+    let index = chart.varying_parameters().find(|it| symbols.contains(&Symbol::Parameter(*it)))?;
+    range(compiled, index)
 }
 
 /// The undeformed body has a stress.
@@ -168,18 +222,21 @@ fn displacement(compiled: &Compiled) -> Span {
     compiled.field.displacement.first().map_or(compiled.field.material.span, |it| it.span)
 }
 
-/// The parameter whose range is to blame for J <= 0: with its default in its place, J is positive
-/// at the same place and time.
-fn culprit(compiled: &Compiled, witness: &Witness) -> Option<(Span, String)> {
+/// The parameter whose range is to blame for a formula that is not positive: with its default in its place, the formula is
+/// positive at the same place and time.
+fn culprit(
+    compiled: &Compiled,
+    witness: &Witness,
+    formula: impl FnOnce(&mut Graph) -> Option<Expr>,
+) -> Option<(Span, String)> {
     if witness.parameters.is_empty() {
         return None;
     }
-    let mut graph = compiled.graph.clone();
-    graph.make_room();
-    graph.work().allow(STEPS);
+    let mut graph = room(compiled);
     let chart = Chart::new(&mut graph, &compiled.field, &compiled.model, None);
-    let jacobian = chart.pull_back(&mut graph, &compiled.derived.quantities[&Quantity::Jacobian]);
-    let formulas = Formulas::new(&mut graph, &chart, &jacobian);
+    let formula = formula(&mut graph)?;
+    let formula = chart.pull_back(&mut graph, &[formula]);
+    let formulas = Formulas::new(&mut graph, &chart, &formula);
     let mut values = formulas.run::<f64>(&chart);
     let defaults = compiled.parameters::<f64>(&Default::default());
     let coordinates = compiled.model.domain.body.coordinates(&witness.coordinates);
@@ -192,8 +249,19 @@ fn culprit(compiled: &Compiled, witness: &Witness) -> Option<(Span, String)> {
     };
     let to_blame = |index: &usize| values.values(&place(*index))[0] > 0.0;
     let index = witness.parameters.iter().map(|(index, _)| *index).find(to_blame)?;
-    let parameter = &compiled.field.parameters[index];
-    let [first, last] = parameter.range.as_ref()?;
-    let span = Span { end: last.span.end, ..first.span };
-    Some((span, parameter.name.value.clone()))
+    Some((range(compiled, index)?, compiled.field.parameters[index].name.value.clone()))
+}
+
+/// Where the range of a parameter stands.
+fn range(compiled: &Compiled, index: usize) -> Option<Span> {
+    let [first, last] = compiled.field.parameters[index].range.as_ref()?;
+    Some(Span { end: last.span.end, ..first.span })
+}
+
+/// The field's graph, with room and steps for a search.
+fn room(compiled: &Compiled) -> Graph {
+    let mut graph = compiled.graph.clone();
+    graph.make_room();
+    graph.work().allow(STEPS);
+    graph
 }

@@ -9,9 +9,8 @@ use mms_codegen::certify::computed;
 use mms_codegen::certify::computed::Finding;
 use mms_codegen::certify::finite;
 use mms_codegen::certify::finite::Finite;
-use mms_codegen::certify::jacobian;
-use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::motion::ChartMotion;
+use mms_codegen::certify::sign::{Positive, Sign};
 use mms_codegen::compile::compile_unproved;
 use mms_codegen::{Compiled, Options};
 use mms_math::Scalar as _;
@@ -146,7 +145,7 @@ impl Promise {
         let motion = ChartMotion::new(graph, chart, compiled);
         let formulas = Formulas::new(graph, chart, &[motion.jacobian]);
         let none = Promise { double: false, single: false, smooth: false };
-        let (Jacobian::Positive(bounds), _) = jacobian::bound(chart, &formulas, CELLS) else {
+        let (Sign::Positive(bounds), _) = Positive::jacobian(chart, &formulas).bound(CELLS) else {
             return none;
         };
         assert!(0.0 < bounds[0] && bounds[0] <= bounds[1], "{bounds:?}");

@@ -7,9 +7,10 @@ use mms_codegen::certify::claims;
 use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
-use mms_codegen::certify::jacobian::Jacobian;
 use mms_codegen::certify::rates::Rates;
+use mms_codegen::certify::sign::Sign;
 use mms_codegen::certify::softening::Softening;
+use mms_codegen::certify::solid::Part;
 use mms_spec::BoundarySpec;
 use serde_json::{Value, json};
 
@@ -18,12 +19,12 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     let [double, single] = &certificate.computed;
     let mut lines = vec![
         match &certificate.jacobian {
-            Jacobian::Positive([lower, upper]) => {
+            Sign::Positive([lower, upper]) => {
                 let (lower, upper) = (down(*lower), up(*upper));
                 format!("  proof  J > 0: {lower} <= J <= {upper} over body, time window and ranges")
             }
-            Jacobian::Inverted(_, value) => format!("  proof  J > 0 is REFUTED: it is {value:e}"),
-            Jacobian::Unproved(..) => "  proof  J > 0 is UNPROVED".into(),
+            Sign::Refuted(_, value) => format!("  proof  J > 0 is REFUTED: it is {value:e}"),
+            Sign::Unproved(..) => "  proof  J > 0 is UNPROVED".into(),
         },
         match &certificate.finite {
             Finite::Proved => finite("  proof  every quantity is finite everywhere", double),
@@ -35,6 +36,7 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
             }
         },
     ];
+    lines.extend(solid(certificate));
     lines.push(match certificate.exits.as_slice() {
         [] => "  proof  u and what it is made of stay within one analytic branch".into(),
         exits if exits.iter().any(|exit| exit.is_certain) => {
@@ -70,6 +72,29 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// What is said of the density and the moduli, where they vary.
+fn solid(certificate: &Certificate) -> Option<String> {
+    let wrong = certificate.solid.iter().find(|(_, sign)| !matches!(sign, Sign::Positive(_)));
+    let names = |wanted: fn(Part) -> bool| certificate.solid.iter().any(|(part, _)| wanted(*part));
+    Some(match wrong {
+        Some((part, Sign::Refuted(_, value))) => {
+            format!("  proof  {} > 0 is REFUTED: it is {value:e}", part.name())
+        }
+        Some((part, _)) => format!("  proof  {} > 0 is UNPROVED", part.name()),
+        None => match (names(|it| it == Part::Density), names(|it| it != Part::Density)) {
+            (true, true) => {
+                "  proof  the density is positive, and the moduli at F = I are positive definite"
+                    .into()
+            }
+            (true, false) => "  proof  the density is positive".into(),
+            (false, true) => {
+                "  proof  the moduli at F = I are positive definite over the ranges".into()
+            }
+            (false, false) => return None,
+        },
+    })
 }
 
 /// What is said where all is computed, and what else.
@@ -167,8 +192,8 @@ pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> Value {
 /// What is proved of the field as a whole. What is not known is null.
 pub fn document(certificate: &Certificate) -> Value {
     let jacobian = match certificate.jacobian {
-        Jacobian::Positive(bounds) => Some(bounds),
-        Jacobian::Inverted(..) | Jacobian::Unproved(..) => None,
+        Sign::Positive(bounds) => Some(bounds),
+        Sign::Refuted(..) | Sign::Unproved(..) => None,
     };
     let rates = certificate.rates;
     let [angle_digits, angle_digits_f32] = certificate
@@ -177,6 +202,7 @@ pub fn document(certificate: &Certificate) -> Value {
         .map(|computed| computed.angles.as_ref().map(|(digits, _)| digits.floor().max(0.0) as u32));
     json!({
         "jacobian": jacobian,
+        "solid": certificate.solid.iter().all(|(_, sign)| matches!(sign, Sign::Positive(_))),
         "analytic": certificate.exits.is_empty(),
         "finite": certificate.computed[0].finding == Finding::Proved,
         "finite_f32": certificate.computed[1].finding == Finding::Proved,

@@ -1,0 +1,66 @@
+//! The material at F = I, in space whatever the dimension of the field is.
+
+use crate::invariant::Kind;
+use crate::kinematics::Strain;
+use crate::material::{self, Law};
+use crate::model::Model;
+use crate::tensor::Tensor;
+use mms_symbolic::expr::{Expr, Graph, HALF, Rational};
+use mms_symbolic::pass::relations::Relations;
+
+/// The stress and the stiffness at F = I: 9 components of P and 81 of dP/dF, the last index fastest.
+pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
+    let kind = match (&model.kind, &model.fibre) {
+        (Kind::Fibrous(_), Some(fibre)) => Kind::Fibrous(fibre.clone()),
+        (kind, _) => kind.clone(),
+    };
+    let strain = undeformed(graph, &kind);
+    let stress = Law::new(graph, model.energy, &kind).first_piola_kirchhoff(graph, &strain);
+    let tangent = material::tangent(graph, model.energy, &kind, &strain);
+    [stress.components().to_vec(), tangent]
+}
+
+/// The moduli at F = I with their names: dP/dF is positive definite for strains where all of them are positive, and only there.
+///
+/// Without fibres these are mu and 3 lambda + 2 mu. With fibres they are in the basis whose first axis is the fibres', so that
+/// the direction of these does not matter: two moduli of shear, and what is left of two others once a stretch along the fibres,
+/// and one all around them, have been told apart.
+pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
+    let kind = match &model.kind {
+        Kind::Fibrous(_) => Kind::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec()),
+        kind => kind.clone(),
+    };
+    let strain = undeformed(graph, &kind);
+    let tangent = material::tangent(graph, model.energy, &kind, &strain);
+    let entry = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
+    let quarter = Rational::from_parts(1.into(), 4u8.into());
+    let shear = [[0, 1, 0, 1], [0, 1, 1, 0], [1, 0, 0, 1], [1, 0, 1, 0]];
+    let shear = graph.sum(shear.map(|at| (entry(at), quarter.clone())));
+    let [along, coupling, across, sideways] =
+        [[0, 0, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [1, 1, 2, 2]].map(entry);
+    let mut sum = |terms: [(Expr, Rational); 2]| graph.sum(terms);
+    match kind {
+        Kind::Isotropic | Kind::SmallStrain => {
+            let dilatation = sum([(along, Rational::ONE), (coupling, 2.into())]);
+            vec![("mu", shear), ("3 lambda + 2 mu", dilatation)]
+        }
+        Kind::Fibrous(_) => {
+            let turned = sum([(across, HALF), (sideways, -HALF)]);
+            let around = sum([(across, Rational::ONE), (sideways, Rational::ONE)]);
+            let square = graph.power(coupling, 2);
+            let lost = graph.div(square, around);
+            let young = graph.sum([(along, Rational::ONE), (lost, (-2).into())]);
+            vec![
+                ("the shear modulus along the fibres", shear),
+                ("the shear modulus across the fibres", turned),
+                ("the modulus of stretches all around the fibres", around),
+                ("Young's modulus along the fibres", young),
+            ]
+        }
+    }
+}
+
+fn undeformed(graph: &mut Graph, kind: &Kind) -> Strain {
+    let gradient = Tensor::from_fn(3, |_, _| graph.number(0));
+    Strain::new(graph, gradient, kind, &Relations::default())
+}
