@@ -90,6 +90,22 @@ fn the_cases_end_and_say_what_they_left() {
     }
 }
 
+/// A function that arbitrary precision is left with is charged as that: some hundred cells spend the budget, where ten
+/// thousand took 18 s. And where the budget is spent, no place is said to fail.
+#[test]
+fn functions_of_tiny_numbers_end() {
+    let text = fault("slow_atan2.toml");
+    let logarithm = text.replace("atan2(1e-200*(X+1),1e-200)", "ln(1e-300*(X+1))");
+    for (text, is_proved) in [(text, true), (logarithm, false)] {
+        let (_, _, certificate) = check(&text).expect("a field");
+        assert_eq!(certificate.spent, ["what is computed"]);
+        let [double, single] = &certificate.computed;
+        assert_eq!(double.finding == computed::Finding::Proved, is_proved, "{double:?}");
+        assert!(matches!(single.finding, computed::Finding::Unproved(..)), "{single:?}");
+        assert!(double.cells + single.cells < 2000, "{} {}", double.cells, single.cells);
+    }
+}
+
 #[test]
 fn deep_and_wide_formulas_end() {
     for function in sampled(["sinh", "atan", "sin"], 3) {

@@ -14,7 +14,7 @@ use mms_math::{FEW_HALF_TURNS, FEW_RADIANS, LARGEST_ANGLE, Scalar};
 
 use crate::interpret::Number;
 use crate::interval::Interval;
-use mms_symbolic::expr::Rational;
+use mms_symbolic::expr::{Function, Rational};
 
 /// A format of numbers, as far as its errors go.
 pub trait Format: Copy + core::fmt::Debug + 'static {
@@ -242,6 +242,11 @@ impl<F: Format> Div for Computed<F> {
 }
 
 impl<F: Format> Number for Computed<F> {
+    fn steps(&self, function: Option<Function>) -> u64 {
+        // The exact value, and what is computed for it.
+        2 * self.exact.steps(function)
+    }
+
     fn from_rational(number: &Rational) -> Self {
         Self::rounded(Interval::from_rational(number))
     }

@@ -21,6 +21,14 @@ const LONG: u64 = 12_000;
 /// A number that is rounded.
 const ROUNDED: u64 = 20;
 
+/// Whether the magnitude of each bound is 0 or infinite, where functions are known, or between these, where sums of doubles tell
+/// them.
+fn is_within(bounds: [f64; 2], least: f64, greatest: f64) -> bool {
+    let is_told =
+        |size: f64| size == 0.0 || size.is_infinite() || (least..greatest).contains(&size);
+    bounds.into_iter().all(|bound| is_told(bound.abs()))
+}
+
 /// What an operation on intervals takes, or a function of one between these bounds.
 pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 {
     let Some(function) = function else { return OF_INTERVALS };
@@ -36,7 +44,13 @@ pub fn of_interval(function: Option<Function>, [lower, upper]: [f64; 2]) -> u64 
         Function::Sin | Function::SinPi if lower != 0.0 && lower.abs().min(upper.abs()) < 1e-8 => {
             SLOW
         }
-        Function::Exp if farthest > 600.0 => SLOW,
+        Function::Exp if !is_within([lower, upper], 1e-20, 600.0) => SLOW,
+        Function::Ln1p | Function::Ln1pRest if !is_within([lower, upper], 1e-10, 1e200) => SLOW,
+        Function::Sqrt | Function::Cbrt | Function::Ln | Function::Powf
+            if !is_within([lower, upper], 1e-200, 1e200) =>
+        {
+            SLOWER
+        }
         Function::Sqrt
         | Function::Cbrt
         | Function::Exp

@@ -38,8 +38,10 @@ use mms_symbolic::sorted::SortedSet;
 /// Angles of which so many digits are right after the point are told from their neighbours.
 pub const ENOUGH_DIGITS: f64 = 6.0;
 
-/// What an operation of bounds and errors takes, in steps of a budget; and one in 77 digits, a function or not.
+/// What an operation of bounds and errors takes, in steps of a budget, unless it takes more than so many; and one in 77
+/// digits, a function or not.
 const STEPS: u64 = 20;
+const SLOW: u64 = 10_000;
 const STEPS_OF_DIGITS: u64 = 2_000;
 
 /// What is known of a program in one precision.
@@ -181,7 +183,9 @@ impl<'a> QuantityProgram<'a> {
         let mut at = chart.points::<f64>();
         let (mut worst, mut failure) = (None::<(f64, Cell)>, None);
         let mut fails = |fractions: &[f64]| {
-            let (quantity, cause) = self.failure::<T>(&at.point(&chart.place(fractions)))?;
+            let spot = at.point(&chart.place(fractions));
+            // Without a budget no place is a number.
+            let (quantity, cause) = self.failure::<T>(&spot).filter(|_| !chart.work().is_over())?;
             Some(Finding::Fails(quantity, Witness::at(chart, fractions).0, cause))
         };
         let mut candidates = corners(&Cell::whole(dimension));
@@ -235,6 +239,18 @@ impl<'a> QuantityProgram<'a> {
             known(index).map_or(value, |bounds| value.meet(bounds))
         };
         self.values(spot, normal, meet, meet_wide)
+    }
+
+    /// What it took to bound these values, in steps of a budget.
+    fn steps<F: Format>(&self, values: &Values<Computed<F>>) -> u64 {
+        let of = |(index, _): (usize, &bool)| match self.program.instrs[index].op {
+            Op::Unary(function, _, x) | Op::Binary(function, x, _) => {
+                Some(values.narrow[x.index()].steps(Some(function)))
+            }
+            _ => None,
+        };
+        let needed = self.plan.iter().enumerate().filter(|(_, needed)| **needed);
+        needed.map(|it| of(it).filter(|steps| *steps > SLOW).unwrap_or(STEPS)).sum()
     }
 
     /// All values that are needed at a spot; what is known of a value goes in before others use it.
@@ -502,13 +518,14 @@ impl Judge<'_> {
     fn judge<F: Format>(&mut self, cell: &Cell) -> (Option<Quantity>, Option<f64>) {
         let place = self.chart.place(&cell.0);
         let spot = computed::<F>(&self.spots.point(&place));
-        self.chart.work().spend(STEPS * self.quantities.program.instrs.len() as u64);
         let mut values = self.quantities.bounded(&spot, |index| self.operands.of(index, &[]));
+        self.chart.work().spend(self.quantities.steps(&values));
         if let Some(formulas) = &self.operands.formulas
             && self.quantities.gap(&values).is_some()
         {
             let bounds = formulas.run::<Interval>(self.chart).enclose(&place).values;
             values = self.quantities.bounded(&spot, |index| self.operands.of(index, &bounds));
+            self.chart.work().spend(self.quantities.steps(&values));
         }
         (self.quantities.gap(&values), self.quantities.angle_error(&values))
     }
