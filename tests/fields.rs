@@ -12,6 +12,7 @@ use mms_codegen::certify::closed_form::{Finding, compare};
 use mms_codegen::{Compiled, Options};
 use mms_interpreted::Interpretable;
 use mms_mechanics::Output;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::sample::Sample;
 use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
@@ -223,8 +224,20 @@ fn modulus<K: Kernel>() -> f64 {
     K::material_strain_energy(&constants, &gradient).0.eps1eps2
 }
 
+/// F and J as stresses and densities know them: at small strain the present configuration is the reference.
+fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
+    let dimension = K::DIMENSION;
+    match compiled(K::NAME).model.kind {
+        Kind::SmallStrain => {
+            let unit = |k: usize| f64::from(u8::from(k / dimension == k % dimension));
+            ((0..dimension * dimension).map(unit).collect(), 1.0)
+        }
+        _ => (deformation.to_vec(), jacobian),
+    }
+}
+
 /// The field's stresses are those of its material at its gradient, and tau = P F^T,
-/// sigma = tau/J, nominal stress = P^T, traction = P N.
+/// sigma = tau/J, nominal stress = P^T, traction = P N; at small strain tau = sigma = P.
 fn stress_measures<K: Kernel>() {
     let dimension = K::DIMENSION;
     let modulus = modulus::<K>();
@@ -240,18 +253,21 @@ fn stress_measures<K: Kernel>() {
         let (kirchhoff, cauchy) = (of(Quantity::KirchhoffStress), of(Quantity::CauchyStress));
         let (deformation, jacobian) =
             (of(Quantity::DeformationGradient), of(Quantity::Jacobian)[0]);
+        let (carrier, volume) = carriers::<K>(&deformation, jacobian);
         let traction = of(Quantity::Traction);
         let response = K::material_first_piola_kirchhoff(&point, &gradient);
         let response_kirchhoff = K::material_kirchhoff_stress(&point, &gradient);
         for k in 0..dimension * dimension {
             let (row, column) = (k / dimension, k % dimension);
-            let product: f64 = (0..dimension)
-                .map(|axis| first[row * dimension + axis] * deformation[column * dimension + axis])
-                .sum();
+            let product = |by: &[f64]| -> f64 {
+                let pairs =
+                    (0..dimension).map(|axis| (row * dimension + axis, column * dimension + axis));
+                pairs.map(|(a, b)| first[a] * by[b]).sum()
+            };
             close("P of the field and of the material", first[k], response[k]);
-            close("tau of the field and of the material", kirchhoff[k], response_kirchhoff[k]);
-            close("tau = P F^T", kirchhoff[k], product);
-            close("sigma = tau/J", cauchy[k] * jacobian, kirchhoff[k]);
+            close("P F^T of the material", response_kirchhoff[k], product(&deformation));
+            close("tau = P F^T", kirchhoff[k], product(&carrier));
+            close("sigma = tau/J", cauchy[k] * volume, kirchhoff[k]);
             close("nominal stress = P^T", nominal[column * dimension + row], first[k]);
         }
         for row in 0..dimension {
@@ -261,7 +277,7 @@ fn stress_measures<K: Kernel>() {
 }
 
 /// x - X = u, C = F^T F, B = F F^T, 2 E = C - I, rho J = rho0, J div sigma = Div P and
-/// J (rho b) = rho0 b.
+/// J (rho b) = rho0 b; without J at small strain.
 fn strains_and_densities<K: Kernel>() {
     let dimension = K::DIMENSION;
     let close = |what: &str, a: f64, b: f64, scale: f64| {
@@ -302,7 +318,7 @@ fn strains_and_densities<K: Kernel>() {
             let twice = gradient[k] + gradient[at(column, row)] + slope;
             close("2 E = H + H^T + H^T H", 2.0 * lagrange[k], twice, strain * (1.0 + strain));
         }
-        let jacobian = of(Quantity::Jacobian)[0];
+        let (_, jacobian) = carriers::<K>(&deformation, of(Quantity::Jacobian)[0]);
         let density = K::density(&point);
         close("rho J = rho0", of(Quantity::MassDensity)[0] * jacobian, density, density);
         for (current, reference, size) in [

@@ -16,6 +16,7 @@ use crate::selection::Selection;
 use crate::variation::Variation;
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::face;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::{as_set, parameter_values};
 use mms_mechanics::resolve::Scope;
 use mms_mechanics::{Derivation, Model, Response, TooLarge, requested, tangent};
@@ -214,6 +215,14 @@ impl Compiled {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
         format!("{hash:016x}")
+    }
+
+    /// One sentence on what a quantity is here: at small strain there is one stress and one configuration.
+    pub fn doc(&self, quantity: Quantity) -> &'static str {
+        match self.model.kind {
+            Kind::SmallStrain => quantity.doc_at_small_strain(),
+            Kind::Isotropic | Kind::Fibrous(_) => quantity.doc(),
+        }
     }
 
     /// Path and text of the material's file, where it is the user's own.

@@ -87,6 +87,10 @@ impl<const D: usize> Material<f64, D> for Changed<'_, D> {
         self.exact.field.wave_speed(reference, speed);
     }
 
+    fn is_small_strain(&self) -> bool {
+        self.exact.field.is_small_strain()
+    }
+
     fn kirchhoff_stress(
         &self,
         reference: &[Vector<f64, D>],

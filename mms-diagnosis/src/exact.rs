@@ -160,7 +160,7 @@ impl<'a, const D: usize> Exact<'a, D> {
         if let Moduli::Uniform(moduli) = self.moduli { Some(moduli) } else { None }
     }
 
-    /// tau of H at X.
+    /// P F^T of H at X, which is tau but for the small strain.
     pub fn stress(&self, x: &[Vector<f64, D>], h: &[Matrix<f64, D>]) -> Vec<Matrix<f64, D>> {
         let mut stress = vec![Matrix::zeros(); h.len()];
         self.field.kirchhoff_stress(x, h, &mut stress);

@@ -23,7 +23,12 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// This measure of tau at F; what is not finite where F is singular.
+    /// What this measure is called of a field: at small strain there is one stress, P.
+    fn known<const D: usize>(self, exact: &Exact<'_, D>) -> Self {
+        if exact.field.is_small_strain() { Measure::FirstPiola } else { self }
+    }
+
+    /// This measure of tau = P F^T at F; what is not finite where F is singular.
     pub fn of<const D: usize>(self, f: &Matrix<f64, D>, tau: &Matrix<f64, D>) -> Matrix<f64, D> {
         let inverse = inverse(f).unwrap_or(Matrix::repeat(f64::NAN));
         match self {
@@ -64,11 +69,12 @@ pub fn diagnose<const D: usize>(
     table: &Table<D>,
     mut hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Diagnosis> {
-    if table.measure != Measure::FirstPiola {
+    let measure = table.measure.known(exact);
+    if measure != Measure::FirstPiola {
         hypotheses.push(Hypothesis::first_piola());
     }
     hypotheses.retain(|it| matches!(it.change, Change::Stress(of, _) if of != Of::Motion));
-    // P is not symmetric, and has nine components.
+    // P is not symmetric, and has nine components, where it is called P.
     if table.measure != Measure::FirstPiola {
         hypotheses.extend(voigt_orders());
     }
@@ -78,7 +84,7 @@ pub fn diagnose<const D: usize>(
         pairs.flat_map(|(f, tau)| measure.of(f, tau).as_slice().to_vec()).collect()
     };
     let tau = exact.stress(&table.reference, &table.gradient);
-    let right = flat(&tau, table.measure);
+    let right = flat(&tau, measure);
     let scale = size(&right).max(f64::MIN_POSITIVE);
     let given = table.stress.iter().flat_map(|it| it.as_slice().to_vec());
     let all: Vec<f64> = given.zip(&right).map(|(given, right)| (given - right) / scale).collect();
@@ -102,7 +108,7 @@ pub fn diagnose<const D: usize>(
         }
         let measure = match hypothesis.change {
             Change::Stress(Of::Measure, _) => Measure::FirstPiola,
-            _ => table.measure,
+            _ => measure,
         };
         let mut wrong = flat(&wrong, measure);
         if let Change::Order(order) = hypothesis.change {

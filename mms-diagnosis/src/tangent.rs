@@ -10,7 +10,7 @@ use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis, Of, of_tangent, voigt_orders};
 use crate::slopes::{Slopes, slopes};
 use crate::smooth::size;
-use crate::table::to_round_off;
+use crate::table::{Measure, to_round_off};
 
 /// What a law gave.
 #[derive(Clone, Debug)]
@@ -60,6 +60,30 @@ fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
     (0..36).map(|k| tangent[6 * at(k / 6) + at(k % 6)]).collect()
 }
 
+/// The slopes of tau at each H, where `change` changes it; at small strain those of P, which turns with nothing: as if F were
+/// I.
+fn slopes_of<const D: usize>(
+    exact: &Exact<'_, D>,
+    table: &Table<D>,
+    at: &[Matrix<f64, D>],
+    change: impl Fn(&[Matrix<f64, D>], &mut [Matrix<f64, D>]),
+) -> Vec<Slopes<D>> {
+    let tau = |gradient: &[Matrix<f64, D>]| {
+        let mut tau = exact.stress(&table.reference, gradient);
+        change(gradient, &mut tau);
+        tau
+    };
+    if !exact.field.is_small_strain() {
+        return slopes(at, tau);
+    }
+    slopes(&vec![Matrix::zeros(); at.len()], |more| {
+        let gradient: Vec<_> = at.iter().zip(more).map(|(at, more)| at + more).collect();
+        let first = tau(&gradient);
+        let pairs = gradient.iter().zip(&first);
+        pairs.map(|(h, tau)| Measure::FirstPiola.of(&(h + Matrix::identity()), tau)).collect()
+    })
+}
+
 /// Diagnoses a law by its tangent. `None` where the exact one is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
@@ -69,9 +93,10 @@ pub fn diagnose<const D: usize>(
     hypotheses.retain(|it| matches!(it.change, Change::Stress(Of::Law, _)));
     let hypotheses: Vec<Hypothesis<D>> =
         [of_tangent(), voigt_orders(), hypotheses].into_iter().flatten().collect();
-    let of_stress = |gradient: &[Matrix<f64, D>]| exact.stress(&table.reference, gradient);
-    let all = slopes(&table.gradient, of_stress);
-    let at_rest = slopes(&vec![Matrix::zeros(); all.len()], of_stress);
+    let still = vec![Matrix::zeros(); table.gradient.len()];
+    let right_law = |_: &[Matrix<f64, D>], _: &mut [Matrix<f64, D>]| {};
+    let all = slopes_of(exact, table, &table.gradient, right_law);
+    let at_rest = slopes_of(exact, table, &still, right_law);
     let tangents = |all: &[Slopes<D>]| -> Vec<f64> {
         all.iter().flat_map(|at| rows(|rate| at.tangent(rate))).collect()
     };
@@ -95,12 +120,12 @@ pub fn diagnose<const D: usize>(
             Change::Order(order) => {
                 right.chunks_exact(36).flat_map(|it| reordered(it, *order)).collect()
             }
-            Change::Stress(_, change) => tangents(&slopes(&table.gradient, |gradient| {
-                let mut tau = of_stress(gradient);
+            Change::Stress(_, change) => {
                 let (time, reference) = (exact.domain.time[0], &table.reference[..]);
-                change(&Given { exact, size, time, reference, gradient }, &mut tau);
-                tau
-            })),
+                tangents(&slopes_of(exact, table, &table.gradient, |gradient, tau| {
+                    change(&Given { exact, size, time, reference, gradient }, tau);
+                }))
+            }
             _ => right.clone(),
         })
     };

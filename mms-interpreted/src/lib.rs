@@ -12,6 +12,7 @@ use std::sync::{Arc, OnceLock};
 use dashu_ratio::RBig;
 use mms_codegen::Compiled;
 use mms_mechanics::Response;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
 use mms_program::block::{Blockwise, Component, Inputs, Outputs, Plan, Prepared, Rooms, Way};
 use mms_program::interpret::Interpreter;
@@ -194,6 +195,10 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
 
     fn wave_speed(&self, reference: &[Vector<T, D>], speed: &mut [T]) {
         self.scalars(Response::WaveSpeed, reference, speed);
+    }
+
+    fn is_small_strain(&self) -> bool {
+        self.compiled.model.kind == Kind::SmallStrain
     }
 
     fn kirchhoff_stress(

@@ -1,7 +1,7 @@
 //! From a resolved field to every quantity.
 
 use crate::amplitude::{Amplitude, mended};
-use crate::invariant::SUPPLIED_VOLUME;
+use crate::invariant::{Kind, SUPPLIED_VOLUME};
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use crate::material::{self, Law};
 use crate::misread;
@@ -26,7 +26,7 @@ pub enum Response {
     StrainEnergy,
     /// P(H) = dW/dF.
     FirstPiolaKirchhoff,
-    /// tau(H) = P F^T.
+    /// P F^T at H, which is tau but for the small strain: there it is what the updated formulation takes the divergence of.
     KirchhoffStress,
     /// dP_iJ/dF_kL at H, the last index fastest. Derived where it is asked for, by [`tangent`].
     Tangent,
@@ -62,11 +62,12 @@ pub fn derive(
         Route::Gradient | Route::Settled(_) => law.energy(graph, &motion.strain),
         Route::Deformation => law.typed_energy(graph, &motion.strain),
     };
-    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, Kirchhoff::Left));
+    let present = Present::new(graph, &model.kind, &motion.strain);
+    quantities.extend(stress_quantities(graph, &law, &motion.strain, energy, &present));
     within_bound(graph, "stress")?;
     let divergence = law.divergence(graph, &motion);
     within_bound(graph, "divergence of the stress")?;
-    quantities.extend(balance_quantities(graph, model.density, &motion, divergence));
+    quantities.extend(balance_quantities(graph, model.density, &motion, &present, divergence));
     let responses = responses(graph, &law, model);
     within_bound(graph, "body force")?;
     Ok(Derivation { quantities, responses })
@@ -98,9 +99,9 @@ pub fn derive_settled(
     }
     let law = Law::new(graph, model.energy, &model.kind);
     let energy = law.energy(graph, &strain);
-    let from = if halves.has_angles() { Kirchhoff::First } else { Kirchhoff::Left };
+    let present = Present::new(graph, &model.kind, &strain).turned(halves.has_angles());
     let mut quantities = strain_quantities(graph, &strain);
-    quantities.extend(stress_quantities(graph, &law, &strain, energy, from));
+    quantities.extend(stress_quantities(graph, &law, &strain, energy, &present));
     quantities.insert(Quantity::Displacement, displacement);
     quantities.insert(Quantity::DisplacementGradient, strain.gradient.components().to_vec());
     within_bound(graph, "stress")?;
@@ -146,13 +147,33 @@ fn strain_quantities(graph: &mut Graph, strain: &Strain) -> SortedMap<Quantity, 
     ])
 }
 
-/// What tau is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kirchhoff {
-    /// B - I, which needs no inverse.
-    Left,
-    /// P F^T: a rotation cancels in C - I, while B - I turns with it and grows.
-    First,
+/// The present configuration, to which stresses and densities are carried by F and J.
+///
+/// The small strain tells it from the reference configuration no more than its W does: F is I and J is 1 here, so that there
+/// is one stress. What the updated formulation takes the divergence of is [`Response::KirchhoffStress`], P F^T.
+pub(super) struct Present {
+    /// F.
+    pub deformation: Tensor,
+    /// 1/J.
+    pub per_volume: Expr,
+    /// Whether tau is P F^T, and not made of B - I, which needs no inverse: a rotation cancels in C - I, while B - I turns
+    /// with it and grows.
+    by_first: bool,
+}
+
+impl Present {
+    pub fn new(graph: &mut Graph, kind: &Kind, strain: &Strain) -> Self {
+        if *kind == Kind::SmallStrain {
+            let deformation = Tensor::identity(graph, strain.gradient.dimension());
+            return Present { deformation, per_volume: graph.number(1), by_first: true };
+        }
+        let per_volume = graph.power(strain.jacobian, -1);
+        Present { deformation: strain.deformation.clone(), per_volume, by_first: false }
+    }
+
+    fn turned(self, is_turned: bool) -> Self {
+        Present { by_first: self.by_first || is_turned, ..self }
+    }
 }
 
 /// W, P, P^T, sigma = tau/J, tau and P N.
@@ -161,15 +182,14 @@ fn stress_quantities(
     law: &Law,
     strain: &Strain,
     energy: Expr,
-    from: Kirchhoff,
+    present: &Present,
 ) -> SortedMap<Quantity, Vec<Expr>> {
     let first = law.first_piola_kirchhoff(graph, strain);
-    let kirchhoff = match from {
-        Kirchhoff::Left => law.kirchhoff(graph, strain),
-        Kirchhoff::First => first.mul(graph, &strain.deformation.transpose()),
+    let kirchhoff = match present.by_first {
+        true => first.mul(graph, &present.deformation.transpose()),
+        false => law.kirchhoff(graph, strain),
     };
-    let per_volume = graph.power(strain.jacobian, -1);
-    let cauchy = kirchhoff.scale(graph, per_volume);
+    let cauchy = kirchhoff.scale(graph, present.per_volume);
     let dimension = first.dimension();
     let traction = (0..dimension)
         .map(|row| {
@@ -196,21 +216,22 @@ fn balance_quantities(
     graph: &mut Graph,
     density: Expr,
     motion: &Motion,
+    present: &Present,
     divergence: Vec<Expr>,
 ) -> SortedMap<Quantity, Vec<Expr>> {
-    let per_volume = graph.power(motion.strain.jacobian, -1);
+    let stretched = graph.power(motion.strain.jacobian, -1);
     let mut body_force = Vec::new();
     let mut body_force_density = Vec::new();
     for (acceleration, divergence) in motion.acceleration.iter().zip(&divergence) {
         let specific = graph.div(*divergence, density);
         let force = graph.sub(*acceleration, specific);
         let balance = [*acceleration, *divergence];
-        body_force.push(misread::body_force(graph, force, balance, [density, per_volume]));
+        body_force.push(misread::body_force(graph, force, balance, [density, stretched]));
         let inertia = graph.mul(density, *acceleration);
         body_force_density.push(graph.sub(inertia, *divergence));
     }
     let mut current = |reference: &[Expr]| -> Vec<Expr> {
-        reference.iter().map(|component| graph.mul(per_volume, *component)).collect()
+        reference.iter().map(|component| graph.mul(present.per_volume, *component)).collect()
     };
     SortedMap::from([
         (Quantity::MassDensity, current(&[density])),

@@ -6,6 +6,8 @@
 //! ```text
 //! S = F^-1 P     p = -tr(sigma)/3     von Mises = sqrt(3/2 s:s),  s = sigma + p I
 //! ```
+//!
+//! At small strain there is one stress: S and sigma are P.
 
 use crate::derivation::{Derivation, TooLarge, within_bound};
 use crate::invariant::Kind;
@@ -44,18 +46,19 @@ pub fn requested(
     };
     let strain = Strain::new(graph, padded, &kind, &Relations::default());
     let law = Law::new(graph, model.energy, &kind);
+    let is_small = kind == Kind::SmallStrain;
     let components = match quantity {
         Quantity::SecondPiolaKirchhoff => {
             let first = law.first_piola_kirchhoff(graph, &strain);
-            let second = strain.inverse.mul(graph, &first);
+            let second = if is_small { first } else { strain.inverse.mul(graph, &first) };
             Tensor::from_fn(dimension, |row, column| second.at(row, column)).components().to_vec()
         }
         Quantity::Pressure => {
-            let stress = cauchy(graph, &law, &strain);
+            let stress = cauchy(graph, &law, &strain, is_small);
             vec![pressure(graph, &stress)]
         }
         Quantity::VonMises => {
-            let stress = cauchy(graph, &law, &strain);
+            let stress = cauchy(graph, &law, &strain, is_small);
             vec![von_mises(graph, &stress)]
         }
         _ => Vec::new(),
@@ -64,7 +67,10 @@ pub fn requested(
     Ok(components)
 }
 
-fn cauchy(graph: &mut Graph, law: &Law, strain: &Strain) -> Tensor {
+fn cauchy(graph: &mut Graph, law: &Law, strain: &Strain, is_small: bool) -> Tensor {
+    if is_small {
+        return law.first_piola_kirchhoff(graph, strain);
+    }
     let per_volume = graph.power(strain.jacobian, -1);
     law.kirchhoff(graph, strain).scale(graph, per_volume)
 }

@@ -6,7 +6,7 @@
 //!
 //! with W_t the derivative by tr eps and W_s that by eps:eps. Such a density may not use the other invariants too.
 //! W is taken as it is at any H, though it stands for an elastic solid at small ones only: it changes under
-//! rotations.
+//! rotations. There is one stress, P = P^T = S = tau = sigma, and rho = rho0 (`derivation::Present`).
 
 use crate::invariant::{Kind, SMALL_SQUARE, SMALL_TRACE};
 use crate::kinematics::{Motion, Strain};

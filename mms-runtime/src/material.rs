@@ -16,8 +16,14 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// Fastest wave speed at F = I at each reference position (length per time).
     fn wave_speed(&self, reference: &[Vector<T, D>], speed: &mut [T]);
 
+    /// Whether W is a function of the small strain, which has one stress: P, whatever the measure.
+    fn is_small_strain(&self) -> bool {
+        false
+    }
+
     /// Kirchhoff stress tau = P F^T (force per reference area) of the displacement gradient
-    /// H = F - I. It takes H, not F, so that nothing cancels at small strain.
+    /// H = F - I. It takes H, not F, so that nothing cancels at small strain. It is P F^T for a W of the small strain too:
+    /// the updated formulation takes the divergence in the present configuration.
     fn kirchhoff_stress(
         &self,
         reference: &[Vector<T, D>],

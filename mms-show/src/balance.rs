@@ -8,6 +8,7 @@ use super::motion::{Formulas, Quantities};
 use super::name::Name;
 use super::reading::{Reading, Role};
 use mms_codegen::compile::Compiled;
+use mms_mechanics::invariant::Kind;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
 
@@ -18,7 +19,7 @@ pub(super) fn density(reading: &mut Reading, compiled: &Compiled, formulas: &For
     reading.named(Name::plain("rho0"), value, "material")
 }
 
-/// sigma, tau and P^T. They come after P and before Div P, as everywhere.
+/// sigma, tau and P^T. They come after P and before Div P, as everywhere. At small strain all are P.
 pub(super) fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &mut Quantities) {
     let dimension = quantities.dimension;
     let first = quantities.components(reading, Quantity::FirstPiolaKirchhoff);
@@ -26,6 +27,11 @@ pub(super) fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &
     let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
     let transposed = transpose(&first, dimension);
     quantities.add(reading, compiled, Quantity::NominalStress, &transposed);
+    if compiled.model.kind == Kind::SmallStrain {
+        quantities.add(reading, compiled, Quantity::CauchyStress, &first);
+        quantities.add(reading, compiled, Quantity::KirchhoffStress, &first);
+        return;
+    }
     let columns = transpose(&deformation, dimension);
     let kirchhoff = matrix_product(reading, &first, &columns, dimension);
     let cauchy: Vec<Expr> =
@@ -71,7 +77,7 @@ pub(super) fn balance(
     }
 }
 
-/// rho = rho0/J, div sigma = Div P/J and rho b = rho0 b/J.
+/// rho = rho0/J, div sigma = Div P/J and rho b = rho0 b/J; without J at small strain.
 pub(super) fn current(
     reading: &mut Reading,
     compiled: &Compiled,
@@ -86,8 +92,10 @@ pub(super) fn current(
         (Quantity::DivSigma, divergence),
         (Quantity::CurrentBodyForceDensity, force),
     ] {
-        let values: Vec<Expr> =
-            reference.into_iter().map(|value| reading.graph.div(value, jacobian)).collect();
+        let values: Vec<Expr> = match compiled.model.kind {
+            Kind::SmallStrain => reference,
+            _ => reference.into_iter().map(|it| reading.graph.div(it, jacobian)).collect(),
+        };
         quantities.add(reading, compiled, quantity, &values);
     }
 }

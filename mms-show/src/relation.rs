@@ -40,6 +40,9 @@ const SMALL: &[Part] = &[Tensor("epsilon")];
 
 /// The definition of a quantity, for a density of that kind.
 pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
+    if let (Kind::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
+        return relation;
+    }
     match quantity {
         Quantity::Displacement => {
             const ARGUMENTS: &[Part] = &[Tensor("X"), Sign(","), Scalar("t")];
@@ -104,6 +107,20 @@ pub fn relation(quantity: Quantity, kind: &Kind) -> &'static [Part] {
         }
         Quantity::VonMises => &[Word("von Mises"), EQUALS, Function("f", &[Tensor("sigma")])],
     }
+}
+
+/// What is another at small strain: there is one stress, and one configuration.
+fn of_small_strain(quantity: Quantity) -> Option<&'static [Part]> {
+    Some(match quantity {
+        Quantity::MassDensity => &[RHO, EQUALS, RHO0],
+        Quantity::NominalStress => &[Raised("P", "T"), EQUALS, Tensor("P")],
+        Quantity::CauchyStress => &[Tensor("sigma"), EQUALS, Tensor("P")],
+        Quantity::KirchhoffStress => &[Tensor("tau"), EQUALS, Tensor("P")],
+        Quantity::SecondPiolaKirchhoff => &[Tensor("S"), EQUALS, Tensor("P")],
+        Quantity::DivSigma => &[Word("div"), Tensor("sigma"), EQUALS, Word("Div"), Tensor("P")],
+        Quantity::CurrentBodyForceDensity => &[RHO, Tensor("b"), EQUALS, RHO0, Tensor("b")],
+        _ => return None,
+    })
 }
 
 /// How a notation sets the parts of a relation.

@@ -116,6 +116,24 @@ impl Quantity {
         Self::ALL.iter().chain(Self::ON_REQUEST).copied()
     }
 
+    /// The same sentence of a material of the small strain, which has one stress and one configuration.
+    pub fn doc_at_small_strain(self) -> &'static str {
+        match self {
+            Quantity::MassDensity => "Mass per unit volume rho = rho0, at small strain.",
+            Quantity::NominalStress => "Nominal stress P^T = P, at small strain.",
+            Quantity::CauchyStress => "Cauchy stress sigma = P, at small strain.",
+            Quantity::KirchhoffStress => "Kirchhoff stress tau = P, at small strain.",
+            Quantity::SecondPiolaKirchhoff => {
+                "Second Piola-Kirchhoff stress S = P, at small strain."
+            }
+            Quantity::DivSigma => "Divergence div sigma = Div P, at small strain.",
+            Quantity::CurrentBodyForceDensity => {
+                "Body force per unit volume rho b = rho0 b, at small strain."
+            }
+            other => other.doc(),
+        }
+    }
+
     /// Whether it is derived where it is asked for.
     pub fn is_on_request(self) -> bool {
         Self::ON_REQUEST.contains(&self)

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use anyhow::{Context as _, anyhow, bail};
 use clap::Args;
+use mms_codegen::Compiled;
 use mms_codegen::compile::constant;
 use mms_mechanics::extent::is_between;
 use mms_mechanics::sample::domain;
@@ -207,7 +208,7 @@ impl Eval {
         let parameters = input.compiled.parameters::<T>(&input.settings(&self.set)?);
         let outside = self.outside(input, &parameters, &points, &time);
         let normals = self.normals(input, quantities, &parameters, &points)?;
-        let programs = programs(input, &self.needed(quantities, dimension))?;
+        let programs = programs(input, &self.needed(quantities, &input.compiled))?;
         let prepared = programs.iter().map(|(program, outputs)| {
             let mut interpreter = Interpreter::new(&**program, &parameters);
             interpreter.set_time(&time);
@@ -228,7 +229,7 @@ impl Eval {
                         programs.iter().position(has).context("each quantity has a program")?;
                     Ok(prepared[at].1.output(output))
                 };
-                let components = match self.beyond(*quantity, dimension) {
+                let components = match self.beyond(*quantity, &input.compiled) {
                     Some(beyond) => all_components(of, *quantity, beyond, dimension)?,
                     None => of(*quantity)?,
                 };
@@ -253,14 +254,15 @@ impl Eval {
     }
 
     /// What of a tensor is beyond the dimension of the field, if that was asked for.
-    fn beyond(&self, quantity: Quantity, dimension: usize) -> Option<Beyond> {
-        Beyond::of(quantity).filter(|_| self.all_components && dimension < SPACE)
+    fn beyond(&self, quantity: Quantity, compiled: &Compiled) -> Option<Beyond> {
+        let is_asked = self.all_components && compiled.field.dimension < SPACE;
+        Beyond::of(quantity, &compiled.model.kind).filter(|_| is_asked)
     }
 
     /// The quantities that are wanted, and those that stresses out of the plane follow from.
-    fn needed(&self, quantities: &[Quantity], dimension: usize) -> Vec<Quantity> {
+    fn needed(&self, quantities: &[Quantity], compiled: &Compiled) -> Vec<Quantity> {
         let mut needed = quantities.to_vec();
-        let beyond = quantities.iter().filter_map(|it| self.beyond(*it, dimension));
+        let beyond = quantities.iter().filter_map(|it| self.beyond(*it, compiled));
         if beyond.into_iter().any(Beyond::is_stress) {
             needed.extend(plane::NEEDED);
         }

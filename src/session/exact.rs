@@ -7,6 +7,7 @@ use dashu_ratio::RBig;
 use mms_analysis::present::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
@@ -110,6 +111,11 @@ impl Exact {
         format!("{}: {}", self.input.name.shown(), self.input.compiled.field.title.shown())
     }
 
+    /// Whether the material is one of the small strain, with one stress and one configuration.
+    pub fn is_small_strain(&self) -> bool {
+        self.input.compiled.model.kind == Kind::SmallStrain
+    }
+
     /// The numbers of a quantity in a point.
     pub fn components(&self, quantity: Quantity) -> usize {
         match quantity.shape() {
@@ -129,7 +135,9 @@ impl Exact {
         points: &[f64],
     ) -> anyhow::Result<Vec<f64>> {
         let own = self.own(quantity, time, points)?;
-        match Beyond::of(quantity).filter(|_| self.tensors > self.dimension) {
+        match Beyond::of(quantity, &self.input.compiled.model.kind)
+            .filter(|_| self.tensors > self.dimension)
+        {
             Some(beyond) => self.with_all_components(&own, beyond, time, points),
             None => Ok(own),
         }

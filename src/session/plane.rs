@@ -2,8 +2,10 @@
 //! uniaxial strain.
 //!
 //! F_33 = 1 there, shears out of the plane are 0, and the normal stress follows from the pressure, in which it is: with D
-//! dimensions, sigma_33 = (-3 p - tr sigma)/(3 - D), tr being that of the D x D components. P_33 = S_33 = tau_33 = J sigma_33.
+//! dimensions, sigma_33 = (-3 p - tr sigma)/(3 - D), tr being that of the D x D components. P_33 = S_33 = tau_33 = J sigma_33,
+//! without J at small strain.
 
+use mms_mechanics::invariant::Kind;
 use mms_runtime::math::Scalar;
 use mms_spec::quantity::{Quantity, Shape};
 
@@ -27,8 +29,9 @@ pub enum Beyond {
 }
 
 impl Beyond {
-    /// That of a quantity; none where it is no tensor.
-    pub fn of(quantity: Quantity) -> Option<Beyond> {
+    /// That of a quantity; none where it is no tensor. At small strain all stresses are one.
+    pub fn of(quantity: Quantity, kind: &Kind) -> Option<Beyond> {
+        let is_small = *kind == Kind::SmallStrain;
         match quantity {
             _ if quantity.shape() != Shape::Tensor => None,
             Quantity::DisplacementGradient | Quantity::GreenLagrange => Some(Beyond::Zero),
@@ -36,7 +39,9 @@ impl Beyond {
             Quantity::FirstPiolaKirchhoff
             | Quantity::NominalStress
             | Quantity::KirchhoffStress
-            | Quantity::SecondPiolaKirchhoff => Some(Beyond::Kirchhoff),
+            | Quantity::SecondPiolaKirchhoff => {
+                Some(if is_small { Beyond::Cauchy } else { Beyond::Kirchhoff })
+            }
             _ => Some(Beyond::One),
         }
     }

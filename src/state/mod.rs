@@ -222,10 +222,14 @@ fn shape(quantity: Quantity, exact: &Exact) -> Shape {
     }
 }
 
-/// Present and reference volume, and the mass, where volumes are known: mass = density x volume.
+/// Present and reference volume, which are one at small strain, and the mass, where volumes are known: mass = density x
+/// volume.
 fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<Column>> {
     let Some(reference) = &points.volume else { return Ok(Vec::new()) };
-    let stretched = exact.values(Quantity::Jacobian, time, &points.reference)?;
+    let stretched = match exact.is_small_strain() {
+        true => vec![1.0; reference.len()],
+        false => exact.values(Quantity::Jacobian, time, &points.reference)?,
+    };
     let density = exact.densities(&points.reference)?;
     let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
     let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };

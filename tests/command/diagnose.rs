@@ -66,6 +66,56 @@ fn a_law_alone_is_named() {
     diagnose(&folder, &rounded, options).exits(0).prints("nothing");
 }
 
+/// sigma = C:eps whatever the measure is called, and P F^T/J is another stress; the tangent is C.
+#[test]
+fn the_law_of_the_small_strain_has_one_stress() {
+    let folder = Folder::new();
+    let (young, nu) = (1e6, 0.3);
+    let (lambda, mu) = (young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), young / (2.0 * (1.0 + nu)));
+    let number = |k: usize| 0.15 * (1.3 * k as f64 + 0.4).sin();
+    let states: Vec<[f64; 4]> =
+        (0..12).map(|at| [0, 1, 2, 3].map(|k| number(4 * at + k))).collect();
+    let stress = |h: &[f64; 4]| {
+        let (pressure, shear) = (lambda * (h[0] + h[3]), mu * (h[1] + h[2]));
+        [pressure + 2.0 * mu * h[0], shear, shear, pressure + 2.0 * mu * h[3]]
+    };
+    let law = |name: &str, of: &dyn Fn(&[f64; 4]) -> [f64; 4]| {
+        let mut text = format!("F11,F12,F21,F22,{name}11,{name}12,{name}21,{name}22\n");
+        for h in &states {
+            let f = [1.0 + h[0], h[1], h[2], 1.0 + h[3]];
+            let cells: Vec<_> = f.iter().chain(&of(h)).map(|it| format!("{it:e}")).collect();
+            let _ = writeln!(text, "{}", cells.join(","));
+        }
+        folder.write("law.csv", &text);
+        folder.mms("diagnose plane_strain_linear_elastic law.csv --quantity stress")
+    };
+    for name in ["sigma", "P", "S", "tau"] {
+        law(name, &stress).exits(0).prints("nothing");
+    }
+    let pushed = |h: &[f64; 4]| {
+        let (p, f) = (stress(h), [1.0 + h[0], h[1], h[2], 1.0 + h[3]]);
+        let volume = f[0] * f[3] - f[1] * f[2];
+        let entry =
+            |i: usize, j: usize| (p[2 * i] * f[2 * j] + p[2 * i + 1] * f[2 * j + 1]) / volume;
+        [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)]
+    };
+    law("sigma", &pushed).exits(1).prints("named: stress_cauchy");
+
+    let stiffness =
+        [[lambda + 2.0 * mu, lambda, 0.0], [lambda, lambda + 2.0 * mu, 0.0], [0.0, 0.0, mu]];
+    let names: Vec<_> = (0..9).map(|k| format!("DDSDDE{}{}", k / 3 + 1, k % 3 + 1)).collect();
+    let mut text = format!("F11,F12,F21,F22,{}\n", names.join(","));
+    for h in &states {
+        let f = [1.0 + h[0], h[1], h[2], 1.0 + h[3]];
+        let all = f.iter().chain(stiffness.as_flattened());
+        let cells: Vec<_> = all.map(|it| format!("{it:e}")).collect();
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    folder.write("tangent.csv", &text);
+    let run = folder.mms("diagnose plane_strain_linear_elastic tangent.csv --quantity tangent");
+    run.exits(0).prints("nothing");
+}
+
 #[test]
 fn a_tangent_alone_is_named() {
     let folder = Folder::new();

@@ -35,6 +35,7 @@ mod run;
 mod sampled;
 mod saved;
 mod show;
+mod small_strain;
 mod stability;
 mod state;
 mod study;

@@ -1,5 +1,6 @@
 //! The current frame: x is the independent variable, and X is found from it.
 
+use mms_mechanics::invariant::Kind;
 use mms_spec::quantity::Quantity;
 
 use super::largest;
@@ -43,13 +44,20 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
     let mut gradient = vec![0.0; dimension * dimension];
     let mut divergence = vec![0.0; dimension];
     let mut parts = Vec::new();
+    // At small strain the divergence of sigma is that over X.
+    let is_small = compiled(K::NAME).model.kind == Kind::SmallStrain;
     for axis in 0..dimension {
         let beside = |sign: f64| {
             let mut shifted = place.clone();
             shifted[axis] += sign * step;
             let reference = invert::<K>(&shifted, at, time);
-            let of = |quantity| K::quantity(quantity, time, &reference);
-            (of(Quantity::Displacement), of(Quantity::CauchyStress))
+            let mut beside = at.to_vec();
+            beside[axis] += sign * step;
+            let stressed = if is_small { &beside } else { &reference };
+            (
+                K::quantity(Quantity::Displacement, time, &reference),
+                K::quantity(Quantity::CauchyStress, time, stressed),
+            )
         };
         let (ahead, behind) = (beside(1.0), beside(-1.0));
         for (row, divergence) in divergence.iter_mut().enumerate() {

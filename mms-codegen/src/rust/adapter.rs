@@ -6,6 +6,7 @@ use quote::{ToTokens as _, format_ident, quote};
 use super::{Emitter, RUNTIME, input};
 use mms_mechanics::Output;
 use mms_mechanics::Response;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::Body;
 use mms_program::Op;
 use mms_spec::quantity::Quantity;
@@ -27,6 +28,14 @@ impl Emitter<'_> {
             ),
             false => (quote!(_), quote!(&gradients)),
         };
+        let is_small = self.compiled.model.kind == Kind::SmallStrain;
+        let small_strain = is_small.then(|| {
+            quote! {
+                fn is_small_strain(&self) -> bool {
+                    true
+                }
+            }
+        });
         let components = Literal::usize_unsuffixed(self.axes().len().pow(2));
         // A solver asks for these two, and for the stress, at every particle in every step, and for the others
         // at some points or times: loops over many points are long to compile.
@@ -77,6 +86,8 @@ impl Emitter<'_> {
                         *speed = Field::wave_speed(self, (*point).into());
                     }
                 }
+
+                #small_strain
 
                 fn kirchhoff_stress(
                     &self,

@@ -5,6 +5,7 @@ use quote::{format_ident, quote};
 
 use super::{Context, Emitter};
 use mms_mechanics::Response;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::model::Body;
 use mms_mechanics::{Bound, Output};
 use mms_program::Stage;
@@ -218,7 +219,12 @@ impl Emitter<'_> {
         let kirchhoff = function(
             Response::KirchhoffStress,
             "material_kirchhoff_stress",
-            " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",
+            match self.compiled.model.kind {
+                Kind::SmallStrain => {
+                    " P F^T at X of the displacement gradient H, Pa, for an updated formulation: no stress at small strain."
+                }
+                _ => " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",
+            },
             Shape::Tensor,
             true,
         );

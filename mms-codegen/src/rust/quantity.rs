@@ -54,7 +54,8 @@ impl Emitter<'_> {
     /// A quantity from a point, and from what was kept of it.
     fn quantity(&self, quantity: Quantity) -> TokenStream {
         let (name, at) = (format_ident!("{}", quantity.name()), at(quantity));
-        let doc = format!(" {} Unit: {}.", quantity.doc(), quantity.unit());
+        let doc = self.compiled.doc(quantity);
+        let doc = format!(" {doc} Unit: {}.", quantity.unit());
         let cached = format!(" As `{}`, from what was kept of the point.", quantity.name());
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = |own| Context::at_points(quote!(self.field), own);

@@ -3,6 +3,7 @@
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Response;
 use mms_mechanics::boundary::Datum;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::{Bound, Output};
 use mms_spec::quantity::{Quantity, Shape};
 use mms_symbolic::expr::Symbol;
@@ -126,8 +127,8 @@ pub fn callables(compiled: &Compiled) -> Vec<Callable> {
     };
     let dimension = compiled.field.dimension;
     let mut all: Vec<Callable> = BOUNDS.iter().map(|it| bound(*it, compiled)).collect();
-    all.extend(RESPONSES.iter().map(|it| response(*it, dimension)));
-    all.extend(Quantity::ALL.iter().map(|it| quantity(*it, dimension)));
+    all.extend(RESPONSES.iter().map(|it| response(*it, compiled)));
+    all.extend(Quantity::ALL.iter().map(|it| quantity(*it, compiled)));
     all.extend(compiled.program.outputs.keys().filter_map(|output| match *output {
         Output::Face(face, datum) => Some(on_face(face.name(), datum, *output, dimension)),
         _ => None,
@@ -174,7 +175,8 @@ fn bound(bound: Bound, compiled: &Compiled) -> Callable {
     }
 }
 
-fn response(response: Response, dimension: usize) -> Callable {
+fn response(response: Response, compiled: &Compiled) -> Callable {
+    let dimension = compiled.field.dimension;
     let (name, symbol, doc, unit, shape) = match response {
         Response::Density => {
             ("density", "rho0", "Reference density rho0(X).", "kg/m^3", Shape::Scalar)
@@ -203,7 +205,14 @@ fn response(response: Response, dimension: usize) -> Callable {
         Response::KirchhoffStress => (
             "material_kirchhoff_stress",
             "tau",
-            "Kirchhoff stress tau = P F^T of the material at X, of the displacement gradient H.",
+            match compiled.model.kind {
+                Kind::SmallStrain => {
+                    "P F^T of the material at X, of the displacement gradient H, for an updated formulation: no stress at small strain."
+                }
+                Kind::Isotropic | Kind::Fibrous(_) => {
+                    "Kirchhoff stress tau = P F^T of the material at X, of the displacement gradient H."
+                }
+            },
             "Pa",
             Shape::Tensor,
         ),
@@ -227,7 +236,8 @@ fn response(response: Response, dimension: usize) -> Callable {
     }
 }
 
-fn quantity(quantity: Quantity, dimension: usize) -> Callable {
+fn quantity(quantity: Quantity, compiled: &Compiled) -> Callable {
+    let dimension = compiled.field.dimension;
     let mut inputs = coordinates(dimension);
     if quantity == Quantity::Traction {
         inputs.extend((0..dimension).map(Symbol::Normal));
@@ -235,7 +245,7 @@ fn quantity(quantity: Quantity, dimension: usize) -> Callable {
     Callable {
         name: quantity.name().into(),
         output: Output::Quantity(quantity),
-        doc: quantity.doc().into(),
+        doc: compiled.doc(quantity).into(),
         unit: quantity.unit(),
         shape: Some(quantity.shape()),
         components: components(quantity.symbol(), quantity.shape(), dimension),

@@ -6,7 +6,7 @@ use super::{Diagnostics, Errors};
 use crate::field::ManufacturedField;
 use crate::real::{Matrix, Real, Vector};
 use crate::solver::Present;
-use crate::tensor::{deformation_gradient, jacobian};
+use crate::tensor::{deformation_gradient, inverse, jacobian};
 
 /// Follows a run. A closure does, if it wants no states, and `()` looks away.
 pub trait Observer: Send {
@@ -112,7 +112,7 @@ pub struct Frame {
     pub velocity: Vec<f64>,
     /// F.
     pub deformation_gradient: Vec<f64>,
-    /// The Cauchy stress tau/J.
+    /// The Cauchy stress tau/J; P at small strain.
     pub cauchy_stress: Vec<f64>,
 }
 
@@ -130,6 +130,14 @@ impl Frame {
         let mut stress = vec![Matrix::zeros(); particles.len()];
         field.kirchhoff_stress(x, &h, &mut stress);
         let d = &particles.displacement;
+        let is_small = field.is_small_strain();
+        let cauchy = |p: usize| {
+            let deformation = deformation_gradient(&h[p]);
+            match inverse(&deformation).filter(|_| is_small) {
+                Some(inverse) => stress[p] * inverse.transpose(),
+                None => stress[p] / jacobian(&h[p]),
+            }
+        };
         let vectors = |of: &dyn Fn(usize) -> Vector<T, D>| {
             by_number(&particles.id, D, |p, out| {
                 out.copy_from_slice(of(p).map(Real::to_f64).as_slice());
@@ -150,7 +158,7 @@ impl Frame {
             displacement_error: vectors(&|p| d.get(p) - exact[p]),
             velocity: vectors(&|p| particles.velocity.get(p)),
             deformation_gradient: tensors(&|p| deformation_gradient(&h[p])),
-            cauchy_stress: tensors(&|p| stress[p] / jacobian(&h[p])),
+            cauchy_stress: tensors(&cauchy),
         }
     }
 }

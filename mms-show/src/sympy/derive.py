@@ -59,16 +59,18 @@ def derived(dimension):
         F = [[H[i][j] + (i == j) for j in D] for i in D]
         C = [[sum(F[k][i] * F[k][j] for k in D) for j in D] for i in D]
         J, W, P, tangent, explicit = response_at(*X, *sum(F, []))
-        tau = [[sum(P[i][k] * F[j][k] for k in D) for j in D] for i in D]
+        # What carries stresses and densities to the present configuration: at small strain there is one stress.
+        carrier, volume, bent = (eye(len(X)).tolist(), 1, [[[0] * 3] * 3] * 3) if SMALL_STRAIN else (F, J, second)
+        tau = [[sum(P[i][k] * carrier[j][k] for k in D) for j in D] for i in D]
         # dP_iJ/dX_K = dP_iJ/dF_mN u_m,NK, and what depends on X by itself.
         slope = [[[explicit[i][j][k] + sum(tangent[i][j][m][n] * second[m][n][k]
                                            for m in D for n in D) for k in D] for j in D] for i in D]
         div_p = [sum(slope[i][j][j] for j in D) for i in D]
         # dsigma_ij/dx_j = dsigma_ij/dX_K F^-1_Kj of sigma = P F^T/J: without the Piola identity.
-        inverse = mpmath.matrix(F) ** -1
-        log_slope = [sum(inverse[n, m] * second[m][n][k] for m in D for n in D) for k in D]
-        div_sigma = [sum((sum(slope[i][m][k] * F[j][m] + P[i][m] * second[j][m][k] for m in D)
-                          - tau[i][j] * log_slope[k]) / J * inverse[k, j]
+        inverse = mpmath.matrix(carrier) ** -1
+        log_slope = [sum(inverse[n, m] * bent[m][n][k] for m in D for n in D) for k in D]
+        div_sigma = [sum((sum(slope[i][m][k] * carrier[j][m] + P[i][m] * bent[j][m][k] for m in D)
+                          - tau[i][j] * log_slope[k]) / volume * inverse[k, j]
                          for j in D for k in D) for i in D]
         return {
             "displacement": u,
@@ -81,17 +83,17 @@ def derived(dimension):
             "right_cauchy_green": [C[i][j] for i in D for j in D],
             "left_cauchy_green": [sum(F[i][k] * F[j][k] for k in D) for i in D for j in D],
             "green_lagrange": [(C[i][j] - (i == j)) / 2 for i in D for j in D],
-            "mass_density": [density / J],
+            "mass_density": [density / volume],
             "strain_energy": [W],
             "first_piola_kirchhoff": sum(P, []),
             "nominal_stress": [P[j][i] for i in D for j in D],
-            "cauchy_stress": [tau[i][j] / J for i in D for j in D],
+            "cauchy_stress": [tau[i][j] / volume for i in D for j in D],
             "kirchhoff_stress": sum(tau, []),
             "div_p": div_p,
             "div_sigma": div_sigma,
             "body_force": [a[i] - div_p[i] / density for i in D],
             "body_force_density": [density * a[i] - div_p[i] for i in D],
-            "current_body_force_density": [density / J * a[i] - div_sigma[i] for i in D],
+            "current_body_force_density": [density / volume * a[i] - div_sigma[i] for i in D],
             "traction": [sum(P[i][j] * N[j] for j in D) for i in D],
         }
 

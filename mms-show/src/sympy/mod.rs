@@ -8,6 +8,7 @@ mod python;
 
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Output;
+use mms_mechanics::invariant::Kind;
 use mms_mechanics::sample::{Sample, samples};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::foreign::{Foreign, blanked};
@@ -44,6 +45,8 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
         text.push_str(include_str!("rigid.py"));
         text.push_str("\n\n");
     }
+    let is_small = if compiled.model.kind == Kind::SmallStrain { "True" } else { "False" };
+    text.push_str(&format!("SMALL_STRAIN = {is_small}\n\n\n"));
     text.push_str(include_str!("derive.py"));
     text.push_str("\n\n");
     text.push_str(&values);
